@@ -22,9 +22,10 @@ from .toml_text import value_text
 class Step(dict):
     """A step as it was taken: a dictionary whose keys are attributes too.
 
-    ``number``, ``time`` and ``step`` (its size) [s], ``reason`` for the size, ``rejected`` tries before and why the last
-    (``rejection``), ``solid_fraction``, ``min_temperature`` and ``max_temperature`` [K], ``heat`` and ``mechanics`` with
-    iterations and residuals, ``energy`` with the first law over the step [J].
+    ``number``, ``time`` and ``step`` (its size) [s], ``reason`` for the size, ``rejected`` tries before, ``shortened``
+    ones that ended after heat alone and why the last (``rejection``), ``solid_fraction``, ``min_temperature`` and
+    ``max_temperature`` [K], ``heat`` and ``mechanics`` with iterations and residuals, ``energy`` with the first law over
+    the step [J].
     """
 
     def __getattr__(self, name: str) -> Any:

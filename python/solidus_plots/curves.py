@@ -67,6 +67,14 @@ def _together(headers):
     return " = ".join(names[:3]) + (f" = … ({len(names)})" if len(names) > 3 else "")
 
 
+def _give_height(axes):
+    """Draws flat what changes by less than a hundred-thousandth of its size: a mould that is warmer by 1e-7 K."""
+    low, high = axes.get_ylim()
+    size = max(abs(low), abs(high))
+    if high - low < 1e-5 * size:
+        axes.set_ylim(low - 0.05 * size, high + 0.05 * size)
+
+
 def unit_groups(history, folder):
     """Every column of history.csv, one picture per unit."""
     files, clock = [], Clock(history["time[s]"])
@@ -79,6 +87,7 @@ def unit_groups(history, folder):
             for index, members in enumerate(lines):
                 panel.plot(clock(history["time[s]"]), history[members[0]], label=_together(members),
                            **style.line_style(index))
+            _give_height(panel)
             panel.set_ylabel(style.axis_label(quantity, unit))
             panel.margins(x=0)
             panel.legend(**BESIDE)
@@ -159,11 +168,14 @@ def steps(table, folder):
     sizes.set(ylabel=f"Step [{clock.unit}]")
     sizes.set_title("Steps", loc="left")
     sizes.set_ylim(bottom=0)
-    cut = table["rejected[1]"] > 0
-    if cut.any():
-        sizes.plot(time[cut], clock(table["dt[s]"])[cut], "v", color=style.COLOURS[1], markersize=5,
-                   label="after a cut")
-        sizes.legend()
+    tries = (("rejected[1]", "v", "after a rejected try"), ("shortened[1]", "1", "after a try shortened by its heat"))
+    for index, (header, marker, label) in enumerate(tries, 1):
+        if header not in table:  # shortened: tables of older programs
+            continue
+        cut = table[header] > 0
+        if cut.any():
+            sizes.plot(time[cut], clock(table["dt[s]"])[cut], marker, color=style.COLOURS[index], markersize=5, label=label)
+            sizes.legend()
     for index, (name, header) in enumerate(phases):
         work.plot(time, table[header], marker=".", markersize=3, label=name,
                   **style.line_style(index))

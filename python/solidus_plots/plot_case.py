@@ -120,6 +120,11 @@ def main(arguments=None):
     parser.add_argument("results", type=Path, metavar="RESULTS_DIR")
     parser.add_argument("--plots", type=Path, metavar="FILE", help="a plots.toml other than the case's own")
     options = parser.parse_args(arguments)
+    if not any((options.results / name).is_file() for name in ("history.csv", "summary.json")):
+        missing = "the folder has no results" if options.results.is_dir() else "there is no such folder"
+        print(f"solidus_plots: {options.results}: {missing}; the folder that `solidus run` names at its end, for example"
+              " results/CASE/default", file=sys.stderr)
+        return 1
     try:
         files, problems = draw(options.results, options.plots)
     except (ResultError, OSError) as error:

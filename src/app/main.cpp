@@ -245,8 +245,8 @@ ExitCode parse_and_run(int argc, char** argv) {
   NewArguments fresh;
   CLI::App* new_verb = program.add_subcommand("new", "Make a case that runs from the geometry of a casting");
   new_verb->add_option("PART", fresh.geometry, "A STEP, BREP, IGES or STL file, or a mesh")->required();
-  new_verb->add_option("--alloy", fresh.alloy, "What is cast: a material of the library, or a file")
-      ->required();
+  new_verb->add_option("--alloy", fresh.alloy,
+                       "What is cast, always needed: an alloy of `solidus materials`, or a file");
   new_verb->add_option("--process", fresh.process, "sand, shell, gravity_die or high_pressure; default sand");
   new_verb
       ->add_option("--shots", fresh.shots,
@@ -304,7 +304,13 @@ ExitCode parse_and_run(int argc, char** argv) {
               : program.help("", CLI::AppFormatMode::All));
     return k_done;
   } catch (const CLI::ParseError& error) {
-    throw InputError({}, error.what(), "`solidus --help` shows verbs and options");
+    const auto verbs = program.get_subcommands();
+    if (argc == 1)
+      throw InputError({}, "which verb?",
+                       "`solidus run CASE`, for example; `solidus --help` shows all of them");
+    throw InputError({}, error.what(),
+                     verbs.empty() ? "`solidus --help` shows verbs and options"
+                                   : "`solidus help " + verbs[0]->get_name() + "` shows its options");
   }
   set_log_level(level);
   if (trust_laws) material::trust_external_laws();

@@ -1,6 +1,7 @@
 /// The verb `run`.
 #include "run/run.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -31,6 +32,12 @@ fs::path results_folder(const CaseArguments& arguments, const model::Case& c) {
   return results_root() / results::default_run_folder(c.file);
 }
 
+/// A folder as one types it: below the present folder without the way to it.
+std::string shown_path(const fs::path& folder) {
+  const fs::path here = folder.lexically_normal().lexically_proximate(fs::current_path());
+  return here.empty() || *here.begin() == ".." ? folder.lexically_normal().string() : here.string();
+}
+
 }  // namespace
 
 ExitCode run(const CaseArguments& arguments) {
@@ -59,7 +66,10 @@ ExitCode run(const CaseArguments& arguments) {
                 << std::endl;
     return parallel::any_process(interrupted()) ? k_interrupted : k_cannot_continue;
   }
-  print("Results in " + options.folder.lexically_normal().string() + "\n");
+  const std::string folder = shown_path(options.folder);
+  print(fmt::format(
+      "Results in {}.{}\n", folder,
+      arguments.report ? std::string() : fmt::format(" Next: solidus report {0}; solidus plot {0}", folder)));
   return k_done;
 }
 

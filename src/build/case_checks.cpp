@@ -126,7 +126,11 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
   if (m.mould && m.mould->walls.size() != 1 && m.mould->walls.size() != 6)
     throw InputError(m.mould->where, fmt::format("'walls' has {} lengths", m.mould->walls.size()),
                      "one, or six: lowest and highest x, y and z");
-  if ((!m.sizes.empty() || m.mould || m.riser || m.symmetry) && (m.element_size || m.conforming))
+  const bool of_casting = !m.sizes.empty() || m.mould || m.riser || m.symmetry;
+  if (m.way > 0 && !of_casting)
+    throw InputError(m.where, "'way' is for files that are meshed by the thickness of walls",
+                     "[[mesh.size]] for each body, or no 'way'");
+  if (of_casting && (m.element_size || m.conforming))
     throw InputError(m.where,
                      fmt::format("'{}' beside [[mesh.size]], [mesh.mould], [mesh.riser] or [mesh.symmetry], "
                                  "which make sizes and shared faces themselves",
@@ -156,7 +160,7 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
     throw InputError(m.where,
                      "[[mesh.group]] without a rule and 'conforming' are for files, and the mesh is a "
                      "built-in shape");
-  if (!m.sizes.empty() || m.mould || m.riser || m.symmetry)
+  if (of_casting)
     throw InputError(m.where,
                      "[[mesh.size]], [mesh.mould], [mesh.riser] and [mesh.symmetry] are for files that hold "
                      "a geometry, and the mesh is a built-in shape");

@@ -10,6 +10,7 @@
 #include "case/physics_switch.hpp"
 #include "case/roles.hpp"
 #include "case/stage_input.hpp"
+#include "mesh/file_format.hpp"
 #include "system/log.hpp"
 #include "system/version.hpp"
 
@@ -105,6 +106,19 @@ void resolve_paths(Value& document) {
   }
 }
 
+/// The file of a case that is asked for by its name, or by that of its folder.
+fs::path case_file_of(const fs::path& path) {
+  std::error_code error;
+  if (mesh::is_mesh_name(path.string()) && fs::is_regular_file(path, error))
+    throw InputError({path.string()}, "this is a geometry or a mesh, not a case",
+                     "a case file; `solidus new` makes one from a geometry");
+  if (!fs::is_directory(path, error)) return path;
+  if (!fs::exists(path / "case.toml", error))
+    throw InputError({path.string()}, "the folder has no case.toml",
+                     "a case file, or a folder that holds one");
+  return path / "case.toml";
+}
+
 }  // namespace
 
 std::string Case::toml() const {
@@ -115,8 +129,7 @@ std::string Case::toml() const {
 Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                std::optional<Physics> physics) {
   Case result;
-  std::error_code error;
-  result.file = fs::is_directory(path, error) ? path / "case.toml" : path;
+  result.file = case_file_of(path);
   Includes includes;
   Value document = load_with_includes(result.file, includes);
   for (const std::string& assignment : overrides) apply_override(document, assignment);

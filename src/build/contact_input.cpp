@@ -19,8 +19,9 @@ namespace {
 /// of its largest one. Means around nodes do not mind (docs/decisions/0029-contact-at-means-around-nodes.md).
 constexpr double k_penalty_factor = 10, k_penalty_factor_of_means = 100;
 /// ContactSpec::pressure_tolerance of solid bodies: with the factor of segments it leaves 1e-4 of a pressure
-/// that follows from prescribed displacements.
-constexpr double k_pressure_tolerance = 0.01;
+/// that follows from prescribed displacements. Where points slide their pressures change in every step, and
+/// turns for each change would double the cost: there it leaves 1e-3.
+constexpr double k_pressure_tolerance = 0.01, k_pressure_tolerance_of_slides = 0.05;
 /// Displacement by the atmosphere of a liquid skin that it holds on its wall, over the gap that counts as
 /// leaving it.
 constexpr double k_wet_share = 0.1;
@@ -154,11 +155,11 @@ void choose_normal(const CaseSpec& spec, const std::vector<material::Material>& 
   const ContactSpec& c = *std::ranges::find(spec.contacts, pair.name, &ContactSpec::name);
   const bool chosen = c.normal != ContactSpec::Normal::automatic || c.penalty || c.penalty_factor;
   if (chosen || spec.dynamics || spec.analysis.physics == Physics::heat) return;
-  if (pair.formulation != contact::Formulation::small_sliding || pair.friction) return;
   for (std::size_t b = 0; b < materials.size(); ++b)
     if (!only_conducts(spec.bodies[b]) && materials[b].solidification() != nullptr) return;
   pair.normal = contact::NormalKind::augmented_lagrangian;
-  pair.pressure_tolerance = k_pressure_tolerance;
+  const bool slides = pair.formulation != contact::Formulation::small_sliding || pair.friction;
+  pair.pressure_tolerance = slides ? k_pressure_tolerance_of_slides : k_pressure_tolerance;
 }
 
 }  // namespace solidus::model

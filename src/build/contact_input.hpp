@@ -24,8 +24,8 @@ std::vector<double> contact_moduli(const std::vector<material::Material>& materi
 void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
                      const std::vector<material::Material>& materials, contact::ContactSpec& pair);
 
-/// Chooses the law of pressure where the case leaves it to the program: in small sliding without
-/// friction of bodies none of which melts by multipliers, whose pressures do not show the compliance of the
+/// Chooses the law of pressure where the case leaves it to the program: of bodies none of which melts by
+/// multipliers, whose pressures do not show the compliance of the
 /// penalty; else as contact_specs() has it (docs/decisions/0033-default-pressure-of-contact.md).
 void choose_normal(const CaseSpec& spec, const std::vector<material::Material>& materials,
                    contact::ContactSpec& pair);

@@ -163,12 +163,14 @@ std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh&
       if (pair == f.bodies) section = number;
     found.push_back(
         {section, f.bodies.first, f.bodies.second, f.surface_a, f.surface_b, f.distance, f.facets});
+    // Of faces that touch the distance is rounding of their coordinates.
+    const auto gap_in_mm = [&](double gap) { return gap < 1e-6 * f.distance ? 0.0 : 1e3 * gap; };
     logging::info(
         "interface {} / {}: {:.4g} of {:.4g} cm2 and {:.4g} of {:.4g} cm2 face each other, gap {:.2g} mm in "
         "the mean, {:.2g} mm at most (looked within {:.2g} mm)",
         names[static_cast<std::size_t>(f.bodies.first)], names[static_cast<std::size_t>(f.bodies.second)],
-        1e4 * f.covered_a, 1e4 * f.area_a, 1e4 * f.covered_b, 1e4 * f.area_b, 1e3 * f.mean_gap,
-        1e3 * f.largest_gap, 1e3 * f.distance);
+        1e4 * f.covered_a, 1e4 * f.area_a, 1e4 * f.covered_b, 1e4 * f.area_b, gap_in_mm(f.mean_gap),
+        gap_in_mm(f.largest_gap), 1e3 * f.distance);
   }
   std::vector<std::string> free;
   for (const std::string& body : names)

@@ -77,6 +77,7 @@ mesh::CastingGeometry casting_geometry(const MeshSpec& m) {
     geometry.riser = {m.riser->name, {foot[0], foot[1], foot[2]}, m.riser->diameter, m.riser->height};
   }
   if (m.symmetry) geometry.symmetry = {m.symmetry->axis[0] - 'x', m.symmetry->at};
+  if (m.way > 0) geometry.only_way = m.way - 1;
   return geometry;
 }
 

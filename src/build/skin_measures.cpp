@@ -73,6 +73,8 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
   m.master_body = body_of(mesh, m.master);
   m.area = measure_surface(mesh, m.slave, kind).area;
   m.face_size = contact::ContactSurface(mesh, m.slave).mean_face_size();
+  if (mesh.surfaces.count(m.master) != 0)
+    m.master_face_size = contact::ContactSurface(mesh, m.master).mean_face_size();
   m.shared_nodes = shared_nodes(mesh, m.slave, m.master);
   double low = std::numeric_limits<double>::max(), high = -low;
   const contact::ContactKinematics& kinematics = pair.geometry().kinematics();

@@ -20,6 +20,7 @@ struct ContactMeasures {
   double least_gap = 0, largest_gap = 0;  ///< over points with a partner, negative: overlap [m]
   double mean_gap = 0;                    ///< of the gaps above zero, over points with a partner [m]
   double face_size = 0;                   ///< mean of the slave's faces [m]
+  double master_face_size = 0;            ///< of the master's; zero: a rigid tool [m]
   /// Parts of the paired area where the master lies below the slave, as gravity acts, above it or beside it;
   /// zero without gravity [m²].
   double below = 0, above = 0, beside = 0;

@@ -132,6 +132,7 @@ struct MeshSpec {
   std::vector<MeshLayersSpec> layers;
   bool conforming = false;  ///< bodies that touch share nodes, of STEP, BREP, IGES
   std::vector<MeshSizeSpec> sizes;
+  int way = 0;  ///< of meshing solids and skins: the only one that is tried, from one; 0: one after the other
   std::optional<MouldBlockSpec> mould;
   std::optional<RiserBlockSpec> riser;
   std::optional<SymmetrySpec> symmetry;

@@ -244,6 +244,12 @@ Section<MeshSpec> mesh_keys() {
       .doc(
           "For STEP, BREP and IGES: bodies that touch share the faces between them, and so the nodes. Else "
           "each has its own, for contact.");
+  s.key("way", &MeshSpec::way)
+      .initially(0)
+      .range(0, 8)
+      .doc(
+          "With [[mesh.size]]: the number of the way of meshing that is taken, whatever the quality of its "
+          "elements is; 0: one way after the other. `solidus new` writes it where several had to be tried.");
   s.sections("size", &MeshSpec::sizes, size_keys());
   s.section("mould", &MeshSpec::mould, mould_keys());
   s.section("riser", &MeshSpec::riser, riser_keys());

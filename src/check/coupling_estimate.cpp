@@ -6,6 +6,8 @@
 
 #include "build/body_input.hpp"
 #include "build/dynamics_input.hpp"
+#include "build/heat_input.hpp"
+#include "build/scheme_input.hpp"
 #include "parallel/parallel.hpp"
 #include "system/log.hpp"
 
@@ -55,6 +57,7 @@ std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
     if (only_conducts(spec.bodies[b])) continue;
     CouplingEstimate e;
     e.body = spec.bodies[b].name;
+    e.where = spec.bodies[b].where;
     e.plane = plane;
     e.initial = start[b].high;
     e.worst = material::strongest_coupling(materials[b], low, high);
@@ -63,6 +66,17 @@ std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
     estimates.push_back(std::move(e));
   }
   return estimates;
+}
+
+double heat_lag(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates, bool melts) {
+  const coupling::SchemeTraits traits = spec.coupling.scheme->traits();
+  if (!spec.exchanges_heat() || spec.dynamics || estimates.empty() || traits.iterates) return 0;
+  if (traits.mapping == mechanics::Mapping::simultaneous || lags_a_step(spec, melts)) return 0;
+  double strongest = 0;
+  for (const CouplingEstimate& e : estimates) strongest = std::max(strongest, e.decisive());
+  const bool end_of_step =
+      !traits.second_order && heat_options(spec).stepping == heat::ThermalStepping::backward_euler;
+  return end_of_step ? strongest : 0.5 * strongest;
 }
 
 std::string text(const CouplingEstimate& e) {

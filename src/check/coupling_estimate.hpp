@@ -15,6 +15,7 @@ namespace solidus::model {
 /// Estimate of one body.
 struct CouplingEstimate {
   std::string body;
+  SourceLocation where;           ///< of the body in the case file
   double initial = 0, worst = 0;  ///< temperatures [K]: at the start, and where the coupling is strongest
   material::CouplingNumber at_initial, at_worst;
   bool plane = false;  ///< no strain in one direction: CouplingNumber::plane is the one that counts
@@ -29,6 +30,13 @@ std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
                                                  const std::vector<material::Material>& materials,
                                                  const mesh::Mesh& mesh,
                                                  const std::vector<TemperatureRange>& start);
+
+/// The steps by which temperatures lag behind a steady change of them because the scheme conducts heat before
+/// deformation has taken up its share: δ_K in a sequential split with heat first by backward Euler, half of
+/// it by two stages and in the double pass, zero in schemes that solve both together
+/// (docs/theory/coupling_stability.md, 9).
+/// @param melts  SchemeContext::melts
+double heat_lag(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates, bool melts);
 
 /// "casting: delta = 0.0400 at 319.85 degC, ...".
 std::string text(const CouplingEstimate& estimate);

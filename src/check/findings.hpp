@@ -51,6 +51,13 @@ void find_loose_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasur
 void find_in_elements(const CaseSpec& spec, const Assembly& a, Findings& findings);
 /// Supports and loads. Collective.
 void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Conditions that share a surface with another one, or with a contact; castings held at both ends.
+/// Collective.
+void find_on_surfaces(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Iterations, cuts of the step, the search of contacts and the sizes of their faces.
+void find_in_numerics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Schemes whose temperatures lag where deformation takes up much of the heat. Collective.
+void find_in_coupling(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Runs that do not fit into the machine or the year, and outputs without number.
 void find_in_effort(const CaseSpec& spec, const CaseMeasures& m, Findings& findings);
 

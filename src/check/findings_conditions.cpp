@@ -117,6 +117,30 @@ void sinks(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   }
 }
 
+/// Heat that no body survives.
+void heaters(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  constexpr double k_rise = 3000, k_rate = 20;  // [K], [K/s]: of induction
+  if (spec.time.steady || !spec.time.end) return;
+  for (const ThermalConditionSpec& t : spec.thermal_conditions) {
+    if (t.kind != ThermalConditionSpec::Kind::source || !is_number(t.power) || !is_number(t.factor) ||
+        !t.stages.empty())
+      continue;
+    const double power = t.power.table.value(0) * t.factor.table.value(0);
+    for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+      if (spec.bodies[b].mesh_group() != t.group) continue;
+      const material::Material& m = a.materials[b];
+      const double rate = power / (m.density * m.specific_heat.value(a.start[b].high));
+      if (rate < k_rate || rate * *spec.time.end < k_rise) continue;
+      findings.push_back(
+          {false, t.where,
+           fmt::format("the source '{}' of {:g} W/m3 heats '{}' by {:.3g} K in each second of the "
+                       "run, if nothing cools it",
+                       t.name, power, spec.bodies[b].name, rate),
+           "induction heats by 1 to 20 K/s; what freezes gives its latent heat by itself"});
+    }
+  }
+}
+
 /// Residuals that are left in every step.
 void residuals(const CaseSpec& spec, Findings& findings) {
   constexpr double k_loose = 2e-3;
@@ -265,6 +289,7 @@ void find_in_conditions(const CaseSpec& spec, const Assembly& a, const CaseMeasu
   if (spec.has_heat()) surfaces_on_the_axis(spec, m, findings);
   if (spec.has_heat()) surroundings(spec, findings);
   if (spec.has_heat()) sinks(spec, a, findings);
+  if (spec.has_heat()) heaters(spec, a, findings);
   residuals(spec, findings);
   periodic_states(spec, findings);
   gravity(spec, findings);

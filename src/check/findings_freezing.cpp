@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "build/body_input.hpp"
 #include "build/mechanics_input.hpp"
@@ -290,26 +292,41 @@ void feeders(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Fin
       if (static_cast<int>(pour.body) == block.body)
         for (const Index node : block.nodes) poured[static_cast<std::size_t>(node)] = block.body;
   const std::array<double, 3> g = gravity(spec.analysis);
+  double all = 0;                             // nodes of all that is poured
+  double all_low = 1e300, all_high = -1e300;  // its ends, against gravity
+  const auto ends = [&](std::size_t body) {
+    double low = 0, high = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double first = -g[d] * m.bodies[body].low[d], second = -g[d] * m.bodies[body].high[d];
+      low += std::min(first, second), high += std::max(first, second);
+    }
+    return std::pair(low, high);
+  };
+  for (const Pour& pour : m.pours) {
+    all += static_cast<double>(m.bodies[pour.body].nodes);
+    const auto [low, high] = ends(pour.body);
+    all_low = std::min(all_low, low), all_high = std::max(all_high, high);
+  }
   for (const std::string& group : spec.criteria.feeders) {
-    double n = 0, height = 0, lowest = 0, highest = 0;  // against gravity
-    double all = 0;                                     // nodes of what it is a part of
-    for (const Pour& pour : m.pours) all += static_cast<double>(m.bodies[pour.body].nodes);
+    double height = 0;                                  // sum over its nodes
+    std::vector<double> of_body(m.bodies.size(), 0.0);  // its nodes
     if (const auto nodes = a.mesh.node_sets.find(group); nodes != a.mesh.node_sets.end())
       for (const Index node : nodes->second) {
         const auto i = static_cast<std::size_t>(node);
         if (node >= a.mesh.n_owned_nodes || poured[i] < 0) continue;
-        const BodyMeasures& body = m.bodies[static_cast<std::size_t>(poured[i])];
-        n += 1;
-        for (std::size_t d = 0; d < 3; ++d) {
-          height -= g[d] * a.mesh.x[i][d];
-          lowest += std::min(-g[d] * body.low[d], -g[d] * body.high[d]);
-          highest += std::max(-g[d] * body.low[d], -g[d] * body.high[d]);
-        }
+        of_body[static_cast<std::size_t>(poured[i])] += 1;
+        for (std::size_t d = 0; d < 3; ++d) height -= g[d] * a.mesh.x[i][d];
       }
-    n = parallel::global_sum(n);
     height = parallel::global_sum(height);
-    lowest = parallel::global_sum(lowest);
-    highest = parallel::global_sum(highest);
+    double n = 0, lowest = 0, highest = 0;
+    for (std::size_t body = 0; body < of_body.size(); ++body) {
+      const double nodes = parallel::global_sum(of_body[body]);
+      // A riser that is a body of its own is above or below what is poured with it, a part of a body within
+      // it.
+      const bool whole = nodes > 0.9 * static_cast<double>(m.bodies[body].nodes);
+      const auto [low, high] = whole ? std::pair(all_low, all_high) : ends(body);
+      n += nodes, lowest += nodes * low, highest += nodes * high;
+    }
     if (n == 0)
       findings.push_back({true, spec.criteria.where,
                           fmt::format("the feeder '{}' has no node of a body that is poured", group),

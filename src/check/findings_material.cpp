@@ -6,6 +6,7 @@
 
 #include "build/body_input.hpp"
 #include "check/findings.hpp"
+#include "material/laws/rate_law.hpp"
 
 namespace solidus::model {
 
@@ -16,6 +17,12 @@ struct Usual {
   const char* unit;
   double low, high;
 };
+
+/// Adds a warning that names body and material.
+void warn_of_material(const BodySpec& body, const std::string& what, const char* usual, Findings& findings) {
+  findings.push_back({false, body.where,
+                      fmt::format("body '{}', material '{}': {}", body.name, body.material, what), usual});
+}
 
 void compare(const BodySpec& body, const Usual& usual, double low, double high, Findings& findings) {
   if (low >= usual.low && high <= usual.high) return;
@@ -102,6 +109,75 @@ void compare_strength(const BodySpec& body, const material::Material& m, Finding
         "metals soften as they warm; are the columns of the table in their places?");
 }
 
+/// Ratios of the elastic and plastic properties that no metal has.
+void compare_ratios(const BodySpec& body, const material::Material& m, Findings& findings) {
+  if (const double least = m.poisson_ratio.min_value(); m.solidification() != nullptr && least < 0.12)
+    warn_of_material(body, fmt::format("poisson_ratio of {:g}", least), "metals have 0.2 to 0.45", findings);
+  for (const material::PhaseChange& change : m.phase_changes)
+    if (change.solidification && change.volume_change > 0.035)
+      warn_of_material(
+          body,
+          fmt::format("'{}' makes the volume larger by {:.3g} %", change.name, 100 * change.volume_change),
+          "metals shrink by 1 to 7 % as they freeze, volume_change = -0.07 to -0.01; grey iron and bismuth "
+          "expand by up to 3.3 %, silicon by 10 %",
+          findings);
+  if (!m.flow || m.flow->isotropic != material::IsotropicHardening::linear) return;
+  const double stiff = m.young_modulus.max_value(), hardening = m.flow->hardening[0].max_value();
+  if (hardening > 0.2 * stiff)
+    warn_of_material(body,
+                     fmt::format("hardening_modulus of {:.3g} GPa beside a young_modulus of {:.3g} GPa",
+                                 1e-9 * hardening, 1e-9 * stiff),
+                     "metals harden with 0.001 to 0.05 of their young_modulus", findings);
+}
+
+/// What the rates of a casting add to its strength: viscosities in other units are off by powers of ten.
+void compare_rate(const BodySpec& body, const material::Material& m, Findings& findings) {
+  if (!m.flow || m.flow->rate_independent()) return;
+  constexpr double k_rate = 1e-3, k_cold = 293.15;  // of castings [1/s], [K]
+  constexpr double k_least = 1e-5, k_most = 100;    // of the strength
+  const double strength = m.flow->flow_stress.max_value();
+  const double stress = material::rate_law(m.flow->rate_dependence)
+                            .overstress(material::flow_properties_at(*m.flow, k_cold), k_rate)
+                            .stress;
+  if (!(strength > 0) || (stress < k_most * strength && stress >= k_least * strength)) return;
+  warn_of_material(
+      body,
+      fmt::format("at 0.001 1/s its rate adds {:.3g} MPa to a flow_stress of {:.3g} MPa", 1e-6 * stress,
+                  1e-6 * strength),
+      "a tenth to ten times the flow stress; are the viscosity and the drag_stress in their units?",
+      findings);
+}
+
+/// A specific heat with a hump where the metal freezes holds the latent heat already.
+void compare_latent_heat(const BodySpec& body, const material::Material& m, Findings& findings) {
+  const material::PhaseFraction& fraction = m.solidification()->fraction;
+  constexpr double k_beside = 5, k_hump = 2.5;  // [K], [1]
+  const double low = fraction.solidus() - k_beside, high = fraction.liquidus() + k_beside;
+  const Table& c = m.specific_heat;
+  const double around = std::max(c.value(c.x().front()), c.value(high + 100));
+  double most = 0;
+  for (std::size_t i = 0; i < c.x().size(); ++i)
+    if (c.x()[i] > low && c.x()[i] < high) most = std::max(most, c.y()[i]);
+  if (most > k_hump * around)
+    warn_of_material(body,
+                     fmt::format("the specific heat rises to {:.4g} J/kg/K where it freezes, beside a latent "
+                                 "heat of {:.4g} kJ/kg: is it counted twice?",
+                                 most, 1e-3 * m.solidification()->latent_heat),
+                     "specific_heat without the latent heat, 500 to 1300 J/kg/K, on a line across the range",
+                     findings);
+}
+
+/// Heat as of freezing that no solid fraction belongs to.
+void compare_phase_changes(const BodySpec& body, const material::Material& m, Findings& findings) {
+  constexpr double k_much = 1.2e5;  // [J/kg]: above all that changes in the solid
+  for (const material::PhaseChange& change : m.phase_changes)
+    if (change.latent_heat > k_much && !change.solidification)
+      warn_of_material(body,
+                       fmt::format("'{}' releases {:.4g} kJ/kg and is no solidification: nothing freezes",
+                                   change.name, 1e-3 * change.latent_heat),
+                       "solidification = true; changes in the solid release 1 to 90 kJ/kg", findings);
+}
+
 /// Metal conducts less as it melts, but not that much less.
 void compare_melt(const BodySpec& body, const material::Material& m, Findings& findings) {
   constexpr double k_least = 0.2, k_beside = 1;  // [1], [K]
@@ -139,7 +215,8 @@ void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findin
     for (const material::Property& property : m.properties())
       if (spec.has_heat()) compare_argument(spec.bodies[b], property, low, m.solidification(), findings);
     if (spec.has_mechanics() && m.mechanical() && !only_conducts(spec.bodies[b]))
-      compare_solid(spec.bodies[b], m, findings), compare_strength(spec.bodies[b], m, findings);
+      compare_solid(spec.bodies[b], m, findings), compare_strength(spec.bodies[b], m, findings),
+          compare_ratios(spec.bodies[b], m, findings), compare_rate(spec.bodies[b], m, findings);
     compare(spec.bodies[b], {"density", "kg/m3", metal ? 1000.0 : 10.0, 25000}, m.density, m.density,
             findings);
     if (!spec.has_heat()) continue;
@@ -147,7 +224,9 @@ void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findin
             m.conductivity.max_value(), findings);
     compare(spec.bodies[b], {"specific heat", "J/kg/K", 80, 20000}, m.specific_heat.min_value(),
             m.specific_heat.max_value(), findings);
+    compare_phase_changes(spec.bodies[b], m, findings);
     if (metal) compare_melt(spec.bodies[b], m, findings);
+    if (metal) compare_latent_heat(spec.bodies[b], m, findings);
     if (metal)
       compare(spec.bodies[b], {"latent heat", "J/kg", 1e4, 2e6}, m.solidification()->latent_heat,
               m.solidification()->latent_heat, findings);

@@ -33,6 +33,18 @@ void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   if (!spec.has_heat() || !spec.criteria.follow || hottest(a) < 0) return;
   const auto poured = static_cast<std::size_t>(hottest(a));
   const BodySpec& body = spec.bodies[poured];
+  if (body.role && *body.role != Role::casting && *body.role != Role::riser) {
+    const auto casting = std::find_if(spec.bodies.begin(), spec.bodies.end(),
+                                      [](const BodySpec& other) { return other.role == Role::casting; });
+    if (casting != spec.bodies.end())
+      findings.push_back(
+          {false, body.where,
+           fmt::format("the hottest body, '{}', has the role of a {}, and '{}' that of a casting: it "
+                       "starts at {:.0f} degC",
+                       body.name, name(*body.role), casting->name,
+                       celsius(a.start[static_cast<std::size_t>(casting - spec.bodies.begin())].high)),
+           "are the roles swapped?"});
+  }
   const double start = a.start[poured].high;
   if (const material::PhaseChange* freezing = a.materials[poured].solidification()) {
     const double liquidus = freezing->fraction.liquidus();

@@ -12,6 +12,7 @@
 #include "build/mechanics_input.hpp"
 #include "build/scheme_input.hpp"
 #include "case/interface_library.hpp"
+#include "check/coupling_estimate.hpp"
 #include "contact/heat_transfer.hpp"
 
 namespace solidus::model {
@@ -185,6 +186,9 @@ results::Overview overview(const CaseSpec& spec, const Assembly& a, const CaseMe
     o.lag = spec.time.adaptive ? 0.0 : spec.time.step.value_or(0);
     o.end = spec.time.end.value_or(0);
   }
+  if (spec.exchanges_heat())
+    o.heat_lag =
+        heat_lag(spec, coupling_estimates(spec, a.materials, a.mesh, a.start), a.phases.coherency != nullptr);
   return o;
 }
 

@@ -57,7 +57,10 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step) {
   const std::vector<double> penetration = nodal_penetration(now);
   const ContactKinematics& kinematics = geometry_.kinematics();
   accelerate(penetration);
-  if (step.start_traction.empty())
+  // Sticking keeps the compliance of its penalty where nobody asked for multipliers: points that are more
+  // than a face can follow would drive their tangential tractions to and fro from turn to turn.
+  const bool tangential = !pressure_tolerance_;
+  if (tangential && step.start_traction.empty())
     for (const PointState& from : step.from) step.start_traction.push_back(from.traction);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     PointState& from = step.from[at(p)];
@@ -69,7 +72,7 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step) {
       from.multiplier = least_multiplier(from);
     else
       from.multiplier = std::max(least_multiplier(from), from.multiplier + law_.penalty * mean);
-    from.traction = now.points[at(p)].traction;
+    if (tangential) from.traction = now.points[at(p)].traction;
   }
 }
 

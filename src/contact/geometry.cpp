@@ -129,15 +129,17 @@ void ContactGeometry::make_kinematics(AnalysisKind kind, const ContactSpec& spec
         find_points(mesh_, kind, spec, reach, slave, *surfaces.master), components_);
     return;
   }
+  const bool cut = spec.integration == IntegrationRule::segments;
   std::unique_ptr<Master> met;
   if (surfaces.master)
     met = std::make_unique<MeshMaster>(
         components_, *surfaces.master,
-        MeshMasterOptions{.search_distance = reach, .smoothing = spec.smoothing});
+        MeshMasterOptions{
+            .search_distance = reach, .smoothing = spec.smoothing, .rim = cut ? k_rim : k_fading_rim});
   else
     met = std::make_unique<AnalyticMaster>(components_, *spec.rigid_master, reach);
   // A rigid surface has no faces to cut at.
-  if (spec.integration == IntegrationRule::segments && surfaces.master) {
+  if (cut && surfaces.master) {
     kinematics_ =
         std::make_unique<SegmentKinematics>(mesh_, kind, slave, *surfaces.master, std::move(met), reach);
     return;

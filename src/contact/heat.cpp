@@ -91,7 +91,8 @@ HeatPoint ContactHeat::point(const ContactStep& step, const PointState& from, co
   if (point_law_.friction && spec_.friction->thermal_return_mapping && step.coupled.law == nullptr &&
       step.iterate.empty() && forces.status != PointStatus::open) {
     point.friction = &*point_law_.friction;
-    point.slip = {forces.trial, std::max(now.pressure, 0.0), from.internal_variable, from.temperature};
+    point.slip = {forces.trial, rubbing_pressure(now.pressure, now.suction), from.internal_variable,
+                  from.temperature};
   }
   point.step = {step.dt, spec_.interface_heat_capacity, from.temperature, forces.friction.structural_entropy,
                 forces.friction.dissipation};
@@ -165,8 +166,8 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
     to.temperature = found[p];
     double made = 0;
     if (point_law_.friction)
-      made =
-          plastic_entropy_increment(*point_law_.friction, to.slip - from.slip, to.pressure, to.temperature);
+      made = plastic_entropy_increment(*point_law_.friction, to.slip - from.slip,
+                                       rubbing_pressure(to.pressure, to.suction), to.temperature);
     to.plastic_entropy = from.plastic_entropy + made;
     const ContactKinematics::Particle particle = geometry_.kinematics().particle(static_cast<Index>(p));
     if (!particle.counted) continue;

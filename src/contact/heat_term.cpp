@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "contact/face.hpp"
 #include "contact/heat_run.hpp"
+#include "contact/positive_shares.hpp"
 
 namespace solidus::contact {
 
@@ -35,13 +37,55 @@ std::array<double, 2> HeatTerm::side_shares() const {
 
 HeatTerm::HeatTerm(const mesh::Mesh& mesh, const PartnerList& partners, ContactGraph& graph,
                    const HeatTransferLaw& law, bool nodal)
-    : n_owned_(mesh.n_owned_nodes), partners_(partners), graph_(graph), law_(law), nodal_(nodal) {}
+    : n_owned_(mesh.n_owned_nodes),
+      dimension_(mesh.dimension),
+      partners_(partners),
+      graph_(graph),
+      law_(law),
+      nodal_(nodal) {}
 
 void HeatTerm::place(std::vector<HeatPoint> points) {
   points_ = std::move(points);
+  share_out();
   fixed_.resize(law_.of_temperature() ? 0 : points_.size());
   for (std::size_t p = 0; p < fixed_.size(); ++p)
     fixed_[p] = conductance(static_cast<Index>(p), k_room_temperature).value;
+}
+
+void HeatTerm::limit_exchange(std::span<const char> nodes) {
+  if (nodal_) return;
+  if (nodes.empty()) {
+    limited_nodes_.clear();
+  } else {
+    limited_nodes_.resize(nodes.size(), 0);
+    for (std::size_t i = 0; i < nodes.size(); ++i) limited_nodes_[i] |= nodes[i];
+  }
+  share_out();
+}
+
+bool HeatTerm::limited(Index point) const {
+  if (limited_nodes_.empty() || partners_.partnered[at(point)] == 0) return false;
+  const std::span<const Index> nodes = partners_.nodes_of(point);
+  return std::any_of(nodes.begin(), nodes.end(), [&](Index node) { return limited_nodes_[at(node)] != 0; });
+}
+
+void HeatTerm::share_out() {
+  positive_.clear();
+  if (limited_nodes_.empty()) return;
+  positive_ = partners_.share;
+  std::vector<double> n, l;
+  for (Index p = 0; p < partners_.n_points(); ++p) {
+    if (!limited(p)) continue;
+    const std::size_t first = partners_.first[at(p)], end = partners_.first[at(p) + 1],
+                      middle = first + static_cast<std::size_t>(partners_.n_slave[at(p)]);
+    for (const auto& [from, to, sign] : {std::tuple(first, middle, 1.0), std::tuple(middle, end, -1.0)}) {
+      n.assign(to - from, 0.0);
+      l.assign(to - from, 0.0);
+      for (std::size_t a = from; a < to; ++a) n[a - from] = sign * partners_.share[a];
+      positive_shares(dimension_, n, l, {});
+      for (std::size_t a = from; a < to; ++a) positive_[a] = sign * l[a - from];
+    }
+  }
 }
 
 Conductance HeatTerm::conductance(Index point, double temperature) const {
@@ -116,6 +160,11 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
   s.nodes = partners_.nodes_of(point);
   s.b = partners_.share_of(point);
   s.n_slave = static_cast<std::size_t>(partners_.n_slave[at(point)]);
+  s.nodal = nodal_;
+  if (limited(point)) {
+    s.b = std::span(positive_).subspan(partners_.first[at(point)], s.nodes.size());
+    s.nodal = true;
+  }
   const bool meshed = s.n_slave < s.nodes.size();
   s.master_takes_heat = meshed || tool_temperature_;
   const bool flows = !phase_ || !phase_->span.adiabatic;
@@ -168,7 +217,7 @@ void HeatTerm::add_exchange(const AtPoint& s, std::span<const double> temperatur
   for (std::size_t a = 0; a < s.nodes.size(); ++a) {
     const double t = temperature[at(s.nodes[a])];
     double q = 0;
-    if (!nodal_) {
+    if (!s.nodal) {
       q = weight_h * (s.slave - s.master) + weight_e * (s.slave_fourth - s.master_fourth);
     } else if (a < s.n_slave) {
       q = weight_h * (t - s.master);
@@ -224,8 +273,8 @@ void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, st
   const double w = partners_.weight[at(s.point)];
   const double h = w * s.h.value, e = w * s.radiation;
   if (n_slave < n) {
-    for (std::size_t a = 0; a < (nodal_ ? n_slave : n); ++a)
-      for (std::size_t b = nodal_ ? n_slave : a + 1; b < n; ++b) {
+    for (std::size_t a = 0; a < (s.nodal ? n_slave : n); ++a)
+      for (std::size_t b = s.nodal ? n_slave : a + 1; b < n; ++b) {
         double slope = h;
         if (e > 0) slope += 2 * e * (cube(x[at(s.nodes[a])]) + cube(x[at(s.nodes[b])]));
         slope *= -s.b[a] * s.b[b];
@@ -237,8 +286,8 @@ void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, st
   } else if (s.master_takes_heat) {
     for (std::size_t a = 0; a < n; ++a) {
       const double to_a = h + 4 * e * cube(x[at(s.nodes[a])]);
-      if (nodal_) k[a * n + a] += s.b[a] * to_a;
-      for (std::size_t b = 0; b < n && !nodal_; ++b)
+      if (s.nodal) k[a * n + a] += s.b[a] * to_a;
+      for (std::size_t b = 0; b < n && !s.nodal; ++b)
         k[a * n + b] += s.b[a] * s.b[b] * 0.5 * (to_a + h + 4 * e * cube(x[at(s.nodes[b])]));
     }
   }

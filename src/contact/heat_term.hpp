@@ -71,8 +71,11 @@ struct InterfaceHeat {
 /// e = σ_r F. Both are sums of exchanges between pairs of nodes, so heat is conserved to rounding. In the
 /// nodal form the pairs are one of the slave and one of the master, with h N_i N_j >= 0 for linear shapes:
 /// with it a matrix of non-negative type stays one (6.3.1). Quadratic shapes have functions below zero, by
-/// which heat would pass from cold to hot: they always take the consistent form, whose entropy production
-/// h (Θ_s − Θ_m)²/(Θ_s Θ_m) is nowhere below zero.
+/// which heat would pass from cold to hot: they take the consistent form, whose entropy production
+/// h (Θ_s − Θ_m)²/(Θ_s Θ_m) is nowhere below zero. In a step that is short against the time in which heat
+/// crosses an element it takes nodes beyond all temperatures around, as a matrix of capacities by integration
+/// does: at faces with such nodes (limit_exchange) it is the nodal form with the functions of the linear
+/// parts of the face (positive_shares.hpp).
 ///
 /// Where friction acts, the heat is that of the balance of the interface (3.65, 5.33), Θ_c eliminated at the
 /// point (interface_thermodynamics.hpp): Q_1 and Q_2 leave the bodies, and what they differ from conduction
@@ -123,6 +126,7 @@ class HeatTerm : public linear::Contribution {
   /// In an adiabatic phase heat of friction is taken up on the spot.
   bool stores() const override { return phase_ && phase_->span.adiabatic; }
   void begin_stage(const linear::Stage& stage, std::span<const double> before) override;
+  void limit_exchange(std::span<const char> nodes) override;
   /// Adds ∂r/∂u: through the conductance, through the heat of friction where slip answers Θ_c (joint), and
   /// with the partner that moves on.
   /// @param rates  of a point that has a partner; valid until the next call
@@ -144,7 +148,8 @@ class HeatTerm : public linear::Contribution {
   /// without a partner goes to no body.
   InterfaceHeat interface_heat(std::span<const double> temperature) const;
   std::size_t bytes() const {
-    return slots_.bytes() + points_.capacity() * sizeof(HeatPoint) + fixed_.capacity() * sizeof(double);
+    return slots_.bytes() + points_.capacity() * sizeof(HeatPoint) + limited_nodes_.capacity() +
+           (fixed_.capacity() + positive_.capacity()) * sizeof(double);
   }
 
  private:
@@ -152,8 +157,9 @@ class HeatTerm : public linear::Contribution {
   struct AtPoint {
     Index point = 0;
     std::span<const Index> nodes;
-    std::span<const double> b;  ///< B of every node
+    std::span<const double> b;  ///< B of every node, of functions that are positive in a limited exchange
     std::size_t n_slave = 0;    ///< nodes
+    bool nodal = false;         ///< the form
     bool master_takes_heat = true;
     double slave = 0, master = 0;                ///< Θ_s, Θ_m
     double slave_fourth = 0, master_fourth = 0;  ///< Σ N Θ⁴
@@ -166,6 +172,10 @@ class HeatTerm : public linear::Contribution {
   };
   struct Run;
   AtPoint see(Index point, std::span<const double> temperature) const;
+  /// Whether the exchange of a point is limited.
+  bool limited(Index point) const;
+  /// Finds the positive shares of the points whose exchange is limited.
+  void share_out();
   /// Adds `weight_h` × h' + `weight_e` × e' of the heat that every node gives off by conduction and
   /// radiation.
   void add_exchange(const AtPoint& at, std::span<const double> temperature, double weight_h, double weight_e,
@@ -187,11 +197,14 @@ class HeatTerm : public linear::Contribution {
   /// Adds ∂r_a/∂B_b for one node of the master.
   void add_share_slope(const AtPoint& at, std::span<const double> temperature, std::size_t b,
                        std::span<double> heat) const;
+  /// The same of every node of the master, [b][a]; with positive shares by the chain of their slopes.
+  void add_share_slopes(const AtPoint& at, std::span<const double> temperature, std::span<double> heat) const;
   InterfaceStep balance_step(Index point) const;
   /// h at the plane gap that resists as that of the point does, and its slope in the gap itself.
   Conductance conductance(Index point, double temperature) const;
 
   Index n_owned_;
+  int dimension_;
   const PartnerList& partners_;
   ContactGraph& graph_;
   const HeatTransferLaw& law_;
@@ -200,6 +213,8 @@ class HeatTerm : public linear::Contribution {
   mutable int version_ = 0;  ///< of the graph it has
   std::vector<HeatPoint> points_;
   std::vector<SurfaceCurvature> curvature_;  ///< of the slave, [point]; empty: none
+  std::vector<char> limited_nodes_;          ///< by limit_exchange(), [local node]; empty: none
+  std::vector<double> positive_;             ///< B of limited points, as PartnerList::share; empty: none
   std::optional<double> tool_temperature_;
   struct Phase {
     HeatSpan span;

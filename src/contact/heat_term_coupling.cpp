@@ -3,6 +3,7 @@
 
 #include "contact/heat_run.hpp"
 #include "contact/heat_term.hpp"
+#include "contact/positive_shares.hpp"
 
 namespace solidus::contact {
 
@@ -45,9 +46,9 @@ void HeatTerm::add_share_slope(const AtPoint& s, std::span<const double> tempera
                                std::span<double> heat) const {
   const double w = partners_.weight[at(s.point)], t = temperature[at(s.nodes[b])];
   const double across = w * (s.h.value * t + s.radiation * fourth(t));
-  for (std::size_t a = 0; a < (nodal_ ? s.n_slave : s.nodes.size()); ++a) heat[a] += s.b[a] * across;
+  for (std::size_t a = 0; a < (s.nodal ? s.n_slave : s.nodes.size()); ++a) heat[a] += s.b[a] * across;
   // The derivative of the heat that the node itself gives off.
-  heat[b] += nodal_
+  heat[b] += s.nodal
                  ? w * (s.h.value * (s.slave - t) + s.radiation * (s.slave_fourth - fourth(t)))
                  : w * (s.h.value * (s.slave - s.master) + s.radiation * (s.slave_fourth - s.master_fourth));
   std::array<double, 2> by_mean{};
@@ -62,6 +63,25 @@ void HeatTerm::add_share_slope(const AtPoint& s, std::span<const double> tempera
   const double by_share = -0.5 * t * w * s.h.by_temperature;
   add_exchange(s, temperature, by_share, 0, heat);
   add_sides(s, {by_share * by_mean[0], by_share * by_mean[1]}, heat);
+}
+
+void HeatTerm::add_share_slopes(const AtPoint& s, std::span<const double> temperature,
+                                std::span<double> heat) const {
+  const std::size_t n = s.nodes.size(), n_master = n - s.n_slave;
+  if (!limited(s.point)) {
+    for (std::size_t b = s.n_slave; b < n; ++b) add_share_slope(s, temperature, b, heat.subspan(b * n, n));
+    return;
+  }
+  std::vector<double> shares(n_master), positive(n_master), slope(n_master * n_master, 0.0), of_positive(n);
+  for (std::size_t b = 0; b < n_master; ++b) shares[b] = -partners_.share_of(s.point)[s.n_slave + b];
+  positive_shares(dimension_, shares, positive, slope);
+  for (std::size_t c = 0; c < n_master; ++c) {
+    of_positive.assign(n, 0.0);
+    add_share_slope(s, temperature, s.n_slave + c, of_positive);
+    for (std::size_t b = 0; b < n_master; ++b)
+      for (std::size_t a = 0; a < n; ++a)
+        heat[(s.n_slave + b) * n + a] += slope[c * n_master + b] * of_positive[a];
+  }
 }
 
 void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index point)>& rates_of,
@@ -97,13 +117,21 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
       add_sides(s, {s.interface.by_side[0] * source, s.interface.by_side[1] * source}, per_trial);
       add(per_trial, [&](std::size_t b) -> const Point& { return rates.trial[b]; });
     }
-    for (std::size_t a = s.n_slave; a < n; ++a) {
-      const auto moves = rates.share.subspan(a * n, n);
-      if (std::all_of(moves.begin(), moves.end(), [](const Point& v) { return v == Point{}; })) continue;
-      per_share.assign(n, 0.0);
-      add_share_slope(s, temperature, a, per_share);
-      add(per_share, [&](std::size_t b) -> const Point& { return moves[b]; });
+    const auto moves_of = [&](std::size_t a) { return rates.share.subspan(a * n, n); };
+    const auto at_rest = [&](std::size_t a) {
+      const auto moves = moves_of(a);
+      return std::all_of(moves.begin(), moves.end(), [](const Point& v) { return v == Point{}; });
+    };
+    bool moved = false;
+    for (std::size_t a = s.n_slave; a < n && !moved; ++a) moved = !at_rest(a);
+    if (moved) {
+      per_share.assign(n * n, 0.0);
+      add_share_slopes(s, temperature, per_share);
     }
+    for (std::size_t a = s.n_slave; a < n && moved; ++a)
+      if (!at_rest(a))
+        add(std::span(per_share).subspan(a * n, n),
+            [&](std::size_t b) -> const Point& { return moves_of(a)[b]; });
     const auto slots = displacement_slots_.slots(run.first, run.nodes);
     for (std::size_t e = 0; e < n * n; ++e) {
       double* const to = matrix.heat_by_displacement(slots[e]);

@@ -24,6 +24,7 @@ struct Partner {
   Point along{};           ///< region edge: the edge's direction in ξ
   double penetration = 0;  ///< g_N (3.5) [m]
   Point normal{};          ///< ν, out of the master (3.10b)
+  double covered = 1;  ///< share of the point's part of the slave that the master faces: less beyond its rim
 };
 
 /// The master at a partner: place, convected basis and normals, in both configurations (3.8–3.14), and what

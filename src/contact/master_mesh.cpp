@@ -1,15 +1,15 @@
 #include "contact/master_mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace solidus::contact {
 
 namespace {
 
-// A face is continued by this much beyond its rim, in its reference coordinates: between faces of (almost)
-// one plane, where the wedge between their normals is as thin as rounding; and at the free boundary.
+// A face is continued by this much beyond its rim, in its reference coordinates, between faces of (almost)
+// one plane, where the wedge between their normals is as thin as rounding.
 constexpr double k_flat = 1e-8;
-constexpr double k_free = 0.02;
 constexpr int k_max_iterations = 30;
 
 double mean_diagonal(std::span<const Face> faces) {
@@ -138,6 +138,27 @@ Partner MeshMaster::in_wedge(const Feature& feature, const SurfacePoint& closest
   return p;
 }
 
+double MeshMaster::covered(double outside) const {
+  return outside <= k_rim ? 1.0 : (options_.rim - outside) / (options_.rim - k_rim);
+}
+
+// Of the faces whose continuation holds x beyond the free boundary that which ends nearest.
+Partner MeshMaster::beyond_rim(const SurfacePoint& closest, const Feature& feature, const Point& x) const {
+  double least = options_.rim;
+  Partner best;
+  for (Index f : feature.faces) {
+    const Point start = f == closest.face ? closest.projection.xi : closest_point(face(f), x).xi;
+    const Projection foot = closest_point_extended(face(f), x, start);
+    if (!foot.found) continue;
+    const double outside = outside_by(face(f).shape, foot.xi);
+    if (outside > least || (best.face >= 0 && outside == least)) continue;
+    least = outside;
+    best = on_face(f, foot.xi, x);
+    best.covered = covered(outside);
+  }
+  return best;
+}
+
 // At a vertex of the free boundary: the edges between faces that end there, continued a little.
 Partner MeshMaster::along_edge(const Feature& vertex, const Point& x) const {
   for (Index f : vertex.faces)
@@ -148,11 +169,15 @@ Partner MeshMaster::along_edge(const Feature& vertex, const Point& x) const {
       const auto vertices = reference_vertices(face(f).shape);
       const Face line = edge_of(face(f), i);
       const Projection foot = closest_point_extended(line, x, closest_point(line, x).xi);
-      if (!foot.found || outside_by(line.shape, foot.xi) > k_free) continue;
+      if (!foot.found) continue;
+      const double outside = outside_by(line.shape, foot.xi);
+      if (outside > options_.rim) continue;
       const double s = 0.5 * (1 + foot.xi[0]);
       const Point xi = add_scaled(vertices[i], s, edge_direction(face(f).shape, e));
       const Feature edge{Feature::Kind::edge, e, faces, false};
-      return in_wedge(edge, {f, {true, xi, foot.y, foot.distance}}, x);
+      Partner p = in_wedge(edge, {f, {true, xi, foot.y, foot.distance}}, x);
+      p.covered = covered(outside);
+      return p;
     }
   return {};
 }
@@ -162,7 +187,7 @@ Partner MeshMaster::flat(const SurfacePoint& closest, const Point& x) const {
   if (feature.kind == Feature::Kind::interior) return on_face(closest.face, closest.projection.xi, x);
   if (const Partner p = continued(closest, feature, x, k_flat); p.face >= 0) return p;
   if (!feature.free) return in_wedge(feature, closest, x);
-  if (const Partner p = continued(closest, feature, x, k_free); p.face >= 0) return p;
+  if (const Partner p = beyond_rim(closest, feature, x); p.face >= 0) return p;
   return feature.kind == Feature::Kind::vertex ? along_edge(feature, x) : Partner{};
 }
 
@@ -210,9 +235,17 @@ Partner MeshMaster::smooth(const SurfacePoint& closest, const Point& x) const {
   }
   if (best.face >= 0) return best;
   const Feature feature = topology_.feature(closest.face, closest.projection.xi);
-  for (Index f : feature.faces)
-    if (const Partner p = smooth_on(f, closest_point(face(f), x).xi, x, k_free); feature.free && p.face >= 0)
-      return p;
+  double least = options_.rim;
+  for (Index f : feature.faces) {
+    if (!feature.free) break;
+    const Partner p = smooth_on(f, closest_point(face(f), x).xi, x, least);
+    if (p.face < 0) continue;
+    const double outside = outside_by(face(f).shape, p.xi);
+    if (best.face >= 0 && outside == least) continue;
+    least = outside;
+    best = p;
+    best.covered = covered(outside);
+  }
   return best;
 }
 

@@ -19,10 +19,21 @@
 
 namespace solidus::contact {
 
+/// A face is continued by this much beyond the free boundary as if there were none, in its reference
+/// coordinates: discrete edges of curved surfaces never coincide.
+inline constexpr double k_rim = 0.02;
+/// Where points stand for parts of the slave that no segments cut at the boundary: an eighth of a face. A
+/// point that lost its partner at once would have a force that jumps, and Newton's iteration goes round
+/// between both.
+inline constexpr double k_fading_rim = 0.25;
+
 struct MeshMasterOptions {
   double search_distance = 0;  ///< partners are looked for this far, on both sides [m]
   bool smoothing = false;      ///< projection along averaged normals
   double feature_angle = 0.6;  ///< edges sharper than this in the reference stay sharp [rad]
+  /// How far beyond its free boundary a face still holds a point, in its reference coordinates: all of it up
+  /// to k_rim, then less and less.
+  double rim = k_rim;
 };
 
 class MeshMaster : public Master {
@@ -50,6 +61,10 @@ class MeshMaster : public Master {
   Partner in_wedge(const Feature& feature, const SurfacePoint& closest, const Point& x) const;
   Partner continued(const SurfacePoint& closest, const Feature& feature, const Point& x,
                     double tolerance) const;
+  /// The share of a point's part of the slave that the master faces, where the point lies `outside` its free
+  /// boundary.
+  double covered(double outside) const;
+  Partner beyond_rim(const SurfacePoint& closest, const Feature& feature, const Point& x) const;
   Partner along_edge(const Feature& vertex, const Point& x) const;
   Partner flat(const SurfacePoint& closest, const Point& x) const;
   Partner smooth(const SurfacePoint& closest, const Point& x) const;

@@ -51,7 +51,7 @@ SlidingKinematics::SlidingKinematics(const mesh::Mesh& mesh, AnalysisKind kind, 
   double all = 0, paired = 0;
   for (std::size_t p = 0; p < weight_.size(); ++p) {
     all += weight_[p];
-    if (partner_[p].face >= 0) paired += weight_[p];
+    if (partner_[p].face >= 0) paired += weight_of(p);
   }
   coverage_ = paired / all;
 }
@@ -143,7 +143,7 @@ ContactKinematics::Particle SlidingKinematics::particle(Index point) const {
   return {.number = face_[p] * k_points_of_a_face + number_[p],
           .counted = nodes[0] < mesh_.n_owned_nodes,
           .position = position_[p],
-          .weight = weight_[p],
+          .weight = weight_of(p),
           .nodes = nodes,
           .share = std::span(shape_[p]).first(nodes.size())};
 }
@@ -195,7 +195,7 @@ PointMotion SlidingKinematics::motion(Index point, const PointState& old, Asked 
   const auto p = static_cast<std::size_t>(point);
   const Partner& partner = partner_[p];
   PointMotion m;
-  m.weight = weight_[p];
+  m.weight = weight_of(p);
   if (partner.face < 0) return m;
   master_->frame(partner, asked == Asked::rates, frame_);
   list_nodes(p);
@@ -324,7 +324,7 @@ void SlidingKinematics::add_geometric_tangent(Index point, double pressure, cons
       frame_, plane_normal(partner, frame_),
       {plane_normal_xi(partner, frame_, 0), plane_normal_xi(partner, frame_, 1)}, partner.normal, traction);
   const Point force = contact::add_scaled(push.pushed, -pressure, partner.normal);
-  const double w = weight_[p];
+  const double w = weight_of(p);
   for (std::size_t c = 0; c < n_nodes_; ++c) {
     // ∂f/∂x_c
     Tensor turn{};

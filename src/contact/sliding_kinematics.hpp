@@ -85,6 +85,8 @@ class SlidingKinematics : public ContactKinematics {
   bool own_slave(std::size_t point) const;
   Point place_of(std::size_t point, const Face& face) const;
   void list_nodes(std::size_t point) const;
+  /// The area that a point stands for where it is; all of its own where it has no partner [m²].
+  double weight_of(std::size_t point) const { return weight_[point] * partner_[point].covered; }
   void find_rates(const Partner& partner) const;
   void find_face_rates(const Partner& partner) const;
   void find_wedge_rates(const Partner& partner) const;

@@ -41,6 +41,13 @@ struct PointState {
   double plastic_entropy = 0;  ///< S^p_c [J/(m² K)] (3.53c)
 };
 
+/// The pressure with which a point rubs [Pa]: that of a coherent skin. Metal that wets its wall is below
+/// coherency and has no strength to rub with, and tension makes no friction.
+/// @param pressure, suction  of the step, as in PointState
+inline double rubbing_pressure(double pressure, double suction) {
+  return suction > 0 || pressure < 0 ? 0.0 : pressure;
+}
+
 /// History of a node of a master that wears. It moves with the master's surface, whichever slave points pass
 /// over it.
 struct WornNode {

@@ -18,6 +18,9 @@ constexpr int k_most_augmentations = 400;
 // k_enough_augmentations turns they may be k_tolerable times as large as allowed, with a warning.
 constexpr int k_enough_augmentations = 60;
 constexpr double k_tolerable = 10;
+// Turns that nobody asked for (ContactSpec::pressure_tolerance) end here: what is left is less than the
+// penalty alone would leave.
+constexpr int k_enough_by_default = 12;
 
 const contact::ContactState& state_of(const std::vector<contact::ContactState>& contacts, std::size_t i) {
   static const contact::ContactState k_unmoved;
@@ -104,11 +107,13 @@ std::vector<contact::ContactState> second_start(const Phases& phases,
 bool penetrations_small(const Phases& phases, int turn) {
   double excess = 0;
   const contact::ContactPair* worst = nullptr;
-  for (const contact::ContactPair* pair : phases.contacts)
+  for (const contact::ContactPair* pair : phases.contacts) {
+    if (pair->spec().pressure_tolerance && turn >= k_enough_by_default) continue;
     if (const double of_pair = pair->excess(); of_pair > excess) {
       excess = of_pair;
       worst = pair;
     }
+  }
   if (excess <= 1) return true;
   if (turn >= k_enough_augmentations && excess <= k_tolerable) {
     logging::warn(

@@ -60,21 +60,21 @@ double ErrorEstimate::lasting(double mean, double before, double change) const {
   return mean * std::min(k_steps, change > 0 ? 1 + before / change : k_steps);
 }
 
-LocalError ErrorEstimate::predictor(const State& old, const State& now, double dt, const Rates& rates,
-                                    const heat::StageFlows& flows) const {
-  double temperature = 0;
-  if (measures(flows) && !rates.heat_flow.empty()) {
-    const std::vector<double> error = phases_->heat->time_error(now.heat, flows, rates.heat_flow);
-    temperature =
-        std::max(norm_(error), lasting(norm_.mean(error), rates.changed, change_of(old, now, flows)));
-  } else {
-    temperature = norm_(
+double ErrorEstimate::temperature_predictor(const State& old, const State& now, double dt, const Rates& rates,
+                                            const heat::StageFlows& flows) const {
+  if (!measures(flows) || rates.heat_flow.empty())
+    return norm_(
         half_of_what_was_not_predicted(old.heat.temperature, now.heat.temperature, dt, rates.temperature));
-  }
-  return {temperature, size_of_displacement(
-                           half_of_what_was_not_predicted(old.mechanics.displacement,
-                                                          now.mechanics.displacement, dt, rates.displacement),
-                           casting(coherency(old), rates.coherency))};
+  const std::vector<double> error = phases_->heat->time_error(now.heat, flows, rates.heat_flow);
+  return std::max(norm_(error), lasting(norm_.mean(error), rates.changed, change_of(old, now, flows)));
+}
+
+double ErrorEstimate::displacement_predictor(const State& old, const State& now, double dt,
+                                             const Rates& rates) const {
+  return size_of_displacement(
+      half_of_what_was_not_predicted(old.mechanics.displacement, now.mechanics.displacement, dt,
+                                     rates.displacement),
+      casting(coherency(old), rates.coherency));
 }
 
 LocalError ErrorEstimate::doubling(const State& old, const State& whole, const State& halves,

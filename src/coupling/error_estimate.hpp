@@ -60,11 +60,13 @@ class ErrorEstimate {
                          Displacement displacement = Displacement::motion)
       : norm_(std::move(norm)), phases_(phases), displacement_(displacement) {}
 
-  /// Estimates the error of the step from `old` to `now` by its extrapolation from `rates`, which must be
-  /// known.
+  /// Estimates the error of temperature of the step from `old` to `now` by its extrapolation from `rates`,
+  /// which must be known [K]; `now` need not be deformed yet.
   /// @param flows  of the step (StepEffort)
-  LocalError predictor(const State& old, const State& now, double dt, const Rates& rates,
-                       const heat::StageFlows& flows) const;
+  double temperature_predictor(const State& old, const State& now, double dt, const Rates& rates,
+                               const heat::StageFlows& flows) const;
+  /// The same of the displacement [m].
+  double displacement_predictor(const State& old, const State& now, double dt, const Rates& rates) const;
   /// The error of the two `halves` of a step, by comparison with the `whole`. Both start from `old`.
   /// @param flows  of the second half
   LocalError doubling(const State& old, const State& whole, const State& halves, const Rates& rates,

@@ -103,8 +103,13 @@ GuardedScheme::GuardedScheme(std::unique_ptr<CouplingScheme> scheme, Phases phas
     : scheme_(std::move(scheme)), phases_(std::move(phases)) {}
 
 StepEffort GuardedScheme::advance(const State& old, State& trial, double time, double dt) {
-  const StepEffort effort = scheme_->advance(old, trial, time, dt);
-  require_continued(phases_, old, trial, dt);
+  return *advance_unless(old, trial, time, dt, {});
+}
+
+std::optional<StepEffort> GuardedScheme::advance_unless(const State& old, State& trial, double time,
+                                                        double dt, const HeatJudge& stop) {
+  std::optional<StepEffort> effort = scheme_->advance_unless(old, trial, time, dt, stop);
+  if (effort) require_continued(phases_, old, trial, dt);
   return effort;
 }
 

@@ -40,6 +40,8 @@ class GuardedScheme final : public CouplingScheme {
   void forget() override { scheme_->forget(); }
   void conditions_changed() override { scheme_->conditions_changed(); }
   StepEffort advance(const State& old, State& trial, double time, double dt) override;
+  std::optional<StepEffort> advance_unless(const State& old, State& trial, double time, double dt,
+                                           const HeatJudge& stop) override;
 
  private:
   std::unique_ptr<CouplingScheme> scheme_;

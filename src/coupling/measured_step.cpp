@@ -4,13 +4,25 @@
 
 namespace solidus::coupling {
 
-MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double time, double dt) {
+MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double time, double dt,
+                                       const TooLong& too_long) {
   if (control_ == ErrorControl::doubling || (control_ == ErrorControl::predictor && !rates_.known()))
     return doubled(old, trial, time, dt);
-  Taken taken{scheme_.advance(old, trial, time, dt), {}};
-  const heat::StageFlows flows = std::exchange(taken.effort.fields, {}).flows;
-  if (control_ == ErrorControl::none) return taken;
-  taken.error = estimate_->predictor(old, trial, dt, rates_, flows);
+  if (control_ == ErrorControl::none) {
+    Taken taken{scheme_.advance(old, trial, time, dt), {}};
+    taken.effort->fields = {};
+    return taken;
+  }
+  std::optional<double> conducted;
+  const HeatJudge stop = [&](const State& warm, const heat::StageFlows& flows) {
+    conducted = estimate_->temperature_predictor(old, warm, dt, rates_, flows);
+    return too_long({*conducted, 0});
+  };
+  Taken taken{scheme_.advance_unless(old, trial, time, dt, stop), {conducted.value_or(0), 0}};
+  if (!taken.effort) return taken;
+  const heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
+  taken.error.displacement = estimate_->displacement_predictor(old, trial, dt, rates_);
+  if (!conducted) taken.error.temperature = estimate_->temperature_predictor(old, trial, dt, rates_, flows);
   next_rates_ = estimate_->rates_of(old, trial, dt, flows);
   next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);
   return taken;
@@ -23,8 +35,8 @@ MeasuredStep::Taken MeasuredStep::doubled(const State& old, State& trial, double
   State middle = old;
   middle.time = time - dt / 2;
   Taken taken{scheme_.advance(old, middle, middle.time, dt / 2), {}};
-  taken.effort += scheme_.advance(middle, trial, time, dt / 2);
-  const heat::StageFlows flows = std::exchange(taken.effort.fields, {}).flows;
+  *taken.effort += scheme_.advance(middle, trial, time, dt / 2);
+  const heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
   taken.error = estimate_->doubling(old, whole, trial, rates_, flows);
   if (control_ == ErrorControl::predictor) next_rates_ = estimate_->rates_of(middle, trial, dt / 2, flows);
   next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);

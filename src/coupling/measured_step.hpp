@@ -1,6 +1,7 @@
 /// Takes one step with a coupling scheme and estimates its local error.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "coupling/error_estimate.hpp"
@@ -20,12 +21,18 @@ class MeasuredStep {
       : scheme_(scheme), control_(control), estimate_(std::move(estimate)), rates_(std::move(rates)) {}
 
   struct Taken {
-    StepEffort effort;  ///< of the halves together where the step was doubled
+    /// Of the halves together where the step was doubled. Nothing: the error of its heat ended the step
+    /// before deformation was solved, and is all that `error` has.
+    std::optional<StepEffort> effort;
     LocalError error;
   };
+  /// Whether a step with this error is to be repeated with a smaller one. The same on every process.
+  using TooLong = std::function<bool(const LocalError&)>;
   /// From `old` (t_n) to `trial` (t_n + dt). Collective. Throws StepRejected as CouplingScheme::advance does.
-  /// Nothing that later steps see changes before commit().
-  Taken take(const State& old, State& trial, double time, double dt);
+  /// Nothing that later steps see changes before commit(). Schemes that conduct heat first are asked to stop
+  /// where its error says `too_long`: a step that is repeated for its heat costs no mechanics. The error of
+  /// temperature is that of the heat conducted, in such schemes, and what deformation warms is no part of it.
+  Taken take(const State& old, State& trial, double time, double dt, const TooLong& too_long);
   /// The last step taken is committed.
   void commit() { rates_ = std::move(next_rates_); }
   /// Drops the rates of the last committed step, because they do not predict the next one: it is measured as

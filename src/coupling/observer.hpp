@@ -120,7 +120,8 @@ struct StepRecord : StepEffort {
   int number = 0;
   double time = 0, dt = 0;  ///< t_{n+1} and the step [s]
   std::string reason;       ///< why this size
-  int rejected = 0;         ///< how many tries failed before
+  int rejected = 0;         ///< how many tries failed before, or were too long when they had been solved
+  int shortened = 0;        ///< how many tries were too long by their heat alone, before mechanics was solved
   std::string rejection;    ///< the last try's reason
   bool output = false;      ///< the time is an output time
   std::string stage;        ///< empty in a run without stages

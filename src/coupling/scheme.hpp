@@ -2,10 +2,19 @@
 /// simultaneous and block-iterative.
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include "coupling/observer.hpp"
 #include "coupling/state.hpp"
 
 namespace solidus::coupling {
+
+/// Judges the heat that a step has conducted before deformation is solved: true stops the step there. Called
+/// on every process with the same answer.
+/// @param warm   heat at the end of the step, deformation of t_n
+/// @param flows  of heat in the step
+using HeatJudge = std::function<bool(const State& warm, const heat::StageFlows& flows)>;
 
 class CouplingScheme {
  public:
@@ -21,6 +30,13 @@ class CouplingScheme {
   /// Advances from `old` (t_n) to `trial` (old.time + dt). Collective. Throws StepRejected on every process
   /// alike when the physics does not go through; `trial` is then meaningless and `old` untouched.
   virtual StepEffort advance(const State& old, State& trial, double time, double dt) = 0;
+  /// The same. A scheme that conducts heat before it solves deformation asks `stop` between the two; where it
+  /// says so nothing is returned and `trial` is meaningless. Others do not ask.
+  virtual std::optional<StepEffort> advance_unless(const State& old, State& trial, double time, double dt,
+                                                   const HeatJudge& stop) {
+    static_cast<void>(stop);
+    return advance(old, trial, time, dt);
+  }
 };
 
 }  // namespace solidus::coupling

@@ -63,9 +63,14 @@ void SequentialSplit::forget() {
 }
 
 StepEffort SequentialSplit::advance(const State& old, State& trial, double time, double dt) {
-  StepEffort effort = order_ == PhaseOrder::heat_first ? heat_first(old, trial, time, dt)
-                                                       : mechanics_first(old, trial, time, dt);
-  summarise(phases_, trial, effort);
+  return *advance_unless(old, trial, time, dt, {});
+}
+
+std::optional<StepEffort> SequentialSplit::advance_unless(const State& old, State& trial, double time,
+                                                          double dt, const HeatJudge& stop) {
+  std::optional<StepEffort> effort = order_ == PhaseOrder::heat_first ? heat_first(old, trial, time, dt, stop)
+                                                                      : mechanics_first(old, trial, time, dt);
+  if (effort) summarise(phases_, trial, *effort);
   return effort;
 }
 
@@ -80,9 +85,11 @@ StepEffort SequentialSplit::mechanics_first(const State& old, State& trial, doub
   return effort;
 }
 
-StepEffort SequentialSplit::heat_first(const State& old, State& trial, double time, double dt) {
+std::optional<StepEffort> SequentialSplit::heat_first(const State& old, State& trial, double time, double dt,
+                                                      const HeatJudge& stop) {
   State warm;
   StepEffort effort = heat_at_rest(old, warm, time, dt);
+  if (stop && stop(warm, effort.fields.flows)) return {};
   const contact::InterfaceSums conducted = effort.energy.interface;
   StepEffort deformed;
   mechanical_phase(old, warm, trial, time, dt, deformed);

@@ -24,6 +24,8 @@ class SequentialSplit : public CouplingScheme {
   void synchronise(const State& state) override;
   void forget() override;
   StepEffort advance(const State& old, State& trial, double time, double dt) override;
+  std::optional<StepEffort> advance_unless(const State& old, State& trial, double time, double dt,
+                                           const HeatJudge& stop) override;
 
  protected:
   /// The phases must outlive the scheme; the order means nothing where one of them is missing. Throws
@@ -34,7 +36,8 @@ class SequentialSplit : public CouplingScheme {
 
  private:
   StepEffort mechanics_first(const State& old, State& trial, double time, double dt);
-  StepEffort heat_first(const State& old, State& trial, double time, double dt);
+  std::optional<StepEffort> heat_first(const State& old, State& trial, double time, double dt,
+                                       const HeatJudge& stop);
   /// Heat at the configuration of t_n.
   StepEffort heat_at_rest(const State& old, State& warm, double time, double dt);
   /// Equilibrium at t_{n+1}, and the works of contact.

@@ -238,7 +238,8 @@ std::optional<Outcome> Simulation::take_step() {
       break;
     }
     if (stop_asked()) {
-      if (p.saved != p.record.number || p.record.rejected > 0) save(p, p.control->state());
+      if (p.saved != p.record.number || p.record.rejected + p.record.shortened > 0)
+        save(p, p.control->state());
       Stop asked;
       asked.asked = true;
       return stopped(asked, p, Outcome::interrupted);
@@ -320,18 +321,29 @@ Simulation::Try Simulation::try_step(Progress& p) {
   StepRecord record;
   if (heat_ != nullptr) heat_->begin_burning(p.committed.burning, p.committed.time, step.time);
   try {
-    const MeasuredStep::Taken taken = p.step->take(p.committed, p.trial, step.time, step.dt);
-    measure = {std::max(taken.effort.heat.hard(), taken.effort.mechanics.hard()), taken.error.temperature,
-               taken.error.displacement, std::abs(taken.effort.solid_fraction - p.solid_fraction)};
+    const auto measured = [](const LocalError& error) {
+      StepMeasure of_error;
+      of_error.temperature_error = error.temperature;
+      of_error.displacement_error = error.displacement;
+      return of_error;
+    };
+    const MeasuredStep::Taken taken =
+        p.step->take(p.committed, p.trial, step.time, step.dt,
+                     [&](const LocalError& error) { return p.control->too_long(step, measured(error)); });
+    measure = measured(taken.error);
+    if (taken.effort) {
+      measure.iterations = std::max(taken.effort->heat.hard(), taken.effort->mechanics.hard());
+      measure.solid_fraction_change = std::abs(taken.effort->solid_fraction - p.solid_fraction);
+    }
     require_numbers(measure);
-    if (p.control->too_long(step, measure)) {
-      ++p.record.rejected;
+    if (!taken.effort || p.control->too_long(step, measure)) {
+      ++(taken.effort ? p.record.rejected : p.record.shortened);
       p.record.rejection = strictest(options_.stages[p.stage].step.limits, measure).excess;
-      p.control->shortened(step, measure);
+      p.control->shortened(step, measure, taken.effort ? "rejected" : "shortened");
       return Try::repeat;
     }
     record = p.record;
-    static_cast<StepEffort&>(record) = taken.effort;
+    static_cast<StepEffort&>(record) = *taken.effort;
   } catch (const linear::Interrupted&) {
     return Try::repeat;  // before which stop_asked() ends the run
   } catch (const StepRejected& rejection) {
@@ -390,7 +402,7 @@ void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure&
   }
   for (Observer* o : observers_) o->step(p.record, p.committed);
   if (const Stage& stage = options_.stages[p.stage]; stage.ends_shot && step.time == stage.end) end_shot(p);
-  p.record.rejected = 0;
+  p.record.rejected = p.record.shortened = 0;
   p.record.rejection.clear();
 }
 

@@ -1,6 +1,8 @@
 #include "coupling/simultaneous.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -84,13 +86,22 @@ void SimultaneousScheme::drop_carried() {
 
 StepEffort SimultaneousScheme::advance(const State& old, State& trial, double time, double dt) {
   drop_carried();  // of a step that failed
-  ContactWork contact(phases_);
-  StepEffort effort = options_.integration == SimultaneousOptions::Integration::sdirk2
-                          ? two_stages(old, trial, time, dt, contact)
-                          : backward_euler(old, trial, time, dt);
+  std::optional<ContactWork> contact(std::in_place, phases_);
+  StepEffort effort;
+  if (options_.integration == SimultaneousOptions::Integration::backward_euler) {
+    effort = backward_euler(old, trial, time, dt);
+  } else if (const std::optional<StepEffort> found = two_stages(old, trial, time, dt, true, *contact)) {
+    effort = *found;
+  } else {
+    logging::debug("both fields: the step to t = {:g} s would overshoot; it is of first order", time);
+    drop_carried();
+    restore_contacts(phases_, old);
+    contact.emplace(phases_);
+    effort = *two_stages(old, trial, time, dt, false, *contact);
+  }
   if (phases_.structural != nullptr) {
-    contact.add(phases_.mechanics->work_share());
-    contact.book(effort.energy);
+    contact->add(phases_.mechanics->work_share());
+    contact->book(effort.energy);
     effort.energy.structural = phases_.structural->change(trial.heat.temperature).energy;
   } else {
     keep_heat_alone(effort.energy);
@@ -110,27 +121,31 @@ StepEffort SimultaneousScheme::backward_euler(const State& old, State& trial, do
                &fractions);
 }
 
-StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double time, double dt,
-                                          ContactWork& contact) {
-  const double stage_dt = material::k_sdirk_share * dt, carried = material::k_sdirk_carried;
-  const double middle = time - dt + stage_dt;
+std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State& trial, double time,
+                                                         double dt, bool extrapolated, ContactWork& contact) {
+  const double first_dt = material::k_sdirk_share * dt, middle = time - dt + first_dt;
   const std::vector<double> share = plateau_share(phases_, old.heat);
   const mechanics::MechanicalPass to_middle{
-      .time = middle, .dt = stage_dt, .temperature = old.heat.temperature, .plateau_share = share};
+      .time = middle, .dt = first_dt, .temperature = old.heat.temperature, .plateau_share = share};
   State first;
-  newton_->thermal().begin(old.heat, middle, stage_dt);
+  heat::ThermalIteration& thermal = newton_->thermal();
+  thermal.begin(old.heat, middle, first_dt);
   const std::vector<double> coherency = coherency_of(phases_, old.heat);
   const StepEffort of_first = stage(old.mechanics, old.contacts, coherency, to_middle, first);
 
+  extrapolated = extrapolated && thermal.may_extrapolate(old.heat, first.heat, time);
+  const double carried = extrapolated ? material::k_sdirk_carried : 1.0;
   contact.add(1, carried);
   for (mechanics::CoupledKernel* kernel : newton_->kernels()) kernel->carry(carried, first.heat.temperature);
   const mechanics::MechanicalState start = second_start(old.mechanics, first.mechanics, carried);
-  newton_->thermal().begin_stage(old.heat, first.heat, carried, time, stage_dt);
   mechanics::MechanicalPass to_end = to_middle;
   to_end.time = time;
+  to_end.dt = extrapolated ? first_dt : dt - first_dt;
   to_end.iterate = &first.mechanics;
+  thermal.begin_stage(old.heat, first.heat, carried, time, to_end.dt);
   StepEffort effort =
       stage(start, second_start(phases_, old.contacts, first.contacts, carried), coherency, to_end, trial);
+  if (extrapolated && thermal.overshoots(trial.heat)) return std::nullopt;
   drop_carried();
   effort.energy.add_first_stage(of_first.energy, carried);
   effort.mechanics.iterations += of_first.mechanics.iterations;

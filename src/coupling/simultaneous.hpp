@@ -9,7 +9,9 @@
 /// points, structural entropy and energy. Work and heat of a step are (1−γ)/γ times those of the first stage
 /// plus those of the second, so the energy form closes the first law in both. The phase fractions that the
 /// mechanics sees stay those of Θ_n in both stages: through a phase change the method is of first order.
-/// R. Alexander, SIAM J. Numer. Anal. 14 (1977) 1006.
+/// Where y* is no place to start from (heat/extrapolation_guard.hpp), the second stage is backward Euler over
+/// the rest of the step, from Y_1: two stages of second order are not monotone in steps far beyond what a
+/// chill takes. R. Alexander, SIAM J. Numer. Anal. 14 (1977) 1006.
 #pragma once
 
 #include <optional>
@@ -46,7 +48,10 @@ class SimultaneousScheme final : public CouplingScheme {
 
  private:
   StepEffort backward_euler(const State& old, State& trial, double time, double dt);
-  StepEffort two_stages(const State& old, State& trial, double time, double dt, ContactWork& contact);
+  /// @param extrapolated  the second stage may start from y*; otherwise it starts from Y_1
+  /// @return  nothing where the second stage started from y* and should not have: `trial` is of no use then
+  std::optional<StepEffort> two_stages(const State& old, State& trial, double time, double dt,
+                                       bool extrapolated, ContactWork& contact);
   /// Mechanics from `old`, heat as thermal() has begun.
   /// @param coherency  at t_n
   /// @param fractions  of phase changes, which follow the temperatures; null: those of `pass` are held

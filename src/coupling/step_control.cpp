@@ -37,8 +37,7 @@ double smallest_of_failures(const StepOptions& options) {
 StepControl::StepControl(const StepOptions& options, double start, std::vector<double> landings)
     : options_(options), landings_(std::move(landings)) {
   if (!(options_.step > 0)) throw std::invalid_argument("the time step must be positive");
-  if (options_.max_step <= 0) options_.max_step = options_.adaptive ? 10 * options_.step : options_.step;
-  if (!options_.adaptive) options_.max_step = options_.step;
+  options_.max_step = options_.largest();
   if (smallest_of_errors(options_) > options_.step || options_.max_step < options_.step)
     throw std::invalid_argument("min_step <= step <= max_step must hold");
   if (!(options_.growth > 1) || !(options_.cut > 0 && options_.cut < 1))
@@ -130,14 +129,14 @@ bool StepControl::too_long(const PlannedStep& step, const StepMeasure& measure) 
   return limit.exceeded && !is_jump(step, limit);
 }
 
-void StepControl::shortened(const PlannedStep& step, const StepMeasure& measure) {
+void StepControl::shortened(const PlannedStep& step, const StepMeasure& measure, const std::string& what) {
   const Strictest limit = strictest(options_.limits, measure);
   if (state_.refused == 0) {
     state_.before_refusal = state_.size;
     state_.refused = step.dt;
     state_.refused_ratio = limit.ratio;
   }
-  resize(step.dt * std::max(limit.factor, k_deepest_cut), "rejected: " + limit.name);
+  resize(step.dt * std::max(limit.factor, k_deepest_cut), what + ": " + limit.name);
 }
 
 void StepControl::resize(double size, const std::string& reason) {

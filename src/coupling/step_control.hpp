@@ -22,6 +22,10 @@ struct StepOptions {
   int easy_iterations = 6;  ///< a step whose phases all took at most this many Newton iterations is easy
   StepLimits limits;        ///< of adaptive steps
 
+  double largest() const {  ///< step [s]
+    if (!adaptive) return step;
+    return max_step > 0 ? max_step : 10 * step;
+  }
   bool operator==(const StepOptions&) const = default;
 };
 
@@ -58,8 +62,9 @@ class StepControl {
   /// the smallest, and not if it is a jump: what does not get smaller with the step (a body that snaps into
   /// another contact, a load that is put on at once) no step resolves.
   bool too_long(const PlannedStep& step, const StepMeasure& measure) const;
-  /// The step that went through was too long.
-  void shortened(const PlannedStep& step, const StepMeasure& measure);
+  /// The step was too long.
+  /// @param what  has happened to it, for the reason of the next one
+  void shortened(const PlannedStep& step, const StepMeasure& measure, const std::string& what = "rejected");
 
   const ControlState& state() const { return state_; }
   void resume(ControlState state) { state_ = std::move(state); }

@@ -12,9 +12,13 @@ namespace {
 
 using material::k_sdirk_carried;
 
-/// Share of the range of temperatures by which an extrapolated one may leave it: what the iteration leaves
-/// in the heats of nodes far from all that happens is no overshoot.
-constexpr double k_beyond = 1e-9;
+/// Share of the range of temperatures by which the end of a step may leave it: what the iteration leaves in
+/// the heats of nodes far from all that happens is no overshoot.
+constexpr double k_overshoot = 1e-6;
+/// Share of the range by which Θ(H*) may leave it for the second stage to be tried at all.
+constexpr double k_too_far = 1.0;
+/// Share of the range of temperatures below which two nodes are equally warm.
+constexpr double k_alike = 1e-9;
 /// Factor by which a temperature may go further than in the first stage: by (1 − γ)/γ where the capacity is
 /// constant, and half as much again where it is not.
 constexpr double k_outside = 1.5 * k_sdirk_carried;
@@ -96,15 +100,25 @@ void ExtrapolationGuard::for_neighbours(const F& f) const {
     }
 }
 
-bool ExtrapolationGuard::leaves_range(const TemperatureRange& surroundings) const {
+/// Whether temperatures [owned node] leave the range by more than a share of it. Collective.
+bool ExtrapolationGuard::leaves_range(std::span<const double> temperature,
+                                      const TemperatureRange& surroundings, double share) const {
   const double low = std::min(lowest_, surroundings.lowest), high = std::max(highest_, surroundings.highest);
   const double fall = std::max(0.0, low - first_lowest_), rise = std::max(0.0, first_highest_ - high);
-  const double beyond = k_beyond * (high - low);
+  const double beyond = share * (high - low);
+  const double least = low - k_outside * fall - beyond, greatest = high + k_outside * rise + beyond;
   bool leaves = false;
   for (std::size_t i = 0; i < ahead_.size() && !leaves; ++i)
-    leaves = free(i) &&
-             (ahead_[i] < low - k_outside * fall - beyond || ahead_[i] > high + k_outside * rise + beyond);
+    leaves = free(i) && (temperature[i] < least || temperature[i] > greatest);
   return parallel::any_process(leaves);
+}
+
+bool ExtrapolationGuard::extrapolates_too_far(const TemperatureRange& surroundings) const {
+  return leaves_range(ahead_, surroundings, k_too_far);
+}
+
+bool ExtrapolationGuard::overshoots(const ThermalState& next, const TemperatureRange& surroundings) const {
+  return leaves_range(next.temperature, surroundings, k_overshoot);
 }
 
 // From a node on it goes to its coldest neighbour in the first stage, and so on: the hottest node that is
@@ -119,7 +133,7 @@ bool ExtrapolationGuard::turns_back(const ThermalState& next, const parallel::Gh
     std::vector<std::size_t> way_out(n);
     for (std::size_t i = 0; i < n; ++i) way_out[i] = i;
     for_neighbours([&](std::size_t i, std::size_t j) {
-      if (sign * (now_[way_out[i]] - now_[j]) > k_beyond * range) way_out[i] = j;
+      if (sign * (now_[way_out[i]] - now_[j]) > k_alike * range) way_out[i] = j;
     });
     std::vector<double> barrier = next.temperature;
     while (raise_along(way_out, sign, barrier)) ghosts.update(barrier, 1);

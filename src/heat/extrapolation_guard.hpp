@@ -7,9 +7,11 @@
 /// below its surroundings, which no solution of the equations does.
 ///
 /// A solve by backward Euler makes no node colder than it was and than all its neighbours, but for what
-/// surfaces and sources take. So two things tell that an extrapolation goes too far: temperatures beyond the
-/// range of all that there are, before the second solve; and after it a node that has sunk below its way out,
-/// the nodes through which its heat went in the first stage. Melting is the same upside down.
+/// surfaces and sources take. So two things at the end of the step tell that an extrapolation went too far:
+/// temperatures beyond the range of all that there were, and a node that has sunk below its way out, the
+/// nodes through which its heat went in the first stage. Melting is the same upside down. Θ(H*) itself is no
+/// measure: nodes of a melt that is all but at rest on its plateau are extrapolated beyond the hottest of
+/// them by what the iteration has left, and a step of first order in place of one of second is a jump.
 #pragma once
 
 #include <span>
@@ -30,10 +32,14 @@ class ExtrapolationGuard {
   ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& storage, const ThermalState& old,
                      const ThermalState& middle);
 
-  /// Whether Θ(H*) leaves the range of temperatures at t_n and around. The range may grow as fast as in the
-  /// first stage: where a flux or a source cools or heats, nothing bounds it.
+  /// Whether Θ(H*) lies so far beyond the range of temperatures at t_n and around, by more than its width,
+  /// that a second stage from it is not worth a solve. The range may grow as fast as in the first stage:
+  /// where a flux or a source cools or heats, nothing bounds it.
   /// @param surroundings  the temperatures around the bodies during the step
-  bool leaves_range(const TemperatureRange& surroundings) const;
+  bool extrapolates_too_far(const TemperatureRange& surroundings) const;
+  /// Whether the end of the step has left that range, by more than a millionth of it.
+  /// @param next  the state at the end of the second stage
+  bool overshoots(const ThermalState& next, const TemperatureRange& surroundings) const;
   /// Whether metal has sunk below its way out: by more than three ten-thousandths of the range of
   /// temperatures, root mean square over the volume of what can melt, of the nodes that have passed a kink of
   /// their curve. The way out leads from each node to its coldest neighbour in the first stage. Nodes that
@@ -46,6 +52,8 @@ class ExtrapolationGuard {
   template <class F>
   void for_neighbours(const F& f) const;
   bool free(std::size_t i) const;
+  bool leaves_range(std::span<const double> temperature, const TemperatureRange& surroundings,
+                    double share) const;
   bool raise_along(std::span<const std::size_t> way_out, double sign, std::span<double> barrier) const;
 
   HeatSystem& system_;

@@ -65,11 +65,20 @@ void HeatSystem::clear_limits() {
 ConductionLimiter::Held HeatSystem::hold_nodes(std::span<const double> temperature,
                                                const TemperatureRange& range) {
   if (!limiter_ || !exchange_) return ConductionLimiter::Held::none;
-  return limiter_->hold(temperature, range.lowest - k_rounding, range.highest + k_rounding);
+  const double lowest = range.lowest - k_rounding, highest = range.highest + k_rounding;
+  const ConductionLimiter::Held held = limiter_->hold(temperature, lowest, highest);
+  if (held == ConductionLimiter::Held::none || contributions_.empty()) return held;
+  std::vector<char> beyond(temperature.size());
+  for (std::size_t i = 0; i < beyond.size(); ++i)
+    beyond[i] = temperature[i] < lowest || temperature[i] > highest ? 1 : 0;
+  for (linear::Contribution* contribution : contributions_) contribution->limit_exchange(beyond);
+  return held;
 }
 
 void HeatSystem::release_nodes() {
-  if (limiter_) limiter_->release();
+  if (!limiter_) return;
+  limiter_->release();
+  for (linear::Contribution* contribution : contributions_) contribution->limit_exchange({});
 }
 
 TemperatureRange HeatSystem::surroundings() const {

@@ -9,6 +9,7 @@
 /// Carslaw and Jaeger, Conduction of Heat in Solids (1959), 1.6.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "numbers/table.hpp"
@@ -20,6 +21,8 @@ class KirchhoffPotential {
   explicit KirchhoffPotential(const Table& conductivity);
 
   bool constant() const { return k_.size() == 1; }
+  /// The temperatures where k bends [K]; one, without meaning, where it is constant.
+  std::span<const double> points() const { return t_; }
   /// A conductivity that the material has somewhere: the mean of its extremes [W/(m K)].
   double reference() const { return reference_; }
   double value(double temperature) const;         ///< u [W/m]

@@ -53,7 +53,7 @@ void LocalSweeps::copy_rows(const linear::BlockMatrix& matrix, std::size_t n_own
   neighbours_.resize(start_.back());
   std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
   for_entries([&](std::size_t row, std::uint32_t other, double entry) {
-    neighbours_[next[row]++] = {other, entry};
+    neighbours_[next[row]++] = {other, static_cast<float>(entry)};
   });
 }
 

@@ -44,7 +44,7 @@ class LocalSweeps {
         const NodeChange change = relax(nodes_[k], residual_[k]);
         residual_[k] += change.stored;
         for (std::size_t s = start_[k]; s < start_[k + 1]; ++s)
-          residual_[neighbours_[s].position] += neighbours_[s].entry * change.potential;
+          residual_[neighbours_[s].position] += static_cast<double>(neighbours_[s].entry) * change.potential;
         changed = true;
       };
       for (std::size_t k = 0; k < nodes_.size(); ++k) visit(k);
@@ -57,7 +57,7 @@ class LocalSweeps {
   static constexpr int k_rounds = 6;
   struct Neighbour {
     std::uint32_t position;  ///< among the chosen nodes
-    double entry;            ///< of the matrix
+    float entry;             ///< of the matrix: F is evaluated anew after these sweeps
   };
   void copy_rows(const linear::BlockMatrix& matrix, std::size_t n_owned);
 

@@ -41,6 +41,10 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
           list.push_back({block.body, w});
       }
   }
+  std::size_t n_shares = 0;
+  for (const auto& list : of_node) n_shares += list.size();
+  shares_.reserve(n_shares);
+  start_.reserve(of_node.size() + 1);
   start_.assign(1, 0);
   for (const auto& list : of_node) {
     assert(!list.empty() && "every owned node belongs to an element");

@@ -39,6 +39,20 @@ class NodalEnthalpy {
     double slope;        ///< [K/J]
   };
   Point point(Index node, double heat) const;
+  /// Body of a node and the volume that it has of it.
+  struct Share {
+    int body;
+    double weight;  ///< [m³]
+  };
+  /// The share of the only body that stores heat at the node; null where there are several or none.
+  const Share* only_share(Index node) const {
+    const auto list = shares(node);
+    return list.size() == 1 ? list.data() : nullptr;
+  }
+  std::size_t n_bodies() const { return curves_.size(); }
+  const material::EnthalpyCurve& body_curve(int body) const {
+    return curves_[static_cast<std::size_t>(body)];
+  }
   /// H_i at a temperature; at a jump both ends.
   double lower(Index node, double temperature) const;
   double upper(Index node, double temperature) const;
@@ -90,10 +104,6 @@ class NodalEnthalpy {
   std::size_t bytes() const;
 
  private:
-  struct Share {
-    int body;
-    double weight;  ///< [m³]
-  };
   std::span<const Share> shares(Index node) const {
     const auto i = static_cast<std::size_t>(node);
     return {shares_.data() + start_[i], start_[i + 1] - start_[i]};

@@ -23,6 +23,7 @@ NodalPotential::NodalPotential(const mesh::Mesh& mesh, std::span<const Kirchhoff
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   start_.assign(static_cast<std::size_t>(mesh.n_owned_nodes) + 1, 0);
+  bodies_.reserve(pairs.size());
   for (const auto& [node, body] : pairs) {
     ++start_[static_cast<std::size_t>(node) + 1];
     bodies_.push_back(body);

@@ -25,6 +25,13 @@ class NodalPotential {
 
   /// Whether v = Θ at every node.
   bool identity() const { return identity_; }
+  /// Whether v is that of this body's material alone.
+  bool is_of(Index node, int body) const {
+    if (identity_) return true;
+    const auto list = bodies(node);
+    return list.size() == 1 && list.front() == body;
+  }
+  const KirchhoffPotential& of_body(int body) const { return potentials_[static_cast<std::size_t>(body)]; }
   double value(Index node, double temperature) const;  ///< v [K]
   double slope(Index node, double temperature) const;  ///< c
   /// Θ(v) [K].

@@ -40,18 +40,13 @@ class SlopeSolver final : public linear::TangentSolver {
 TemperatureSystem::TemperatureSystem(const mesh::Mesh& mesh, HeatSystem& system,
                                      const parallel::GhostExchange& ghosts,
                                      std::span<const std::unique_ptr<PointStorage>> points)
-    : mesh_(mesh),
-      system_(system),
-      points_(points),
-      ghosts_(ghosts),
-      local_(mesh.x.size()),
-      slope_(mesh.x.size(), 1.0) {}
+    : mesh_(mesh), system_(system), points_(points), ghosts_(ghosts) {}
 
 double TemperatureSystem::residual(std::span<const double> x, std::span<double> r) {
   x_.assign(x.begin(), x.end());
   double moved = system_.residual(x, r);
   if (storing_) {
-    std::fill(local_.begin(), local_.end(), 0.0);
+    local_.assign(mesh_.x.size(), 0.0);
     for (const auto& block : points_) block->add_residual(x, local_);
     for (std::size_t i = 0; i < r.size(); ++i) {
       r[i] += local_[i];
@@ -66,6 +61,7 @@ double TemperatureSystem::residual(std::span<const double> x, std::span<double> 
 
 linear::BlockMatrix& TemperatureSystem::tangent() {
   const NodalPotential& potential = system_.potential();
+  slope_.resize(mesh_.x.size(), 1.0);
   if (!potential.identity()) {
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
       slope_[static_cast<std::size_t>(i)] = potential.slope(i, x_[static_cast<std::size_t>(i)]);

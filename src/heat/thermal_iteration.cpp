@@ -6,6 +6,7 @@
 
 #include "heat/consistent_heat.hpp"
 #include "heat/enthalpy_newton.hpp"
+#include "heat/extrapolation_guard.hpp"
 #include "heat/heat_system.hpp"
 #include "heat/point_storage.hpp"
 #include "heat/printed_heat.hpp"
@@ -45,6 +46,7 @@ double ThermalIteration::tolerance() const {
 }
 
 void ThermalIteration::begin(const ThermalState& old, double time, double dt) {
+  guard_.reset();
   begin_stage(old, old, 0.0, time, dt);
 }
 
@@ -76,6 +78,24 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
     phase_.temperature_system_->use_storage(true);
     residual_.resize(static_cast<std::size_t>(phase_.mesh_.n_owned_nodes));
   }
+}
+
+bool ThermalIteration::may_extrapolate(const ThermalState& old, const ThermalState& stage, double time) {
+  if (!nodal()) return true;
+  TemperatureRange around = phase_.system_->surroundings();  // at the end of the first stage
+  phase_.system_->set_time(time);
+  const TemperatureRange at_end = phase_.system_->surroundings();
+  around = {std::min({around.lowest, at_end.lowest, at_start_.lowest}),
+            std::max({around.highest, at_end.highest, at_start_.highest})};
+  const double by_deformation =
+      k_by_deformation + k_by_deformation_of_range * (around.highest - around.lowest);
+  allowed_ = {around.lowest - by_deformation, around.highest + by_deformation};
+  guard_ = std::make_unique<ExtrapolationGuard>(*phase_.system_, *phase_.storage_, old, stage);
+  return !guard_->extrapolates_too_far(around);
+}
+
+bool ThermalIteration::overshoots(const ThermalState& next) const {
+  return guard_ && (guard_->overshoots(next, allowed_) || guard_->turns_back(next, phase_.ghosts_));
 }
 
 void ThermalIteration::evaluate() {

@@ -17,6 +17,7 @@
 namespace solidus::heat {
 
 class EnthalpyNewton;
+class ExtrapolationGuard;
 
 class ThermalIteration {
  public:
@@ -29,6 +30,14 @@ class ThermalIteration {
   /// The second stage of a two-stage method, from the first one: H* = H_n + factor (H_stage − H_n). Both
   /// states must live until conclude().
   void begin_stage(const ThermalState& old, const ThermalState& stage, double factor, double time, double dt);
+  /// Whether a second stage is worth a try from the extrapolation of the heats between `old` at t_n and
+  /// `stage`, the end of the first stage (extrapolation_guard.hpp). Always with the open rule, whose
+  /// temperatures have no bounds. Both states must live until overshoots(). Collective.
+  /// @param time  of the end of the step [s]
+  bool may_extrapolate(const ThermalState& old, const ThermalState& stage, double time);
+  /// Whether the second stage, which started from there and ended in `next`, went too far: by more than
+  /// deformation alone heats and cools. Collective.
+  bool overshoots(const ThermalState& next) const;
 
   /// Θ of now, [local node], ghosts up to date.
   std::span<const double> temperature() const { return now_.temperature; }
@@ -79,6 +88,8 @@ class ThermalIteration {
   std::vector<double> stored_from_;  ///< H*, [local node]; where the enthalpy of the nodes is the unknown
   std::vector<double> residual_, rhs_, step_;
   double dt_ = 0, unbalanced_ = 0;
+  std::unique_ptr<ExtrapolationGuard> guard_;  ///< of the step's two stages; null: none
+  TemperatureRange allowed_;                   ///< to which the second one may lead
   TemperatureRange range_;     ///< within which conduction is to stay; open where something heats or cools
   TemperatureRange at_start_;  ///< of the temperatures at t_n and of the first stage
 };

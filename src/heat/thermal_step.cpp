@@ -69,7 +69,7 @@ PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, co
   return report;
 }
 
-/// SDIRK2; its second stage is backward Euler over the rest of the step where H* is no place to start from.
+/// SDIRK2; its second stage is backward Euler over the rest of the step where SDIRK2 would overshoot.
 PhaseReport ThermalPhase::solve_two_stages(const ThermalState& old, const ThermalPass& pass,
                                            ThermalState& next) {
   const linear::Stage first{k_sdirk_share * pass.dt, 0}, extrapolated{first.dt, k_sdirk_carried},
@@ -81,18 +81,19 @@ PhaseReport ThermalPhase::solve_two_stages(const ThermalState& old, const Therma
   StageFlows stage_flows;
   if (flows) stage_flows.first = flow(old, middle, first);
   std::optional<ExtrapolationGuard> guard;
+  TemperatureRange around;
   bool second_order = true;
   if (flows && pass.within_range && options_.integration == Integration::closed) {
-    TemperatureRange around = system_->surroundings();
+    around = system_->surroundings();
     system_->set_time(pass.time);
     const TemperatureRange at_end = system_->surroundings();
     around = {std::min(around.lowest, at_end.lowest), std::max(around.highest, at_end.highest)};
     guard.emplace(*system_, *storage_, old, middle);
-    second_order = !guard->leaves_range(around);
+    second_order = !guard->extrapolates_too_far(around);
   }
   const ThermalPass to_end{pass.time, pass.dt, pass.iterate, pass.newton_steps};
   PhaseReport last = solve_stage(old, middle, second_order ? extrapolated : rest, to_end, next);
-  if (second_order && guard && guard->turns_back(next, ghosts_)) {
+  if (second_order && guard && (guard->overshoots(next, around) || guard->turns_back(next, ghosts_))) {
     second_order = false;
     begin_stage(first, old.temperature);
     PhaseReport again = solve_stage(old, middle, rest, to_end, next);

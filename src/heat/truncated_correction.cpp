@@ -31,7 +31,6 @@ constexpr double k_refining = 0.1;  ///< of the systems that find their directio
 linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const double> chords) {
   linear::BlockMatrix& a = system_.matrix();
   const auto n = r_.size();
-  const NodalPotential& potential = system_.potential();
   std::vector<char> held(n);
   std::vector<double> of_a(n);  // its diagonal, without D
   {
@@ -42,8 +41,8 @@ linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const do
       of_a[i] = diagonal;
       double stiffness = chords.empty() ? 0.0 : chords[i];
       if (stiffness == 0) {
-        const double slope = storage_.point(node, heat_[i]).slope;
-        stiffness = slope == 0.0 ? HUGE_VAL : 1.0 / (dt_ * slope * potential.slope(node, temperature_[i]));
+        const double slope = curves_.at_heat(node, heat_[i]).slope;
+        stiffness = slope == 0.0 ? HUGE_VAL : 1.0 / (dt_ * slope);
       }
       held[i] = std::isinf(stiffness) || system_.fixed()[i] ? 1 : 0;
       if (std::isinf(stiffness))
@@ -52,10 +51,10 @@ linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const do
       else
         diagonal += stiffness;
       // A held node has no equation here: its residual must not set the scale of the linear solver.
-      b_[i] = held[i] ? 0.0 : -r_[i];
+      product_[i] = held[i] ? 0.0 : -r_[i];
     }
   }
-  linear::LinearReport report = solver_.solve(a, b_, std::span(step_).first(n), forcing);
+  linear::LinearReport report = solver_.solve(a, product_, std::span(step_).first(n), forcing);
   for (std::size_t i = 0; i < n; ++i)
     if (held[i]) step_[i] = 0;
   ghosts_.update(step_, 1);
@@ -79,10 +78,10 @@ void TruncatedNewton::multiply_exactly(std::span<double> step, std::span<double>
     if (held[i]) product[i] = 0;
 }
 
-/// Improves step_, which solves the symmetric system, to a solution of that with the derivative itself, by
-/// generalised conjugate residuals (S. C. Eisenstat, H. C. Elman and M. H. Schultz, SIAM J. Numer. Anal. 20
-/// (1983) 345): each direction solves the symmetric system for the residual that is left. Returns the linear
-/// iterations.
+/// Improves step_, which solves the symmetric system with the right-hand side in product_, to a solution of
+/// that with the derivative itself, by generalised conjugate residuals (S. C. Eisenstat, H. C. Elman and M.
+/// H. Schultz, SIAM J. Numer. Anal. 20 (1983) 345): each direction solves the symmetric system for the
+/// residual that is left. Returns the linear iterations.
 int TruncatedNewton::refine(std::span<const char> held, double forcing) {
   const std::size_t n = r_.size();
   const auto dot = [n](std::span<const double> a, std::span<const double> b) {
@@ -95,8 +94,8 @@ int TruncatedNewton::refine(std::span<const char> held, double forcing) {
   };
   std::vector<double> left(n);
   multiply_exactly(step_, left, held);
-  for (std::size_t i = 0; i < n; ++i) left[i] = b_[i] - left[i];
-  const double target = std::max(forcing, k_refined) * std::sqrt(dot(b_, b_));
+  for (std::size_t i = 0; i < n; ++i) left[i] = product_[i] - left[i];
+  const double target = std::max(forcing, k_refined) * std::sqrt(dot(product_, product_));
   struct Direction {
     std::vector<double> step, product;  ///< the products are orthonormal
   };

@@ -19,6 +19,7 @@ constexpr int k_holds = 20;              ///< and by temperatures out of range
 constexpr int k_idle = 4;  ///< such revisions that find no further nodes: what the tolerance has left goes
 constexpr double k_nearly = 1e-2;      ///< residual over the heat moved from which on limits are looked at
 constexpr double k_chord_worth = 0.5;  ///< share of the residual left up to which chords are used again
+constexpr double k_loosest = 0.1;      ///< forcing term of the inexact linear solves
 
 }  // namespace
 
@@ -28,6 +29,7 @@ TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, con
     : mesh_(mesh),
       system_(system),
       storage_(storage),
+      curves_(storage, system),
       solver_(solver),
       ghosts_(ghosts),
       options_(options),
@@ -36,13 +38,13 @@ TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, con
 }
 
 void TruncatedNewton::allocate() {
-  for (auto* v : {&diagonal_, &product_, &b_, &from_heat_, &from_temperature_, &from_}) v->resize(r_.size());
+  for (auto* v : {&diagonal_, &product_, &from_heat_, &from_temperature_, &from_}) v->resize(r_.size());
   step_.resize(mesh_.x.size());
   slope_.assign(mesh_.x.size(), 1.0);
 }
 
 void TruncatedNewton::release() {
-  for (auto* v : {&diagonal_, &product_, &b_, &from_heat_, &from_temperature_, &from_, &step_, &slope_})
+  for (auto* v : {&diagonal_, &product_, &from_heat_, &from_temperature_, &from_, &step_, &slope_})
     std::vector<double>().swap(*v);
   solver_.release();
 }
@@ -121,7 +123,7 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
   bool by_chords = false;
   double norm_before = 0;
   const int most = newton_steps > 0 ? newton_steps : options_.max_iterations;
-  linear::Forcing forcing(true);
+  linear::Forcing forcing(true, k_loosest);
   linear::NewtonReport report;
   bool revised = false, looked_ahead = false;
   evaluate();

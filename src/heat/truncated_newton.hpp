@@ -47,6 +47,7 @@
 #include "heat/heat_solver.hpp"
 #include "heat/heat_system.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "heat/node_curves.hpp"
 #include "linear/newton.hpp"
 
 namespace solidus::heat {
@@ -107,6 +108,7 @@ class TruncatedNewton {
   const mesh::Mesh& mesh_;
   HeatSystem& system_;
   const NodalEnthalpy& storage_;
+  const NodeCurves curves_;
   HeatSolver& solver_;
   const parallel::GhostExchange& ghosts_;
   TruncatedNewtonOptions options_;
@@ -120,8 +122,7 @@ class TruncatedNewton {
   std::vector<double> slope_;     ///< c = dv/dΘ where A was assembled, [local node]
   std::vector<double> diagonal_;  ///< of A, with the magnitudes of the couplings to other processes' nodes
   std::vector<double> step_;      ///< change of v, [local node]
-  std::vector<double> product_;   ///< A times it, [owned node]
-  std::vector<double> b_;         ///< right-hand side, [owned node]
+  std::vector<double> product_;   ///< A times it; before that the right-hand side, [owned node]
   std::vector<double> from_heat_, from_temperature_,
       from_;  ///< H, Θ and v where the search begins, [owned node]
   double norm_ = 0, moved_ = 0, round_off_ = 0, conductance_ = 0;

@@ -19,13 +19,12 @@ constexpr double k_short = 0.2;  ///< length of a step below which it is found a
 
 /// Takes the nodes to v + α δ from where the search begins.
 void TruncatedNewton::move(double alpha) {
-  const NodalPotential& potential = system_.potential();
   for (std::size_t i = 0; i < r_.size(); ++i) {
     if (step_[i] == 0) continue;
-    const auto node = static_cast<Index>(i);
-    const double t = potential.temperature(node, from_[i] + alpha * step_[i], from_temperature_[i]);
-    temperature_[i] = t;
-    heat_[i] = step_[i] < 0 ? storage_.upper(node, t) : storage_.lower(node, t);
+    const StorageCurve::AtPotential at =
+        curves_.at_potential(static_cast<Index>(i), from_[i] + alpha * step_[i], from_temperature_[i]);
+    temperature_[i] = at.temperature;
+    heat_[i] = step_[i] < 0 ? at.upper : at.lower;
   }
 }
 

@@ -24,27 +24,23 @@ double TruncatedNewton::relax(std::size_t i, double residual) {
   if (std::abs(residual) <= negligible_ || system_.fixed()[i] || (!relaxed_.empty() && relaxed_[i] == 0))
     return 0;
   const auto node = static_cast<Index>(i);
-  const NodalPotential& potential = system_.potential();
-  const double a = std::max(diagonal_[i], 0.0), h0 = heat_[i], v0 = potential.value(node, temperature_[i]);
-  NodalEnthalpy::Point at = storage_.point(node, h0);
-  double low = -HUGE_VAL, high = HUGE_VAL, h = h0, v = v0, defect = residual;
+  const double a = std::max(diagonal_[i], 0.0), h0 = heat_[i];
+  StorageCurve::AtHeat at = curves_.at_heat(node, h0);
+  const double v0 = at.potential;
+  double low = -HUGE_VAL, high = HUGE_VAL, h = h0, defect = residual;
   for (int trial = 0; trial < k_relaxations; ++trial) {
     (defect > 0 ? high : low) = h;
-    const double slope =
-        1.0 / dt_ + (at.slope > 0 ? a * at.slope * potential.slope(node, at.temperature) : 0.0);
-    double next = h - defect / slope;
+    double next = h - defect / (1.0 / dt_ + a * at.slope);
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     if (!std::isfinite(next) || next == h) break;
     h = next;
-    at = storage_.point(node, h);
-    v = potential.value(node, at.temperature);
-    defect = residual + (h - h0) / dt_ + a * (v - v0);
+    at = curves_.at_heat(node, h);
+    defect = residual + (h - h0) / dt_ + a * (at.potential - v0);
     if (std::abs(defect) <= k_relaxed * std::abs(residual)) break;
   }
-  const double t = at.temperature;
   heat_[i] = h;
-  temperature_[i] = t;
-  return v - v0;
+  temperature_[i] = at.temperature;
+  return at.potential - v0;
 }
 
 /// Visits all nodes in rising and then in falling order, with F of the linear A carried on in r_. A row has

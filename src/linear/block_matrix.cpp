@@ -104,8 +104,11 @@ multigrid::MatrixView BlockMatrix::view() const {
 /// PETSc keeps the columns of a row in global order, owned ones and ghosts apart; ours are in local order.
 void BlockMatrix::order_ghost_columns() {
   const auto global = [&](Slot s) { return mesh_.global_node[at(columns_[static_cast<std::size_t>(s)])]; };
-  ghost_start_.assign(1, 0);
+  ghost_start_.clear();
   ghost_slots_.clear();
+  if (mesh_.n_nodes() == mesh_.n_owned_nodes) return;
+  ghost_start_.reserve(at(mesh_.n_owned_nodes) + 1);
+  ghost_start_.push_back(0);
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
     const auto begin = ghost_slots_.size();
     for (Slot s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s)
@@ -309,6 +312,7 @@ void BlockMatrix::copy_to_petsc() {
         else
           for (int q = 0; q < bs; ++q) *to++ = from[q * bs + p];
       });
+      if (ghost_start_.empty()) continue;
       for (std::int64_t g = ghost_start_[at(row)]; g < ghost_start_[at(row) + 1]; ++g)
         to_ghosts = std::copy_n(block(ghost_slots_[static_cast<std::size_t>(g)]) + p * bs, bs, to_ghosts);
     }

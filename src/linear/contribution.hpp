@@ -35,6 +35,9 @@ class Contribution {
   virtual void add_tangent(std::span<const double> x, BlockMatrix& matrix) = 0;
   /// Whether the term stores what it takes, rather than passing it on.
   virtual bool stores() const { return false; }
+  /// For terms that exchange heat between nodes: from here on no heat passes from cold to hot at these nodes,
+  /// [local node], ghosts up to date; they add to those of earlier calls. Empty: everywhere as it is without.
+  virtual void limit_exchange(std::span<const char> /*nodes*/) {}
   /// For terms that store.
   virtual void begin_stage(const Stage& /*stage*/, std::span<const double> /*x*/) {}
 };

@@ -96,7 +96,7 @@ std::string Factorisation::failure(Mat matrix) const {
   if (lacks_workspace_)
     return "MUMPS lacks memory for the factors with a workspace of " + std::to_string(workspace_) +
            " per cent beyond its estimate (ICNTL(14))";
-  return "the matrix is singular (is every body held?)";
+  return "the matrix is singular";
 }
 
 }  // namespace solidus::linear

@@ -18,7 +18,7 @@ class Forcing {
  public:
   /// @param inexact  false: every system is solved as far as the linear solver goes
   /// @param loosest  η_max, 0.1 at most: the smaller, the more an iteration costs besides the linear solver
-  explicit Forcing(bool inexact, double loosest = 0.1) : inexact_(inexact), loosest_(loosest) {}
+  Forcing(bool inexact, double loosest) : inexact_(inexact), loosest_(loosest) {}
 
   /// η of the next linear system; zero for as far as the solver goes.
   /// @param norm  ‖r‖, or another measure whose fall from iteration to iteration is that of the residual

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 #include "linear/linear_solver_implementation.hpp"
 
@@ -85,11 +86,14 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
   if (my.rescue) return my.rescue->solve_again(b, x, forcing);
   my.set_tolerance(forcing);
   assert(my.matrix != nullptr);
-  const std::size_t n = [&] {
+  std::optional<PlacedArrays> placed;
+  if (my.matrix == my.shell) {
+    assert(b.data() != x.data());
+    placed.emplace(my.b, b, my.x, x);
+  } else {
     const WriteArray to(my.b);
     std::copy_n(b.data(), to.values().size(), to.values().data());
-    return to.values().size();
-  }();
+  }
 
   LinearReport report;
   const bool was_fresh = my.stale;
@@ -106,7 +110,11 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
   } else if (direct) {
     report.converged = my.refine(report);
   }
-  std::copy_n(ReadArray(my.x).values().data(), n, x.data());
+  if (!placed) {
+    const ReadArray from(my.x);
+    std::copy_n(from.values().data(), from.values().size(), x.data());
+  }
+  placed.reset();
   // MUMPS refuses the next factorisation once one has met a singular matrix: the next step gets a new one.
   if (direct && reason == KSP_DIVERGED_PC_FAILED) reset();
   return report;

@@ -71,11 +71,29 @@ struct ScaledMultigrid {
   }
 };
 
+/// Vectors of a solve that take the caller's arrays for their own until the end of the scope.
+class PlacedArrays {
+ public:
+  PlacedArrays(Vec b, std::span<const double> of_b, Vec x, std::span<double> of_x) : b_(b), x_(x) {
+    petsc::check(VecPlaceArray(b, of_b.data()), "VecPlaceArray");
+    petsc::check(VecPlaceArray(x, of_x.data()), "VecPlaceArray");
+  }
+  ~PlacedArrays() {
+    VecResetArray(b_);
+    VecResetArray(x_);
+  }
+  PlacedArrays(const PlacedArrays&) = delete;
+  PlacedArrays& operator=(const PlacedArrays&) = delete;
+
+ private:
+  Vec b_, x_;
+};
+
 struct LinearSolver::Implementation {
   const mesh::Mesh& mesh;
   LinearSolverOptions options;
   petsc::KspHandle ksp;
-  petsc::VecHandle b, x, residual, correction;
+  petsc::VecHandle b, x, residual, correction;  ///< b and x without arrays of their own for `shell`
   int rigid_components = 0;  ///< of displacements whose rigid-body modes cost no energy; zero: no such
   SolverKind kind = SolverKind::automatic;  ///< as asked for; PETSc options may choose another one
   bool reuse_hierarchy = false;  ///< the preconditioner is set up again only when iterations have grown
@@ -108,6 +126,7 @@ struct LinearSolver::Implementation {
   void create_multigrid(PC pc);
   bool splits_blocks() const;
   void create_split(Mat a, PC pc);
+  void create_vectors(Mat a);
   void create_factor(PC pc);
   void attach_modes(Mat a) const;
   bool is_direct() const;

@@ -14,7 +14,9 @@ namespace solidus::mechanics {
 void MechanicalPhase::reject(const std::string& reason, std::span<const double> x) {
   if (const std::string failure = law_failure(x); !failure.empty())
     throw StepRejected("mechanics: a constitutive law asks for a smaller step", failure);
-  throw StepRejected("mechanics: " + reason + flowing_body(x), worst_place(x));
+  std::string why = flowing_body(x);
+  if (why.empty() && reason.find("singular") != std::string::npos) why = "; is every body held?";
+  throw StepRejected("mechanics: " + reason + why, worst_place(x));
 }
 
 /// The body that flows in the largest part of its volume at x, where that is more than k_mechanism: its

@@ -45,7 +45,8 @@ std::string complaint_of(const InputError& error, const std::string& path) {
   return text.substr(0, text.find('\n'));
 }
 
-RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double enough) {
+/// @param kept  knows the way that was best for nearly the same mesh, which then comes first; may be null
+RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double enough, KeptMesh* kept) {
   const bool solids = is_cad(file_format(source.path));
   const int n_attempts = solids ? n_meshing_attempts() : n_faceted_attempts();
   const auto attempt_text = [&](int attempt) {
@@ -53,11 +54,11 @@ RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double 
   };
   std::optional<RawMesh> best;
   double best_quality = 0;
-  int best_way = 0;
+  int best_way = 0, tried = 0;
   std::vector<std::string> complaints;
-  const int n_cheap = solids ? n_cheap_meshing_attempts() : n_attempts;
-  for (geometry.attempt = 0; geometry.attempt < n_attempts; ++geometry.attempt) {
-    if (geometry.attempt >= n_cheap && best_quality >= k_usable_quality) break;
+  const auto attempt = [&](int way) {
+    geometry.attempt = way;
+    ++tried;
     try {
       RawMesh mesh = read_in_one_way(source, &geometry);
       if (enough > 0 && source.element_order == 1) smooth_poor_tetrahedra(mesh);
@@ -65,26 +66,49 @@ RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double 
       if (quality > best_quality) {
         best = std::move(mesh);
         best_quality = quality;
-        best_way = geometry.attempt;
+        best_way = way;
       }
-      if (best_quality >= enough) break;
-      complaints.push_back(attempt_text(geometry.attempt) + ": least quality " +
-                           std::to_string(quality).substr(0, 5));
+      if (best_quality >= enough) return;
+      complaints.push_back(attempt_text(way) + ": least quality " + std::to_string(quality).substr(0, 5));
     } catch (const InputError& error) {
-      complaints.push_back(attempt_text(geometry.attempt) + ": " + complaint_of(error, source.path));
+      complaints.push_back(attempt_text(way) + ": " + complaint_of(error, source.path));
     }
     logging::debug("meshing '{}', {}", source.path, complaints.back());
+  };
+  if (geometry.only_way.value_or(0) >= n_attempts)
+    throw InputError({source.path},
+                     "there is no way " + std::to_string(*geometry.only_way + 1) + " of meshing it",
+                     "1 to " + std::to_string(n_attempts));
+  double sufficient = enough;
+  std::optional<int> first = geometry.only_way;
+  if (const std::optional<KeptMesh::Way> before = kept != nullptr ? kept->way() : std::nullopt;
+      before && !first) {
+    // Where no way was good enough none will be now: then about as good as the best is all that one can have.
+    constexpr double k_about = 0.7;
+    sufficient = std::min(enough, k_about * before->quality);
+    first = before->number;
   }
+  if (first) attempt(*first);
+  const bool decided = geometry.only_way && best;
+  const int n_cheap = solids ? n_cheap_meshing_attempts() : n_attempts;
+  for (int way = 0; way < n_attempts && !decided && !(best && best_quality >= sufficient); ++way) {
+    if (way >= n_cheap && best_quality >= k_usable_quality) break;
+    if (way != first) attempt(way);
+  }
+  if (best && kept != nullptr) kept->keep_way({best_way, best_quality});
   if (!best) {
     std::string all;
     for (const std::string& complaint : complaints) all += "\n    " + complaint;
     throw InputError({source.path}, "the geometry could not be meshed in any of these ways:" + all,
                      "a geometry whose faces neither cross nor nearly touch there; other element sizes");
   }
-  if (best_quality < enough)
-    logging::warn("the best of {} ways to mesh '{}' has elements of quality {:.2g}; 0.15 is sound",
-                  geometry.attempt, source.path, best_quality);
-  else if (best_way > 0 && enough > 0)
+  if (best_quality < enough && geometry.only_way == best_way)
+    logging::warn("meshing '{}' in way {} ({}) gives elements of quality {:.2g}; 0.15 is sound", source.path,
+                  best_way + 1, attempt_text(best_way), best_quality);
+  else if (best_quality < enough)
+    logging::warn("the best of {} ways to mesh '{}' has elements of quality {:.2g}; 0.15 is sound", tried,
+                  source.path, best_quality);
+  else if (best_way > 0 && enough > 0 && !complaints.empty())
     logging::info("meshed in way {} ({}), after: {}", best_way + 1, attempt_text(best_way),
                   complaints.back());
   return std::move(*best);
@@ -129,10 +153,10 @@ RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double 
   require_gmsh(source.path);
   check_readable(source.path);
   KeptMesh* kept = KeptMesh::living();
-  if (kept == nullptr) return mesh_in_turn(source, std::move(geometry), enough);
+  if (kept == nullptr) return mesh_in_turn(source, std::move(geometry), enough, nullptr);
   std::string request = meshing_request(source, geometry, enough);
   if (const RawMesh* mesh = kept->find(request)) return *mesh;
-  RawMesh mesh = mesh_in_turn(source, std::move(geometry), enough);
+  RawMesh mesh = mesh_in_turn(source, std::move(geometry), enough, kept);
   kept->keep(std::move(request), mesh);
   return mesh;
 }

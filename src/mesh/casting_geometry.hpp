@@ -46,6 +46,8 @@ struct CastingGeometry {
   std::optional<HalfSpace> symmetry;
   /// Number of the meshing attempt, from zero: mesh_casting() tries them in turn.
   int attempt = 0;
+  /// The attempt that mesh_casting() makes first, and the only one where it gives a mesh.
+  std::optional<int> only_way;
 };
 
 /// Least quality (mesh/quality.hpp) of a mesh that is taken at once.
@@ -67,8 +69,8 @@ std::string faceted_attempt(int attempt);
 /// the other until every body has elements and the least quality is k_sound_quality, those that are much
 /// finer only where the least quality of the others is below k_usable_quality; else takes the best of those
 /// that gave a mesh, with a warning. The first way of those that succeeds is said where it is not the first
-/// of all. Each way is a reader process of its own. Throws InputError with the complaints of each way where
-/// none gives a mesh.
+/// of all. With `only_way` that way is taken where it gives a mesh. Each way is a reader process of its own.
+/// Throws InputError with the complaints of each way where none gives a mesh.
 /// @param enough  the least quality, 0 where any mesh will do
 RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double enough = k_sound_quality);
 

@@ -96,6 +96,13 @@ const std::vector<Known>& known_formats() {
   return known;
 }
 
+/// Null where no format has this ending.
+const Known* known_by_ending(const std::string& ending) {
+  for (const Known& known : known_formats())
+    if (std::ranges::find(known.endings, ending) != known.endings.end()) return &known;
+  return nullptr;
+}
+
 std::string all_endings() {
   std::string text;
   for (const Known& known : known_formats())
@@ -122,12 +129,14 @@ void check_readable(const std::string& path) {
   if (!std::ifstream(path)) throw InputError({path}, "the mesh file cannot be read");
 }
 
+bool is_mesh_name(const std::string& path) {
+  return known_by_ending(std::filesystem::path(path).extension().string()) != nullptr;
+}
+
 FileFormat file_format(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
-  const auto known = std::find_if(known_formats().begin(), known_formats().end(), [&](const Known& k) {
-    return std::find(k.endings.begin(), k.endings.end(), ending) != k.endings.end();
-  });
-  if (known == known_formats().end())
+  const Known* known = known_by_ending(ending);
+  if (known == nullptr)
     throw InputError({path},
                      ending.empty()
                          ? "the mesh file's name has no ending that says what the file is"

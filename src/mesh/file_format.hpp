@@ -28,6 +28,9 @@ enum class FileFormat {
 /// Throws InputError where there is no file of this name with something in it that can be read.
 void check_readable(const std::string& path);
 
+/// Whether the ending of a file's name is that of a geometry or a mesh.
+bool is_mesh_name(const std::string& path);
+
 /// The format of a regular file that exists and is not empty.
 /// Throws InputError where the name has no known ending or the content is not what the ending says.
 FileFormat file_format(const std::string& path);

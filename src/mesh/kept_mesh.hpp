@@ -1,7 +1,8 @@
 /// Keeps the mesh of a casting for who builds its case several times in a row, as `solidus new` does: the
-/// same geometry with the same sizes is then meshed once.
+/// same geometry with the same sizes is then meshed once, and with others in the way that was best before.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "mesh/casting_geometry.hpp"
@@ -23,7 +24,17 @@ class KeptMesh {
   const RawMesh* find(const std::string& request) const;
   void keep(std::string request, const RawMesh& mesh);
 
+  /// One of the ways to mesh, and the least quality of elements that it gave.
+  struct Way {
+    int number = 0;
+    double quality = 0;
+  };
+  /// The way of the last mesh, which had nearly the same sizes; none before the first.
+  std::optional<Way> way() const { return way_; }
+  void keep_way(Way way) { way_ = way; }
+
  private:
+  std::optional<Way> way_;
   std::string request_;
   RawMesh mesh_;
 };

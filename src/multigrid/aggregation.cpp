@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -181,31 +182,37 @@ void smooth(const MatrixView& a, const std::vector<Index>& of_row, Index n_coars
 /// The columns of this process's part of Pᵀ A P, sorted; rows of other processes too.
 void galerkin_pattern(const MatrixView& a, const BlockRows<float>& p, Index n_local,
                       BlockRows<double>& coarse) {
-  std::vector<std::vector<Index>> rows(at(n_local));
-  std::vector<std::size_t> compressed(at(n_local), 64);
+  // What every fine row reaches, and the fine rows of every coarse one: their union is its pattern.
+  std::vector<std::int64_t> start_of_reach{0}, start_of_rows(at(n_local) + 1, 0);
+  std::vector<Index> reach;
   RowSum reached(n_local, 0);
-  const auto compress = [](std::vector<Index>& list) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  };
   for (Index row = 0; row < a.n_rows(); ++row) {
     reached.clear();
     a.each(row, [&](Index j, std::int64_t, bool) {
       for (std::int64_t t = p.start[at(j)]; t < p.start[at(j) + 1]; ++t) reached.block(p.column[at(t)]);
     });
-    for (std::int64_t t = p.start[at(row)]; t < p.start[at(row) + 1]; ++t) {
-      const std::size_t to = at(p.column[at(t)]);
-      rows[to].insert(rows[to].end(), reached.columns().begin(), reached.columns().end());
-      if (rows[to].size() < compressed[to]) continue;
-      compress(rows[to]);
-      compressed[to] = std::max<std::size_t>(64, 2 * rows[to].size());
-    }
+    reach.insert(reach.end(), reached.columns().begin(), reached.columns().end());
+    start_of_reach.push_back(static_cast<std::int64_t>(reach.size()));
+    for (std::int64_t t = p.start[at(row)]; t < p.start[at(row) + 1]; ++t)
+      ++start_of_rows[at(p.column[at(t)]) + 1];
   }
-  for (auto& list : rows) {
-    compress(list);
-    coarse.column.insert(coarse.column.end(), list.begin(), list.end());
+  std::partial_sum(start_of_rows.begin(), start_of_rows.end(), start_of_rows.begin());
+  std::vector<Index> rows(at(start_of_rows.back()));
+  std::vector<std::int64_t> next(start_of_rows.begin(), start_of_rows.end() - 1);
+  for (Index row = 0; row < a.n_rows(); ++row)
+    for (std::int64_t t = p.start[at(row)]; t < p.start[at(row) + 1]; ++t)
+      rows[at(next[at(p.column[at(t)])]++)] = row;
+  for (std::size_t to = 0; to < at(n_local); ++to) {
+    reached.clear();
+    for (std::int64_t k = start_of_rows[to]; k < start_of_rows[to + 1]; ++k) {
+      const std::size_t row = at(rows[at(k)]);
+      for (std::int64_t t = start_of_reach[row]; t < start_of_reach[row + 1]; ++t)
+        reached.block(reach[at(t)]);
+    }
+    const std::size_t begin = coarse.column.size();
+    coarse.column.insert(coarse.column.end(), reached.columns().begin(), reached.columns().end());
+    std::sort(coarse.column.begin() + static_cast<std::ptrdiff_t>(begin), coarse.column.end());
     coarse.start.push_back(static_cast<std::int64_t>(coarse.column.size()));
-    std::vector<Index>().swap(list);
   }
   coarse.value.assign(coarse.column.size() * at(coarse.block_entries()), 0.0);
 }

@@ -83,7 +83,8 @@ class Choice {
               "of its box at {:.4g} mm",
               options_.symmetry, 1e3 * first / whole, 1e3 * middle),
           "an axis normal to a plane of symmetry");
-    draft_.symmetry = {static_cast<int>(axis), middle};
+    // A cut beside the plane that faces and edges of the part lie on would leave slivers.
+    draft_.symmetry = {static_cast<int>(axis), round_place(middle, part_.high[axis] - part_.low[axis])};
   }
 
   /// Sizes for about 3500 nodes of metal, with two elements through walls where those suffice. Of a part that

@@ -42,6 +42,11 @@ class Refinement {
         write_draft(draft_);
         if (good) break;
       }
+      // Every run would try the same ways again.
+      if (const auto way = kept.way(); way && (way->number > 0 || way->quality < mesh::k_sound_quality)) {
+        draft_.way = way->number + 1;
+        write_draft(draft_);
+      }
       if (draft_.coupled) check_run(load_case(draft_.folder / "case.toml", {}, Physics::thermomechanical));
     } catch (...) {
       logging::set_level(level);

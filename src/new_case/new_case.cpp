@@ -41,8 +41,20 @@ material::Material alloy_of(const NewCaseOptions& options, const CastingProcess&
 /// "98.8 cm3 in a box of 100 x 54 x 71 mm": by which one tells bodies without names apart.
 std::string size_text(const mesh::BodyExtent& extent) {
   const auto side = [&](std::size_t i) { return 1e3 * (extent.high[i] - extent.low[i]); };
-  return fmt::format("{:.3g} cm3 in a box of {:.4g} x {:.4g} x {:.4g} mm", 1e6 * extent.volume, side(0),
-                     side(1), side(2));
+  const double volume = 1e6 * extent.volume;
+  const std::string digits = volume < 1000 ? fmt::format("{:.3g}", volume) : fmt::format("{:.0f}", volume);
+  return fmt::format("{} cm3 in a box of {:.4g} x {:.4g} x {:.4g} mm", digits, side(0), side(1), side(2));
+}
+
+/// A note where the parts are so large or so small that their unit is in doubt; empty where they are not.
+std::string doubtful_unit_text(const NewCaseOptions& options, const PartMeasures& part) {
+  constexpr double k_large = 5, k_small = 6e-3;
+  double largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) largest = std::max(largest, part.high[i] - part.low[i]);
+  if (largest <= k_large && largest >= k_small) return "";
+  return fmt::format("\n  note        {} large, for lengths of the file in {}: --unit takes another unit",
+                     largest > 1 ? fmt::format("{:.3g} m", largest) : fmt::format("{:.3g} mm", 1e3 * largest),
+                     options.unit);
 }
 
 /// A note where walls have less than two elements through them; empty where they have.
@@ -57,7 +69,40 @@ std::string thin_walls_text(const Draft& draft, const PartMeasures& part) {
           : fmt::format(": enough for when and where it freezes last; --fineness {:.2g} gives two", finer));
 }
 
-std::string report(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate) {
+/// A note where several bodies are castings because neither their names nor `--as` say what they are: a core
+/// of a file without names would be poured. Empty where there is one casting, or all are known.
+std::string unknown_bodies_text(const Draft& draft, const std::vector<std::string>& as) {
+  int castings = 0;
+  std::string unknown, last;
+  for (const DraftBody& body : draft.bodies) {
+    if (body.role != Role::casting) continue;
+    ++castings;
+    const auto said = [&](const std::string& text) { return text.starts_with(body.group + "="); };
+    if (role_in_name(body.group) || std::ranges::any_of(as, said)) continue;
+    unknown += (unknown.empty() ? "" : ", ") + body.name;
+    last = body.group;
+  }
+  if (castings < 2 || unknown.empty()) return "";
+  return fmt::format(
+      "\n  note        no name says what these are, so they are poured: {}; else, for example: --as {}=core",
+      unknown, last);
+}
+
+/// A note where half of the part has a riser beside the plane: the whole part then has two. Empty where not.
+std::string twin_riser_text(const Draft& draft) {
+  if (!draft.riser || !draft.symmetry) return "";
+  const double beside =
+      draft.symmetry->at - draft.riser->foot[static_cast<std::size_t>(draft.symmetry->axis)];
+  if (beside < 0.05 * draft.riser->diameter) return "";
+  return fmt::format(
+      "\n  note        the riser stands {:.3g} mm beside the plane of symmetry: with its mirror image there "
+      "are "
+      "two; for one set its `foot` onto the plane",
+      1e3 * beside);
+}
+
+std::string report(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate,
+                   const NewCaseOptions& options) {
   std::string out = fmt::format("{}: {} at {:.0f} degC, process {}", draft.geometry.filename().string(),
                                 draft.alloy, draft.pouring, draft.process);
   for (const DraftBody& body : draft.bodies) {
@@ -75,6 +120,9 @@ std::string report(const Draft& draft, const PartMeasures& part, const DraftEsti
   if (draft.riser)
     out += fmt::format("\n  riser       {:.3g} mm wide, {:.3g} mm high", 1e3 * draft.riser->diameter,
                        1e3 * draft.riser->height);
+  if (draft.symmetry)
+    out += fmt::format("\n  symmetry    the half below {} = {:.4g} mm is computed",
+                       "xyz"[draft.symmetry->axis], 1e3 * draft.symmetry->at);
   if (draft.mould)
     out += fmt::format("\n  mould       walls of {:.3g} mm{}",
                        1e3 * *std::ranges::max_element(draft.mould->walls),
@@ -86,11 +134,14 @@ std::string report(const Draft& draft, const PartMeasures& part, const DraftEsti
           : fmt::format("elements of {:.3g} to {:.3g} mm there", 1e3 * draft.smallest, 1e3 * draft.size));
   if (estimate.freezing > 0)
     out += fmt::format(
-        "\n  freezes     in about {:.2g} s by an estimate of one dimension; {}", estimate.freezing,
+        "\n  freezes     in about {:g} s by an estimate of one dimension; {}", two_digits(estimate.freezing),
         draft.shots
-            ? fmt::format("it leaves the die after {:.3g} s, {} times",
+            ? fmt::format("it leaves the die after {:g} s, {} times",
                           draft.shots->pour + draft.shots->solidify + draft.shots->open, draft.shots->number)
-            : fmt::format("the run ends when it has, at {:.3g} s at the latest", draft.end));
+            : fmt::format("the run ends when it has, at {:g} s at the latest", draft.end));
+  out += twin_riser_text(draft);
+  out += doubtful_unit_text(options, part);
+  out += unknown_bodies_text(draft, options.as);
   if (!draft.meshed) out += thin_walls_text(draft, part);
   if (draft.process == "shell" && draft.mould)
     out += "\n  note        the shell is a block around the part with thin walls, not an offset of its skin";
@@ -112,7 +163,7 @@ NewCaseReport make_new_case(const NewCaseOptions& options) {
   draft.folder = folder;
   write_draft(draft);
   const DraftEstimate estimate = refine_draft(draft, process, options.fineness);
-  return {draft.folder / "case.toml", report(draft, part, estimate)};
+  return {draft.folder / "case.toml", report(draft, part, estimate, options)};
 }
 
 }  // namespace solidus::model

@@ -30,7 +30,11 @@ bool is_metal(const DraftBody& body) {
 
 std::string mesh_text(const Draft& d) {
   std::string t =
-      fmt::format("[mesh]\nfile = {}\nunit = {}\n\n", quoted(d.geometry.filename().string()), quoted(d.unit));
+      fmt::format("[mesh]\nfile = {}\nunit = {}\n", quoted(d.geometry.filename().string()), quoted(d.unit));
+  if (d.way > 0)
+    t += fmt::format(
+        "way = {}   # of meshing, the best of those tried; without this line all are tried again\n", d.way);
+  t += "\n";
   if (d.meshed) return t + "# Elements are those of the file.\n\n";
   t += "# Elements: the largest, and the smallest in thin walls. Half the size is about eight times the "
        "time.\n";

@@ -49,6 +49,7 @@ struct Draft {
   std::string unit, process, alloy, law;
   bool coupled = true;  ///< the alloy has elastic properties
   bool meshed = false;  ///< the file holds the elements of parts and mould
+  int way = 0;          ///< of meshing, from one, where it is written into the case; 0: it is not
   double pouring = 0, liquidus = 0, superheat = 0;
   double size = 0, smallest = 0, mould_size = 0;
   std::vector<DraftBody> bodies;

@@ -49,6 +49,7 @@ py::dict dict_of(const coupling::StepRecord& record) {
   d["step"] = record.dt;
   d["reason"] = record.reason;
   d["rejected"] = record.rejected;
+  d["shortened"] = record.shortened;
   d["rejection"] = record.rejection;
   d["output"] = record.output;
   d["stage"] = record.stage;

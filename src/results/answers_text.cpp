@@ -148,7 +148,7 @@ struct Line {
 };
 constexpr Line k_lines[] = {{"longest local solidification time", "local_solidification_time_max", "s", 1},
                             {"largest arm spacing", "secondary_arm_spacing_max", "um", 1e6},
-                            {"least Niyama", "niyama_min", "K0.5 s0.5/mm", 1e-3},
+                            {"least Niyama", "niyama_min", "sqrt(K s)/mm", 1e-3},
                             {"least dimensionless Niyama", "dimensionless_niyama_min", "", 1},
                             {"largest estimate of porosity", "shrinkage_porosity_max", "%", 100}};
 

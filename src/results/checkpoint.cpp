@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_format = "Solidus checkpoint 14";
+constexpr const char* k_format = "Solidus checkpoint 15";
 constexpr const char* k_known = "known";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
@@ -38,7 +38,8 @@ void each_number(C& c, const Visit& visit) {
   auto& e = c.energy;
   auto& l = c.stability;
   const auto all = [&visit](auto&... n) { (visit(n), ...); };
-  all(c.state.time, k.steps, c.rejected, c.state.mechanics.dt_before, k.stage.number, k.stage.time);
+  all(c.state.time, k.steps, c.rejected, c.shortened, c.state.mechanics.dt_before, k.stage.number,
+      k.stage.time);
   all(k.control.size, k.control.refused, k.control.refused_ratio, k.control.before_refusal, k.rates.changed);
   all(o.step, o.adaptive, o.min_step, o.max_step, o.growth, o.cut, o.easy_iterations);
   all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.solid_fraction,

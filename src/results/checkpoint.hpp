@@ -23,7 +23,7 @@ struct Checkpoint {
   coupling::State state;
   coupling::Continuation continuation;
   coupling::EnergyAudit energy;             ///< summed over the steps so far
-  int rejected = 0;                         ///< steps so far
+  int rejected = 0, shortened = 0;          ///< tries so far
   coupling::StabilityAudit stability = {};  ///< summed likewise
 };
 
@@ -32,7 +32,7 @@ struct CheckpointView {
   const coupling::State& state;
   const coupling::Continuation& continuation;
   const coupling::EnergyAudit& energy;
-  int rejected;
+  int rejected, shortened;
   const coupling::StabilityAudit& stability;
 };
 

@@ -179,6 +179,13 @@ std::string lag_line(double step, double end) {
   return text;
 }
 
+std::string heat_lag_line(double heat_lag, double steps) {
+  return fmt::format(
+      "\n  lag         temperatures are late by {} of a step, where deformation takes up heat: {} % of what "
+      "changes evenly",
+      number(heat_lag), number(100 * heat_lag / steps));
+}
+
 }  // namespace
 
 std::string text(const Overview& o) {
@@ -190,6 +197,8 @@ std::string text(const Overview& o) {
                   number(o.effort.steps_known ? o.effort.steps : rounded(o.effort.steps)),
                   duration(rounded(o.effort.seconds)), 1e-9 * o.effort.bytes);
   if (o.lag) text += lag_line(*o.lag, o.end);
+  constexpr double k_worth_a_line = 1e-3;  // of what changes evenly
+  if (o.heat_lag > k_worth_a_line * o.effort.steps) text += heat_lag_line(o.heat_lag, o.effort.steps);
   return text;
 }
 

@@ -75,6 +75,9 @@ struct Overview {
   /// step [s]; zero: the step that is chosen.
   std::optional<double> lag;
   double end = 0;  ///< of the run [s]
+  /// The steps by which temperatures lag where deformation takes up heat, in schemes that conduct before it
+  /// does.
+  double heat_lag = 0;
 };
 
 /// The table that `check` prints: aligned lines, each beginning with a line break and two blanks.

@@ -286,6 +286,7 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
     sample.weights = of_elements();
   } else {
     const mesh::NodalFunctional mean = mesh::group_mean(mesh, probe.group, kind);
+    sample.weights.reserve(mean.nodes.size());
     for (std::size_t a = 0; a < mean.nodes.size(); ++a)
       sample.weights.emplace_back(static_cast<std::size_t>(mean.nodes[a]), mean.weights[a]);
   }

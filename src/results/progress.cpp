@@ -30,7 +30,8 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
-Progress::Progress(std::ostream& out, ProgressOptions options) : out_(out), options_(std::move(options)) {
+Progress::Progress(std::ostream& out, ProgressOptions options)
+    : out_(out), options_(std::move(options)), remaining_(options_.start, options_.largest_step) {
   if (!options_.clock)
     options_.clock = [] {
       return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -40,6 +41,7 @@ Progress::Progress(std::ostream& out, ProgressOptions options) : out_(out), opti
 void Progress::begin(double heat_content) {
   heat_content_ = heat_content;
   began_ = options_.clock();
+  remaining_.step(options_.start, began_);
   std::string head = fmt::format("{:>6} {:>11} {:>9}", "step", "time [s]", "dt [s]");
   if (options_.heat) head += fmt::format(" {:>4} {:>8}", "heat", "residual");
   if (options_.mechanics) head += fmt::format(" {:>4} {:>8}", "mech", "residual");
@@ -49,9 +51,24 @@ void Progress::begin(double heat_content) {
   line(head + fmt::format(" {:>12}  {}", "left", "why this step"));
 }
 
-double Progress::seconds_left(double time) const {
-  const double done = time - options_.start;
-  return done > 0 ? (options_.clock() - began_) * (options_.end - time) / done : 0;
+double Progress::share_done(const coupling::StepRecord& record) {
+  const double span = options_.end - options_.start;
+  const double of_time = span > 0 ? std::clamp((record.time - options_.start) / span, 0.0, 1.0) : 1.0;
+  if (!options_.until_solid) return of_time;
+  if (!solid_at_start_) solid_at_start_ = options_.start > 0 ? record.solid_fraction : 0;
+  const double liquid_at_start = 1 - *solid_at_start_;
+  const double of_melt =
+      liquid_at_start > 0 ? (record.solid_fraction - *solid_at_start_) / liquid_at_start : 1.0;
+  return std::clamp(of_melt, of_time, 1.0);
+}
+
+std::string Progress::left_text(const coupling::StepRecord& record, double share) const {
+  const double done = record.time - options_.start;
+  const double end = share > 0 ? options_.start + done / share : options_.end;
+  double seconds = remaining_.seconds_until(end);
+  // The steps of a die begin anew with every shot: those of the whole run tell more than the last ones.
+  if (record.cycle > 0 && share > 0) seconds = (options_.clock() - began_) * (1 - share) / share;
+  return seconds < 0 ? "-" : duration_text(seconds);
 }
 
 void Progress::step(const coupling::StepRecord& record) {
@@ -70,12 +87,23 @@ void Progress::step(const coupling::StepRecord& record) {
   }
   if (options_.heat)  // of all steps together
     text += fmt::format(" {:>8.1e}", coupling::relative_defect(sum_, heat_content_));
-  text += fmt::format(" {:>12}  {}", duration_text(seconds_left(record.time)), record.reason);
+  if (record.stage != stage_) remaining_.begin_anew();
+  stage_ = record.stage;
+  remaining_.step(record.time, options_.clock());
+  const double share = share_done(record);
+  const std::string left = left_text(record, share);
+  text += fmt::format(" {:>12}  {}", left, record.reason);
   if (!record.stage.empty()) text += ", " + record.stage;
   if (record.cycle > 0) text += fmt::format(" {}", record.cycle);
-  if (record.rejected > 0) text += fmt::format(" ({} rejected: {})", record.rejected, record.rejection);
+  if (record.rejected + record.shortened > 0) {
+    std::string tries;
+    if (record.rejected > 0) tries = fmt::format("{} rejected", record.rejected);
+    if (record.shortened > 0)
+      tries += fmt::format("{}{} shortened", tries.empty() ? "" : ", ", record.shortened);
+    text += fmt::format(" ({}: {})", tries, record.rejection);
+  }
   line(text);
-  if (options_.terminal) draw_bar(record.time);
+  if (options_.terminal) draw_bar(share, left);
 }
 
 void Progress::end(const std::string& outcome, const std::string& profile) {
@@ -91,13 +119,11 @@ void Progress::line(const std::string& text) {
   out_ << text << '\n' << std::flush;
 }
 
-void Progress::draw_bar(double time) {
-  const double span = options_.end - options_.start;
-  const double share = span > 0 ? std::clamp((time - options_.start) / span, 0.0, 1.0) : 1.0;
+void Progress::draw_bar(double share, const std::string& left) {
   const auto full = static_cast<std::size_t>(std::lround(share * options_.width));
   const auto rest = static_cast<std::size_t>(options_.width) - full;
   out_ << fmt::format("[{}{}] {:3.0f} %  {} left", std::string(full, '='), std::string(rest, ' '),
-                      100 * share, duration_text(seconds_left(time)))
+                      100 * share, left)
        << std::flush;
   bar_ = true;
 }

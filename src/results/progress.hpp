@@ -2,10 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <ostream>
 #include <string>
 
 #include "coupling/observer.hpp"
+#include "results/remaining_time.hpp"
 
 namespace solidus::results {
 
@@ -17,10 +19,12 @@ bool is_terminal(int descriptor);
 std::string duration_text(double seconds);
 
 struct ProgressOptions {
-  double start = 0, end = 0;                                           ///< simulated time [s]
+  double start = 0, end = 0;  ///< simulated time [s]
+  bool until_solid = false;   ///< the run ends when all that was poured is solid, which may be before `end`
   bool heat = true, mechanics = true, contact = true, melting = true;  ///< which columns the run has
-  bool terminal = false;  ///< draw the bar, which rewrites its own line
-  int width = 40;         ///< of the bar, in characters
+  double largest_step = 0;  ///< that an adaptive run may take [s]; 0 where steps are equal
+  bool terminal = false;    ///< draw the bar, which rewrites its own line
+  int width = 40;           ///< of the bar, in characters
   /// Seconds since some moment; empty: the machine's steady clock. Tests bring their own.
   std::function<double()> clock;
 };
@@ -42,15 +46,21 @@ class Progress {
 
  private:
   void line(const std::string& text);
-  void draw_bar(double time);
-  double seconds_left(double time) const;
+  void draw_bar(double share, const std::string& left);
+  /// How much of the run is behind, 0 to 1: of its time, or of the solidification where that ends it.
+  double share_done(const coupling::StepRecord& record);
+  /// "12 s", or "-" where nothing is known yet.
+  std::string left_text(const coupling::StepRecord& record, double share) const;
 
   std::ostream& out_;
   ProgressOptions options_;
   double began_ = 0;
-  bool bar_ = false;           ///< a bar stands on the present line
-  coupling::EnergyAudit sum_;  ///< over all steps
-  double heat_content_ = 0;    ///< at the start [J]
+  RemainingTime remaining_;
+  std::string stage_;                     ///< of the last step
+  std::optional<double> solid_at_start_;  ///< share that was solid where a run that goes on began
+  bool bar_ = false;                      ///< a bar stands on the present line
+  coupling::EnergyAudit sum_;             ///< over all steps
+  double heat_content_ = 0;               ///< at the start [J]
 };
 
 }  // namespace solidus::results

@@ -169,6 +169,7 @@ void Recorder::begin(const coupling::State& state) {
                    heat_of_bodies(state));
     options_.summary.steps = options_.continue_from->continuation.steps;
     options_.summary.rejected = options_.continue_from->rejected;
+    options_.summary.shortened = options_.continue_from->shortened;
     last_row_ = history_row(state);
     // Stresses follow with the first step: a run that stops before it ends with the row that it has.
     on_first_process([&] {
@@ -207,6 +208,7 @@ void Recorder::step(const coupling::StepRecord& taken, const coupling::State& st
   seconds_output_ += processes::wall_time() - start;
   options_.summary.steps = record.number;
   options_.summary.rejected += record.rejected;
+  options_.summary.shortened += record.shortened;
   note_left_walls(record);
 }
 
@@ -249,9 +251,9 @@ void Recorder::note_left_walls(const coupling::StepRecord& record) {
 void Recorder::checkpoint(const coupling::Continuation& continuation, const coupling::State& state) {
   const profile::Part part("checkpoints");
   const double start = processes::wall_time();
-  checkpoints_.write(
-      mesh_, options_.fingerprint,
-      {state, continuation, globals_.energy(), options_.summary.rejected, globals_.stability()});
+  checkpoints_.write(mesh_, options_.fingerprint,
+                     {state, continuation, globals_.energy(), options_.summary.rejected,
+                      options_.summary.shortened, globals_.stability()});
   seconds_output_ += processes::wall_time() - start;
 }
 

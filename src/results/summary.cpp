@@ -118,6 +118,7 @@ std::string summary_json(const Summary& s) {
       .add("mesh", std::move(mesh))
       .add("steps", s.steps)
       .add("rejected_steps", s.rejected)
+      .add("shortened_steps", s.shortened)
       .add("end_time[s]", s.end_time)
       .add("seconds", object(s.seconds))
       .add("profile[s]", std::move(profile))

@@ -56,7 +56,7 @@ struct Summary {
   std::string outcome;  ///< "finished", or "stopped: " with the reason
   int processes = 1;
   MeshCounts mesh;
-  int steps = 0, rejected = 0;
+  int steps = 0, rejected = 0, shortened = 0;           ///< StepRecord
   double end_time = 0;                                  ///< time reached [s]
   std::vector<std::pair<std::string, double>> seconds;  ///< by phase; "total" is the wall time
   /// Wall time of process 0 by parts of the program, which add up to `profile_total` (system/profile.hpp)

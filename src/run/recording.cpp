@@ -4,6 +4,7 @@
 
 #include "build/cast_bodies.hpp"
 #include "build/run_input.hpp"
+#include "build/time_input.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::model {
@@ -13,6 +14,15 @@ namespace {
 bool melts(const std::vector<material::Material>& materials) {
   return std::any_of(materials.begin(), materials.end(),
                      [](const material::Material& m) { return m.solidification() != nullptr; });
+}
+
+/// The largest step that an adaptive run may take [s]; 0 where steps are equal.
+double largest_adaptive_step(const CaseSpec& spec) {
+  if (!spec.time.adaptive || spec.time.steady) return 0;
+  const coupling::TimeOptions time = time_options(spec);
+  double largest = time.stages.empty() ? time.step.largest() : 0;
+  for (const coupling::Stage& stage : time.stages) largest = std::max(largest, stage.step.largest());
+  return largest;
 }
 
 }  // namespace
@@ -43,10 +53,12 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.castings = cast_bodies(spec, a.materials, a.start);
   r.units = {spec.output.length_unit, spec.output.temperature_unit, spec.output.stress_unit};
   r.progress_options.end = spec.time.end.value_or(0);
+  r.progress_options.until_solid = spec.time.until == TimeSpec::Until::solid;
   r.progress_options.heat = spec.has_heat();
   r.progress_options.mechanics = spec.has_mechanics();
   r.progress_options.contact = !spec.contacts.empty();
   r.progress_options.melting = r.melting = spec.has_heat() && melts(a.materials);
+  r.progress_options.largest_step = largest_adaptive_step(spec);
   r.progress_options.terminal = options.terminal;
   r.summary.case_file = c.file.string();
   r.summary.variant = results::default_run_folder(c.file).filename().string();

@@ -136,7 +136,8 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
   if (from) {
     r.progress_options.start = from->state.time;
     // A state is large: of this one the recorder asks for the time.
-    r.continue_from = {{}, from->continuation, from->energy, from->rejected, from->stability};
+    r.continue_from = {
+        {}, from->continuation, from->energy, from->rejected, from->shortened, from->stability};
     r.continue_from->state.time = from->state.time;
   }
   for (const results::ChosenMelt& melt : r.summary.melt)

@@ -12,6 +12,7 @@
 #include "run/audit_watch.hpp"
 #include "run/bounds_watch.hpp"
 #include "run/dissipation_watch.hpp"
+#include "run/gap_watch.hpp"
 #include "run/range_watch.hpp"
 #include "run/run.hpp"
 
@@ -60,6 +61,7 @@ class Transient {
   FirstLawWatch first_law_;
   WallWatch walls_;
   LagWatch lag_;
+  GapWatch gaps_;
   std::unique_ptr<coupling::ShotMap> shots_;
   StopReason why_;
 };

@@ -35,7 +35,7 @@ liquidus = "660 degC"
 fraction_exponent = 1.5
 )";
 
-const std::string k_case = R"(title = "Two blocks, the upper one freezes and slides"
+const std::string k_case = R"(title = "Two blocks, the upper one is mushy and coherent, freezes and slides"
 [analysis]
 kind = "plane_strain"
 [mesh]
@@ -54,7 +54,7 @@ every = "4 s"
 [[body]]
 name = "upper"
 material = "alloy.toml"
-initial_temperature = "670 degC"
+initial_temperature = "615 degC"
 [[body]]
 name = "lower"
 material = "steel_mould"
@@ -74,6 +74,11 @@ name = "left above"
 group = "upper_x_min"
 kind = "displacement"
 ux = "0 mm"
+[[mechanical_condition]]
+name = "weight"
+group = "upper_y_max"
+kind = "pressure"
+pressure = "50 kPa"
 [[contact]]
 name = "interface"
 slave = "upper_bottom"

@@ -164,4 +164,95 @@ TEST(ChilledMelt, GetsNoHotterWhereItRubsOnItsMould) {
   EXPECT_LT(*std::ranges::max_element(run.history.at("T_max[degC]")), 1551.2);
 }
 
+/// Melt meets a cold mould through quadratic faces in steps much shorter than heat needs to cross an element.
+const std::string k_first_moment = R"(title = "The first moment of a chill"
+[analysis]
+kind = "solid"
+physics = "heat"
+[mesh]
+shape = "two_blocks"
+element = "hex20"
+[mesh.two_blocks]
+lower = ["21.1 mm", "21.1 mm", "5.98 mm"]
+lower_divisions = [1, 2, 1]
+upper = ["21.1 mm", "21.1 mm", "6.9 mm"]
+upper_divisions = [1, 1, 1]
+[time]
+end = "0.3 s"
+step = "0.06 s"
+[[body]]
+name = "upper"
+material = "aluminium_99_7"
+initial_temperature = "685 degC"
+[[body]]
+name = "lower"
+material = "h13_tool_steel"
+initial_temperature = "200 degC"
+[[contact]]
+name = "interface"
+slave = "upper_bottom"
+master = "lower_top"
+[contact.heat]
+contact_law = "power"
+gap_law = "constant"
+conductance = "2 kW/m2/K"
+)";
+
+TEST(ChilledMelt, GetsNoHotterThroughQuadraticFaces) {
+  for (const std::string integration : {"gauss", "segments", "nodal"}) {
+    const auto run = k_here.run("first_moment_" + integration, k_first_moment,
+                                {"contact.interface.integration=\"" + integration + "\""});
+    ASSERT_TRUE(run.finished) << run.reason;
+    // 686.5 degC before, by Gauss points.
+    EXPECT_LT(*std::ranges::max_element(run.history.at("T_max[degC]")), 685 + 1e-6) << integration;
+    EXPECT_GT(*std::ranges::min_element(run.history.at("T_min[degC]")), 200 - 1e-6) << integration;
+  }
+}
+
+/// Two stages of second order overshoot where a step is long against the time of freezing: melt that was
+/// chilled for six times as long as it needs to freeze ended 140 K below its chill.
+const std::string k_long_steps = R"(title = "A plate that is chilled from above, in long steps"
+[analysis]
+kind = "plane_strain"
+[mesh]
+shape = "block"
+element = "quad4"
+[mesh.block]
+size = ["18 mm", "17 mm"]
+divisions = [3, 1]
+[time]
+end = "800 s"
+step = "160 s"
+[[body]]
+name = "block"
+material = "aluminium_1070"
+initial_temperature = "900 degC"
+[[thermal_condition]]
+name = "chill"
+group = "y_max"
+kind = "temperature"
+temperature = "100 degC"
+[[mechanical_condition]]
+name = "left"
+group = "x_min"
+kind = "displacement"
+ux = "0 mm"
+[[mechanical_condition]]
+name = "top"
+group = "y_max"
+kind = "displacement"
+uy = "0 mm"
+[coupling]
+scheme = "simultaneous"
+integration = "sdirk2"
+)";
+
+TEST(ChilledMelt, StaysAboveItsChillInTwoStagesOfALongStep) {
+  const auto run = k_here.run("long_steps", k_long_steps);
+  ASSERT_TRUE(run.finished) << run.reason;
+  // What deformation cools is below a kelvin.
+  EXPECT_GT(*std::ranges::min_element(run.history.at("T_min[degC]")), 99);
+  EXPECT_LT(*std::ranges::max_element(run.history.at("T_max[degC]")), 901);
+}
+
 }  // namespace

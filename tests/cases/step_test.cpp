@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "case_run.hpp"
+#include "mesh/kept_mesh.hpp"
 #include "new_case/new_case.hpp"
 
 namespace {
@@ -161,6 +162,37 @@ TEST(NewCase, OfAHollowPartHasAMouldACoreARiserAndRunsBothWays) {
   }
   EXPECT_NEAR(metal, (96e-6 - 8e-6) / 2, 1e-10);
   EXPECT_THROW(solidus::model::make_new_case(options), solidus::InputError);  // there is a case already
+}
+
+TEST(NewCase, MeshesNearlyTheSameInTheWayThatWasBestBefore) {
+  namespace mesh = solidus::mesh;
+  const mesh::MeshSource source{hollow_box().string(), 1e-3};
+  mesh::KeptMesh kept;
+  mesh::mesh_casting(source, {}, 0.15);
+  ASSERT_TRUE(kept.way());
+  EXPECT_EQ(kept.way()->number, 0);
+  EXPECT_GT(kept.way()->quality, 0.15);
+  kept.keep_way({2, 0.3});
+  mesh::mesh_casting(source, {}, 0.14);
+  EXPECT_EQ(kept.way()->number, 2);
+  // A quality that no way gave before is not looked for in all of them again.
+  kept.keep_way({1, 0.1});
+  mesh::mesh_casting(source, {}, 1);
+  EXPECT_EQ(kept.way()->number, 1);
+}
+
+TEST(NewCase, TheWayOfMeshingThatACaseNamesIsTheOnlyOne) {
+  namespace mesh = solidus::mesh;
+  const mesh::MeshSource source{hollow_box().string(), 1e-3};
+  mesh::CastingGeometry geometry;
+  geometry.only_way = 1;
+  {
+    mesh::KeptMesh kept;
+    mesh::mesh_casting(source, geometry, 1);  // no mesh has this quality
+    EXPECT_EQ(kept.way()->number, 1);
+  }
+  geometry.only_way = mesh::n_meshing_attempts();
+  EXPECT_THROW(mesh::mesh_casting(source, geometry), solidus::InputError);
 }
 
 TEST(NewCase, SaysThatAPartIsNotSymmetric) {

@@ -19,8 +19,12 @@ PARTS = [
     ("tests/parts/flange.step", "nodular_iron", "sand"),
     ("tests/parts/gear_case.step", "aluminium_alsi9cu3", "high_pressure"),
     ("tests/parts/handwheel.step", "grey_iron", "sand"),
+    ("tests/parts/hook.step", "low_carbon_steel", "sand"),
+    ("tests/parts/pillow_block.step", "nodular_iron", "sand"),
+    ("tests/parts/pump_housing.step", "grey_iron", "sand", "--as", "body_1=core"),
     ("tests/parts/ribbed_cover.step", "aluminium_alsi9cu3", "high_pressure"),
     ("tests/parts/stepped_plate.step", "aluminium_alsi7mg", "sand", "--riser", "auto"),
+    ("tests/parts/tee_flange.step", "aluminium_alsi7mg", "sand", "--symmetry", "y", "--riser", "auto"),
     ("tests/parts/valve.step", "brass", "gravity_die"),
 ]
 

@@ -69,6 +69,28 @@ class CommandLine(ProgramTest):
         self.assertEqual(wrong.returncode, 1)
         self.assertIn("did you mean 'run'?", wrong.stderr)
 
+    def test_what_is_missing_is_said_with_where_to_look(self):
+        self.write("part.step", "ISO-10303-21;")
+        for arguments, *said in (
+                (["new", "part.step"], "what is cast?", "those that `solidus materials` lists"),
+                (["new"], "PART is required", "`solidus help new` shows its options"),
+                (["run", "--unknown", "case.toml"], "--unknown", "`solidus help run` shows its options"),
+                ([], "which verb?", "`solidus --help` shows all of them"),
+                (["run", "part.step"], "part.step: this is a geometry or a mesh, not a case", "`solidus new` makes one"),
+                (["check", "."], ".: the folder has no case.toml"),
+                (["plot", "."], ".: the folder has no results", "names at its end"),
+                (["plot", "nothing"], "nothing: there is no such folder", "names at its end")):
+            result = solidus(*arguments, cwd=self.folder)
+            self.assertEqual(result.returncode, 1, arguments)
+            for text in said:
+                self.assertIn(text, result.stderr, arguments)
+
+    def test_a_run_ends_with_where_its_results_are_and_how_to_look_at_them(self):
+        self.write("case.toml", LONG_CASE.replace("1000000 s", "3 s").replace("100000 s", "3 s"))
+        self.assertTrue(self.done("run", "case.toml", "-o", "one").endswith(
+            "\nResults in one. Next: solidus report one; solidus plot one\n"))
+        self.assertTrue(self.done("run", "case.toml", "--report", "-o", "other").endswith("\nResults in other.\n"))
+
     def test_bash_completes_verbs_options_keys_and_materials(self):
         script = self.write("solidus.bash", self.done("completion", "bash"))
 

@@ -88,6 +88,7 @@ class NewCase(ProgramTest):
     def test_of_a_part_of_millimetres_does_not_spend_its_nodes_on_the_mould(self):
         self.write("chip.stl", stl("chip", box((0, 0, 0), (3, 2, 1))))
         text, _ = self.new("chip.stl", "--process", "gravity_die")
+        self.assertIn("3 mm large, for lengths of the file in mm: --unit takes another unit", text)
         nodes = int(re.search(r"mesh +(\d+) nodes", text)[1])
         self.assertLess(nodes, 30000)
         checked = solidus("check", "case", "--heat-only", cwd=self.folder)
@@ -95,11 +96,18 @@ class NewCase(ProgramTest):
         # The interface of all bodies has nothing left beside that of casting and die: no reason to warn.
         self.assertNotIn("no two bodies face each other", checked.stderr)
 
+    def test_a_riser_beside_the_plane_of_symmetry_is_said_to_have_a_mirror_image(self):
+        text = self.done("new", str(SOURCES / "tests/parts/tee_flange.step"), *ALLOY, "--symmetry", "y", "--riser", "auto",
+                         "--fineness", "0.6", "-o", "case")
+        self.assertIn("symmetry    the half below y = 0 mm is computed", text)
+        self.assertRegex(text, r"the riser stands \d+\.\d mm beside the plane of symmetry: with its mirror image there are two")
+
     def test_a_riser_is_cooled_by_the_mould_whose_surface_it_shares_with_its_casting(self):
         self.new(str(SOURCES / "cases/bracket_from_step/bracket.step"), "--riser", "auto", "--fineness", "0.7")
         checked = solidus("check", "case", cwd=self.folder)
         self.assertEqual(checked.returncode, 0, checked.stderr)
         self.assertNotIn("nothing cools", checked.stderr)
+        self.assertIn("gap 0 mm in the mean, 0 mm at most", checked.stdout + checked.stderr)
         self.assertRegex(checked.stdout, r"freezes +riser: in about")
 
     def test_of_an_assembly_with_riser_sleeve_and_chill_estimates_the_riser_with_the_sand_behind_its_sleeve(self):
@@ -114,6 +122,15 @@ class NewCase(ProgramTest):
         estimate = float(re.search(r"freezes +in about ([\d.e+]+) s", text)[1])
         self.assertTrue(340 < estimate < 1350, text)
         self.assertIn("(metal_on_chill: 1000 to 25000 W/m2/K)", self.done("check", "case", "--heat-only"))
+
+    def test_bodies_that_nothing_tells_apart_are_named_and_what_is_said_of_them_counts(self):
+        self.write("pump.stl", stl("first", box((0, 0, 0), (40, 40, 40))) + stl("second", box((60, 0, 0), (80, 20, 20))))
+        text, case = self.new("pump.stl", "--fineness", "0.5")
+        self.assertEqual([body["role"] for body in case["body"]], ["casting", "casting", "mould"])
+        self.assertIn("no name says what these are, so they are poured: first, second; else, for example: --as second=core", text)
+        self.assertRegex(text, r"freezes +in about \d+ s .* at \d+ s at the latest")  # no 1.4e+02
+        text = self.done("new", "pump.stl", *ALLOY, "--fineness", "0.5", "--as", "second=core", "-o", "said")
+        self.assertNotIn("no name says", text)
 
     def test_what_stl_files_cannot_is_said(self):
         closed = box((0, 0, 0), (60, 40, 40))
@@ -137,6 +154,7 @@ class NewCase(ProgramTest):
         text, case = self.new("bell.msh", "--fineness", "0.5")
         self.assertEqual({body["name"]: body["role"] for body in case["body"]}, {"bell": "casting", "mould": "mould"})
         self.assertIn("casting     bell of aluminium_alsi7mg", text)
+        self.assertNotIn("--unit", text)
         self.write("two.msh", grid((2, 1, 1), 10, lambda i, j, k: f"part_{i}"))
         self.assertIn("bodies touch there", self.refusal("two.msh"))
 

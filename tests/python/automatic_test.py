@@ -5,11 +5,12 @@ import tempfile
 import unittest
 
 from blocks import box, everything
+import matplotlib.pyplot as plt
 import numpy as np
 
 from solidus_plots import automatic, hot_spots, overview, style
 from solidus_plots.cells import HEX
-from solidus_plots.curves import _panels
+from solidus_plots.curves import _give_height, _panels
 from solidus_plots.history import Table
 from solidus_plots.moments import Moments
 from solidus_plots.vtu import Grid
@@ -135,6 +136,16 @@ class Curves(unittest.TestCase):
     def test_no_panel_has_more_lines_than_one_can_tell_apart(self):
         panels = self.panels(**{f"T_{i}": [20, 100 + 50 * i] for i in range(15)})
         self.assertEqual([len(panel) for panel in panels], [5, 5, 5])
+
+    def test_what_does_not_change_is_flat(self):
+        _, axes = plt.subplots()
+        axes.plot([20, 20 + 8e-7])
+        _give_height(axes)
+        self.assertTrue(axes.get_ylim()[0] < 19.5 and axes.get_ylim()[1] > 20.5)
+        _, axes = plt.subplots()
+        axes.plot([20, 21])
+        _give_height(axes)
+        self.assertTrue(19.5 < axes.get_ylim()[0] < 20)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,10 @@ sources=$(web/report/fingerprint.sh)
 grep -q "sources $sources" web/report/built/viewer.html ||
   { echo "web/report/built/viewer.html was not built from the sources beside it: run ./dev viewer"; exit 1; }
 
+# It is in every page: packed it takes 0.29 MB, as it is 0.7.
+(($(stat -c %s web/report/built/viewer.html) < 350000)) ||
+  { echo "web/report/built/viewer.html takes $(stat -c %s web/report/built/viewer.html) bytes of every page, more than 350000"; exit 1; }
+
 command -v node >/dev/null || { echo "skipped: node is not installed (./dev test installs it)"; exit 77; }
 [[ -x /usr/bin/chromium || -x /usr/bin/chromium-browser || -x /usr/bin/google-chrome ]] ||
   { echo "skipped: chromium is not installed (./dev test installs it)"; exit 77; }

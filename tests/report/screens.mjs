@@ -10,9 +10,9 @@ const press = (text, among = "#panel") => `[...document.querySelectorAll('${amon
 const show = (body, state) => `document.querySelector('button[data-body="${body}"][data-state="${state}"]').click()`;
 /** Picture: page, and what is done there before it is taken. */
 const SCREENS = {
-  crankshaft: { page: "crankshaft", steps: [`${bench}.setField('temperature')`, `${bench}.goTo(240)`, show("sand", "shown"), press("z"), `${bench}.look([0.3, 0.25, 0.9])`] },
-  last_to_freeze: { page: "crankshaft", steps: [press("Last to freeze", ".presets"), `${bench}.look([0.55, -0.75, 0.45])`] },
-  pores: { page: "crankshaft", steps: [press("Pores", ".presets"), `${bench}.goTo(1e9)`, `${bench}.look([0.55, -0.75, 0.45])`] },
+  crankshaft: { page: "crankshaft", height: 840, steps: [`${bench}.setField('temperature')`, `${bench}.goTo(240)`, show("sand", "shown"), press("z"), `${bench}.look([0.25, -0.6, 0.75])`] },
+  last_to_freeze: { page: "crankshaft", height: 840, steps: [press("Last to freeze", ".presets"), `${bench}.look([0.55, -0.75, 0.45])`] },
+  pores: { page: "crankshaft", height: 840, steps: [press("Pores", ".presets"), `${bench}.goTo(1e9)`, `${bench}.look([0.55, -0.75, 0.45])`] },
   aluminium_cylinder: { page: "aluminium_cylinder", dark: true, steps: [`${bench}.setField('temperature')`, `${bench}.goTo(10)`, press("¾"), `${bench}.look([0.3, 0.45, 0.85])`] },
   hot_spots: { page: "hot_spots", steps: [`${bench}.setField('solidified_at')`, `${bench}.goTo(120)`, "document.querySelector('#only').click()"] },
   shots: { page: "wheel_in_die", height: 760, steps: ["document.querySelector('#shots').scrollIntoView({ behavior: 'instant' })"] },

@@ -133,7 +133,7 @@ inline std::vector<BadInput> files_and_syntax() {
                "include = \"" + std::string(300, 'x') + ".toml\"\n" + k_good,
                {"case.toml:1:11", "does not exist"}),
       {"missing_case", {}, "check nowhere.toml", {"nowhere.toml", "no such file"}},
-      {"folder_without_case", {}, "check .", {"case.toml", "no such file"}},
+      {"folder_without_case", {}, "check .", {"the folder has no case.toml"}},
       bad_case("empty_file", "", {"case.toml", "empty"}),
       bad_case("binary_garbage",
                std::string("\x7f"

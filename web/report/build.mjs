@@ -6,6 +6,7 @@ import { readFileSync, writeFileSync, mkdirSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
+import { deflateSync } from "fflate";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const read = (file) => readFileSync(join(here, file), "utf8");
@@ -21,9 +22,13 @@ const solidus = `Solidus, the viewer of reports, BSD-3-Clause\n\n${read("../../L
 const maps = "Colour maps viridis, inferno and cividis: CC0 (S. van der Walt, N. Smith, E. Firing; J. Nunez, C. Anderson, R. Renslow);\nblue-red: K. Moreland, public domain. Colours of curves: M. Okabe, K. Ito.";
 const escape = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;").replace(/[\u0080-\uffff]/g, (c) => `&#${c.charCodeAt(0)};`);
 
-// Nothing runs but the script whose fingerprint stands here, and nothing is loaded from anywhere.
-const fingerprint = `sha256-${createHash("sha256").update(script).digest("base64")}`;
-const policy = `default-src 'none'; script-src '${fingerprint}'; style-src 'unsafe-inline'; img-src data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'`;
+// The script takes a third of its room when it is packed. fflate packs it, not node: pages are to be the same bytes with any node.
+const packed = Buffer.from(deflateSync(Buffer.from(script), { level: 9, mem: 12 })).toString("base64");
+const unpack = (await build({ ...common, entryPoints: ["src/unpack.ts"], format: "iife" })).outputFiles[0].text.trim();
+
+// Nothing runs but the two scripts whose fingerprints stand here, and nothing is loaded from anywhere.
+const fingerprint = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
+const policy = `default-src 'none'; script-src ${fingerprint(unpack)} ${fingerprint(script)}; style-src 'unsafe-inline'; img-src data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'`;
 const sources = execFileSync(join(here, "fingerprint.sh"), { encoding: "utf8" }).trim();
 const page = `<!doctype html>
 <!-- Written by Solidus: a report. Open it in a browser; it needs no net. -->
@@ -40,7 +45,8 @@ const page = `<!doctype html>
 <body>
 ${read("src/page.html").trim().replace("<!--LICENCES-->", () => escape([solidus, ...licences, maps].join("\n\n\n")))}
 <!--SOLIDUS-DATA-->
-<script>${script}</script>
+<script type="text/plain" id="viewer">${packed}</script>
+<script>${unpack}</script>
 </body>
 </html>
 `;

@@ -71,6 +71,12 @@ struct TableGap : Tabulated {
            fmt::format("'gap_conductance' of the contact '{}' goes up to a gap of {:g} mm", contact,
                        1e3 * gap),
            "castings shrink off their moulds by less than some millimetres; is argument_unit right?"});
+    constexpr double k_narrowest = 2e-6;  // [m]: less than roughness
+    if (const double gap = gap_conductance->x().back(); gap < k_narrowest)
+      remarks.push_back(
+          {false,
+           fmt::format("'gap_conductance' of the contact '{}' ends at a gap of {:g} mm", contact, 1e3 * gap),
+           "castings shrink off their moulds by 0.01 to some millimetres; is argument_unit right?"});
     if (const double closed = gap_conductance->y().front(), open = gap_conductance->y().back();
         open > 1.01 * closed)
       remarks.push_back(
@@ -97,6 +103,16 @@ struct TableContact : Tabulated {
   std::optional<Objection> take(std::vector<TableAt> tables) {
     table = contact_conductance;
     return read(std::move(tables), "contact_law", "contact_conductance");
+  }
+  std::vector<Remark> remarks(std::string_view contact) const {
+    constexpr double k_least = 1e3, k_most = 1e10;  // [Pa]: under a few centimetres of metal; in a forging
+    if (!contact_conductance || contact_conductance->constant()) return {};
+    const double pressure = contact_conductance->x().back();
+    if (pressure >= k_least && pressure <= k_most) return {};
+    return {{false,
+             fmt::format("'contact_conductance' of the contact '{}' ends at a pressure of {:g} MPa", contact,
+                         1e-6 * pressure),
+             "castings press with 0.001 to 100 MPa on their moulds; is argument_unit right?"}};
   }
 };
 

@@ -131,7 +131,7 @@ def time(rng, w, facts, physics, dynamic):
 def faces(shape, kind):
     last = "z" if kind == "solid" else "y"
     if shape == "cylinder_in_mould":
-        return ["part_top", "mould_outer", "mould_bottom"]
+        return ["part_top", "mould_outside", "mould_bottom"]
     if shape == "block":
         return ["x_max", f"{last}_max", f"{last}_min"]
     return ["upper_x_max", f"upper_{last}_max", "lower_x_max", f"lower_{last}_min"]

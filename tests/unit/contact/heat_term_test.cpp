@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bodies.hpp"
@@ -106,6 +107,49 @@ TEST(FrictionalHeat, HasTheTangentThatFiniteDifferencesShow) {
           EXPECT_LT(tangent_defect(mesh, *pair.heat(), warm(mesh)), 1e-7)
               << mesh::name(shape) << nodal << capacity << of_temperature;
         }
+}
+
+TEST(LimitedExchange, PassesNoHeatFromColdToHotAndLosesNone) {
+  for (const Shape shape : {Shape::quad8, Shape::hex20, Shape::tet10}) {
+    const mesh::Mesh mesh = test::two_blocks(shape);
+    const auto kind = mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
+    ContactSpec s = rubbing(true, 0, false);
+    s.friction.reset();
+    s.integration = IntegrationRule::gauss;
+    ContactPair pair(mesh, kind, s);
+    std::vector<double> temperature = test::nodal_field(
+        mesh, 1, [](const Point&, bool upper) { return std::vector<double>{upper ? 500.0 : 700.0}; });
+    // One node of the hot body's surface is hotter still, as those are that the consistent form heats.
+    double number = -1;
+    for (const mesh::Block& faces : mesh.surfaces.at("lower_top").faces)
+      number = std::max(number,
+                        static_cast<double>(mesh.global_node[static_cast<std::size_t>(faces.nodes.front())]));
+    number = parallel::global_max(number);
+    std::vector<char> beyond(mesh.x.size(), 0);
+    for (std::size_t i = 0; i < beyond.size(); ++i)
+      if (static_cast<double>(mesh.global_node[i]) == number) beyond[i] = 1, temperature[i] = 710;
+    slide(mesh, pair, temperature);
+    linear::Contribution& term = *pair.heat();
+    const auto given_off = [&] {
+      std::vector<double> r(static_cast<std::size_t>(mesh.n_owned_nodes), 0.0);
+      term.add_residual(temperature, r);
+      return r;
+    };
+    const std::vector<double> before = given_off();
+    term.limit_exchange(beyond);
+    const std::vector<double> after = given_off();
+    double sum = 0, size = 0;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      if (beyond[i]) {
+        EXPECT_GT(after[i], 0) << mesh::name(shape) << ": it cools";
+      }
+      sum += after[i], size += std::abs(after[i]);
+    }
+    EXPECT_NEAR(parallel::global_sum(sum), 0, 1e-12 * parallel::global_sum(size)) << mesh::name(shape);
+    EXPECT_LT(tangent_defect(mesh, term, temperature), 1e-7) << mesh::name(shape);
+    term.limit_exchange({});
+    EXPECT_EQ(given_off(), before) << mesh::name(shape) << ": as it was";
+  }
 }
 
 TEST(FrictionalHeat, ReachesTheBodiesButForWhatTheInterfaceStores) {

@@ -298,6 +298,29 @@ TEST(WetContact, TensionMakesNoFriction) {
   EXPECT_EQ(sums.dissipation, 0);
 }
 
+// Melt has no strength to rub with, whatever presses it on its wall; the skin that it becomes has.
+TEST(WetContact, RubsOnlyOnceItIsCoherent) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  ContactSpec s = spec();
+  s.friction = FrictionSpec{};
+  s.friction->coefficient.terms = {Table(0.3)};
+  OneStep run(mesh, s);
+  const std::vector<double> melt = coherency(mesh, 0.2, 1), skin = coherency(mesh, 1.2, 1);
+  const auto pressed = [&](double slip) {
+    std::vector<double> u = lifted(mesh, -0.5 * k_reach);
+    for (std::size_t i = 0; i < u.size(); i += 2) u[i] = u[i + 1] < 0 ? slip : 0.0;  // the upper body slides
+    return u;
+  };
+  run.step(pressed(0), melt);
+  ContactSums sums = run.step(pressed(1e-3), melt);
+  EXPECT_GT(sums.force, 0);
+  EXPECT_EQ(sums.friction, 0);
+  EXPECT_EQ(sums.dissipation, 0);
+  sums = run.step(pressed(2e-3), skin);
+  EXPECT_NEAR(std::abs(sums.friction), 0.3 * sums.force, 1e-9 * sums.force);
+  EXPECT_GT(sums.dissipation, 0);
+}
+
 // A flat punch of the augmented Lagrangian: pulled with half of the atmosphere it keeps its wall exactly, and
 // the multipliers go where the metal is coherent.
 TEST(WetContact, MultipliersHoldTensionDownToTheAtmosphere) {

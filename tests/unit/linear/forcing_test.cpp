@@ -11,13 +11,13 @@ namespace {
 constexpr double k_far = 1e-9;  ///< a goal that lies far below
 
 TEST(Forcing, AsksForExactSolvesWhereItIsOff) {
-  Forcing forcing(false);
+  Forcing forcing(false, 0.1);
   EXPECT_EQ(forcing.next(1.0, 0.5), 0.0);
   EXPECT_EQ(forcing.next(1e-3, 0.5), 0.0);
 }
 
 TEST(Forcing, BeginsWithTwoDigitsAndFollowsTheFallOfTheResidual) {
-  Forcing forcing(true);
+  Forcing forcing(true, 0.1);
   EXPECT_DOUBLE_EQ(forcing.next(5.0, k_far), 1e-2);
   // Choice 2 of Eisenstat and Walker with γ = 0.9 and the golden ratio.
   EXPECT_NEAR(forcing.next(0.05, k_far), 0.9 * std::pow(1e-2, 1.6180339887), 1e-10);
@@ -26,7 +26,7 @@ TEST(Forcing, BeginsWithTwoDigitsAndFollowsTheFallOfTheResidual) {
 
 TEST(Forcing, TurnsLinearConvergenceIntoOneOfOrderOnePointSix) {
   // A linear system: an iteration gains exactly what it is asked for.
-  Forcing forcing(true);
+  Forcing forcing(true, 0.1);
   double norm = 1, fall = 1, order = 0;
   for (int k = 0; k < 4; ++k) {
     const double eta = forcing.next(norm, std::numeric_limits<double>::min());
@@ -38,7 +38,7 @@ TEST(Forcing, TurnsLinearConvergenceIntoOneOfOrderOnePointSix) {
 }
 
 TEST(Forcing, GainsADigitAtLeastWhereTheResidualHasRisen) {
-  Forcing forcing(true);
+  Forcing forcing(true, 0.1);
   forcing.next(1.0, k_far);
   EXPECT_EQ(forcing.next(30.0, k_far), 0.1);
 }
@@ -50,7 +50,7 @@ TEST(Forcing, KeepsToItsLoosestTerm) {
 }
 
 TEST(Forcing, GoesNoFurtherThanATenthOfTheGoal) {
-  Forcing forcing(true);
+  Forcing forcing(true, 0.1);
   EXPECT_DOUBLE_EQ(forcing.next(1.0, 0.5), 0.05);
   EXPECT_DOUBLE_EQ(forcing.next(1e-3, 0.3), 0.03);
   EXPECT_EQ(forcing.next(1e-6, 2.0), 0.1);  // another field has not ended yet

@@ -263,6 +263,24 @@ TEST(Newton, ATangentThatWillDoServesTwice) {
   EXPECT_EQ(solve(1e-8), 2);
 }
 
+// The ground is soft up to x = 0.5 and stiff beyond. The first step lands so close to the solution that the
+// tangent before seems to do once more, but it is 1e4 times too soft there: such a step throws x far beyond
+// the solution.
+TEST(Newton, ATangentThatNoLongerServesIsReplaced) {
+  constexpr double k_stiff = 1e4, k_solution = 1 - 1e-8;
+  const Grid grid(5, 6);
+  SpringGrid system(
+      grid, [](double x) { return x <= 0.5 ? x : 1 + k_stiff * (x - k_solution); },
+      [](double x) { return x <= 0.5 ? 1.0 : k_stiff; }, 1);
+  std::vector<double> x(static_cast<std::size_t>(grid.mesh.n_nodes()), 0.0);
+  const NewtonReport report = run(grid, system, x, {.tolerance = 1e-6});
+  ASSERT_TRUE(report.converged) << report.reason;
+  for (std::size_t k = 1; k < report.residuals.size(); ++k)
+    EXPECT_LE(report.residuals[k], report.residuals[k - 1]) << "iteration " << k;
+  for (const double value : x) EXPECT_NEAR(value, k_solution, 1e-11);
+  EXPECT_EQ(system.steps.size(), 2U) << "the step that did not serve is taken back";
+}
+
 TEST(Newton, NoLoadConvergesAtOnce) {
   const Grid grid(4, 4);
   SpringGrid system(

@@ -83,6 +83,13 @@ TEST(NewCaseText, OfOneCastingHasNoStages) {
   EXPECT_EQ(spec.thermal_conditions.size(), 1u);
 }
 
+TEST(NewCaseText, NamesTheWayOfMeshingWhereItHadToBeLookedFor) {
+  Draft d = draft();
+  EXPECT_EQ(case_keys().read(parse_document(case_text(d), "case.toml")).mesh.way, 0);
+  d.way = 5;
+  EXPECT_EQ(case_keys().read(parse_document(case_text(d), "case.toml")).mesh.way, 5);
+}
+
 TEST(NewCaseText, OfAMeshWithItsMouldAsksForNoElements) {
   Draft d = draft();
   d.meshed = true;

@@ -47,6 +47,42 @@ TEST_F(ProgressText, IsOneLineAStepWithAllThatMatters) {
     EXPECT_NE(text.find(piece), std::string::npos) << piece << " in: " << text;
 }
 
+TEST_F(ProgressText, OfARunUntilAllIsSolidTheTimeLeftFollowsTheMelt) {
+  ProgressOptions o = options();
+  o.until_solid = true;
+  o.terminal = true;
+  Progress progress(out, o);
+  progress.begin();
+  now += 2;
+  coupling::StepRecord record = step(9, 9);  // a tenth of the longest time, half of the melt
+  record.solid_fraction = 0.5;
+  progress.step(record);
+  EXPECT_NE(out.str().find("50 %  2.0 s left"), std::string::npos) << out.str();
+  out.str({});
+  record.solid_fraction = 1;
+  record.time = 20;
+  progress.step(record);
+  EXPECT_NE(out.str().find("0 ms  as asked"), std::string::npos) << out.str();
+  EXPECT_NE(out.str().find("100 %"), std::string::npos) << out.str();
+}
+
+TEST_F(ProgressText, ARunUntilAllIsSolidThatGoesOnCountsFromWhereItBegan) {
+  ProgressOptions o = options();
+  o.until_solid = true;
+  o.start = 30;
+  Progress progress(out, o);
+  progress.begin();
+  coupling::StepRecord record = step(31, 31);
+  record.solid_fraction = 0.6;
+  progress.step(record);
+  out.str({});
+  now += 4;
+  record.solid_fraction = 0.7;  // a quarter of what was left
+  record.time = 32;
+  progress.step(record);
+  EXPECT_NE(out.str().find("12 s  as asked"), std::string::npos) << out.str();
+}
+
 TEST_F(ProgressText, HeaderAndLinesLineUp) {
   Progress progress(out, options());
   progress.begin();
@@ -74,6 +110,13 @@ TEST_F(ProgressText, SaysHowOftenAndWhyAStepWasCut) {
   record.rejection = "heat: no convergence in 25 iterations";
   progress.step(record);
   EXPECT_NE(out.str().find("(2 rejected: heat: no convergence in 25 iterations)"), std::string::npos);
+  record.shortened = 1;
+  record.rejection = "temperature error";
+  progress.step(record);
+  EXPECT_NE(out.str().find("(2 rejected, 1 shortened: temperature error)"), std::string::npos);
+  record.rejected = 0;
+  progress.step(record);
+  EXPECT_NE(out.str().find("(1 shortened: temperature error)"), std::string::npos);
 }
 
 TEST_F(ProgressText, DrawsABarOnATerminalAndTakesItAway) {

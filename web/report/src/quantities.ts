@@ -20,7 +20,7 @@ const UNITS: Record<string, Unit> = {
   "1": { text: "", scale: 1, offset: 0 },
 };
 const OF_FIELD: Record<string, Unit> = {
-  niyama: { text: "K½ s½/mm", scale: 1e-3, offset: 0 },
+  niyama: { text: "√(K\u00a0s)/mm", scale: 1e-3, offset: 0 },
   secondary_arm_spacing: { text: "µm", scale: 1e6, offset: 0 },
   shrinkage_porosity: { text: "%", scale: 100, offset: 0 },
   pore_fraction: { text: "%", scale: 100, offset: 0 },

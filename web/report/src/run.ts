@@ -238,6 +238,7 @@ export interface Summary {
   processes?: number;
   steps?: number;
   rejected_steps?: number;
+  shortened_steps?: number;
   "end_time[s]"?: number;
   mesh?: { nodes: number; elements: Record<string, number> };
   seconds?: Record<string, number>;

@@ -124,11 +124,17 @@ export function buildHead(page: Page, bench: Workbench): void {
   }
 }
 
+/** "2 rejected, 1 shortened": tries that were repeated with a smaller step, those that ended after heat alone apart. */
+function triesText(rejected = 0, shortened = 0): string {
+  return [rejected > 0 ? `${rejected} rejected` : "", shortened > 0 ? `${shortened} shortened` : ""].filter(Boolean).join(", ");
+}
+
 /** What it took, and how well the first law held. */
 function computed(run: Run): string {
   const s = run.summary, total = s["profile[s]"]?.total ?? s.seconds?.run, defect = s.relative_energy_defect;
   return [
-    s.steps !== undefined ? `${s.steps} steps${s.rejected_steps ? ` and ${s.rejected_steps} rejected` : ""}${total !== undefined ? ` in ${duration(total)}` : ""}` : "",
+    s.steps !== undefined ? `${s.steps} steps${total !== undefined ? ` in ${duration(total)}` : ""}` : "",
+    s.rejected_steps || s.shortened_steps ? `tries repeated: ${triesText(s.rejected_steps, s.shortened_steps)}` : "",
     typeof defect === "number" ? `first law right to ${short(Math.abs(defect))}` : "",
   ].filter(Boolean).join(" · ");
 }
@@ -388,7 +394,7 @@ function stepCharts(page: Page): Node {
 
 function stepTables(run: Run): Node_[] {
   const t = run.table("steps");
-  const reason = t?.texts("reason"), time = t?.numbers("time"), dt = t?.numbers("dt"), rejected = t?.numbers("rejected"), rejection = t?.texts("rejection");
+  const reason = t?.texts("reason"), time = t?.numbers("time"), dt = t?.numbers("dt"), rejected = t?.numbers("rejected"), shortened = t?.numbers("shortened"), rejection = t?.texts("rejection");
   if (!t || !time || !dt || !reason) return [h("p", { class: "hint" }, "This run has no table of steps.")];
   const counts = new Map<string, number>();
   for (const r of reason) counts.set(r, (counts.get(r) ?? 0) + 1);
@@ -399,11 +405,15 @@ function stepTables(run: Run): Node_[] {
   });
   const order = Array.from({ length: t.rows }, (_, i) => i);
   const most = 400, shown = order.length > most ? [...order.slice(0, most / 2), ...order.slice(-most / 2)] : order;
-  const rows = shown.map((i) => [short(time[i]), short(dt[i]), reason[i], rejected && rejected[i] > 0 ? `${rejected[i]}: ${rejection?.[i] ?? ""}` : "", ...columns.map((c) => short(c.column[i]))]);
+  const tries = (i: number) => {
+    const text = triesText(rejected?.[i], shortened?.[i]);
+    return text && `${text}: ${rejection?.[i] ?? ""}`;
+  };
+  const rows = shown.map((i) => [short(time[i]), short(dt[i]), reason[i], tries(i), ...columns.map((c) => short(c.column[i]))]);
   return [
     h("div", { class: "card", style: "margin-top:14px" }, h("h3", {}, "Why the steps have their size"), bars([...counts.entries()].sort((a, b) => b[1] - a[1]).slice(0, 12).map(([text, n]) => [text, n, `${n}`]))),
     h("details", { class: "more" }, h("summary", {}, shown.length < order.length ? `Steps (the first and the last ${most / 2} of ${order.length})` : `All ${order.length} steps`),
-      table(["Time [s]", "Step [s]", "Reason", "Rejected before", ...columns.map((c) => c.text)], rows)),
+      table(["Time [s]", "Step [s]", "Reason", "Tries before", ...columns.map((c) => c.text)], rows)),
   ];
 }
 

@@ -1,0 +1,101 @@
+// Findings on numbers of the method: iterations, cuts of the step, the search of contacts and their meshes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "check/findings.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+void iterations(const CaseSpec& spec, Findings& findings) {
+  constexpr int k_few = 5;
+  const auto compare = [&](const char* key, int allowed, const char* usual) {
+    if (allowed > 0 && allowed < k_few)
+      findings.push_back(
+          {false, spec.time.where,
+           fmt::format("{} = {}: a step that needs more is cut, again and again", key, allowed), usual});
+  };
+  if (spec.has_heat())
+    compare("heat.max_iterations", spec.heat.max_iterations, "30 to 200, or without the key");
+  if (spec.has_mechanics())
+    compare("mechanics.max_iterations", spec.mechanics.max_iterations, "20 to 100, or without the key");
+  constexpr double k_hardly = 0.8;
+  if (spec.time.cut > k_hardly)
+    findings.push_back(
+        {false, spec.time.where,
+         fmt::format("time.cut = {:g}: a step that does not go through is tried again hardly shorter",
+                     spec.time.cut),
+         "0.25 to 0.5"});
+}
+
+/// Points look for partners no farther than that: beyond neither force nor heat passes.
+void search_distances(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_near = 2e-3,
+                   k_far = 0.5;  // of the size of the slave's body: what castings shrink by; itself
+  for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
+    const ContactSpec& contact = spec.contacts[c];
+    if (!contact.search_distance || m.contacts[c].slave_body < 0) continue;
+    const BodyMeasures& body = m.bodies[static_cast<std::size_t>(m.contacts[c].slave_body)];
+    double size = 0;
+    for (std::size_t d = 0; d < 3; ++d) size = std::max(size, body.high[d] - body.low[d]);
+    const double distance = *contact.search_distance;
+    if (distance >= k_near * size && distance <= k_far * size) continue;
+    findings.push_back(
+        {false, contact.where,
+         fmt::format("the contact '{}' looks for partners up to {:g} mm away, its body is {:.4g} mm large{}",
+                     contact.name, 1e3 * distance, 1e3 * size,
+                     distance < k_near * size ? ": heat ends where the gap of a casting is wider" : ""),
+         "a hundredth to a tenth of the body, or without the key"});
+  }
+}
+
+/// The pressure that holds melt on its wall.
+void atmospheres(const CaseSpec& spec, Findings& findings) {
+  constexpr double k_least = 100, k_most = 2e8;  // [Pa]: of vacuum furnaces, of die casting
+  for (const ContactSpec& contact : spec.contacts)
+    if (contact.wet && contact.atmosphere > 0 &&
+        (contact.atmosphere < k_least || contact.atmosphere > k_most))
+      findings.push_back(
+          {false, contact.where,
+           fmt::format("melt is held on the wall of '{}' by {:g} Pa", contact.name, contact.atmosphere),
+           "1e5 Pa in air, 1e3 Pa in a vacuum furnace, 1e7 to 1e8 Pa in a die under pressure"});
+}
+
+/// Points of a slave whose faces are larger than the master's leave nodes of the master between them: melt,
+/// which resists no shear, runs through there.
+void coarse_slaves(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
+    const ContactMeasures& measures = m.contacts[c];
+    const bool nodal = spec.contacts[c].integration == contact::IntegrationRule::nodal;
+    const auto sliding = spec.contacts[c].formulation == contact::Formulation::large_sliding &&
+                         spec.contacts[c].integration != contact::IntegrationRule::segments;
+    const bool gauss = sliding || spec.contacts[c].integration == contact::IntegrationRule::gauss;
+    const bool poured = std::any_of(m.pours.begin(), m.pours.end(), [&](const Pour& p) {
+      return static_cast<int>(p.body) == measures.master_body;
+    });
+    if (!poured || !(nodal || gauss) || a.mesh.surfaces.count(measures.master) == 0) continue;
+    const double ratio = measures.face_size / measures.master_face_size;
+    if (!(ratio > (nodal ? 1.5 : 3.0))) continue;
+    findings.push_back(
+        {false, spec.contacts[c].where,
+         fmt::format("the faces of the slave '{}' are {:.2g} times as large as those of the melt on "
+                     "it, '{}': melt runs through between its points",
+                     measures.slave, ratio, measures.master),
+         "the finer surface as slave, or integration = \"segments\""});
+  }
+}
+
+}  // namespace
+
+void find_in_numerics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  iterations(spec, findings);
+  search_distances(spec, m, findings);
+  if (!spec.has_mechanics()) return;
+  atmospheres(spec, findings);
+  coarse_slaves(spec, a, m, findings);
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,52 @@
+/// What a node's heat content, temperature and potential say of each other, by one look-up.
+#pragma once
+
+#include <vector>
+
+#include "heat/heat_system.hpp"
+#include "heat/nodal_enthalpy.hpp"
+#include "heat/storage_curve.hpp"
+
+namespace solidus::heat {
+
+/// Nodes of one material have its curve (storage_curve.hpp); at the others the curves of their materials are
+/// added up, by NodalEnthalpy and NodalPotential.
+class NodeCurves {
+ public:
+  /// Both must outlive this object; the potential is that which the system has at a call.
+  NodeCurves(const NodalEnthalpy& storage, const HeatSystem& system);
+
+  /// @param heat  H of the node [J]
+  /// Returns temperature and potential [K] and dv/dH [K/J], which is zero on a plateau.
+  StorageCurve::AtHeat at_heat(Index node, double heat) const {
+    const NodalEnthalpy::Share* share = only_share(node);
+    if (share == nullptr) return sum_at_heat(node, heat);
+    StorageCurve::AtHeat at = curves_[static_cast<std::size_t>(share->body)].at_heat(heat / share->weight);
+    at.slope /= share->weight;
+    return at;
+  }
+  /// @param near  a temperature from which the search starts where several materials meet
+  /// Returns the temperature [K] and H [J] at both ends of a plateau.
+  StorageCurve::AtPotential at_potential(Index node, double potential, double near) const {
+    const NodalEnthalpy::Share* share = only_share(node);
+    if (share == nullptr) return sum_at_potential(node, potential, near);
+    const StorageCurve::AtPotential at =
+        curves_[static_cast<std::size_t>(share->body)].at_potential(potential);
+    return {at.temperature, share->weight * at.lower, share->weight * at.upper};
+  }
+
+ private:
+  /// Null where several materials store heat or conduct it.
+  const NodalEnthalpy::Share* only_share(Index node) const {
+    const NodalEnthalpy::Share* share = storage_.only_share(node);
+    return share != nullptr && system_.potential().is_of(node, share->body) ? share : nullptr;
+  }
+  StorageCurve::AtHeat sum_at_heat(Index node, double heat) const;
+  StorageCurve::AtPotential sum_at_potential(Index node, double potential, double near) const;
+
+  const NodalEnthalpy& storage_;
+  const HeatSystem& system_;
+  std::vector<StorageCurve> curves_;  ///< [body]
+};
+
+}  // namespace solidus::heat
