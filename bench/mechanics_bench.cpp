@@ -9,8 +9,11 @@
 #include <cmath>
 
 #include "lattice.hpp"
+#include "material/external_law.hpp"
 #include "material/hardening.hpp"
 #include "material/laws/perzyna.hpp"
+#include "material/mfront_library.hpp"
+#include "material/shared_object.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/law_block.hpp"
 
@@ -37,6 +40,19 @@ material::Material j2() {
   set_hardening(flow, {{"hardening_modulus", 1e9}});
   flow.rate[material::Perzyna::viscosity] = 0.0;
   m.flow = flow;
+  return m;
+}
+
+/// The same law with moduli that fall linearly, from a shared object: examples/external_laws/j2_generic.c.
+material::Material external() {
+  material::ExternalData data;
+  data.library = SOLIDUS_J2_GENERIC;
+  data.behaviour = "J2Generic";
+  data.properties = {2.1e11, 0.3, 3e6, 1e9, 5e-4, 1e-3};
+  material::trust_external_laws();
+  const material::SharedObject object(data.library, data.where);
+  material::Material m = j2();
+  set_external_law(m, std::make_shared<material::ExternalLaw>(data, make_mfront_library(object, data)));
   return m;
 }
 
@@ -154,6 +170,18 @@ void residual(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKin
   p.report(state);
 }
 
+/// What an iteration of Newton's method assembles: forces, then the tangent at the same displacements.
+void assembly(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind,
+              material::Material material, bool general = false) {
+  Prepared p(shape, cells, kind, std::move(material), general);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(p.kernel->add_forces(p.u, p.forces));
+    p.matrix->set_zero();
+    p.kernel->add_tangent(p.u, *p.matrix);
+  }
+  p.report(state);
+}
+
 /// Cost of the evaluations at the mechanical points in each iteration of the thermal phase: tables of
 /// temperature, eight lanes at once.
 void structural_heat(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind) {
@@ -174,6 +202,16 @@ BENCHMARK_CAPTURE(residual, tet4, mesh::Shape::tet4, 30, k_solid)->Unit(benchmar
 BENCHMARK_CAPTURE(tangent, tet4_j2, mesh::Shape::tet4, 30, k_solid, j2())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(residual, tet4_j2, mesh::Shape::tet4, 30, k_solid, j2())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(tangent, tet4_j2_general, mesh::Shape::tet4, 30, k_solid, j2(), true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(assembly, tet4_j2, mesh::Shape::tet4, 30, k_solid, j2())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(assembly, tet4_j2_general, mesh::Shape::tet4, 30, k_solid, j2(), true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(assembly, tet4_external, mesh::Shape::tet4, 30, k_solid, external())
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(residual, tet4_external, mesh::Shape::tet4, 30, k_solid, external())
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(assembly, hex8_j2, mesh::Shape::hex8, 30, k_solid, j2())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(assembly, hex8_external, mesh::Shape::hex8, 30, k_solid, external())
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(tangent, tet4_saturating, mesh::Shape::tet4, 30, k_solid, saturating())
     ->Unit(benchmark::kMillisecond);

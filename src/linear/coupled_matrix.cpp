@@ -1,6 +1,7 @@
 #include "linear/coupled_matrix.hpp"
 
 #include <petsc/private/petscimpl.h>
+#include <petscmat.h>
 
 #include <algorithm>
 #include <cassert>

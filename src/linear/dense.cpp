@@ -1,5 +1,7 @@
 #include "linear/dense.hpp"
 
+#include <petscsys.h>  // petscblaslapack.h needs it before it
+
 #include <petscblaslapack.h>
 
 #include <algorithm>

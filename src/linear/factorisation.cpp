@@ -1,6 +1,7 @@
 #include "linear/factorisation.hpp"
 
 #include <petsc/private/petscimpl.h>
+#include <petscksp.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "material/external_law.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <type_traits>
 
@@ -13,17 +14,18 @@ namespace {
 template <class T>
 inline constexpr int k_points = std::is_same_v<T, Lane> ? k_lanes : 1;
 
-double at(const double& value, int) {
-  return value;
+/// One number of a lane in memory. The lane's own subscript, where it is not known before run time, takes the
+/// whole lane into a register and back.
+template <class T>
+double at(const T& value, int lane) {
+  double number;
+  std::memcpy(&number, reinterpret_cast<const char*>(&value) + sizeof number * static_cast<std::size_t>(lane),
+              sizeof number);
+  return number;
 }
-double at(const Lane& value, int lane) {
-  return value[lane];
-}
-void set(double& value, int, double to) {
-  value = to;
-}
-void set(Lane& value, int lane, double to) {
-  value.set(lane, to);
+template <class T>
+void set(T& value, int lane, double to) {
+  std::memcpy(reinterpret_cast<char*>(&value) + sizeof to * static_cast<std::size_t>(lane), &to, sizeof to);
 }
 bool holds(bool mask, int) {
   return mask;
@@ -94,11 +96,13 @@ void ExternalLaw::forget(T* now, int lane) const {
 template <class T>
 bool ExternalLaw::integrate(const Properties<T>& p, const T* old, T* now, const Sym<T>& strain, double dt,
                             int lane, Workspace& space, Response<T>& r, T& dissipated) const {
-  double old_energies[k_external_energies], energies[k_external_energies] = {};
+  double old_energies[k_external_energies], energies[k_external_energies];
   double* const old_internal = space.numbers.data();
   double* const internal = old_internal + n_internal_;
-  for (std::size_t i = 0; i < k_external_energies; ++i) old_energies[i] = at(old[k_energies + i], lane);
-  for (std::size_t i = 0; i < n_internal_; ++i) old_internal[i] = initial_[i] + at(old[k_internal + i], lane);
+  for (std::size_t i = 0; i < k_external_energies; ++i)
+    old_energies[i] = energies[i] = at(old[k_energies + i], lane);
+  for (std::size_t i = 0; i < n_internal_; ++i)
+    old_internal[i] = internal[i] = initial_[i] + at(old[k_internal + i], lane);
   ExternalCall call;
   call.dt = dt;
   call.time = at(old[k_time], lane);
@@ -118,9 +122,9 @@ bool ExternalLaw::integrate(const Properties<T>& p, const T* old, T* now, const 
   if (!library_->integrate(call)) return false;
 
   for (int i = 0; i < 6; ++i) set(r.stress[i], lane, call.stress[i]);
-  if (space.wants_tangent)
-    for (std::size_t k = 0; k < 36; ++k)
-      set(r.tangent.c[k / 6][k % 6], lane, tangent_factor_[k] * call.tangent[tangent_place_[k]]);
+  if (space.wants_tangent)  // as the library writes it
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < 6; ++j) set(r.tangent.c[i][j], lane, call.tangent[6 * i + j]);
   for (std::size_t i = 0; i < n_internal_; ++i) set(now[k_internal + i], lane, internal[i] - initial_[i]);
   for (std::size_t i = 0; i < k_external_energies; ++i) set(now[k_energies + i], lane, energies[i]);
   if (told_) set(dissipated, lane, library_->dissipated(call));
@@ -149,6 +153,13 @@ void ExternalLaw::update(const Properties<T>& p, const T* old, T* now, const Sym
   if (!answered) {
     r.status = Status::cut_the_step;
     return;
+  }
+  if (space.wants_tangent) {
+    const Sym4<T> of_library = r.tangent;
+    const T* const entries = of_library.c[0].data();
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < 6; ++j)
+        r.tangent.c[i][j] = T(tangent_factor_[6 * i + j]) * entries[tangent_place_[6 * i + j]];
   }
   // Zero, or not a number where one of the values is not finite.
   T check = zero * dissipated, check_of_tangent = zero;

@@ -73,10 +73,10 @@ struct ExternalCall {
 
   Sym<double> stress;
   std::array<double, 36> tangent;  ///< ∂σ/∂e as the library writes it (TangentForm); where it is wanted
-  double* internal;
-  double* energies;
-  double heat = 0;         ///< RPL of a UMAT [W/m³]
-  std::string* complaint;  ///< why there is none, where false is returned; may be null
+  double* internal;                ///< z_n before the call
+  double* energies;                ///< those of t_n before the call
+  double heat = 0;                 ///< RPL of a UMAT [W/m³]
+  std::string* complaint;          ///< why there is none, where false is returned; may be null
 };
 inline constexpr std::size_t k_external_energies = 3;  ///< stored, dissipated (MFront); SSE, SPD, SCD (UMAT)
 

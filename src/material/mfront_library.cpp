@@ -36,9 +36,13 @@ using EntryPoint = int (*)(DataView*);
 constexpr unsigned short k_version = 1;
 constexpr double k_no_tangent = 0, k_consistent_tangent = 4;
 constexpr const char* k_hypothesis = "Tridimensional";
-/// The component of Sym of each of MFront's.
-constexpr std::array<int, 6> k_component{0, 1, 2, 3, 5, 4};
-constexpr double k_root_two = 1.4142135623730950488;
+constexpr double k_root_two = 1.4142135623730950488, k_half_root = 1 / k_root_two;
+
+/// A tensor in MFront's order: xx, yy, zz, √2 xy, √2 xz, √2 yz.
+using Vector = std::array<double, 6>;
+Vector components(const Sym<double>& t) {
+  return {t[0], t[1], t[2], k_root_two * t[3], k_root_two * t[5], k_root_two * t[4]};
+}
 
 /// The description of a behaviour, read from its symbols.
 class Symbols {
@@ -173,22 +177,17 @@ class MfrontLibrary final : public ExternalLibrary {
   double stored(const double* energies) const override { return energies[0]; }
 
   bool integrate(ExternalCall& c) const override {
-    double old_strain[6], strain[6], old_stress[6], stress[6], sound = 0, longer = 1;
-    for (std::size_t i = 0; i < 6; ++i) {
-      const int k = k_component[i];
-      const double factor = i < 3 ? 1 : k_root_two;
-      old_strain[i] = factor * c.old_strain[k];
-      strain[i] = factor * c.strain[k];
-      old_stress[i] = stress[i] = factor * c.old_stress[k];
-    }
+    const Vector old_strain = components(c.old_strain), strain = components(c.strain),
+                 old_stress = components(c.old_stress);
+    Vector stress = old_stress;
+    double sound = 0, longer = 1;
     const double* old_state = c.old_internal;
     if (c.fresh && elastic_strain_ >= 0) {
       std::copy_n(c.old_internal, names_.size(), c.scratch);
-      std::copy_n(old_strain, 6, c.scratch + elastic_strain_);
+      std::copy_n(old_strain.data(), 6, c.scratch + elastic_strain_);
+      std::copy_n(old_strain.data(), 6, c.internal + elastic_strain_);
       old_state = c.scratch;
     }
-    std::copy_n(old_state, names_.size(), c.internal);
-    std::copy_n(c.old_energies, k_external_energies, c.energies);
     double* const old_external = c.scratch + names_.size();
     double* const new_external = old_external + external_.size() + 1;
     old_external[0] = c.old_temperature;
@@ -198,17 +197,17 @@ class MfrontLibrary final : public ExternalLibrary {
     char message[513];
     message[0] = 0;
     constexpr double density = 0;
-    c.tangent.fill(0.0);
+    if (c.wants_tangent) c.tangent.fill(0.0);
     c.tangent[0] = c.wants_tangent ? k_consistent_tangent : k_no_tangent;
     DataView view{message,
                   c.dt,
                   c.tangent.data(),
                   &longer,
                   &sound,
-                  {old_strain, old_stress, &density, properties_.data(), old_state, &c.old_energies[0],
-                   &c.old_energies[1], old_external},
-                  {strain, stress, &density, properties_.data(), c.internal, &c.energies[0], &c.energies[1],
-                   new_external}};
+                  {old_strain.data(), old_stress.data(), &density, properties_.data(), old_state,
+                   &c.old_energies[0], &c.old_energies[1], old_external},
+                  {strain.data(), stress.data(), &density, properties_.data(), c.internal, &c.energies[0],
+                   &c.energies[1], new_external}};
     const int status = entry_(&view);
     if (status != 1) {  // 0: an answer that is not reliable
       message[512] = 0;
@@ -217,7 +216,8 @@ class MfrontLibrary final : public ExternalLibrary {
             fmt::format("the library answers {}{}{}", status, message[0] != 0 ? ": " : "", message);
       return false;
     }
-    for (std::size_t i = 0; i < 6; ++i) c.stress[k_component[i]] = (i < 3 ? 1 : 1 / k_root_two) * stress[i];
+    c.stress = {{stress[0], stress[1], stress[2], k_half_root * stress[3], k_half_root * stress[5],
+                 k_half_root * stress[4]}};
     return true;
   }
 

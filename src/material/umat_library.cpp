@@ -21,8 +21,11 @@ using Umat = void (*)(double* stress, double* statev, double* ddsdde, double* ss
                       const int* noel, const int* npt, const int* layer, const int* kspt, const int* kstep,
                       const int* kinc, std::size_t length_of_cmname);
 
-/// The component of Sym of each of Abaqus'.
-constexpr std::array<int, 6> k_component{0, 1, 2, 3, 5, 4};
+/// A tensor in Abaqus' order: xx, yy, zz, xy, xz, yz.
+using Vector = std::array<double, 6>;
+Vector components(const Sym<double>& t, double of_shears) {
+  return {t[0], t[1], t[2], of_shears * t[3], of_shears * t[5], of_shears * t[4]};
+}
 
 class UmatLibrary final : public ExternalLibrary {
  public:
@@ -61,30 +64,24 @@ class UmatLibrary final : public ExternalLibrary {
     static constexpr double unused[9] = {nan, nan, nan, nan, nan, nan, nan, nan, nan};
     static constexpr double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     c.tangent.fill(0.0);
-    double stress[6], strain[6], change[6], stress_by_temperature[6] = {}, heat_by_strain[6] = {};
-    for (std::size_t i = 0; i < 6; ++i) {
-      const int k = k_component[i];
-      const double factor = i < 3 ? 1 : 2;
-      stress[i] = c.old_stress[k];
-      strain[i] = factor * c.old_strain[k];
-      change[i] = factor * (c.strain[k] - c.old_strain[k]);
-    }
-    std::copy_n(c.old_internal, n_state_, c.internal);
-    std::copy_n(c.old_energies, k_external_energies, c.energies);
+    Vector stress = components(c.old_stress, 1);
+    const Vector strain = components(c.old_strain, 2), change = components(c.strain - c.old_strain, 2);
+    double stress_by_temperature[6] = {}, heat_by_strain[6] = {};
     double no_state = 0, heat_by_temperature = 0, shorter = 1;
     const double time[2] = {c.time, c.time}, warming = c.temperature - c.old_temperature, field = 0;
     const int n_state = static_cast<int>(n_state_);
     c.heat = 0;
-    umat_(stress, n_state_ > 0 ? c.internal : &no_state, c.tangent.data(), &c.energies[0], &c.energies[1],
-          &c.energies[2], &c.heat, stress_by_temperature, heat_by_strain, &heat_by_temperature, strain,
-          change, time, &c.dt, &c.old_temperature, &warming, &field, &field, name_.data(), &normal, &shears,
-          &all, &n_state, properties_.data(), &n_properties_, unused, identity, &shorter, unused, unused,
-          unused, &one, &one, &one, &one, step, &one, name_.size());
+    umat_(stress.data(), n_state_ > 0 ? c.internal : &no_state, c.tangent.data(), &c.energies[0],
+          &c.energies[1], &c.energies[2], &c.heat, stress_by_temperature, heat_by_strain,
+          &heat_by_temperature, strain.data(), change.data(), time, &c.dt, &c.old_temperature, &warming,
+          &field, &field, name_.data(), &normal, &shears, &all, &n_state, properties_.data(), &n_properties_,
+          unused, identity, &shorter, unused, unused, unused, &one, &one, &one, &one, step, &one,
+          name_.size());
     if (!(shorter >= 1)) {
       if (c.complaint != nullptr) *c.complaint = "the UMAT asks for a shorter step (PNEWDT below 1)";
       return false;
     }
-    for (std::size_t i = 0; i < 6; ++i) c.stress[k_component[i]] = stress[i];
+    c.stress = {{stress[0], stress[1], stress[2], stress[3], stress[5], stress[4]}};
     return true;
   }
 

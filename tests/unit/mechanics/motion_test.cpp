@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <array>
 #include <stdexcept>
+
+#include "linear/dense.hpp"
 
 namespace solidus {
 namespace {
@@ -12,10 +14,11 @@ namespace {
 using mechanics::Motion;
 
 /// The step (u, v Δt, a Δt²)_n → the same at t_{n+1} of u'' = −ω² u, with w = ω Δt.
-Eigen::Matrix3d amplification(const Motion& m, double w) {
-  Eigen::Matrix3d step;
-  for (int column = 0; column < 3; ++column) {
-    const Eigen::Vector3d old = Eigen::Vector3d::Unit(column);
+linear::dense::Matrix amplification(const Motion& m, double w) {
+  linear::dense::Matrix step(3, 3);
+  for (std::size_t column = 0; column < 3; ++column) {
+    std::array<double, 3> old{};
+    old[column] = 1;
     // Linear in u_1: the balance at u_1 = 0 and its slope.
     const auto balance = [&](double u) {
       const double a = m.acceleration(u - old[0], old[1], old[2], 1);
@@ -23,13 +26,18 @@ Eigen::Matrix3d amplification(const Motion& m, double w) {
     };
     const double u = -balance(0) / (balance(1) - balance(0));
     const double a = m.acceleration(u - old[0], old[1], old[2], 1);
-    step.col(column) << u, m.velocity(old[1], old[2], a, 1), a;
+    step(0, column) = u;
+    step(1, column) = m.velocity(old[1], old[2], a, 1);
+    step(2, column) = a;
   }
   return step;
 }
 
 double spectral_radius(const Motion& m, double w) {
-  return amplification(m, w).eigenvalues().cwiseAbs().maxCoeff();
+  double largest = 0;
+  for (const auto& value : linear::dense::eigensystem(amplification(m, w).all()).values)
+    largest = std::max(largest, std::abs(value));
+  return largest;
 }
 
 TEST(GeneralisedAlpha, LeavesItsParameterOfTheHighestFrequencies) {
