@@ -170,7 +170,7 @@ void residual(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKin
   p.report(state);
 }
 
-/// What an iteration of Newton's method assembles: forces, then the tangent at the same displacements.
+/// Assembles as an iteration of Newton's method does: forces, then the tangent at the same displacements.
 void assembly(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind,
               material::Material material, bool general = false) {
   Prepared p(shape, cells, kind, std::move(material), general);

@@ -163,7 +163,7 @@ std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh&
       if (pair == f.bodies) section = number;
     found.push_back(
         {section, f.bodies.first, f.bodies.second, f.surface_a, f.surface_b, f.distance, f.facets});
-    // Of faces that touch the distance is rounding of their coordinates.
+    // Faces that touch are apart by the rounding of their coordinates.
     const auto gap_in_mm = [&](double gap) { return gap < 1e-6 * f.distance ? 0.0 : 1e3 * gap; };
     logging::info(
         "interface {} / {}: {:.4g} of {:.4g} cm2 and {:.4g} of {:.4g} cm2 face each other, gap {:.2g} mm in "

@@ -130,7 +130,7 @@ void compare_ratios(const BodySpec& body, const material::Material& m, Findings&
                      "metals harden with 0.001 to 0.05 of their young_modulus", findings);
 }
 
-/// What the rates of a casting add to its strength: viscosities in other units are off by powers of ten.
+/// Compares the strength that viscosity adds at a casting's rates: other units are off by powers of ten.
 void compare_rate(const BodySpec& body, const material::Material& m, Findings& findings) {
   if (!m.flow || m.flow->rate_independent()) return;
   constexpr double k_rate = 1e-3, k_cold = 293.15;  // of castings [1/s], [K]

@@ -142,7 +142,7 @@ double MeshMaster::covered(double outside) const {
   return outside <= k_rim ? 1.0 : (options_.rim - outside) / (options_.rim - k_rim);
 }
 
-// Of the faces whose continuation holds x beyond the free boundary that which ends nearest.
+// Finds, among the faces whose continuation beyond the free boundary holds x, the one that ends nearest.
 Partner MeshMaster::beyond_rim(const SurfacePoint& closest, const Feature& feature, const Point& x) const {
   double least = options_.rim;
   Partner best;

@@ -21,7 +21,7 @@ class MeasuredStep {
       : scheme_(scheme), control_(control), estimate_(std::move(estimate)), rates_(std::move(rates)) {}
 
   struct Taken {
-    /// Of the halves together where the step was doubled. Nothing: the error of its heat ended the step
+    /// Sums both halves where the step was doubled. It is empty where the error of its heat ended the step
     /// before deformation was solved, and is all that `error` has.
     std::optional<StepEffort> effort;
     LocalError error;

@@ -1,4 +1,4 @@
-/// What a node's heat content, temperature and potential say of each other, by one look-up.
+/// Finds temperature and potential of a node from its heat content, or the reverse, by one look-up.
 #pragma once
 
 #include <vector>
