@@ -27,6 +27,10 @@ function(solidus_common_headers name libraries)
   target_link_libraries(solidus_headers_${name} PRIVATE solidus_options fmt::fmt spdlog::spdlog tomlplusplus::tomlplusplus ${libraries})
   target_precompile_headers(solidus_headers_${name} PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map>
                             <memory> <optional> <set> <sstream> <string> <unordered_map> <variant> <vector> <fmt/format.h> ${ARGN})
+  if(CCACHE)
+    set_target_properties(solidus_headers_${name} PROPERTIES CXX_COMPILER_LAUNCHER
+                          "sh;${PROJECT_SOURCE_DIR}/cmake/compile_header.sh;${CMAKE_CXX_COMPILER_LAUNCHER}")
+  endif()
 endfunction()
 
 function(solidus_precompile target name)

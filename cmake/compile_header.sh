@@ -1,0 +1,9 @@
+#!/bin/sh
+# Runs a compiler (its command line, ccache in front) with the precompiled header that it writes out of the way: ccache lets the
+# compiler preprocess the source first, which would take the old header for the text of all that it holds, so that the result of other
+# headers came from the cache.
+for word in "$@"; do
+  case $last:$word in -o:*.gch) rm -f "$word" ;; esac
+  last=$word
+done
+exec "$@"
