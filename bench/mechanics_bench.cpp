@@ -112,7 +112,7 @@ struct Prepared {
         temperature_rate(mesh.x.size()),
         u(mesh.x.size() * static_cast<std::size_t>(components)),
         forces(u.size()) {
-    const mesh::Block& block = mesh.blocks.front();
+    const mesh::ElementBlock& block = mesh.blocks.front();
     if (general)
       kernel = std::make_unique<mechanics::LawBlock<General, 4, AnalysisKind::solid, false>>(mesh, block,
                                                                                              material);

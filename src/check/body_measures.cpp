@@ -70,7 +70,7 @@ struct FacePlace {
 template <class Visit>
 void each_face(const mesh::Mesh& mesh, Visit&& visit) {
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    const mesh::Block& block = mesh.blocks[b];
+    const mesh::ElementBlock& block = mesh.blocks[b];
     const auto n_vertices = static_cast<std::size_t>(mesh::vertex_count(mesh::face_shape(block.shape)));
     for (Index e = 0; e < block.size(); ++e)
       for (int f = 0; f < mesh::face_count(block.shape); ++f) {
@@ -108,7 +108,7 @@ FacesOfNodes faces_of_nodes(const mesh::Mesh& mesh, Index first, Index last) {
 }
 
 BoundaryFace face_at(const mesh::Mesh& mesh, const FacePlace& place) {
-  const mesh::Block& block = mesh.blocks[static_cast<std::size_t>(place.block)];
+  const mesh::ElementBlock& block = mesh.blocks[static_cast<std::size_t>(place.block)];
   const std::span<const int> local = mesh::face_nodes(block.shape, place.face);
   BoundaryFace face;
   face.body = block.body;
@@ -166,8 +166,8 @@ double volume_of(const mesh::BlockGeometry& geometry, Index element) {
   return volume;
 }
 
-void measure_block(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Block& block, BodyMeasures& body,
-                   double& edges, double& n_edges) {
+void measure_block(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::ElementBlock& block,
+                   BodyMeasures& body, double& edges, double& n_edges) {
   const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
   for (Index e = 0; e < block.n_counted; ++e) {
     body.volume += volume_of(geometry, e);
@@ -193,7 +193,7 @@ void measure_block(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Block&
 /// Boxes and numbers of nodes, those that bodies share included.
 void measure_nodes(const mesh::Mesh& mesh, std::vector<BodyMeasures>& bodies) {
   std::vector<BodySet> of_node(mesh.x.size(), 0);
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::ElementBlock& block : mesh.blocks)
     for (const Index node : block.nodes) of_node[static_cast<std::size_t>(node)] |= bit(block.body);
   for (Index i = 0; i < mesh.n_owned_nodes; ++i)
     for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -246,7 +246,7 @@ std::vector<BodyMeasures> measure_bodies(const mesh::Mesh& mesh, AnalysisKind ki
   std::vector<double> edges(n, 0.0), n_edges(n, 0.0);
   measure_nodes(mesh, bodies);
   measure_skins(mesh, kind, bodies);
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     const auto b = static_cast<std::size_t>(block.body);
     bodies[b].elements += block.n_counted;
     measure_block(mesh, kind, block, bodies[b], edges[b], n_edges[b]);
@@ -257,7 +257,7 @@ std::vector<BodyMeasures> measure_bodies(const mesh::Mesh& mesh, AnalysisKind ki
 
 double share_between(const mesh::Mesh& mesh, AnalysisKind kind, int body, const std::vector<char>& marked) {
   double all = 0, between = 0;
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.body != body) continue;
     const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
     for (Index e = 0; e < block.n_counted; ++e) {

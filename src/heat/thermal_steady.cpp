@@ -43,7 +43,7 @@ void add_iterations(linear::NewtonReport& report, linear::NewtonReport last) {
 
 }  // namespace
 
-PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& trial, double time) {
+ThermalReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& trial, double time) {
   assert(start.temperature.size() == mesh_.x.size());
   follow_graph();
   system_->set_time(time);
@@ -53,7 +53,7 @@ PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& 
   system_->prescribe(temperature);
   temperature_system_->use_storage(false);
   if (consistent_) consistent_->use(false);
-  PhaseReport report;
+  ThermalReport report;
   std::vector<double> residual(at(mesh_.n_owned_nodes));
   const TemperatureRange range = limit_conduction({temperature, {}}, start);
   system_->clear_limits();  // a linear field, say, needs none

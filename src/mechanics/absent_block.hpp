@@ -13,7 +13,7 @@ namespace solidus::mechanics {
 class AbsentBlock final : public BlockKernel, public CoupledKernel {
  public:
   /// @param kept  of the body when it was there, whose fields are shown until keep_fields(); may be null
-  AbsentBlock(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
+  AbsentBlock(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind,
               const material::Material& material, std::unique_ptr<BlockKernel> kept = nullptr);
 
   bool symmetric() const override { return true; }
@@ -36,7 +36,7 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
 
   void spread_heat_as_stored(const PackVector<Lane>&) override {}
   void add_structural_heat(StructuralForm, std::span<const double>, bool, std::span<double>) const override {}
-  void begin_heat_stage(const linear::Stage&, std::span<const double>) override {}
+  void begin_heat_stage(const linear::RungeKuttaStage&, std::span<const double>) override {}
   const StructuralPoints& structural_points() const override { return points_; }
   std::size_t bytes() const override { return 0; }
 

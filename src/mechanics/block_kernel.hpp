@@ -135,14 +135,15 @@ class BlockKernel {
   /// StructuralHeat: out += its residual, or (tangent) its lumped diagonal; [local node].
   virtual void add_structural_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
                                    std::span<double> out) const = 0;
-  virtual void begin_heat_stage(const linear::Stage& stage, std::span<const double> temperature) = 0;
+  virtual void begin_heat_stage(const linear::RungeKuttaStage& stage,
+                                std::span<const double> temperature) = 0;
   /// Returns the data of the deformation that the heat balance and the audit need, as of the last finish().
   virtual const StructuralPoints& structural_points() const = 0;
   virtual std::size_t bytes() const = 0;
 };
 
 /// @param b_bar  for quads and hexes (kinematics.hpp); simplices have the standard operator
-std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                                AnalysisKind kind, const material::Material& material,
                                                Mapping mapping, bool b_bar);
 

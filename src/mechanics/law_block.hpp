@@ -32,7 +32,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
   using typename Base::Operator, typename Base::Vectors, typename Base::Properties, typename Base::Response,
       typename Base::Matrix;
 
-  LawBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material)
+  LawBlock(const mesh::Mesh& mesh, const mesh::ElementBlock& block, const material::Material& material)
       : Base(mesh, block, material), tangents_(this->law_.symmetric()) {
     if constexpr (b_bar)
       for (const mesh::QuadraturePoint& point : mesh::stiffness_rule(block.shape)) {

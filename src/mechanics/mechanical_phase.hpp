@@ -25,9 +25,9 @@
 #include "material/melt.hpp"
 #include "material/time_integration.hpp"
 #include "mechanics/balance.hpp"
-#include "mechanics/conditions.hpp"
 #include "mechanics/element_field.hpp"
 #include "mechanics/inertial_forces.hpp"
+#include "mechanics/mechanical_conditions.hpp"
 #include "mechanics/mechanical_state.hpp"
 #include "mechanics/phase_fields.hpp"
 #include "mechanics/simplices.hpp"
@@ -92,7 +92,7 @@ struct MechanicalWork {
 };
 
 /// Result of a pass, besides the state.
-struct PhaseReport {
+struct MechanicalReport {
   linear::NewtonReport newton;
   MechanicalWork work;
   std::vector<double> reactions;  ///< support forces [owned node][component] [N], zero where free
@@ -138,7 +138,7 @@ class MechanicalPhase : private linear::NonlinearSystem {
   /// @param contributions        further terms in the displacement (contact); must outlive the phase
   /// Throws InputError for a condition that names no group of the mesh or contradicts another.
   MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
-                  std::span<const double> initial_temperature, Conditions conditions,
+                  std::span<const double> initial_temperature, MechanicalConditions conditions,
                   MechanicsOptions options, std::vector<linear::Contribution*> contributions = {});
   ~MechanicalPhase() override;
 
@@ -153,7 +153,7 @@ class MechanicalPhase : private linear::NonlinearSystem {
   /// Collective.
   /// @param start  displacement that relative supports count from, [local node][component]; empty: zero
   /// Throws InputError as the constructor does, and std::invalid_argument for a body that comes back.
-  void set_conditions(Conditions conditions, std::span<const double> start);
+  void set_conditions(MechanicalConditions conditions, std::span<const double> start);
   /// Bodies and nodes that are active in the present stage.
   const linear::ActiveSet& active() const { return active_; }
   /// Zero displacement, no inelastic strain. With inertia at t = 0: the velocities of the bodies and of the
@@ -169,10 +169,10 @@ class MechanicalPhase : private linear::NonlinearSystem {
   /// Solves for t_{n+1} from the state at t_n. `trial` is written only on success; it may be the iterate.
   /// Throws StepRejected (on all processes) when Newton's iteration fails; the place is the element whose law
   /// found no state, with its inputs, or the node of the largest residual.
-  PhaseReport solve(const MechanicalState& old, MechanicalState& trial, const MechanicalPass& pass);
+  MechanicalReport solve(const MechanicalState& old, MechanicalState& trial, const MechanicalPass& pass);
   /// The first pass.
-  PhaseReport solve(const MechanicalState& old, MechanicalState& trial, std::span<const double> temperature,
-                    double time, double dt) {
+  MechanicalReport solve(const MechanicalState& old, MechanicalState& trial,
+                         std::span<const double> temperature, double time, double dt) {
     return solve(old, trial, {.time = time, .dt = dt, .temperature = temperature});
   }
 
@@ -219,8 +219,8 @@ class MechanicalPhase : private linear::NonlinearSystem {
   BlockWork finish(const MechanicalState& old, std::span<const double> x, std::vector<BlockHistory>& history);
   /// finish() at the solution; the state and the report that follow from it, the latter without that of
   /// Newton's iteration.
-  PhaseReport conclude(const MechanicalState& old, const MechanicalPass& pass, std::vector<double> x,
-                       MechanicalState& trial);
+  MechanicalReport conclude(const MechanicalState& old, const MechanicalPass& pass, std::vector<double> x,
+                            MechanicalState& trial);
   /// Throws StepRejected on all processes, with the place that says most.
   [[noreturn]] void reject(const std::string& reason, std::span<const double> x);
   /// The nodal pressure and the solver with its matrix, which are made anew with the conditions; null where
@@ -284,8 +284,8 @@ class MechanicalPhase : private linear::NonlinearSystem {
   std::string flowing_body(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
   material::TimeStep time_step(const MechanicalState& old, double dt) const;
-  PhaseReport measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums,
-                      MechanicalState& next);
+  MechanicalReport measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums,
+                           MechanicalState& next);
 
   const mesh::Mesh& mesh_;
   AnalysisKind kind_;

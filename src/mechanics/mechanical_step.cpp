@@ -167,8 +167,8 @@ linear::BlockMatrix& MechanicalPhase::tangent() {
   return *matrix_;
 }
 
-PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& trial,
-                                   const MechanicalPass& pass) {
+MechanicalReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& trial,
+                                        const MechanicalPass& pass) {
   begin(old, pass);
   solved_from_ = &old;
   linear::NewtonOptions newton_options = options_.newton;
@@ -177,7 +177,7 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
   if (pressure_ && pass.iterate == nullptr && pass.start.empty()) pressure_->release_pores();
   std::vector<double> x = start(old, pass);
   const bool guessed = try_guess(pass, x);
-  PhaseReport report;
+  MechanicalReport report;
   report.newton = linear::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
   if (guessed && !report.newton.converged) {
     // A guess may lift a body off its support, which leaves a singular tangent.
@@ -198,7 +198,7 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
   }
   const bool may_end = pass.newton_steps > 0 && report.newton.out_of_iterations;
   if (!report.newton.converged && !may_end) reject(report.newton.reason, x);
-  PhaseReport concluded = conclude(old, pass, std::move(x), trial);
+  MechanicalReport concluded = conclude(old, pass, std::move(x), trial);
   concluded.newton = std::move(report.newton);
   return concluded;
 }
@@ -326,13 +326,13 @@ BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const do
   return total;
 }
 
-PhaseReport MechanicalPhase::conclude(const MechanicalState& old, const MechanicalPass& pass,
-                                      std::vector<double> x, MechanicalState& trial) {
+MechanicalReport MechanicalPhase::conclude(const MechanicalState& old, const MechanicalPass& pass,
+                                           std::vector<double> x, MechanicalState& trial) {
   MechanicalState next;
   // Most of a state is its history: the storage of the one that is overwritten serves again.
   if (&trial != &old) next.history = std::move(trial.history);
   const BlockWork total = finish(old, x, next.history);
-  PhaseReport report = measure(old, x, total, next);
+  MechanicalReport report = measure(old, x, total, next);
   x.resize(n_displacements());
   next.displacement = std::move(x);
   next.stress = std::move(stress_);
@@ -348,15 +348,15 @@ PhaseReport MechanicalPhase::conclude(const MechanicalState& old, const Mechanic
 }
 
 /// Forces, works and energies at the solution; with inertia also the motion of the next state.
-PhaseReport MechanicalPhase::measure(const MechanicalState& old, std::span<const double> x,
-                                     const BlockWork& sums, MechanicalState& next) {
+MechanicalReport MechanicalPhase::measure(const MechanicalState& old, std::span<const double> x,
+                                          const BlockWork& sums, MechanicalState& next) {
   // The residual at the solution: internal + contributions + inertia − loads, the support force where fixed.
   // Newton's iteration ends with it.
   std::vector<double> r(n_residuals());
   residual(x, r);
   r.resize(n_forces());
   x = x.first(n_displacements());
-  PhaseReport report;
+  MechanicalReport report;
   report.reactions.resize(r.size());
   report.applied.resize(r.size());
   for (std::size_t i = 0; i < r.size(); ++i) report.applied[i] = forces_[i] - r[i];

@@ -37,7 +37,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   using typename Base::Operator, typename Base::Vectors;
   using typename Nodes::Nodal;
 
-  MixedBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material,
+  MixedBlock(const mesh::Mesh& mesh, const mesh::ElementBlock& block, const material::Material& material,
              Stabilisation stabilisation)
       : Base(mesh, block, material),
         Nodes(mesh, block, Base::geometry_, material, stabilisation),

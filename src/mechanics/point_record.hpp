@@ -6,20 +6,20 @@
 #include <cstring>
 #include <optional>
 
-#include "mechanics/point_state.hpp"
+#include "mechanics/law_history.hpp"
 
 namespace solidus::mechanics {
 
 template <class Law, int n_nodes, AnalysisKind kind, bool b_bar, int n_extra = 0>
-class PointRecord : public PointState<Law, n_nodes, kind, b_bar, n_extra> {
-  using Base = PointState<Law, n_nodes, kind, b_bar, n_extra>;
+class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
+  using Base = LawHistory<Law, n_nodes, kind, b_bar, n_extra>;
 
  public:
   using typename Base::Lanes, typename Base::Properties, typename Base::Response, typename Base::State;
   using Values = decltype(values_of(std::declval<Law>(), std::declval<Properties>(), std::declval<Response>(),
                                     Sym<Lane>{}));
 
-  PointRecord(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material)
+  PointRecord(const mesh::Mesh& mesh, const mesh::ElementBlock& block, const material::Material& material)
       : Base(mesh, block, material), averages_(static_cast<std::size_t>(Base::geometry_.n_batches)) {}
 
   void get_field(ElementField which, std::span<double> out) const override {
