@@ -186,7 +186,7 @@ void assembly(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKin
 /// temperature, eight lanes at once.
 void structural_heat(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind) {
   Prepared p(shape, cells, kind);
-  p.kernel->finish(p.u, p.u, p.history);
+  p.kernel->finish(p.u, p.u, {p.history});
   for (auto _ : state)
     p.kernel->add_structural_heat(mechanics::StructuralForm::entropy, p.temperature, false,
                                   p.temperature_rate);

@@ -22,7 +22,7 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
   double prepare(const StepStart&) override { return 0; }
   double add_forces(std::span<const double>, std::span<double>) override { return 0; }
   void add_tangent(std::span<const double>, linear::BlockMatrix&) override {}
-  BlockWork finish(std::span<const double>, std::span<const double>, BlockHistory&) override { return {}; }
+  BlockWork finish(std::span<const double>, std::span<const double>, const BlockEnd&) override { return {}; }
   FlowChange restart_flow(const StepStart&, std::span<const double>, std::span<const double>,
                           BlockHistory&) override {
     return {};

@@ -34,8 +34,8 @@ class CoupledPoints : public Kernel, public CoupledKernel {
     return Kernel::prepare(start);
   }
 
-  BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) override {
-    const BlockWork work = Kernel::finish(old_u, u, trial);
+  BlockWork finish(std::span<const double> old_u, std::span<const double> u, const BlockEnd& end) override {
+    const BlockWork work = Kernel::finish(old_u, u, end);
     count_from(carried_);
     return work;
   }

@@ -112,7 +112,8 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
     }
   }
 
-  BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) override {
+  BlockWork finish(std::span<const double> old_u, std::span<const double> u, const BlockEnd& end) override {
+    this->begin_finish(end);
     typename Base::Tally tally;
     Workspace<Law> space(this->law_);
     if constexpr (KeepsStateInPlace<Law>) space.wants_tangent = false;
@@ -122,8 +123,8 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
         const Sym<Lane> strain = b.strain(displacement);
-        this->record(batch, q, b.strain(old_displacement), strain, this->update(batch, q, strain, space),
-                     trial, average, tally);
+        this->record(batch, q, b.strain(old_displacement), strain, this->update(batch, q, strain, space), end,
+                     average, tally);
       }
       this->keep(batch, average);
     }
