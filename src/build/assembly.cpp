@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "build/admissible.hpp"
+#include "build/bare_melt.hpp"
 #include "build/body_input.hpp"
 #include "build/contact_input.hpp"
 #include "build/criteria_input.hpp"
@@ -192,6 +193,7 @@ double Assembly::coldest_start() const {
 coupling::BodyHeat apply(const CaseSpec& spec, std::size_t number, const std::vector<double>& displacement,
                          coupling::State* begins, Assembly& a) {
   const StageRun& stage = a.stages[number];
+  if (begins != nullptr) check_no_bare_melt(spec, a, number, *begins);
   const std::vector<std::string> idle = without_body(spec, a.mesh, &stage);
   const std::vector<char> fresh = new_bodies(spec, a.stages, number);
   const bool comes =
