@@ -136,7 +136,7 @@ std::string report(const Draft& draft, const PartMeasures& part, const DraftEsti
     out += fmt::format("\n  symmetry    the half below {} = {:.4g} mm is computed",
                        "xyz"[draft.symmetry->axis], 1e3 * draft.symmetry->at);
   if (draft.mould)
-    out += fmt::format("\n  mould       walls of {:.3g} mm{}",
+    out += fmt::format("\n  {:<10}  walls of {:.3g} mm{}", draft.mould->name,
                        1e3 * *std::ranges::max_element(draft.mould->walls),
                        draft.mould->walls[5] == 0 ? ", open at the top, where the riser ends" : "");
   out += fmt::format(
