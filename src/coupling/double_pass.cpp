@@ -64,7 +64,8 @@ StepEffort DoublePass::advance(const State& old, State& trial, double time, doub
 
 void DoublePass::mechanical_half(const State& start, State& end, mechanics::MechanicalPass pass,
                                  const std::function<void(State& led)>& answer, StepEffort& effort) const {
-  mechanical_pass(phases_, start, end, pass, effort);
+  int turns = 0;
+  mechanical_pass(phases_, start, end, pass, effort, {}, &turns);
   if (!repeats()) return;
   std::vector<double> held(pass.iterate_temperature.begin(), pass.iterate_temperature.end());
   if (held.empty()) held.assign(pass.temperature.begin(), pass.temperature.end());
@@ -79,7 +80,7 @@ void DoublePass::mechanical_half(const State& start, State& end, mechanics::Mech
     pass.iterate_temperature = held;
     pass.iterate = &end.mechanics;
     const std::vector<contact::ContactState> contacts = end.contacts;
-    mechanical_pass(phases_, start, end, pass, effort, contacts);
+    mechanical_pass(phases_, start, end, pass, effort, contacts, &turns);
   }
   if (change <= k_falls * first) return;
   throw StepRejected(fmt::format("coupling: isothermal passes do not settle: the change of temperature went "

@@ -24,6 +24,10 @@ namespace solidus::heat {
 
 namespace {
 
+/// Share of the range of temperatures by which the end of a step may leave it where the caller takes part of
+/// that back: deformation of the whole step acts before both stages (coupling/double_pass.hpp).
+constexpr double k_far_overshoot = 0.01;
+
 using material::k_sdirk_carried;
 using material::k_sdirk_share;
 
@@ -83,17 +87,21 @@ PhaseReport ThermalPhase::solve_two_stages(const ThermalState& old, const Therma
   std::optional<ExtrapolationGuard> guard;
   TemperatureRange around;
   bool second_order = true;
-  if (flows && pass.within_range && options_.integration == Integration::closed) {
+  if (flows && options_.integration == Integration::closed) {
     around = system_->surroundings();
     system_->set_time(pass.time);
     const TemperatureRange at_end = system_->surroundings();
     around = {std::min(around.lowest, at_end.lowest), std::max(around.highest, at_end.highest)};
     guard.emplace(*system_, *storage_, old, middle);
-    second_order = !guard->extrapolates_too_far(around);
+    second_order = !pass.within_range || !guard->extrapolates_too_far(around);
   }
   const ThermalPass to_end{pass.time, pass.dt, pass.iterate, pass.newton_steps};
   PhaseReport last = solve_stage(old, middle, second_order ? extrapolated : rest, to_end, next);
-  if (second_order && guard && (guard->overshoots(next, around) || guard->turns_back(next, ghosts_))) {
+  const auto overshoots = [&] {
+    if (!pass.within_range) return guard->overshoots(next, around, k_far_overshoot);
+    return guard->overshoots(next, around) || guard->turns_back(next, ghosts_);
+  };
+  if (second_order && guard && overshoots()) {
     second_order = false;
     begin_stage(first, old.temperature);
     PhaseReport again = solve_stage(old, middle, rest, to_end, next);
