@@ -29,7 +29,7 @@ void add_faces(const Assembly& a, AnalysisKind kind, const std::string& surface,
   const auto group = a.mesh.surfaces.find(surface);
   if (group == a.mesh.surfaces.end()) return;
   const double coherency = a.materials[static_cast<std::size_t>(body)].casting.coherency_fraction;
-  for (const mesh::Block& faces : group->second.faces) {
+  for (const mesh::ElementBlock& faces : group->second.faces) {
     if (faces.body != body) continue;
     const mesh::FaceGeometry geometry(a.mesh, faces, kind, mesh::stiffness_rule(faces.shape));
     for (Index f = 0; f < faces.n_counted; ++f) {

@@ -66,8 +66,8 @@ double volume_of(const mesh::BlockGeometry& geometry, Index element) {
   return volume;
 }
 
-void measure_block(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Block& block, BodyMeasures& body,
-                   double& edges, double& n_edges) {
+void measure_block(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::ElementBlock& block,
+                   BodyMeasures& body, double& edges, double& n_edges) {
   const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
   for (Index e = 0; e < block.n_counted; ++e) {
     body.volume += volume_of(geometry, e);
@@ -93,7 +93,7 @@ void measure_block(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Block&
 /// Boxes and numbers of nodes, those that bodies share included.
 void measure_nodes(const mesh::Mesh& mesh, std::vector<BodyMeasures>& bodies) {
   std::vector<BodySet> of_node(mesh.x.size(), 0);
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::ElementBlock& block : mesh.blocks)
     for (const Index node : block.nodes) of_node[static_cast<std::size_t>(node)] |= bit(block.body);
   for (Index i = 0; i < mesh.n_owned_nodes; ++i)
     for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -146,7 +146,7 @@ std::vector<BodyMeasures> measure_bodies(const mesh::Mesh& mesh, AnalysisKind ki
   std::vector<double> edges(n, 0.0), n_edges(n, 0.0);
   measure_nodes(mesh, bodies);
   measure_skins(mesh, kind, bodies);
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     const auto b = static_cast<std::size_t>(block.body);
     bodies[b].elements += block.n_counted;
     measure_block(mesh, kind, block, bodies[b], edges[b], n_edges[b]);
@@ -157,7 +157,7 @@ std::vector<BodyMeasures> measure_bodies(const mesh::Mesh& mesh, AnalysisKind ki
 
 double share_between(const mesh::Mesh& mesh, AnalysisKind kind, int body, const std::vector<char>& marked) {
   double all = 0, between = 0;
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.body != body) continue;
     const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
     for (Index e = 0; e < block.n_counted; ++e) {

@@ -20,7 +20,7 @@ struct FacePlace {
 template <class Visit>
 void each_face(const mesh::Mesh& mesh, Visit&& visit) {
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    const mesh::Block& block = mesh.blocks[b];
+    const mesh::ElementBlock& block = mesh.blocks[b];
     const auto n_vertices = static_cast<std::size_t>(mesh::vertex_count(mesh::face_shape(block.shape)));
     for (Index e = 0; e < block.size(); ++e)
       for (int f = 0; f < mesh::face_count(block.shape); ++f) {
@@ -58,7 +58,7 @@ FacesOfNodes faces_of_nodes(const mesh::Mesh& mesh, Index first, Index last) {
 }
 
 BoundaryFace face_at(const mesh::Mesh& mesh, const FacePlace& place) {
-  const mesh::Block& block = mesh.blocks[static_cast<std::size_t>(place.block)];
+  const mesh::ElementBlock& block = mesh.blocks[static_cast<std::size_t>(place.block)];
   const std::span<const int> local = mesh::face_nodes(block.shape, place.face);
   BoundaryFace face;
   face.body = block.body;

@@ -77,7 +77,7 @@ std::vector<std::vector<int>> meetings(const CaseSpec& spec, const mesh::Mesh& m
       for (const int b : bodies) meet[static_cast<std::size_t>(a) * n + static_cast<std::size_t>(b)] = 1;
   };
   std::vector<std::set<int>> of_node(mesh.x.size());
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::ElementBlock& block : mesh.blocks)
     for (const Index node : block.nodes) of_node[static_cast<std::size_t>(node)].insert(block.body);
   for (const std::set<int>& bodies : of_node)
     if (bodies.size() > 1) note(bodies);
@@ -86,7 +86,7 @@ std::vector<std::vector<int>> meetings(const CaseSpec& spec, const mesh::Mesh& m
     std::set<int> bodies;
     for (const std::string& side : contact.sides())
       if (const auto surface = mesh.surfaces.find(side); surface != mesh.surfaces.end())
-        for (const mesh::Block& faces : surface->second.faces)
+        for (const mesh::ElementBlock& faces : surface->second.faces)
           if (faces.body >= 0) bodies.insert(faces.body);
     note(bodies);
   }

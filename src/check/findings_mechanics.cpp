@@ -36,7 +36,7 @@ std::vector<Held> held_nodes(const CaseSpec& spec, const Assembly& a) {
   std::vector<Held> of_body(spec.bodies.size());
   std::vector<int> last(a.mesh.x.size(), -1);
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    for (const mesh::Block& block : a.mesh.blocks) {
+    for (const mesh::ElementBlock& block : a.mesh.blocks) {
       if (block.body != static_cast<int>(b)) continue;
       for (const Index node : block.nodes) {
         const auto i = static_cast<std::size_t>(node);

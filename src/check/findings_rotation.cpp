@@ -122,7 +122,7 @@ void find_turning_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeas
       size = std::max(size, body.high[d] - body.low[d]);
     }
     std::vector<char> of_group(a.mesh.x.size(), 0);
-    for (const mesh::Block& block : a.mesh.blocks)
+    for (const mesh::ElementBlock& block : a.mesh.blocks)
       if (groups.of_body[static_cast<std::size_t>(block.body)] == static_cast<int>(first))
         for (const Index node : block.nodes) of_group[static_cast<std::size_t>(node)] = 1;
     RigidMotions motions(a.mesh, centre, size);

@@ -30,7 +30,7 @@ std::set<Key> faces_with_a_role(const CaseSpec& spec, const mesh::Mesh& mesh) {
   for (const std::string& group : groups) {
     const auto surface = mesh.surfaces.find(group);
     if (surface == mesh.surfaces.end()) continue;
-    for (const mesh::Block& faces : surface->second.faces)
+    for (const mesh::ElementBlock& faces : surface->second.faces)
       for (Index f = 0; f < faces.size(); ++f)
         keys.insert(face_key(
             mesh, std::span(faces.element(f), static_cast<std::size_t>(mesh::vertex_count(faces.shape)))));
@@ -101,7 +101,7 @@ double area_on(const std::vector<mesh::SkinFace>& faces, const std::vector<mesh:
                double largest, int dimension) {
   constexpr double k_near = 0.1;
   if (others.empty()) return 0;
-  const mesh::FaceSearch search(others, k_near * largest);
+  const mesh::SkinSearch search(others, k_near * largest);
   double area = 0;
   for (const mesh::SkinFace& face : faces) {
     const double size = dimension == 3 ? std::sqrt(face.area) : face.area;

@@ -37,7 +37,7 @@ double largest(std::span<const double> a) {
 std::vector<double> interface_temperatures(const std::vector<contact::ContactState>& contacts) {
   std::vector<double> result;
   for (const contact::ContactState& contact : contacts)
-    for (const contact::PointState& point : contact.points) result.push_back(point.temperature);
+    for (const contact::ContactPointState& point : contact.points) result.push_back(point.temperature);
   return result;
 }
 

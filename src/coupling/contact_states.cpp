@@ -30,15 +30,15 @@ const contact::ContactState& state_of(const std::vector<contact::ContactState>& 
 
 /// Advances the history of a point to the start of the second stage, from t_n and the end of the first stage;
 /// `start` is the latter on entry.
-void advance_history(const contact::PointState& from, const contact::PointState& to, double carried,
-                     contact::PointState& start) {
+void advance_history(const contact::ContactPointState& from, const contact::ContactPointState& to,
+                     double carried, contact::ContactPointState& start) {
   if (!from.anchored || !to.anchored) return;
-  for (auto field :
-       {&contact::PointState::penetration, &contact::PointState::internal_variable,
-        &contact::PointState::slip, &contact::PointState::work, &contact::PointState::dissipation,
-        &contact::PointState::wear_depth, &contact::PointState::plastic_entropy})
+  for (auto field : {&contact::ContactPointState::penetration, &contact::ContactPointState::internal_variable,
+                     &contact::ContactPointState::slip, &contact::ContactPointState::work,
+                     &contact::ContactPointState::dissipation, &contact::ContactPointState::wear_depth,
+                     &contact::ContactPointState::plastic_entropy})
     start.*field = from.*field + carried * (to.*field - from.*field);
-  for (auto field : {&contact::PointState::traction, &contact::PointState::anchor})
+  for (auto field : {&contact::ContactPointState::traction, &contact::ContactPointState::anchor})
     start.*field = contact::add_scaled(from.*field, carried, contact::subtract(to.*field, from.*field));
   // In the entropy of the interface's capacity.
   if (from.temperature > 0 && to.temperature > 0)

@@ -32,15 +32,15 @@ constexpr double k_flow_settled = heat::k_nodal_tolerance;
 
 }  // namespace
 
-mechanics::PhaseReport mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
-                                       const mechanics::MechanicalPass& pass, StepEffort& effort,
-                                       const std::vector<contact::ContactState>& contacts, int* turns) {
+mechanics::MechanicalReport mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
+                                            const mechanics::MechanicalPass& pass, StepEffort& effort,
+                                            const std::vector<contact::ContactState>& contacts, int* turns) {
   const profile::Part part("mechanics");
   const double start = processes::wall_time();
   const std::vector<double> coherency =
       phases.contacts.empty() ? std::vector<double>{} : coherency_of(phases, old.heat);
   begin_contacts(phases, old.contacts, old.mechanics, pass, coherency, contacts);
-  mechanics::PhaseReport report;
+  mechanics::MechanicalReport report;
   mechanics::MechanicalPass turn = pass;
   mechanics::MechanicalState next;
   // Most of a state is its history: the storage of the one that is overwritten serves again.
@@ -73,7 +73,7 @@ mechanics::PhaseReport mechanical_pass(const Phases& phases, const MechanicalSta
   return report;
 }
 
-void book_work(const mechanics::PhaseReport& report, StepEffort& effort) {
+void book_work(const mechanics::MechanicalReport& report, StepEffort& effort) {
   const mechanics::MechanicalWork& work = report.work;
   EnergyAudit& energy = effort.energy;
   energy.kinetic = work.kinetic;
@@ -96,7 +96,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
   const double start = processes::wall_time();
   if (phases.mechanics == nullptr) rest_contacts(phases, old, pass.time, pass.dt);
   for (contact::ContactPair* pair : phases.contacts) pair->begin_heat(pass.dt, pass.adiabatic);
-  heat::PhaseReport report = phases.heat->solve(old.heat, trial.heat, pass);
+  heat::ThermalReport report = phases.heat->solve(old.heat, trial.heat, pass);
 
   effort.energy.stored_heat = report.balance.stored;
   effort.energy.heat_in = 0;

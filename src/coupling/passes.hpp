@@ -26,12 +26,12 @@ struct MechanicalStart {
 /// @param contacts  states of the pairs after the pass before, of a scheme that iterates within the step
 /// @param turns     of the augmented Lagrangian in the passes of this step so far; updated. Null: this is the
 ///                  only pass
-mechanics::PhaseReport mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
-                                       const mechanics::MechanicalPass& pass, StepEffort& effort,
-                                       const std::vector<contact::ContactState>& contacts = {},
-                                       int* turns = nullptr);
+mechanics::MechanicalReport mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
+                                            const mechanics::MechanicalPass& pass, StepEffort& effort,
+                                            const std::vector<contact::ContactState>& contacts = {},
+                                            int* turns = nullptr);
 /// Enters the work and the support forces of a solved mechanical phase in the report of the step.
-void book_work(const mechanics::PhaseReport& report, StepEffort& effort);
+void book_work(const mechanics::MechanicalReport& report, StepEffort& effort);
 
 /// The balance of energy at the configuration of the last mechanical pass (4.43, 4.53); otherwise the same.
 /// Returns whether the iteration reached its tolerance.

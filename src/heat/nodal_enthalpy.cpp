@@ -25,7 +25,7 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
   breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
 
   std::vector<std::vector<Share>> of_node(static_cast<std::size_t>(mesh.n_owned_nodes));
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     const PackVector<Lane> weights = mesh::nodal_weights(mesh, block, kind);
     const Index n = mesh::node_count(block.shape);
     for (Index e = 0; e < block.size(); ++e)

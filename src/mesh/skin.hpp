@@ -34,10 +34,10 @@ Point nearest_on_face(const SkinFace& face, const Point& point);
 double mean_edge(const std::vector<SkinFace>& faces);
 
 /// Faces by the cells of a grid, to find those near a point.
-class FaceSearch {
+class SkinSearch {
  public:
   /// @param reach  how far from a point faces are looked for [m]; the faces must outlive this
-  FaceSearch(const std::vector<SkinFace>& faces, double reach);
+  SkinSearch(const std::vector<SkinFace>& faces, double reach);
   struct Found {
     std::size_t face = 0;
     double distance = 0;  ///< [m]

@@ -14,7 +14,7 @@
 #include "mesh/kept_mesh.hpp"
 #include "new_case/draft_choice.hpp"
 #include "new_case/rounding.hpp"
-#include "run/run.hpp"
+#include "run/session.hpp"
 #include "system/log.hpp"
 
 namespace solidus::model {

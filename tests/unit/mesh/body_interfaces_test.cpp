@@ -10,7 +10,7 @@
 
 #include "mesh/face_rules.hpp"
 #include "mesh/hot_spots.hpp"
-#include "mesh/shapes.hpp"
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/size_field.hpp"
 #include "mesh/skin.hpp"
 #include "split_block.hpp"
