@@ -38,7 +38,7 @@ struct Sheets {
         const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
         mesh.x.push_back({a, b, z + 0.02 * std::sin(9 * a) * std::cos(7 * b)});
       }
-    mesh::Block faces;
+    mesh::ElementBlock faces;
     faces.shape = mesh::Shape::quad4;
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
@@ -100,7 +100,7 @@ void build_tree(benchmark::State& state) {
 void rates(benchmark::State& state, bool smoothing) {
   Sheets sheets(100);
   const SlidingKinematics kinematics = sheets.kinematics(smoothing);
-  PointState old;
+  ContactPointState old;
   old.anchored = true;
   old.master_normal = {0, 0, 1};
   old.traction = {1, 0, 0};

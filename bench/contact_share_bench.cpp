@@ -14,7 +14,7 @@
 
 #include "contact/pair.hpp"
 #include "mechanics/mechanical_phase.hpp"
-#include "mesh/shapes.hpp"
+#include "mesh/parametric_meshes.hpp"
 
 namespace solidus {
 namespace {
@@ -68,8 +68,8 @@ material::Material elastic(double young, double expansion) {
 struct Problem {
   mesh::Mesh mesh;
   AnalysisKind kind;
-  contact::ContactSpec contact;
-  mechanics::Conditions conditions;
+  contact::ContactParameters contact;
+  mechanics::MechanicalConditions conditions;
   mechanics::MechanicsOptions options;
   double warming = 0;  ///< of both bodies in a step [K]
 };
@@ -125,7 +125,7 @@ void blocks(benchmark::State& state, bool symmetric) {
   p.contact.formulation = contact::Formulation::large_sliding;
   p.contact.integration = contact::IntegrationRule::gauss;
   p.contact.stabilisation = 1e-6;
-  contact::FrictionSpec friction;
+  contact::FrictionParameters friction;
   friction.coefficient.terms = {Table(0.2)};
   friction.symmetric = symmetric;
   p.contact.friction = friction;

@@ -20,14 +20,14 @@ const std::vector<Table> k_thermal{Table({280, 600, 1200}, {0.2, 0.15, 0.1}),
                                    Table({280, 600, 1200}, {0.05, 0.02, -0.03})};
 
 FrictionLaw law(std::vector<Table> terms, InternalVariable variable = InternalVariable::normal_work) {
-  FrictionSpec spec;
+  FrictionParameters spec;
   spec.coefficient.terms = std::move(terms);
   spec.coefficient.unit = 1e6;
   spec.internal_variable = variable;
   return FrictionLaw(spec, k_penalty, k_capacity);
 }
 FrictionLaw table() {
-  FrictionSpec spec;
+  FrictionParameters spec;
   spec.coefficient.curves = {{0, Table({0, 1, 2, 4, 6, 8}, {0.157, 0.136, 0.13, 0.16, 0.2, 0.251})}};
   spec.coefficient.unit = 1e6;
   return FrictionLaw(spec, k_penalty, k_capacity);

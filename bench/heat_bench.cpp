@@ -43,7 +43,7 @@ struct Body {
         heat(mesh.x.size()) {
     for (const mesh::Point& x : mesh.x) temperature.push_back(700 + 250 * x[0] + 20 * std::sin(30 * x[1]));
   }
-  const mesh::Block& block() const { return mesh.blocks.front(); }
+  const mesh::ElementBlock& block() const { return mesh.blocks.front(); }
 };
 
 void report(benchmark::State& state, const char* what, double n) {

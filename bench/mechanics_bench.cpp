@@ -112,7 +112,7 @@ struct Prepared {
         temperature_rate(mesh.x.size()),
         u(mesh.x.size() * static_cast<std::size_t>(components)),
         forces(u.size()) {
-    const mesh::Block& block = mesh.blocks.front();
+    const mesh::ElementBlock& block = mesh.blocks.front();
     if (general)
       kernel = std::make_unique<mechanics::LawBlock<General, 4, AnalysisKind::solid, false>>(mesh, block,
                                                                                              material);
@@ -186,7 +186,7 @@ void assembly(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKin
 /// temperature, eight lanes at once.
 void structural_heat(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind) {
   Prepared p(shape, cells, kind);
-  p.kernel->finish(p.u, p.u, p.history);
+  p.kernel->finish(p.u, p.u, {p.history});
   for (auto _ : state)
     p.kernel->add_structural_heat(mechanics::StructuralForm::entropy, p.temperature, false,
                                   p.temperature_rate);

@@ -8,7 +8,7 @@ set(kernels
     "isentropic|law_kernels.hpp|law material::Isentropic"
     "external|external_block_law.hpp,law_kernels.hpp|law ExternalBlockLaw"
     "mixed|mixed_kernels.hpp|mixed")
-set(arguments "const mesh::Mesh&, const mesh::Block&, const material::Material&")
+set(arguments "const mesh::Mesh&, const mesh::ElementBlock&, const material::Material&")
 foreach(row ${kernels})
   string(REPLACE "|" ";" row "${row}")
   list(GET row 0 name)

@@ -1,7 +1,7 @@
 // Runs the first two seconds of a case from a program of one's own, and says how it ended.
 //   freeze CASE FOLDER
 #include <parallel/petsc_session.hpp>
-#include <run/run.hpp>
+#include <run/session.hpp>
 
 #include <cstdio>
 #include <exception>

@@ -4,7 +4,7 @@
 
 #include "app/verbs.hpp"
 #include "case/stage_input.hpp"
-#include "run/run.hpp"
+#include "run/session.hpp"
 
 namespace solidus::app {
 

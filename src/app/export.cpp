@@ -1,5 +1,5 @@
 /// The verb `export`: the end of a run as the start of a structural analysis, or its fields in one file.
-#include "run/export.hpp"
+#include "run/structural_export.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "app/verbs.hpp"
 #include "results/med.hpp"
-#include "results/report/report.hpp"
+#include "results/report/report_page.hpp"
 #include "results/vtkhdf.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"

@@ -22,7 +22,7 @@ using material::Flow;
 using material::IsotropicHardening;
 using material::KinematicHardening;
 using material::Material;
-using results::Column;
+using results::CsvColumn;
 using results::CsvTable;
 
 constexpr double k_zero_celsius = 273.15, k_room = 293.15;
@@ -59,7 +59,7 @@ std::vector<double> sampled_temperatures(const Material& m, const material::Enth
 }
 
 struct SampledColumn {
-  Column column;
+  CsvColumn column;
   std::function<double(double)> value;  ///< of the absolute temperature
 };
 
@@ -88,7 +88,7 @@ void write_properties(const Material& m, const fs::path& file) {
     columns.push_back({{"overstress_at_rate_1e-3", "MPa"}, [&](double theta) {
                          return 1e-6 * material::tensile_overstress(*m.flow, k_test_rate, theta);
                        }});
-  std::vector<Column> header;
+  std::vector<CsvColumn> header;
   for (const SampledColumn& c : columns) header.push_back(c.column);
   CsvTable table(file, header);
   std::vector<double> row(columns.size());
@@ -123,7 +123,7 @@ double largest_strain(const Flow& flow) {
 
 void write_flow_curves(const Flow& flow, const fs::path& file) {
   const std::vector<double> temperatures = curve_temperatures(flow);
-  std::vector<Column> header{{"plastic_strain", "1"}};
+  std::vector<CsvColumn> header{{"plastic_strain", "1"}};
   for (const double theta : temperatures)
     header.push_back({fmt::format("stress_at_{:.6g}_degC", theta - k_zero_celsius), "MPa"});
   CsvTable table(file, header);

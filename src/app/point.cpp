@@ -17,7 +17,7 @@
 #include "point/check_law.hpp"
 #include "point/point_case.hpp"
 #include "results/csv.hpp"
-#include "results/json.hpp"
+#include "results/json_document.hpp"
 #include "results/output_file.hpp"
 #include "results/run_folder.hpp"
 #include "system/processes.hpp"
@@ -29,21 +29,22 @@ namespace {
 
 namespace fs = std::filesystem;
 using point::Curve;
+using point::MaterialPointRecord;
 using point::PointCase;
-using point::Record;
 using results::Json;
 
 constexpr const char* k_marker =
     "# Written by Solidus: the point file as it was run, all defaults filled in.";
 
 /// A table as one text: a file is written whole or not at all.
-std::string table(const std::vector<Record>& records) {
+std::string table(const std::vector<MaterialPointRecord>& records) {
   std::string text;
-  for (const point::Column& column : point::columns()) text += (text.empty() ? "" : ",") + column.header();
-  for (const Record& record : records) {
+  for (const point::RecordColumn& column : point::columns())
+    text += (text.empty() ? "" : ",") + column.header();
+  for (const MaterialPointRecord& record : records) {
     text += '\n';
     const char* separator = "";
-    for (const point::Column& column : point::columns()) {
+    for (const point::RecordColumn& column : point::columns()) {
       const double value = column.shown(record);
       if (!std::isfinite(value)) throw results::NotFiniteError("column '" + column.header() + "'", {});
       text += separator + results::number_text(value);
@@ -55,7 +56,8 @@ std::string table(const std::vector<Record>& records) {
 
 std::string table(const point::Measured& measured) {
   std::string text;
-  for (const point::Column* column : measured.columns) text += (text.empty() ? "" : ",") + column->header();
+  for (const point::RecordColumn* column : measured.columns)
+    text += (text.empty() ? "" : ",") + column->header();
   for (const std::vector<double>& row : measured.rows) {
     text += '\n';
     for (std::size_t i = 0; i < row.size(); ++i) text += (i > 0 ? "," : "") + results::number_text(row[i]);
@@ -87,10 +89,11 @@ void prepare(const fs::path& folder, const PointCase& point_case, const std::str
 
 /// Returns a warning about properties whose data do not hold at the temperatures of the history; empty: there
 /// are none. Throws InputError for a table whose extrapolation is an error.
-std::string warning(const Curve& curve, const std::vector<Record>& records) {
-  const auto [coldest, hottest] =
-      std::minmax_element(records.begin(), records.end(),
-                          [](const Record& a, const Record& b) { return a.temperature < b.temperature; });
+std::string warning(const Curve& curve, const std::vector<MaterialPointRecord>& records) {
+  const auto [coldest, hottest] = std::minmax_element(
+      records.begin(), records.end(), [](const MaterialPointRecord& a, const MaterialPointRecord& b) {
+        return a.temperature < b.temperature;
+      });
   constexpr double k_rounding = 1e-6;  // [K], of a conversion from degC
   const auto celsius = [](double kelvin) { return fmt::format("{:.6g}", kelvin - k_zero_celsius); };
   std::string properties;
@@ -126,11 +129,11 @@ Json picture_entry(const point::PictureSpec& picture) {
 std::string line(const Curve& curve, const point::History& history) {
   double peak = 0;
   int iterations = 0;
-  for (const Record& r : history.records) {
+  for (const MaterialPointRecord& r : history.records) {
     peak = std::max(peak, von_mises(r.stress));
     iterations = std::max(iterations, r.iterations);
   }
-  const Record& last = history.records.back();
+  const MaterialPointRecord& last = history.records.back();
   return fmt::format("  {:<24} {:>6} {:>12.6g} {:>10.5g} {:>14.5g} {:>12.4g} {:>12.4g} {:>10}\n", curve.name,
                      history.records.size() - 1, last.time, last.temperature - k_zero_celsius, 1e-6 * peak,
                      1e-6 * von_mises(last.stress), last.equivalent_plastic, iterations);

@@ -9,7 +9,7 @@
 #include "app/verbs.hpp"
 #include "case/case_materials.hpp"
 #include "material/library.hpp"
-#include "results/report/report.hpp"
+#include "results/report/report_page.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::app {

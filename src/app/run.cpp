@@ -1,5 +1,5 @@
 /// The verb `run`.
-#include "run/run.hpp"
+#include "run/session.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

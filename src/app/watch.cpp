@@ -16,7 +16,7 @@
 #include <system_error>
 #include <utility>
 
-#include "results/report/report.hpp"
+#include "results/report/report_page.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::app {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "build/admissible.hpp"
+#include "build/bare_melt.hpp"
 #include "build/body_input.hpp"
 #include "build/contact_input.hpp"
 #include "build/criteria_input.hpp"
@@ -31,7 +32,7 @@ std::vector<double> nodal_temperature(const CaseSpec& spec, const InitialTempera
                                       const mesh::Mesh& mesh) {
   using Rank = std::pair<bool, double>;
   std::vector<Rank> best(mesh.x.size(), {false, -1.0});
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     const bool deforms = !only_conducts(spec.bodies[static_cast<std::size_t>(block.body)]);
     for (const Index i : block.nodes) {
       Rank& here = best[static_cast<std::size_t>(i)];
@@ -45,7 +46,7 @@ std::vector<double> nodal_temperature(const CaseSpec& spec, const InitialTempera
 }
 
 /// That the two surfaces of a contact are not one. Collective.
-void check_separate(const mesh::Mesh& mesh, const contact::ContactSpec& pair) {
+void check_separate(const mesh::Mesh& mesh, const contact::ContactParameters& pair) {
   const GlobalIndex shared = shared_nodes(mesh, pair.slave, pair.master);
   if (shared > 0 && shared == shared_nodes(mesh, pair.slave, pair.slave))
     throw InputError(pair.where,
@@ -55,9 +56,12 @@ void check_separate(const mesh::Mesh& mesh, const contact::ContactSpec& pair) {
                      "bodies with nodes of their own: no mesh.conforming, no common faces in the geometry");
 }
 
-/// Warns of slave surfaces that contacts cover in part; several may share one.
-void check_coverage(const Assembly& a) {
-  for (const auto& pair : a.contacts) {
+/// Warns of slave surfaces that contacts cover in part; several may share one. Surfaces that the program has
+/// found are made of all faces that another body covers in part, at whose rim a part has no partner.
+void check_coverage(const CaseSpec& spec, const Assembly& a) {
+  constexpr double k_given = 0.98, k_found = 0.5;
+  for (std::size_t c = 0; c < a.contacts.size(); ++c) {
+    const auto& pair = a.contacts[c];
     double covered = 0;
     bool slides = false;
     for (const auto& other : a.contacts) {
@@ -65,7 +69,7 @@ void check_coverage(const Assembly& a) {
       covered += other->geometry().kinematics().coverage();
       slides = slides || other->spec().formulation == contact::Formulation::large_sliding;
     }
-    if (!slides && covered < 0.999)
+    if (!slides && covered < (spec.contacts[c].surfaces.empty() ? k_given : k_found))
       logging::warn("contact '{}': only {:.1f} % of the slave surface '{}' faces the master",
                     pair->spec().name, 100 * pair->geometry().kinematics().coverage(), pair->spec().slave);
   }
@@ -75,7 +79,7 @@ void build_contacts(const CaseSpec& spec, Assembly& a) {
   std::vector<double> moduli = contact_moduli(a.materials);
   for (std::size_t b = 0; b < moduli.size(); ++b)
     if (only_conducts(spec.bodies[b])) moduli[b] = 0;  // its stiffness makes no penalty
-  for (contact::ContactSpec& pair : contact_specs(spec)) {
+  for (contact::ContactParameters& pair : contact_specs(spec)) {
     check_separate(a.mesh, pair);
     set_walls(spec, a.mesh, pair);
     set_leaving_gap(spec, a.mesh, a.materials, pair);
@@ -84,7 +88,7 @@ void build_contacts(const CaseSpec& spec, Assembly& a) {
         std::make_unique<contact::ContactPair>(a.mesh, spec.analysis.kind, std::move(pair), moduli));
     a.phases.contacts.push_back(a.contacts.back().get());
   }
-  check_coverage(a);
+  check_coverage(spec, a);
 }
 
 void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_temperature, Assembly& a) {
@@ -95,7 +99,7 @@ void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_te
     options.symmetric = options.symmetric && pair->forces().symmetric();
     a.initial.contacts.push_back(pair->history().initial());
   }
-  mechanics::Conditions conditions = mechanical_conditions(spec, a.first_stage());
+  mechanics::MechanicalConditions conditions = mechanical_conditions(spec, a.first_stage());
   conditions.absent_bodies =
       absent_from_mechanics(spec, nullptr);  // others leave when the first stage begins
   a.mechanics = std::make_unique<mechanics::MechanicalPhase>(a.mesh, spec.analysis.kind, a.materials,
@@ -113,7 +117,7 @@ void build_heat(const CaseSpec& spec, const InitialTemperatures& start, Assembly
   if (a.structural) contributions.push_back(a.structural.get());
   heat::HeatOptions options = heat_options(spec);
   for (const auto& pair : a.contacts) options.symmetric = options.symmetric && pair->symmetric_heat();
-  heat::Conditions conditions = thermal_conditions(spec, a.first_stage());
+  heat::ThermalConditions conditions = thermal_conditions(spec, a.first_stage());
   conditions.absent_bodies.clear();  // they leave when the first stage begins
   a.heat = std::make_unique<heat::ThermalPhase>(a.mesh, spec.analysis.kind, a.materials, conditions, options,
                                                 contributions);
@@ -168,12 +172,12 @@ void renew_contacts(const CaseSpec& spec, const std::vector<char>& fresh, coupli
     const auto group = a.mesh.surfaces.find(surface);
     bool any = false;
     if (group != a.mesh.surfaces.end())
-      for (const mesh::Block& faces : group->second.faces)
+      for (const mesh::ElementBlock& faces : group->second.faces)
         any = any || (faces.size() > 0 && others.reversed(faces));
     return parallel::any_process(any);
   };
   for (std::size_t i = 0; i < a.contacts.size(); ++i) {
-    const contact::ContactSpec& pair = a.contacts[i]->spec();
+    const contact::ContactParameters& pair = a.contacts[i]->spec();
     const bool slave = is_new(pair.slave), master = is_new(pair.master);
     if (slave || master)
       state.contacts[i] = a.contacts[i]->renewed_state(state.contacts[i], slave, master,
@@ -185,13 +189,14 @@ void renew_contacts(const CaseSpec& spec, const std::vector<char>& fresh, coupli
 
 double Assembly::coldest_start() const {
   double low = start.front().low;
-  for (const TemperatureRange& range : start) low = std::min(low, range.low);
+  for (const InitialTemperatureRange& range : start) low = std::min(low, range.low);
   return low;
 }
 
 coupling::BodyHeat apply(const CaseSpec& spec, std::size_t number, const std::vector<double>& displacement,
                          coupling::State* begins, Assembly& a) {
   const StageRun& stage = a.stages[number];
+  if (begins != nullptr) check_no_bare_melt(spec, a, number, *begins);
   const std::vector<std::string> idle = without_body(spec, a.mesh, &stage);
   const std::vector<char> fresh = new_bodies(spec, a.stages, number);
   const bool comes =
@@ -205,7 +210,7 @@ coupling::BodyHeat apply(const CaseSpec& spec, std::size_t number, const std::ve
     a.mechanics->set_conditions(mechanical_conditions(spec, &stage),
                                 begins != nullptr ? begins->mechanics.displacement : displacement);
     if (a.structural)
-      mechanics::spread_heat_as_stored(*a.mechanics, spec.heat.integration == heat::Integration::closed);
+      mechanics::spread_heat_as_stored(*a.mechanics, spec.heat.integration == heat::HeatIntegration::closed);
     if (comes) {
       mechanics::renew_history(*a.mechanics, fresh, begins->mechanics);
       renew_contacts(spec, fresh, *begins, a);
@@ -257,7 +262,7 @@ void build(const CaseSpec& spec, Assembly& a) {
   const InitialTemperatures& start = *a.initial_temperatures;
   a.start = start.ranges();
   std::vector<double> highest;
-  for (const TemperatureRange& range : a.start) highest.push_back(range.high);
+  for (const InitialTemperatureRange& range : a.start) highest.push_back(range.high);
   check_melts(spec, a.materials, highest);
   build_contacts(spec, a);
   a.phases.temperature = nodal_temperature(spec, start, a.mesh);
@@ -265,7 +270,7 @@ void build(const CaseSpec& spec, Assembly& a) {
     build_mechanics(spec, a.phases.temperature, a);
     if (spec.exchanges_heat()) {
       a.structural = std::make_unique<mechanics::StructuralHeat>(
-          *a.mechanics, structural_form(spec), spec.heat.integration == heat::Integration::closed);
+          *a.mechanics, structural_form(spec), spec.heat.integration == heat::HeatIntegration::closed);
       a.phases.structural = a.structural.get();
     }
     a.initial.mechanics = a.mechanics->initial_state();  // with what structural heat keeps at the points

@@ -26,8 +26,8 @@ struct Assembly {
   coupling::Phases phases;
   coupling::State initial;
   std::unique_ptr<InitialTemperatures> initial_temperatures;
-  std::vector<TemperatureRange> start;  ///< initial temperatures, [body]
-  std::vector<StageRun> stages;         ///< empty: the case has none
+  std::vector<InitialTemperatureRange> start;  ///< initial temperatures, [body]
+  std::vector<StageRun> stages;                ///< empty: the case has none
   Assembly() = default;
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;

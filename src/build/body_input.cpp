@@ -22,7 +22,7 @@ bool stands(const mesh::Mesh& mesh, const linear::ActiveSet& active, const std::
   if (needs_faces) {
     const auto surface = mesh.surfaces.find(group);
     if (surface != mesh.surfaces.end())
-      for (const mesh::Block& faces : active.part(mesh, surface->second).faces)
+      for (const mesh::ElementBlock& faces : active.part(mesh, surface->second).faces)
         found = found || faces.size() > 0;
   } else if (const auto nodes = mesh.node_sets.find(group); nodes != mesh.node_sets.end()) {
     found = std::any_of(nodes->second.begin(), nodes->second.end(),
@@ -45,7 +45,7 @@ Sides sides(const mesh::Mesh& mesh, const linear::ActiveSet& active, const std::
   Sides found;
   const auto group = mesh.surfaces.find(surface);
   if (group == mesh.surfaces.end()) return found;  // a rigid surface
-  for (const mesh::Block& faces : group->second.faces)
+  for (const mesh::ElementBlock& faces : group->second.faces)
     if (faces.size() > 0) (active.reversed(faces) ? found.gone : found.there) = true;
   return {parallel::any_process(found.gone), parallel::any_process(found.there)};
 }
@@ -119,7 +119,7 @@ void check_new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, c
     std::string shares;
     SourceLocation where;
     for (const bool is_new : {false, true})
-      for (const mesh::Block& block : mesh.blocks) {
+      for (const mesh::ElementBlock& block : mesh.blocks) {
         const auto b = static_cast<std::size_t>(block.body);
         const BodySpec& body = spec.bodies[b];
         if (only_conducts(body) || !holds(body.stages, &runs[i]) || (fresh[b] != 0) != is_new) continue;
@@ -143,7 +143,7 @@ void check_new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, c
   }
 }
 
-void set_walls(const CaseSpec& spec, const mesh::Mesh& mesh, contact::ContactSpec& pair) {
+void set_walls(const CaseSpec& spec, const mesh::Mesh& mesh, contact::ContactParameters& pair) {
   std::vector<std::string> conductors;
   for (const BodySpec& body : spec.bodies)
     if (only_conducts(body)) conductors.push_back(body.mesh_group());

@@ -8,7 +8,7 @@
 #include "case/case_spec.hpp"
 #include "case/roles.hpp"
 #include "case/stage_input.hpp"
-#include "contact/spec.hpp"
+#include "contact/parameters.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::model {
@@ -32,7 +32,7 @@ void check_new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, c
 
 /// A body that only conducts heat is a rigid wall in contact: the master where the program chooses the roles.
 /// Between two such walls no force acts, and the penalty is any. Collective.
-void set_walls(const CaseSpec& spec, const mesh::Mesh& mesh, contact::ContactSpec& pair);
+void set_walls(const CaseSpec& spec, const mesh::Mesh& mesh, contact::ContactParameters& pair);
 
 /// Whether a contact is active in a stage: it is one of its stages, and no body of its surfaces has been
 /// removed.

@@ -369,7 +369,7 @@ void check_probes(const CaseSpec& spec) {
 
 void check_coupling(const CaseSpec& spec) {
   if (!spec.coupled()) return;
-  using Heating = CouplingSpec::StructuralHeating;
+  using Heating = CouplingSpec::StructuralHeatForm;
   const CouplingSpec& c = spec.coupling;
   if (const auto wrong = c.scheme->objection(scheme_context(spec, false)))
     throw InputError(c.where, wrong->found, wrong->allowed);

@@ -8,7 +8,7 @@ namespace solidus::model {
 
 std::vector<results::CastBody> cast_bodies(const CaseSpec& spec,
                                            const std::vector<material::Material>& materials,
-                                           const std::vector<TemperatureRange>& start) {
+                                           const std::vector<InitialTemperatureRange>& start) {
   std::vector<results::CastBody> cast;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::PhaseChange* freezing = materials[b].solidification();
@@ -27,7 +27,7 @@ std::vector<results::CastBody> cast_bodies(const CaseSpec& spec,
 }
 
 std::vector<char> followed_bodies(const CaseSpec& spec, const std::vector<material::Material>& materials,
-                                  const std::vector<TemperatureRange>& start) {
+                                  const std::vector<InitialTemperatureRange>& start) {
   std::vector<char> followed(spec.bodies.size(), 0);
   for (const results::CastBody& cast : cast_bodies(spec, materials, start))
     followed[static_cast<std::size_t>(cast.body)] = 1;

@@ -14,11 +14,11 @@ namespace solidus::model {
 /// criteria.feeders.
 std::vector<results::CastBody> cast_bodies(const CaseSpec& spec,
                                            const std::vector<material::Material>& materials,
-                                           const std::vector<TemperatureRange>& start);
+                                           const std::vector<InitialTemperatureRange>& start);
 
 /// The bodies whose melt criteria follow, [body]: those that are poured; where none is (a solid that is
 /// melted in the course of the run), all that can melt.
 std::vector<char> followed_bodies(const CaseSpec& spec, const std::vector<material::Material>& materials,
-                                  const std::vector<TemperatureRange>& start);
+                                  const std::vector<InitialTemperatureRange>& start);
 
 }  // namespace solidus::model

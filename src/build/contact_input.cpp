@@ -41,7 +41,7 @@ contact::NormalKind normal_kind(ContactSpec::Normal normal, bool dynamic) {
   return dynamic ? contact::NormalKind::energy_conserving : contact::NormalKind::penalty;
 }
 
-void add_friction(const ContactSpec& c, Physics physics, contact::ContactSpec& pair) {
+void add_friction(const ContactSpec& c, Physics physics, contact::ContactParameters& pair) {
   if (c.friction && physics == Physics::heat)
     throw InputError(c.friction->where, "friction in an analysis of heat alone",
                      "physics = \"thermomechanical\" or \"mechanics\", or no [contact.friction]");
@@ -57,12 +57,12 @@ void add_friction(const ContactSpec& c, Physics physics, contact::ContactSpec& p
 }
 
 /// Whether a body has nodes on a surface of the pair. Collective.
-bool meets(const mesh::Mesh& mesh, int body, const contact::ContactSpec& pair) {
+bool meets(const mesh::Mesh& mesh, int body, const contact::ContactParameters& pair) {
   std::vector<char> on(mesh.x.size(), 0);
   for (const std::string& name : {pair.slave, pair.master})
     if (const auto found = mesh.surfaces.find(name); found != mesh.surfaces.end())
       for (const Index node : found->second.nodes) on[static_cast<std::size_t>(node)] = 1;
-  const bool here = std::any_of(mesh.blocks.begin(), mesh.blocks.end(), [&](const mesh::Block& block) {
+  const bool here = std::any_of(mesh.blocks.begin(), mesh.blocks.end(), [&](const mesh::ElementBlock& block) {
     return block.body == body && std::any_of(block.nodes.begin(), block.nodes.end(), [&](Index node) {
              return on[static_cast<std::size_t>(node)] != 0;
            });
@@ -75,7 +75,7 @@ double extent(const mesh::Mesh& mesh, int body) {
   double longest = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(mesh.dimension); ++k) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-    for (const mesh::Block& block : mesh.blocks) {
+    for (const mesh::ElementBlock& block : mesh.blocks) {
       if (block.body != body) continue;
       for (const Index node : block.nodes) {
         low = std::min(low, mesh.x[static_cast<std::size_t>(node)][k]);
@@ -89,10 +89,10 @@ double extent(const mesh::Mesh& mesh, int body) {
 
 }  // namespace
 
-std::vector<contact::ContactSpec> contact_specs(const CaseSpec& spec) {
-  std::vector<contact::ContactSpec> result;
+std::vector<contact::ContactParameters> contact_specs(const CaseSpec& spec) {
+  std::vector<contact::ContactParameters> result;
   for (const ContactSpec& c : spec.contacts) {
-    contact::ContactSpec pair;
+    contact::ContactParameters pair;
     pair.name = c.name;
     pair.slave = c.sides()[0];
     pair.master = c.sides()[1];
@@ -115,7 +115,7 @@ std::vector<contact::ContactSpec> contact_specs(const CaseSpec& spec) {
     pair.atmosphere = c.wet ? c.atmosphere : 0.0;
     pair.heat = c.heat;
     add_friction(c, spec.analysis.physics, pair);
-    pair.nodal_heat = spec.heat.integration == heat::Integration::closed;
+    pair.nodal_heat = spec.heat.integration == heat::HeatIntegration::closed;
     pair.where = c.where;
     result.push_back(std::move(pair));
   }
@@ -131,7 +131,7 @@ std::vector<double> contact_moduli(const std::vector<material::Material>& materi
 }
 
 void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
-                     const std::vector<material::Material>& materials, contact::ContactSpec& pair) {
+                     const std::vector<material::Material>& materials, contact::ContactParameters& pair) {
   constexpr double k_leaving_share = 0.01, k_room_temperature = 293.15;
   double least = 0;
   for (std::size_t b = 0; b < materials.size(); ++b) {
@@ -151,7 +151,7 @@ void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
 }
 
 void choose_normal(const CaseSpec& spec, const std::vector<material::Material>& materials,
-                   contact::ContactSpec& pair) {
+                   contact::ContactParameters& pair) {
   const ContactSpec& c = *std::ranges::find(spec.contacts, pair.name, &ContactSpec::name);
   const bool chosen = c.normal != ContactSpec::Normal::automatic || c.penalty || c.penalty_factor;
   if (chosen || spec.dynamics || spec.analysis.physics == Physics::heat) return;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "case/case_spec.hpp"
-#include "contact/spec.hpp"
+#include "contact/parameters.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
@@ -12,7 +12,7 @@ namespace solidus::model {
 
 /// One per [[contact]]. Heat passes between nodes only when heat content is integrated there too (closed
 /// rule).
-std::vector<contact::ContactSpec> contact_specs(const CaseSpec& spec);
+std::vector<contact::ContactParameters> contact_specs(const CaseSpec& spec);
 
 /// Young's modulus of every body at room temperature [Pa], for penalties given as a factor; of bodies without
 /// one, 1 GPa (in an analysis of heat alone it is never used).
@@ -22,12 +22,12 @@ std::vector<double> contact_moduli(const std::vector<material::Material>& materi
 /// from the liquidus to room temperature, of the extent of the castings on the pair's surfaces, the smallest
 /// of them. Collective.
 void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
-                     const std::vector<material::Material>& materials, contact::ContactSpec& pair);
+                     const std::vector<material::Material>& materials, contact::ContactParameters& pair);
 
 /// Chooses the law of pressure where the case leaves it to the program: of bodies none of which melts by
 /// multipliers, whose pressures do not show the compliance of the
 /// penalty; else as contact_specs() has it (docs/decisions/0033-default-pressure-of-contact.md).
 void choose_normal(const CaseSpec& spec, const std::vector<material::Material>& materials,
-                   contact::ContactSpec& pair);
+                   contact::ContactParameters& pair);
 
 }  // namespace solidus::model

@@ -11,7 +11,7 @@ namespace solidus::model {
 
 std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const mesh::Mesh& mesh,
                                                   const std::vector<material::Material>& materials,
-                                                  const std::vector<TemperatureRange>& start,
+                                                  const std::vector<InitialTemperatureRange>& start,
                                                   const coupling::Phases& phases) {
   const bool melts = std::any_of(materials.begin(), materials.end(),
                                  [](const material::Material& m) { return m.solidification() != nullptr; });

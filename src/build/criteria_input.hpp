@@ -15,7 +15,7 @@ namespace solidus::model {
 /// Throws InputError for a feeder that is no group of the mesh.
 std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const mesh::Mesh& mesh,
                                                   const std::vector<material::Material>& materials,
-                                                  const std::vector<TemperatureRange>& start,
+                                                  const std::vector<InitialTemperatureRange>& start,
                                                   const coupling::Phases& phases);
 
 }  // namespace solidus::model

@@ -100,7 +100,7 @@ Source read_source(const PlaceSpec& place, AnalysisKind kind, const material::En
 
 std::vector<double> closed_weights(const mesh::Mesh& mesh, int body, AnalysisKind kind) {
   std::vector<double> weight(mesh.x.size(), 0.0);
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.body != body) continue;
     const PackVector<Lane> weights = mesh::nodal_weights(mesh, block, kind);
     const int n = mesh::node_count(block.shape);

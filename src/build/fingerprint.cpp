@@ -35,7 +35,7 @@ std::string analysis_text(const CaseSpec& spec) {
   constexpr std::array<const char*, 3> k_kinds = {"plane strain", "axisymmetric", "3D"};
   return fmt::format("{}, {}, {} rule{}{}{}", k_kinds.at(static_cast<std::size_t>(spec.analysis.kind)),
                      k_physics.at(static_cast<std::size_t>(spec.analysis.physics)),
-                     spec.heat.integration == heat::Integration::closed ? "closed" : "open",
+                     spec.heat.integration == heat::HeatIntegration::closed ? "closed" : "open",
                      spec.isentropic() ? ", isentropic" : (spec.simultaneous() ? ", simultaneous" : ""),
                      spec.dynamics ? ", with inertia by " + method_name(*spec.dynamics) : "",
                      simplices_text(spec.mechanics));
@@ -88,7 +88,7 @@ std::uint64_t mesh_hash(const mesh::Mesh& mesh) {
     for (const double x : mesh.x[i]) node.add_bits(x);
     sum += node.value();
   }
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::ElementBlock& block : mesh.blocks)
     for (Index e = 0; e < block.n_counted; ++e) {
       Hash element;
       element.add_bits(block.input_element[static_cast<std::size_t>(e)]);

@@ -41,8 +41,8 @@ contact::FrictionCurve curve(const FrictionCurveSpec& spec, bool only) {
 
 }  // namespace
 
-contact::FrictionSpec friction_spec(const FrictionSpec& spec) {
-  contact::FrictionSpec r;
+contact::FrictionParameters friction_spec(const FrictionSpec& spec) {
+  contact::FrictionParameters r;
   r.where = r.coefficient.where = spec.where;
   r.internal_variable = spec.internal_variable;
   r.coefficient.unit = unit_of(spec);
@@ -58,7 +58,7 @@ contact::FrictionSpec friction_spec(const FrictionSpec& spec) {
   return r;
 }
 
-contact::WearSpec wear_spec(const WearSpec& spec) {
+contact::WearParameters wear_spec(const WearSpec& spec) {
   return {spec.archard, spec.hardness.table, spec.master_share, spec.where};
 }
 

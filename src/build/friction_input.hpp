@@ -9,8 +9,8 @@ namespace solidus::model {
 
 /// Throws InputError for errors that the check of a single key cannot find: a unit of the wrong dimension,
 /// curves that do not fit, coefficients that make no law (contact/friction_coefficient.hpp).
-contact::FrictionSpec friction_spec(const FrictionSpec& spec);
+contact::FrictionParameters friction_spec(const FrictionSpec& spec);
 
-contact::WearSpec wear_spec(const WearSpec& spec);
+contact::WearParameters wear_spec(const WearSpec& spec);
 
 }  // namespace solidus::model

@@ -7,16 +7,16 @@ namespace solidus::model {
 
 namespace {
 
-heat::Coefficient coefficient(const Function& f, Clock clock, const StageRun* stage, AnalysisKind kind) {
+heat::Coefficient coefficient(const Function& f, TimeOrigin clock, const StageRun* stage, AnalysisKind kind) {
   if (f.of == Argument::temperature) return {f.table, true};
   return {place_function(f, clock, stage, kind), false};
 }
 
 }  // namespace
 
-heat::Conditions thermal_conditions(const CaseSpec& spec, const StageRun* stage) {
+heat::ThermalConditions thermal_conditions(const CaseSpec& spec, const StageRun* stage) {
   using Kind = ThermalConditionSpec::Kind;
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.absent_bodies = gone_bodies(spec, stage);
   for (const auto& c : spec.thermal_conditions) {
     if (!holds(c.stages, stage)) continue;
@@ -49,7 +49,7 @@ heat::Conditions thermal_conditions(const CaseSpec& spec, const StageRun* stage)
 }
 
 std::string against_two_stages(const CaseSpec& spec) {
-  using Heating = CouplingSpec::StructuralHeating;
+  using Heating = CouplingSpec::StructuralHeatForm;
   if (!spec.coupled()) return {};
   const CouplingSpec& c = spec.coupling;
   if (!c.scheme->traits().leaves_stepping) return "the scheme has an integration of its own";
@@ -67,7 +67,7 @@ heat::HeatOptions heat_options(const CaseSpec& spec) {
                            : heat::ThermalStepping::backward_euler;
   if (!spec.coupled()) return options;
   if (spec.coupling.as_printed)
-    options.sensible = spec.coupling.structural_heating == CouplingSpec::StructuralHeating::temperature
+    options.sensible = spec.coupling.structural_heating == CouplingSpec::StructuralHeatForm::temperature
                            ? heat::SensibleForm::temperature
                            : heat::SensibleForm::entropy;
   return options;

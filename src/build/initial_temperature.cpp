@@ -28,7 +28,7 @@ double snapped(double temperature, const material::EnthalpyCurve& curve) {
 
 std::vector<Index> nodes_of(const mesh::Mesh& mesh, int body) {
   std::vector<Index> nodes;
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::ElementBlock& block : mesh.blocks)
     if (block.body == body) nodes.insert(nodes.end(), block.nodes.begin(), block.nodes.end());
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -113,8 +113,8 @@ double InitialTemperatures::enthalpy(Index node, int body) const {
   return b.enthalpies.empty() ? b.enthalpy : b.enthalpies[static_cast<std::size_t>(node)];
 }
 
-std::vector<TemperatureRange> InitialTemperatures::ranges() const {
-  std::vector<TemperatureRange> all;
+std::vector<InitialTemperatureRange> InitialTemperatures::ranges() const {
+  std::vector<InitialTemperatureRange> all;
   for (const Body& body : bodies_) all.push_back(body.range);
   return all;
 }

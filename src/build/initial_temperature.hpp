@@ -14,7 +14,7 @@
 namespace solidus::model {
 
 /// Lowest and highest temperature of a body at the start [K].
-struct TemperatureRange {
+struct InitialTemperatureRange {
   double low = 0, high = 0;
 };
 
@@ -37,13 +37,13 @@ class InitialTemperatures {
   double enthalpy(Index node, int body) const;
   /// Whether a body has one temperature.
   bool uniform(int body) const { return bodies_[static_cast<std::size_t>(body)].enthalpies.empty(); }
-  std::vector<TemperatureRange> ranges() const;
+  std::vector<InitialTemperatureRange> ranges() const;
 
  private:
   struct Body {
     double temperature = 0, enthalpy = 0;          ///< of a uniform one
     std::vector<double> temperatures, enthalpies;  ///< [local node], of the body's nodes; else empty
-    TemperatureRange range;
+    InitialTemperatureRange range;
   };
   Body evaluated(const PlaceSpec& place, const mesh::Mesh& mesh, int body, AnalysisKind kind,
                  const material::Material& material, const std::string& name) const;

@@ -20,9 +20,9 @@ std::array<double, 3> gravity(const AnalysisSpec& analysis) {
   return direction;
 }
 
-mechanics::Conditions mechanical_conditions(const CaseSpec& spec, const StageRun* stage) {
+mechanics::MechanicalConditions mechanical_conditions(const CaseSpec& spec, const StageRun* stage) {
   using Kind = MechanicalConditionSpec::Kind;
-  mechanics::Conditions conditions;
+  mechanics::MechanicalConditions conditions;
   conditions.gravity = gravity(spec.analysis);
   conditions.absent_bodies = absent_from_mechanics(spec, stage);
   const bool axisymmetric = spec.analysis.kind == AnalysisKind::axisymmetric;

@@ -13,7 +13,7 @@ namespace solidus::model {
 std::array<double, 3> gravity(const AnalysisSpec& analysis);
 
 /// @param stage  whose conditions; null: those of all stages
-mechanics::Conditions mechanical_conditions(const CaseSpec& spec, const StageRun* stage = nullptr);
+mechanics::MechanicalConditions mechanical_conditions(const CaseSpec& spec, const StageRun* stage = nullptr);
 mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec);
 
 }  // namespace solidus::model

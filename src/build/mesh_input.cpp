@@ -11,7 +11,7 @@
 #include "mesh/casting_geometry.hpp"
 #include "mesh/distribute.hpp"
 #include "mesh/message.hpp"
-#include "mesh/shapes.hpp"
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/wall_layers.hpp"
 #include "results/output_error.hpp"
 #include "system/log.hpp"
@@ -180,7 +180,8 @@ mesh::Mesh load_mesh(CaseSpec& spec) {
   std::vector<mesh::BodyWork> work;
   for (const BodySpec& body : spec.bodies) {
     bodies.push_back(body.mesh_group());
-    work.push_back(body.physics == BodySpec::Physics::heat ? mesh::BodyWork::heat : mesh::BodyWork::all);
+    work.push_back(body.physics == BodySpec::ActivePhysics::heat ? mesh::BodyWork::heat
+                                                                 : mesh::BodyWork::all);
   }
   for (const ContactSpec& contact : spec.contacts)
     for (const std::string& surface : contact.sides())

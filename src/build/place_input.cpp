@@ -211,11 +211,11 @@ std::shared_ptr<const PlaceLaw> place_law(const PlaceSpec& spec, AnalysisKind ki
   return std::make_shared<CheckedLaw>(spec, kind);
 }
 
-PlaceFunction place_function(const Function& function, Clock clock, const StageRun* stage,
+PlaceFunction place_function(const Function& function, TimeOrigin clock, const StageRun* stage,
                              AnalysisKind kind) {
   if (function.place == nullptr) return on_clock(function, clock, stage);
   std::shared_ptr<const PlaceLaw> law = place_law(*function.place, kind);
-  if (clock == Clock::run || stage == nullptr) return PlaceFunction(std::move(law));
+  if (clock == TimeOrigin::run || stage == nullptr) return PlaceFunction(std::move(law));
   return PlaceFunction(std::move(law), stage->start, stage->stage->duration);
 }
 

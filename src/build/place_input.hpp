@@ -18,6 +18,7 @@ std::shared_ptr<const PlaceLaw> place_law(const PlaceSpec& spec, AnalysisKind ki
 
 /// A function of the case on the clock that the user chose: a table of time, or a place. Throws as
 /// place_law().
-PlaceFunction place_function(const Function& function, Clock clock, const StageRun* stage, AnalysisKind kind);
+PlaceFunction place_function(const Function& function, TimeOrigin clock, const StageRun* stage,
+                             AnalysisKind kind);
 
 }  // namespace solidus::model

@@ -5,7 +5,7 @@
 
 #include "case/case_spec.hpp"
 #include "results/probes.hpp"
-#include "results/profile.hpp"
+#include "results/profile_table.hpp"
 
 namespace solidus::model {
 

@@ -35,7 +35,7 @@ std::unique_ptr<coupling::CouplingScheme> coupling_scheme(const CaseSpec& spec,
 }
 
 mechanics::StructuralForm structural_form(const CaseSpec& spec) {
-  using Heating = CouplingSpec::StructuralHeating;
+  using Heating = CouplingSpec::StructuralHeatForm;
   switch (spec.coupling.structural_heating) {
     case Heating::energy:
       return mechanics::StructuralForm::energy;

@@ -19,7 +19,7 @@ int body_of(const mesh::Mesh& mesh, const std::string& name) {
   const auto surface = mesh.surfaces.find(name);
   int low = std::numeric_limits<int>::max(), high = -1;
   if (surface != mesh.surfaces.end())
-    for (const mesh::Block& faces : surface->second.faces)
+    for (const mesh::ElementBlock& faces : surface->second.faces)
       if (faces.size() > 0 && faces.body >= 0)
         low = std::min(low, faces.body), high = std::max(high, faces.body);
   const auto lowest = static_cast<int>(parallel::global_min(low)),
@@ -33,7 +33,7 @@ int body_of(const mesh::Mesh& mesh, const std::string& name) {
 double share_behind(const mesh::Mesh& mesh, const std::string& surface, int body) {
   double own = 0, all = 0;
   if (const auto found = mesh.surfaces.find(surface); found != mesh.surfaces.end())
-    for (const mesh::Block& faces : found->second.faces) {
+    for (const mesh::ElementBlock& faces : found->second.faces) {
       all += static_cast<double>(faces.n_counted);
       if (faces.body == body) own += static_cast<double>(faces.n_counted);
     }
@@ -81,7 +81,7 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     if (!kinematics.particle(p).counted) continue;
     const contact::PointMotion motion =
-        kinematics.motion(p, contact::PointState{}, contact::ContactKinematics::Asked::motion);
+        kinematics.motion(p, contact::ContactPointState{}, contact::ContactKinematics::Asked::motion);
     if (!motion.partnered) continue;
     m.paired += motion.weight;
     m.mean_gap += motion.weight * std::max(0.0, -motion.penetration);
@@ -106,7 +106,7 @@ SurfaceMeasures measure_surface(const mesh::Mesh& mesh, const std::string& name,
   if (m.body == -1) return m;
   std::vector<mesh::Point> corners, centres;
   if (const auto surface = mesh.surfaces.find(name); surface != mesh.surfaces.end())
-    for (const mesh::Block& faces : surface->second.faces) {
+    for (const mesh::ElementBlock& faces : surface->second.faces) {
       const mesh::FaceGeometry geometry(mesh, faces, kind, mesh::stiffness_rule(faces.shape));
       const int vertices = mesh::vertex_count(faces.shape);
       for (Index f = 0; f < faces.n_counted; ++f) {

@@ -52,10 +52,10 @@ Section<BodySpec> body_keys() {
           "What the body is to the foundry. Solid fraction, criteria and summary are those of castings and "
           "risers.");
   s.choice("physics", &BodySpec::physics,
-           {{"automatic", BodySpec::Physics::automatic,
+           {{"automatic", BodySpec::ActivePhysics::automatic,
              "heat where the body is no casting and its material has no elastic properties, else all"},
-            {"all", BodySpec::Physics::all, "those of the analysis"},
-            {"heat", BodySpec::Physics::heat,
+            {"all", BodySpec::ActivePhysics::all, "those of the analysis"},
+            {"heat", BodySpec::ActivePhysics::heat,
              "in a thermomechanical analysis it conducts heat and stands still"}})
       .initially("automatic")
       .doc(

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "case/friction_spec.hpp"
-#include "contact/spec.hpp"
+#include "contact/parameters.hpp"
 #include "coupling/scheme_kind.hpp"
 #include "coupling/step_limits.hpp"
 #include "heat/thermal_phase.hpp"
@@ -184,7 +184,7 @@ struct CycleSpec {
 };
 
 /// Origin of the time of functions: the start of the run, or that of the stage.
-enum class Clock { run, stage };
+enum class TimeOrigin { run, stage };
 
 /// Role of a body in the foundry. Criteria, solid fraction and summary are of castings and risers.
 enum class Role { casting, riser, mould, core, chill, sleeve, die, insulation };
@@ -196,8 +196,8 @@ struct BodySpec {
   Function initial_temperature;      ///< [K], of position
   std::optional<Role> role;          ///< absent: deduced (case/roles.hpp)
   /// automatic: heat where it is no casting and its material has no elastic properties, else all
-  enum class Physics { automatic, all, heat };
-  Physics physics = Physics::all;
+  enum class ActivePhysics { automatic, all, heat };
+  ActivePhysics physics = ActivePhysics::all;
   std::vector<std::string> stages;       ///< in which it is there; empty: all
   std::vector<double> initial_velocity;  ///< [m/s]; empty: at rest
   SourceLocation where;
@@ -222,7 +222,7 @@ struct ThermalConditionSpec {
   double duration = 0;              ///< of burning [s]
   Function factor;                  ///< of flux, coefficient, emissivity or power [1]
   std::vector<std::string> stages;  ///< in which it holds; empty: all
-  Clock clock = Clock::run;
+  TimeOrigin clock = TimeOrigin::run;
   SourceLocation where;
 };
 
@@ -235,7 +235,7 @@ struct MechanicalConditionSpec {
   std::vector<Function> traction;          ///< one per direction [Pa] of time
   bool relative = false;                   ///< displacements from where nodes are at the start of the stage
   std::vector<std::string> stages;         ///< in which it holds; empty: all
-  Clock clock = Clock::run;
+  TimeOrigin clock = TimeOrigin::run;
   SourceLocation where;
 };
 
@@ -325,8 +325,8 @@ struct DynamicsSpec {
 struct CouplingSpec {
   std::shared_ptr<const coupling::SchemeKind> scheme = coupling::default_scheme();
   /// Form in which deformation enters the heat balance (mechanics/structural_heat.hpp); none: it does not.
-  enum class StructuralHeating { energy, entropy, literal, temperature, none };
-  StructuralHeating structural_heating = StructuralHeating::energy;
+  enum class StructuralHeatForm { energy, entropy, literal, temperature, none };
+  StructuralHeatForm structural_heating = StructuralHeatForm::energy;
   bool as_printed = false;  ///< the sensible heat in the same form, not as a difference of enthalpies
   std::optional<double> ambient_temperature;  ///< Θ_a of 2.24 [K]; absent: from the conditions
   SourceLocation where;
@@ -414,7 +414,7 @@ struct CaseSpec {
   /// Deformation and heat exchange energy: not in one-way coupling, nor in a steady state, where nothing
   /// changes any more.
   bool exchanges_heat() const {
-    return coupled() && !time.steady && coupling.structural_heating != CouplingSpec::StructuralHeating::none;
+    return coupled() && !time.steady && coupling.structural_heating != CouplingSpec::StructuralHeatForm::none;
   }
   /// Both fields by one iteration.
   bool simultaneous() const {

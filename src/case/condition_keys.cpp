@@ -12,7 +12,8 @@ void add_stage_keys(Section<C>& s) {
       .initially(Value::list())
       .doc("The stages in which it holds; empty: in all.");
   s.choice("time", &C::clock,
-           {{"run", Clock::run, "the start of the run"}, {"stage", Clock::stage, "the start of each stage"}})
+           {{"run", TimeOrigin::run, "the start of the run"},
+            {"stage", TimeOrigin::stage, "the start of each stage"}})
       .initially("run")
       .doc("What tables of time count from.");
 }

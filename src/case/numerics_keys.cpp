@@ -21,12 +21,12 @@ Key& solver_choice(Section<S>& s) {
 }  // namespace
 
 Section<heat::HeatOptions> heat_keys() {
+  using heat::HeatIntegration;
   using heat::HeatOptions;
-  using heat::Integration;
   Section<HeatOptions> s("heat", "Numerics of the thermal phase.");
   s.choice("integration", &HeatOptions::integration,
-           {{"closed", Integration::closed, "heat content at the nodes: no over- or undershoot"},
-            {"open", Integration::open,
+           {{"closed", HeatIntegration::closed, "heat content at the nodes: no over- or undershoot"},
+            {"open", HeatIntegration::open,
              "heat content at Gauss points, at the nodes of bodies whose material has an isothermal change"}})
       .initially("closed")
       .doc("Where heat content is integrated (monograph 6.3).");
@@ -142,7 +142,7 @@ Section<CouplingSpec> coupling_keys() {
   s.kinds("scheme", &CouplingSpec::scheme, coupling::schemes())
       .initially("isentropic")
       .doc("The coupling scheme. With heat or mechanics alone there is nothing to couple.");
-  using Heating = CouplingSpec::StructuralHeating;
+  using Heating = CouplingSpec::StructuralHeatForm;
   s.choice(
        "structural_heating", &CouplingSpec::structural_heating,
        {{"energy", Heating::energy,

@@ -73,9 +73,9 @@ void decide_physics(CaseSpec& spec) {
   bool deforms = false;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     BodySpec& body = spec.bodies[b];
-    const bool open = body.physics == BodySpec::Physics::automatic;
-    if (open) body.physics = BodySpec::Physics::all;
-    bool conducts = body.physics == BodySpec::Physics::heat;
+    const bool open = body.physics == BodySpec::ActivePhysics::automatic;
+    if (open) body.physics = BodySpec::ActivePhysics::all;
+    bool conducts = body.physics == BodySpec::ActivePhysics::heat;
     if (open && spec.coupled()) {
       try {
         const material::Material material =
@@ -93,7 +93,7 @@ void decide_physics(CaseSpec& spec) {
   if (conductors.empty() || !deforms) return;
   std::string said;
   for (const std::size_t b : conductors) {
-    spec.bodies[b].physics = BodySpec::Physics::heat;
+    spec.bodies[b].physics = BodySpec::ActivePhysics::heat;
     said += fmt::format("{}'{}' ({})", said.empty() ? "" : ", ", spec.bodies[b].name,
                         std::filesystem::path(spec.bodies[b].material).stem().string());
   }
@@ -101,7 +101,7 @@ void decide_physics(CaseSpec& spec) {
 }
 
 bool only_conducts(const BodySpec& body) {
-  return body.physics == BodySpec::Physics::heat;
+  return body.physics == BodySpec::ActivePhysics::heat;
 }
 
 }  // namespace solidus::model

@@ -191,8 +191,8 @@ bool holds(const std::vector<std::string>& stages, const StageRun* run) {
          std::find(stages.begin(), stages.end(), run->stage->name) != stages.end();
 }
 
-TimeFunction on_clock(const Function& function, Clock clock, const StageRun* run) {
-  if (clock == Clock::run || run == nullptr) return function.table;
+TimeFunction on_clock(const Function& function, TimeOrigin clock, const StageRun* run) {
+  if (clock == TimeOrigin::run || run == nullptr) return function.table;
   return {function.table, run->start, run->stage->duration};
 }
 
@@ -223,8 +223,8 @@ void check_stage_names(const CaseSpec& spec) {
                              const std::string& user) {
     for (const std::string& name : stages) find_stage(spec, name, where, user);
   };
-  const auto check_clock = [&](Clock clock, const SourceLocation& where, const std::string& user) {
-    if (clock == Clock::stage && spec.stages.empty())
+  const auto check_clock = [&](TimeOrigin clock, const SourceLocation& where, const std::string& user) {
+    if (clock == TimeOrigin::stage && spec.stages.empty())
       throw InputError(where, user + " counts the time of a stage, but the case has no stages",
                        "time = \"run\", or [[stage]] sections");
   };

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "case/case_spec.hpp"
-#include "coupling/continuation.hpp"
+#include "coupling/restart_data.hpp"
 
 namespace solidus::model {
 
@@ -37,7 +37,7 @@ std::vector<StageRun> stage_runs(const CaseSpec& spec);
 bool holds(const std::vector<std::string>& stages, const StageRun* run);
 
 /// A table of the case, on the clock that the user chose.
-TimeFunction on_clock(const Function& function, Clock clock, const StageRun* run);
+TimeFunction on_clock(const Function& function, TimeOrigin clock, const StageRun* run);
 
 /// The first step of a stage [s].
 double first_step(const StageSpec& stage, const TimeSpec& time);

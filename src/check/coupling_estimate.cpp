@@ -15,10 +15,11 @@ namespace solidus::model {
 
 namespace {
 
-TemperatureRange temperatures(const CaseSpec& spec, const std::vector<TemperatureRange>& start) {
-  TemperatureRange r = start.front();
+InitialTemperatureRange temperatures(const CaseSpec& spec,
+                                     const std::vector<InitialTemperatureRange>& start) {
+  InitialTemperatureRange r = start.front();
   const auto add = [&r](double low, double high) { r = {std::min(r.low, low), std::max(r.high, high)}; };
-  for (const TemperatureRange& body : start) add(body.low, body.high);
+  for (const InitialTemperatureRange& body : start) add(body.low, body.high);
   const auto add_table = [&](const Function& f) {
     if (f.place == nullptr) add(f.table.min_value(), f.table.max_value());
   };
@@ -48,7 +49,7 @@ bool axially_held(const CaseSpec& spec, const mesh::Mesh& mesh) {
 std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
                                                  const std::vector<material::Material>& materials,
                                                  const mesh::Mesh& mesh,
-                                                 const std::vector<TemperatureRange>& start) {
+                                                 const std::vector<InitialTemperatureRange>& start) {
   const auto [low, high] = temperatures(spec, start);
   const bool plane = spec.analysis.kind == AnalysisKind::plane_strain ||
                      (spec.analysis.kind == AnalysisKind::axisymmetric && axially_held(spec, mesh));

@@ -29,7 +29,7 @@ struct CouplingEstimate {
 std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
                                                  const std::vector<material::Material>& materials,
                                                  const mesh::Mesh& mesh,
-                                                 const std::vector<TemperatureRange>& start);
+                                                 const std::vector<InitialTemperatureRange>& start);
 
 /// The steps by which temperatures lag behind a steady change of them because the scheme conducts heat before
 /// deformation has taken up its share: δ_K in a sequential split with heat first by backward Euler, half of

@@ -47,7 +47,7 @@ double fixed_steps(const CaseSpec& spec, const Assembly& a) {
 /// the error allowed: measured 6 to 10 times that.
 double adaptive_steps(const CaseSpec& spec, const Assembly& a) {
   double high = 0, low = 1e300;
-  for (const TemperatureRange& r : a.start) high = std::max(high, r.high), low = std::min(low, r.low);
+  for (const InitialTemperatureRange& r : a.start) high = std::max(high, r.high), low = std::min(low, r.low);
   using Kind = ThermalConditionSpec::Kind;
   for (const ThermalConditionSpec& c : spec.thermal_conditions) {
     const Function& f = c.kind == Kind::temperature ? c.temperature : c.ambient;

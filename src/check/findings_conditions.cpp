@@ -233,7 +233,7 @@ void tables_of_later(const CaseSpec& spec, Findings& findings) {
 /// Compares the error allowed per step with the range of temperatures of the run.
 void tolerance(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   double high = 0, low = std::numeric_limits<double>::max();
-  for (const TemperatureRange& r : a.start) high = std::max(high, r.high), low = std::min(low, r.low);
+  for (const InitialTemperatureRange& r : a.start) high = std::max(high, r.high), low = std::min(low, r.low);
   if (const double allowed = spec.time.temperature_error.value_or(0);
       high - low > 100 && allowed > 0.1 * (high - low))
     findings.push_back({false, spec.time.where,

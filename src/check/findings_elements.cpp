@@ -31,7 +31,7 @@ void find_in_elements(const CaseSpec& spec, const Assembly& a, Findings& finding
     const auto body = static_cast<std::size_t>(cast.body);
     const double shrinks = shrinkage(a.materials[body]);
     if (shrinks == 0 || only_conducts(spec.bodies[body])) continue;
-    const bool others = std::ranges::any_of(a.mesh.blocks, [&](const mesh::Block& block) {
+    const bool others = std::ranges::any_of(a.mesh.blocks, [&](const mesh::ElementBlock& block) {
       return block.body == cast.body && block.size() > 0 &&
              !mechanics::is_mixed(block, a.materials[body], spec.mechanics.simplices);
     });

@@ -287,7 +287,7 @@ void melts_side_by_side(const CaseSpec& spec, const Assembly& a, const CaseMeasu
 void feeders(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (m.pours.empty()) return;
   std::vector<int> poured(a.mesh.x.size(), -1);
-  for (const mesh::Block& block : a.mesh.blocks)
+  for (const mesh::ElementBlock& block : a.mesh.blocks)
     for (const Pour& pour : m.pours)
       if (static_cast<int>(pour.body) == block.body)
         for (const Index node : block.nodes) poured[static_cast<std::size_t>(node)] = block.body;

@@ -77,7 +77,7 @@ std::vector<std::vector<int>> meetings(const CaseSpec& spec, const mesh::Mesh& m
       for (const int b : bodies) meet[static_cast<std::size_t>(a) * n + static_cast<std::size_t>(b)] = 1;
   };
   std::vector<std::set<int>> of_node(mesh.x.size());
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::ElementBlock& block : mesh.blocks)
     for (const Index node : block.nodes) of_node[static_cast<std::size_t>(node)].insert(block.body);
   for (const std::set<int>& bodies : of_node)
     if (bodies.size() > 1) note(bodies);
@@ -86,7 +86,7 @@ std::vector<std::vector<int>> meetings(const CaseSpec& spec, const mesh::Mesh& m
     std::set<int> bodies;
     for (const std::string& side : contact.sides())
       if (const auto surface = mesh.surfaces.find(side); surface != mesh.surfaces.end())
-        for (const mesh::Block& faces : surface->second.faces)
+        for (const mesh::ElementBlock& faces : surface->second.faces)
           if (faces.body >= 0) bodies.insert(faces.body);
     note(bodies);
   }
@@ -155,6 +155,12 @@ void conductances(const CaseSpec& spec, Findings& findings) {
                           fmt::format("the interface of '{}' stores {:g} J/m2/K", contact.name, capacity),
                           "1000 J/m2/K is a skin of 0.3 mm of steel"});
     if (!contact.heat) continue;
+    const bool of_slave = contact.heat->slave_emissivity > 0, of_master = contact.heat->master_emissivity > 0;
+    if (of_slave != of_master)
+      findings.push_back({false, contact.where,
+                          fmt::format("'{}' has an emissivity of its {} alone: nothing radiates across it",
+                                      contact.name, of_slave ? "slave" : "master"),
+                          "slave_emissivity and master_emissivity, or neither"});
     for (const contact::ConductanceLaw* law : std::initializer_list<const contact::ConductanceLaw*>{
              contact.heat->contact_law.get(), contact.heat->gap_law.get()})
       for (const contact::Remark& remark : law->remarks(contact.name))

@@ -102,7 +102,7 @@ void Translations::add_supports(const CaseSpec& spec, const Assembly& a) {
   using Bits = std::uint64_t;
   const auto bit = [](std::size_t body) { return Bits{1} << std::min<std::size_t>(body, 63); };
   std::vector<Bits> of_node(a.mesh.x.size(), 0);
-  for (const mesh::Block& block : a.mesh.blocks)
+  for (const mesh::ElementBlock& block : a.mesh.blocks)
     for (const Index node : block.nodes)
       of_node[static_cast<std::size_t>(node)] |= bit(static_cast<std::size_t>(block.body));
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
@@ -124,7 +124,7 @@ void Translations::add_supports(const CaseSpec& spec, const Assembly& a) {
 Eigen::MatrixXd Translations::normals_of(const mesh::Mesh& mesh, const std::string& surface) const {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   if (const auto found = mesh.surfaces.find(surface); found != mesh.surfaces.end())
-    for (const mesh::Block& faces : found->second.faces)
+    for (const mesh::ElementBlock& faces : found->second.faces)
       for (Index f = 0; f < faces.n_counted; ++f) {
         const auto at = [&](int k) {
           const mesh::Point& x = mesh.x[static_cast<std::size_t>(faces.element(f)[k])];

@@ -166,7 +166,7 @@ Ends ends_of(const mesh::Mesh& mesh, const std::vector<Index>& group, const std:
 
 std::vector<char> nodes_of_body(const mesh::Mesh& mesh, std::size_t body) {
   std::vector<char> of_body(mesh.x.size(), 0);
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::ElementBlock& block : mesh.blocks)
     if (block.body == static_cast<int>(body))
       for (const Index node : block.nodes) of_body[static_cast<std::size_t>(node)] = 1;
   return of_body;

@@ -65,7 +65,7 @@ std::function<double(double, double)> averaged(heat::SurfaceLaw law, const Surfa
 std::vector<CooledSkin> conditions_on(std::size_t body, const CaseSpec& spec, const StageRun* stage,
                                       const CaseMeasures& m) {
   std::vector<CooledSkin> skins;
-  const heat::Conditions conditions = thermal_conditions(spec, stage);
+  const heat::ThermalConditions conditions = thermal_conditions(spec, stage);
   const auto add = [&](const std::string& group, const auto& law) {
     for (std::size_t c = 0; c < spec.thermal_conditions.size(); ++c)
       if (spec.thermal_conditions[c].group == group && m.surfaces[c].area > 0 &&
@@ -149,7 +149,7 @@ std::vector<CooledSkin> contacts_of(std::size_t body, const CaseSpec& spec, cons
 /// [local node]
 std::vector<char> nodes_of(const mesh::Mesh& mesh, std::size_t body) {
   std::vector<char> mine(mesh.x.size(), 0);
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::ElementBlock& block : mesh.blocks)
     if (block.body == static_cast<int>(body))
       for (const Index node : block.nodes) mine[static_cast<std::size_t>(node)] = 1;
   return mine;

@@ -19,7 +19,7 @@ Asperities::Pressed Asperities::spots(double pressure, double temperature) const
           per_pressure * per_conductivity * k_slope};
 }
 
-Asperities::Separation Asperities::separation(double x) const {
+Asperities::PlaneDistance Asperities::separation(double x) const {
   constexpr double k_low = 1e-5, k_high = 2e-2;  // where the fit holds
   const double scale = 1.36 * roughness;
   const auto fit = [scale](double p) { return scale * std::sqrt(-std::log(5.59 * p)); };

@@ -49,10 +49,10 @@ struct Asperities {
   };
   Pressed spots(double pressure, double temperature) const;
   /// Y [m] and its slope, of a relative pressure t_N/H_e >= 0.
-  struct Separation {
+  struct PlaneDistance {
     double value = 0, slope = 0;
   };
-  Separation separation(double relative_pressure) const;
+  PlaneDistance separation(double relative_pressure) const;
 };
 
 }  // namespace solidus::contact

@@ -24,7 +24,7 @@ std::vector<double> AugmentedLagrangian::nodal_penetration(const ContactState& n
   const ContactKinematics& kinematics = geometry_.kinematics();
   std::vector<double> weight(mesh.x.size(), 0.0), mean(mesh.x.size(), 0.0);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    const PointState& point = now.points[at(p)];
+    const ContactPointState& point = now.points[at(p)];
     if (point.status == PointStatus::open) continue;
     const ContactKinematics::Particle particle = kinematics.particle(p);
     for (std::size_t b = 0; b < particle.nodes.size(); ++b) {
@@ -61,9 +61,9 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step) {
   // than a face can follow would drive their tangential tractions to and fro from turn to turn.
   const bool tangential = !pressure_tolerance_;
   if (tangential && step.start_traction.empty())
-    for (const PointState& from : step.from) step.start_traction.push_back(from.traction);
+    for (const ContactPointState& from : step.from) step.start_traction.push_back(from.traction);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    PointState& from = step.from[at(p)];
+    ContactPointState& from = step.from[at(p)];
     const ContactKinematics::Particle particle = kinematics.particle(p);
     double mean = 0;
     for (std::size_t b = 0; b < particle.nodes.size(); ++b)
@@ -83,7 +83,7 @@ double AugmentedLagrangian::excess(const ContactState& now) const {
   largest = parallel::global_max(largest);
   if (!pressure_tolerance_) return largest / allowed_;
   double pressure = 0;
-  for (const PointState& point : now.points) pressure = std::max(pressure, point.pressure);
+  for (const ContactPointState& point : now.points) pressure = std::max(pressure, point.pressure);
   const double allowed = *pressure_tolerance_ * parallel::global_max(pressure) / law_.penalty;
   return allowed > 0 ? largest / allowed : 0;
 }

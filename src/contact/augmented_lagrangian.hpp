@@ -22,7 +22,7 @@ class AugmentedLagrangian {
  public:
   /// Keeps references.
   /// @param allowed             penetration that may be left [m]
-  /// @param pressure_tolerance  in place of it, ContactSpec::pressure_tolerance
+  /// @param pressure_tolerance  in place of it, ContactParameters::pressure_tolerance
   AugmentedLagrangian(const ContactGeometry& geometry, const NormalLaw& law, double allowed,
                       std::optional<double> pressure_tolerance)
       : geometry_(geometry), law_(law), allowed_(allowed), pressure_tolerance_(pressure_tolerance) {}

@@ -61,7 +61,7 @@ void FixedKinematics::place(std::span<const double> u, Points) {
   }
 }
 
-PointMotion FixedKinematics::motion(Index point, const PointState& old, Asked asked) const {
+PointMotion FixedKinematics::motion(Index point, const ContactPointState& old, Asked asked) const {
   const auto p = static_cast<std::size_t>(point);
   const Pairing& pairing = points_.pairings[static_cast<std::size_t>(pairing_[p])];
   const auto n_nodes = static_cast<std::size_t>(pairing.n_nodes());

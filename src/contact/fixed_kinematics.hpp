@@ -7,8 +7,8 @@
 
 #include <vector>
 
+#include "contact/contact_kinematics.hpp"
 #include "contact/integration.hpp"
-#include "contact/kinematics.hpp"
 
 namespace solidus::contact {
 
@@ -25,7 +25,7 @@ class FixedKinematics final : public ContactKinematics {
   bool partners_change() const override { return false; }
   using ContactKinematics::place;
   void place(std::span<const double> displacement, Points points) override;
-  PointMotion motion(Index point, const PointState& old, Asked asked) const override;
+  PointMotion motion(Index point, const ContactPointState& old, Asked asked) const override;
   void add_geometric_tangent(Index, double, const Point&, std::span<Tensor>) const override {}
   bool graph_outdated() const override { return false; }
   void add_to_graph(CliqueSink& sink) override;

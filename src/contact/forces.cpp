@@ -11,11 +11,11 @@ namespace solidus::contact {
 
 namespace {
 
-PointLaw law_of(const ContactSpec& spec, double penalty) {
+PointLaw law_of(const ContactParameters& spec, double penalty) {
   PointLaw law;
   law.normal = {spec.normal, penalty};
   if (!spec.friction) return law;
-  const FrictionSpec& friction = *spec.friction;
+  const FrictionParameters& friction = *spec.friction;
   law.friction.emplace(friction,
                        friction.tangential_penalty.value_or(friction.tangential_penalty_factor * penalty),
                        spec.interface_heat_capacity);
@@ -25,7 +25,7 @@ PointLaw law_of(const ContactSpec& spec, double penalty) {
 
 }  // namespace
 
-ContactForces::ContactForces(const ContactGeometry& geometry, const ContactSpec& spec,
+ContactForces::ContactForces(const ContactGeometry& geometry, const ContactParameters& spec,
                              const PairSurfaces& surfaces, std::span<const double> body_modulus,
                              const ContactStep& step)
     : name_(spec.name),

@@ -16,7 +16,7 @@ class ContactForces {
   /// Keeps references; the step is the one that the term works on. Collective. Throws InputError for a law
   /// that is none, and where a penalty given as a factor has no stiffness to multiply.
   /// @param body_modulus  E [Pa] of every body of the mesh; empty: not known
-  ContactForces(const ContactGeometry& geometry, const ContactSpec& spec, const PairSurfaces& surfaces,
+  ContactForces(const ContactGeometry& geometry, const ContactParameters& spec, const PairSurfaces& surfaces,
                 std::span<const double> body_modulus, const ContactStep& step);
   ContactForces(const ContactForces&) = delete;
   ContactForces& operator=(const ContactForces&) = delete;

@@ -39,7 +39,7 @@ const char* reason(FrictionStatus status) {
   return "friction has converged";
 }
 
-FrictionLaw::FrictionLaw(const FrictionSpec& spec, double tangential_penalty, double heat_capacity)
+FrictionLaw::FrictionLaw(const FrictionParameters& spec, double tangential_penalty, double heat_capacity)
     : coefficient_(spec.coefficient),
       kind_(spec.internal_variable),
       penalty_(tangential_penalty),

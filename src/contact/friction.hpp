@@ -26,7 +26,7 @@ namespace solidus::contact {
 enum class InternalVariable { normal_work, frictional_work, slip };
 
 /// Friction as specified by the user, in SI.
-struct FrictionSpec {
+struct FrictionParameters {
   FrictionCoefficientSpec coefficient;
   InternalVariable internal_variable = InternalVariable::normal_work;
   std::optional<double> tangential_penalty;  ///< ε_T [Pa/m]; absent: the factor on ε_N
@@ -89,7 +89,7 @@ class FrictionLaw {
   /// @param tangential_penalty ε_T [Pa/m], > 0
   /// @param heat_capacity      C_co of the interface [J/(m² K)], >= 0
   /// Throws InputError as FrictionCoefficient does.
-  FrictionLaw(const FrictionSpec& spec, double tangential_penalty, double heat_capacity = 0);
+  FrictionLaw(const FrictionParameters& spec, double tangential_penalty, double heat_capacity = 0);
 
   /// The mechanical phase at fixed temperature (5.59–5.63), and friction where temperature plays no part. The
   /// coefficient is that of FrictionInput::held().

@@ -21,8 +21,8 @@ std::size_t index_of(Index i) {
   return static_cast<std::size_t>(i);
 }
 
-ContactPoints find_points(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSpec& spec, double reach,
-                          const ContactSurface& slave, const ContactSurface& master) {
+ContactPoints find_points(const mesh::Mesh& mesh, AnalysisKind kind, const ContactParameters& spec,
+                          double reach, const ContactSurface& slave, const ContactSurface& master) {
   IntegrationOptions options;
   options.rule = spec.integration;
   options.gauss_degree = spec.gauss_degree;
@@ -43,7 +43,7 @@ bool has_linear_faces(const ContactSurface& surface) {
 }
 
 /// A surface that folds on itself is no pair: a point would find its own face as its partner.
-void require_apart(const mesh::Mesh& mesh, const ContactSpec& spec, const ContactSurface& slave,
+void require_apart(const mesh::Mesh& mesh, const ContactParameters& spec, const ContactSurface& slave,
                    const ContactSurface& master) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(spec.where, fmt::format("contact '{}': {}", spec.name, what),
@@ -75,7 +75,7 @@ std::vector<Index> owned_nodes(const mesh::Mesh& mesh, const PairSurfaces& surfa
 
 }  // namespace
 
-PairSurfaces::PairSurfaces(const mesh::Mesh& mesh, const ContactSpec& spec) : slave(mesh, spec.slave) {
+PairSurfaces::PairSurfaces(const mesh::Mesh& mesh, const ContactParameters& spec) : slave(mesh, spec.slave) {
   if (spec.rigid_master) return;
   master.emplace(mesh, spec.master);
   require_apart(mesh, spec, slave, *master);
@@ -85,7 +85,8 @@ bool PairSurfaces::linear() const {
   return has_linear_faces(slave) && (!master || has_linear_faces(*master));
 }
 
-ContactSpec with_roles(const mesh::Mesh& mesh, ContactSpec spec, std::span<const double> body_modulus) {
+ContactParameters with_roles(const mesh::Mesh& mesh, ContactParameters spec,
+                             std::span<const double> body_modulus) {
   if (!spec.choose_roles) return spec;
   constexpr double k_alike = 0.05;  // sizes of faces
   const ContactSurface first(mesh, spec.slave), second(mesh, spec.master);
@@ -100,7 +101,7 @@ ContactSpec with_roles(const mesh::Mesh& mesh, ContactSpec spec, std::span<const
   return spec;
 }
 
-ContactGeometry::ContactGeometry(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSpec& spec,
+ContactGeometry::ContactGeometry(const mesh::Mesh& mesh, AnalysisKind kind, const ContactParameters& spec,
                                  const PairSurfaces& surfaces)
     : mesh_(mesh),
       components_(displacement_components(kind)),
@@ -112,7 +113,7 @@ ContactGeometry::ContactGeometry(const mesh::Mesh& mesh, AnalysisKind kind, cons
   graph_ = std::make_unique<ContactGraph>(*kinematics_);
 }
 
-void ContactGeometry::make_kinematics(AnalysisKind kind, const ContactSpec& spec,
+void ContactGeometry::make_kinematics(AnalysisKind kind, const ContactParameters& spec,
                                       const PairSurfaces& surfaces) {
   const bool slides = spec.formulation == Formulation::large_sliding;
   if (!surfaces.master && !slides)

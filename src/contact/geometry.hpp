@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "contact/contact_kinematics.hpp"
 #include "contact/current_configuration.hpp"
 #include "contact/graph.hpp"
-#include "contact/kinematics.hpp"
-#include "contact/spec.hpp"
+#include "contact/parameters.hpp"
 #include "contact/surface.hpp"
 #include "contact/surface_curvature.hpp"
 #include "mesh/mesh.hpp"
@@ -25,21 +25,22 @@ struct PairSurfaces {
 
   /// Throws InputError for surfaces that the mesh does not have, that are the same or share a node.
   /// Collective.
-  PairSurfaces(const mesh::Mesh& mesh, const ContactSpec& spec);
+  PairSurfaces(const mesh::Mesh& mesh, const ContactParameters& spec);
   /// Whether all faces have linear shape functions.
   bool linear() const;
 };
 
 /// The specification with slave and master in the roles that it has, or is to choose
-/// (ContactSpec::choose_roles). Collective.
+/// (ContactParameters::choose_roles). Collective.
 /// @param body_modulus  E [Pa] of every body of the mesh; empty: not known
-ContactSpec with_roles(const mesh::Mesh& mesh, ContactSpec spec, std::span<const double> body_modulus);
+ContactParameters with_roles(const mesh::Mesh& mesh, ContactParameters spec,
+                             std::span<const double> body_modulus);
 
 class ContactGeometry {
  public:
   /// Finds the partners of bodies that have not moved. Keeps a reference to the mesh. Collective. Throws
   /// InputError for surfaces of which no part faces the other one, and for options that do not go together.
-  ContactGeometry(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSpec& spec,
+  ContactGeometry(const mesh::Mesh& mesh, AnalysisKind kind, const ContactParameters& spec,
                   const PairSurfaces& surfaces);
 
   const mesh::Mesh& mesh() const { return mesh_; }
@@ -69,7 +70,7 @@ class ContactGeometry {
   std::vector<SurfaceCurvature> curvatures(AnalysisKind kind, const ContactSurface& slave) const;
 
  private:
-  void make_kinematics(AnalysisKind kind, const ContactSpec& spec, const PairSurfaces& surfaces);
+  void make_kinematics(AnalysisKind kind, const ContactParameters& spec, const PairSurfaces& surfaces);
 
   const mesh::Mesh& mesh_;
   int components_;

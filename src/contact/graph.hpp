@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "contact/kinematics.hpp"
+#include "contact/contact_kinematics.hpp"
 #include "linear/block_matrix.hpp"
 
 namespace solidus::contact {

@@ -14,7 +14,7 @@ std::size_t at(Index i) {
 }
 
 /// The nodal form needs shape functions that are nowhere below zero.
-bool is_nodal(const ContactSpec& spec, const PairSurfaces& surfaces) {
+bool is_nodal(const ContactParameters& spec, const PairSurfaces& surfaces) {
   return spec.nodal_heat && surfaces.linear();
 }
 
@@ -28,7 +28,7 @@ void InterfaceSums::add(const InterfaceSums& other, double factor) {
     this->*part += factor * other.*part;
 }
 
-ContactHeat::ContactHeat(const ContactGeometry& geometry, AnalysisKind kind, const ContactSpec& spec,
+ContactHeat::ContactHeat(const ContactGeometry& geometry, AnalysisKind kind, const ContactParameters& spec,
                          const PairSurfaces& surfaces, const PointLaw& law, const PartnerList& partners)
     : geometry_(geometry),
       spec_(spec),
@@ -45,7 +45,7 @@ void ContactHeat::clear(std::size_t n_points) {
   before_.reserve(n_points);
 }
 
-void ContactHeat::add(const ContactStep& step, const PointState& from, const PointState& now,
+void ContactHeat::add(const ContactStep& step, const ContactPointState& from, const ContactPointState& now,
                       const PointForces& forces) {
   before_.push_back(now.temperature);
   points_.push_back(point(step, from, now, forces));
@@ -60,24 +60,24 @@ void ContactHeat::place() {
   points_.clear();
 }
 
-void ContactHeat::restore(const ContactStep& step, std::span<const PointState> now) {
+void ContactHeat::restore(const ContactStep& step, std::span<const ContactPointState> now) {
   std::vector<HeatPoint> points;
   for (std::size_t p = 0; p < now.size(); ++p) points.push_back(point(step, step.from[p], now[p], {}));
   term_.place(std::move(points));
 }
 
-void ContactHeat::hold(const ContactStep& step, std::span<const PointState> now) {
+void ContactHeat::hold(const ContactStep& step, std::span<const ContactPointState> now) {
   predicted_.clear();
   std::vector<HeatPoint> points;
-  for (const PointState& state : now) {
+  for (const ContactPointState& state : now) {
     points.push_back(point(step, state, state, {}));
     points.back().has_temperature = state.temperature > 0;  // it may store what the bodies give
   }
   term_.place(std::move(points));
 }
 
-HeatPoint ContactHeat::point(const ContactStep& step, const PointState& from, const PointState& now,
-                             const PointForces& forces) const {
+HeatPoint ContactHeat::point(const ContactStep& step, const ContactPointState& from,
+                             const ContactPointState& now, const PointForces& forces) const {
   // A point with a pressure is closed, whatever its penetration: a multiplier may carry the pressure where
   // penetration and gap are of the size of the tolerance.
   const double penetration = now.pressure > 0 ? std::max(now.penetration, 0.0) : now.penetration;
@@ -132,13 +132,13 @@ void ContactHeat::reset() {
 }
 
 InterfaceSums ContactHeat::commit(std::span<const double> temperature, const ContactStep& step,
-                                  std::vector<PointState>& now) {
+                                  std::vector<ContactPointState>& now) {
   InterfaceSums sums;
   if (!has_temperature()) return sums;
   const std::vector<double> found = term_.interface_temperatures(temperature);
   const InterfaceHeat heat = term_.interface_heat(temperature);
   const auto hardening = [&](std::size_t p) {
-    const PointState &from = step.from[p], &to = now[p];
+    const ContactPointState &from = step.from[p], &to = now[p];
     return to.work - from.work - to.dissipation + from.dissipation;
   };
   for (std::size_t p = 0; p < found.size(); ++p)
@@ -160,8 +160,8 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
                                : interface_entropy(capacity, t);
   };
   for (std::size_t p = 0; p < found.size(); ++p) {
-    const PointState& from = step.from[p];
-    PointState& to = now[p];
+    const ContactPointState& from = step.from[p];
+    ContactPointState& to = now[p];
     if (!(from.temperature > 0)) continue;
     to.temperature = found[p];
     double made = 0;
@@ -185,13 +185,13 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
 }
 
 void ContactHeat::take_slip(std::span<const double> temperature, const ContactStep& step,
-                            std::vector<PointState>& now) {
+                            std::vector<ContactPointState>& now) {
   const std::vector<std::optional<FrictionResponse>> found = term_.keep_slip(temperature);
   for (std::size_t p = 0; p < found.size(); ++p) {
     if (!found[p]) continue;
     const FrictionResponse& slip = *found[p];
-    const PointState& from = step.from[p];
-    PointState& to = now[p];
+    const ContactPointState& from = step.from[p];
+    ContactPointState& to = now[p];
     to.status = slip.sticks ? PointStatus::sticks : PointStatus::slips;
     if (const double size = norm(to.traction); size > 0)
       to.traction = scale(slip.traction / size, to.traction);
@@ -203,12 +203,12 @@ void ContactHeat::take_slip(std::span<const double> temperature, const ContactSt
 }
 
 void ContactHeat::add_displacement_tangent(const ContactKinematics& kinematics, const ContactStep& step,
-                                           std::span<const PointState> now,
+                                           std::span<const ContactPointState> now,
                                            std::span<const double> temperature,
                                            linear::CoupledMatrix& matrix) {
   std::vector<Point> trial, share;
   const auto rates_of = [&](Index p) -> HeatRates {
-    const PointState& from = step.from[at(p)];
+    const ContactPointState& from = step.from[at(p)];
     const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::rates);
     if (!motion.partnered) return {};  // of no node of this process
     const std::size_t n = motion.nodes.size();

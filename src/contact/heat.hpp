@@ -33,7 +33,7 @@ struct InterfaceSums {
 class ContactHeat {
  public:
   /// Keeps references. Throws InputError for a law that is none.
-  ContactHeat(const ContactGeometry& geometry, AnalysisKind kind, const ContactSpec& spec,
+  ContactHeat(const ContactGeometry& geometry, AnalysisKind kind, const ContactParameters& spec,
               const PairSurfaces& surfaces, const PointLaw& law, const PartnerList& partners);
   ContactHeat(const ContactHeat&) = delete;
   ContactHeat& operator=(const ContactHeat&) = delete;
@@ -47,38 +47,40 @@ class ContactHeat {
   /// Takes over a configuration point by point: clear(), add() in the order of the points, place().
   void clear(std::size_t n_points);
   /// @param from, now  at the start of the step and now
-  void add(const ContactStep& step, const PointState& from, const PointState& now, const PointForces& forces);
+  void add(const ContactStep& step, const ContactPointState& from, const ContactPointState& now,
+           const PointForces& forces);
   void place();
   /// The same of a state of which no forces are known: what the last step did is in it.
-  void restore(const ContactStep& step, std::span<const PointState> now);
+  void restore(const ContactStep& step, std::span<const ContactPointState> now);
   /// The same of bodies that hold their deformation: friction makes no heat, and an interface with a
   /// temperature may store what they give.
-  void hold(const ContactStep& step, std::span<const PointState> now);
+  void hold(const ContactStep& step, std::span<const ContactPointState> now);
 
   /// ContactPair::begin_heat(), predict_heat() and commit_heat(), the last with `now` for the state that gets
   /// the temperatures and S^p_c found.
   void begin_phase(double dt, bool adiabatic);
   void predict();
   InterfaceSums commit(std::span<const double> temperature, const ContactStep& step,
-                       std::vector<PointState>& now);
+                       std::vector<ContactPointState>& now);
   /// Forgets predictions and a phase that has not been committed.
   void reset();
 
   /// Adds ∂r/∂u of the heat at a configuration and the points' state there (ContactPair::add_coupling).
   void add_displacement_tangent(const ContactKinematics& kinematics, const ContactStep& step,
-                                std::span<const PointState> now, std::span<const double> temperature,
+                                std::span<const ContactPointState> now, std::span<const double> temperature,
                                 linear::CoupledMatrix& matrix);
 
  private:
-  HeatPoint point(const ContactStep& step, const PointState& from, const PointState& now,
+  HeatPoint point(const ContactStep& step, const ContactPointState& from, const ContactPointState& now,
                   const PointForces& forces) const;
   /// Takes over the slip that the thermal phase has found anew.
-  void take_slip(std::span<const double> temperature, const ContactStep& step, std::vector<PointState>& now);
+  void take_slip(std::span<const double> temperature, const ContactStep& step,
+                 std::vector<ContactPointState>& now);
   /// Sets the heat for results to that of both passes of a step in two halves, over the time of both.
   void show_whole_step();
 
   const ContactGeometry& geometry_;
-  const ContactSpec& spec_;
+  const ContactParameters& spec_;
   const PointLaw& point_law_;
   HeatTransferLaw law_;
   HeatTerm term_;

@@ -108,7 +108,7 @@ void HeatTerm::begin_phase(const HeatSpan& span) {
 }
 
 // Θ* of S^e_c* = S^e_c,n + carried (S^e_c − S^e_c,n); of the slip every stage has its part.
-void HeatTerm::begin_stage(const linear::Stage& stage, std::span<const double> before) {
+void HeatTerm::begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> before) {
   if (!phase_) return;
   if (stage.carried != 0) {
     std::vector<double> start(points_.size(), 0.0), flux(points_.size(), 0.0), made(points_.size(), 0.0);

@@ -50,7 +50,7 @@ struct HeatSpan {
 /// Heat into the bodies at a point, slave and master [W/m²]: in all, and the part of it by friction, that is
 /// beyond conduction and radiation between the two surfaces as they are. What friction makes less what the
 /// interface stores.
-struct SurfaceHeat {
+struct InterfaceHeatFlux {
   std::array<double, 2> total{}, by_friction{};
 };
 
@@ -125,7 +125,7 @@ class HeatTerm : public linear::Contribution {
   void add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) override;
   /// In an adiabatic phase heat of friction is taken up on the spot.
   bool stores() const override { return phase_ && phase_->span.adiabatic; }
-  void begin_stage(const linear::Stage& stage, std::span<const double> before) override;
+  void begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> before) override;
   void limit_exchange(std::span<const char> nodes) override;
   /// Adds ∂r/∂u: through the conductance, through the heat of friction where slip answers Θ_c (joint), and
   /// with the partner that moves on.
@@ -133,9 +133,9 @@ class HeatTerm : public linear::Contribution {
   void add_displacement_tangent(const std::function<HeatRates(Index point)>& rates,
                                 std::span<const double> temperature, linear::CoupledMatrix& matrix);
   /// Returns the heat fluxes of every point at these temperatures; zero where there is no partner.
-  std::vector<SurfaceHeat> surface_heat(std::span<const double> temperature) const;
+  std::vector<InterfaceHeatFlux> surface_heat(std::span<const double> temperature) const;
   /// Its integral over the points that this process counts [W].
-  SurfaceHeat counted_heat(std::span<const double> temperature) const;
+  InterfaceHeatFlux counted_heat(std::span<const double> temperature) const;
   /// h [W/(m² K)] of every point at these temperatures; without any, at room temperature.
   std::vector<double> conductances(std::span<const double> temperature) const;
   /// Θ_c of every point at these temperatures [K]; where friction does not act, as it was at t_n.

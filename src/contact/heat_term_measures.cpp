@@ -15,15 +15,15 @@ std::size_t at(Index i) {
 
 }  // namespace
 
-std::vector<SurfaceHeat> HeatTerm::surface_heat(std::span<const double> temperature) const {
-  std::vector<SurfaceHeat> heat(points_.size());
+std::vector<InterfaceHeatFlux> HeatTerm::surface_heat(std::span<const double> temperature) const {
+  std::vector<InterfaceHeatFlux> heat(points_.size());
   if (!active_) return heat;
   for (Index p = 0; p < partners_.n_points(); ++p) {
     if (partners_.partnered[at(p)] == 0) continue;
     const AtPoint s = see(p, temperature);
     const double conducted = s.master_takes_heat ? s.h.value * (s.slave - s.master) : 0.0;
     const double across = conducted + s.radiation * (s.slave_fourth - s.master_fourth);
-    SurfaceHeat& q = heat[at(p)];
+    InterfaceHeatFlux& q = heat[at(p)];
     if (s.has_temperature)
       q.by_friction = {conducted - s.interface.flux[0], -conducted - s.interface.flux[1]};
     q.total = {q.by_friction[0] - across, q.by_friction[1] + across};
@@ -31,9 +31,9 @@ std::vector<SurfaceHeat> HeatTerm::surface_heat(std::span<const double> temperat
   return heat;
 }
 
-SurfaceHeat HeatTerm::counted_heat(std::span<const double> temperature) const {
-  SurfaceHeat sum;
-  const std::vector<SurfaceHeat> heat = surface_heat(temperature);
+InterfaceHeatFlux HeatTerm::counted_heat(std::span<const double> temperature) const {
+  InterfaceHeatFlux sum;
+  const std::vector<InterfaceHeatFlux> heat = surface_heat(temperature);
   for (Index p = 0; p < partners_.n_points(); ++p) {
     if (partners_.counted[at(p)] == 0) continue;
     for (std::size_t side = 0; side < 2; ++side) {

@@ -44,8 +44,9 @@ Skin skin_at(const PointMotion& motion, std::span<const double> coherency) {
 
 }  // namespace
 
-ContactHistory::ContactHistory(const ContactGeometry& geometry, AnalysisKind kind, const ContactSpec& spec,
-                               const PairSurfaces& surfaces, const PointLaw& law)
+ContactHistory::ContactHistory(const ContactGeometry& geometry, AnalysisKind kind,
+                               const ContactParameters& spec, const PairSurfaces& surfaces,
+                               const PointLaw& law)
     : geometry_(geometry), spec_(spec), law_(law) {
   if (!spec.wear || !(spec.wear->master_share > 0)) return;
   if (!surfaces.master)
@@ -59,7 +60,7 @@ ContactState ContactHistory::initial() const {
   ContactState state;
   state.points.resize(at(kinematics.n_points()));
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    PointState& point = state.points[at(p)];
+    ContactPointState& point = state.points[at(p)];
     const ContactKinematics::Particle particle = kinematics.particle(p);
     point.number = particle.number;
     point.counted = particle.counted;
@@ -84,7 +85,7 @@ ContactState ContactHistory::renewed(const ContactState& old, bool new_slave, bo
   if (!spec_.rigid_master) {
     const ContactKinematics& kinematics = geometry_.at(time, displacement);
     for (Index p = 0; p < kinematics.n_points(); ++p) {
-      PointState& point = state.points[at(p)];
+      ContactPointState& point = state.points[at(p)];
       if (!point.anchored) continue;  // without a partner in the drawing
       const PointMotion motion = kinematics.motion(p, point, ContactKinematics::Asked::motion);
       if (!motion.partnered) continue;
@@ -96,8 +97,9 @@ ContactState ContactHistory::renewed(const ContactState& old, bool new_slave, bo
   if (old.points.empty()) return state;
   if (!new_slave)
     for (std::size_t p = 0; p < state.points.size(); ++p)
-      for (auto field : {&PointState::internal_variable, &PointState::slip, &PointState::work,
-                         &PointState::dissipation, &PointState::wear_depth, &PointState::plastic_entropy})
+      for (auto field : {&ContactPointState::internal_variable, &ContactPointState::slip,
+                         &ContactPointState::work, &ContactPointState::dissipation,
+                         &ContactPointState::wear_depth, &ContactPointState::plastic_entropy})
         state.points[p].*field = old.points[p].*field;
   if (!new_master) state.master = old.master;
   return state;
@@ -122,7 +124,7 @@ void ContactHistory::find_wet_points(std::span<const double> coherency, ContactS
   const ContactKinematics& kinematics = geometry_.kinematics();
   step.liquid.assign(step.from.size(), 0);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    PointState& from = step.from[at(p)];
+    ContactPointState& from = step.from[at(p)];
     const bool touched = from.status != PointStatus::open || from.suction > 0;
     from.suction = 0;
     if (any && touched) {
@@ -137,11 +139,11 @@ void ContactHistory::find_wet_points(std::span<const double> coherency, ContactS
 
 void ContactHistory::find_temperatures(std::span<const double> temperature, double slave_share, bool balances,
                                        std::optional<double> tool, ContactStep& step) const {
-  const auto known = [&](const PointState& from) { return balances && from.temperature > 0; };
+  const auto known = [&](const ContactPointState& from) { return balances && from.temperature > 0; };
   if (std::ranges::all_of(step.from, known)) return;
   const ContactKinematics& kinematics = geometry_.at(step.begun, step.displacement);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    PointState& from = step.from[at(p)];
+    ContactPointState& from = step.from[at(p)];
     if (known(from)) continue;
     const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::motion);
     if (!motion.partnered) continue;
@@ -154,10 +156,10 @@ void ContactHistory::find_temperatures(std::span<const double> temperature, doub
   }
 }
 
-void ContactHistory::wear_master(const PointMotion& motion, const PointState& now, const PointForces& forces,
-                                 std::vector<WornNode>& master) const {
+void ContactHistory::wear_master(const PointMotion& motion, const ContactPointState& now,
+                                 const PointForces& forces, std::vector<WornNode>& master) const {
   if (!worn_ || forces.status != PointStatus::slips) return;
-  const WearSpec& wear = *law_.wear;
+  const WearParameters& wear = *law_.wear;
   const double depth = wear.depth_increment(forces.normal.pressure, forces.friction.slip, now.temperature);
   worn_->add(motion, wear.master_share * depth, forces.friction.dissipation, master);
 }

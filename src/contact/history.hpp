@@ -16,7 +16,7 @@ namespace solidus::contact {
 class ContactHistory {
  public:
   /// Keeps references. Throws InputError where a rigid surface is to wear.
-  ContactHistory(const ContactGeometry& geometry, AnalysisKind kind, const ContactSpec& spec,
+  ContactHistory(const ContactGeometry& geometry, AnalysisKind kind, const ContactParameters& spec,
                  const PairSurfaces& surfaces, const PointLaw& law);
 
   /// The history of bodies that have not moved.
@@ -42,14 +42,14 @@ class ContactHistory {
   void find_temperatures(std::span<const double> temperature, double slave_share, bool balances,
                          std::optional<double> tool, ContactStep& step) const;
   /// Adds what a point that slips wears off the master, where the master wears.
-  void wear_master(const PointMotion& motion, const PointState& now, const PointForces& forces,
+  void wear_master(const PointMotion& motion, const ContactPointState& now, const PointForces& forces,
                    std::vector<WornNode>& master) const;
   /// Wear of the master's nodes; empty where it does not wear.
   std::vector<MasterWear::Depth> depths(const ContactState& state) const;
 
  private:
   const ContactGeometry& geometry_;
-  const ContactSpec& spec_;
+  const ContactParameters& spec_;
   const PointLaw& law_;
   std::unique_ptr<MasterWear> worn_;  ///< absent where the master does not wear
 };

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/kinematics.hpp"
+#include "contact/contact_kinematics.hpp"
 #include "contact/surface.hpp"
 
 namespace solidus::contact {

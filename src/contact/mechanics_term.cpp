@@ -21,7 +21,7 @@ std::size_t at(Index i) {
 struct MechanicsTerm::Count {
   double points = 0, closed = 0, sticking = 0, penetration = 0, pressure = 0;
 
-  void add(const PointState& from, const PointMotion& motion, const PointForces& forces) {
+  void add(const ContactPointState& from, const PointMotion& motion, const PointForces& forces) {
     if (!from.counted) return;
     points += 1;
     if (forces.status == PointStatus::open) return;
@@ -72,7 +72,7 @@ void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r)
   Count count;
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
     if (!kinematics_.concerns(p)) continue;
-    const PointState& from = step_.from[at(p)];
+    const ContactPointState& from = step_.from[at(p)];
     const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::motion);
     const PointForces f = law_.forces(motion, from, step_.coupled.around(motion), step_.iterate_of(p));
     if (f.status != status_[at(p)] && from.counted) ++changes_;
@@ -188,7 +188,7 @@ void MechanicsTerm::add_tangents(linear::BlockMatrix& matrix) {
   Run run;
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
     if (!kinematics_.concerns(p)) continue;
-    const PointState& from = step_.from[at(p)];
+    const ContactPointState& from = step_.from[at(p)];
     const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::rates);
     if (!motion.partnered || std::none_of(motion.nodes.begin(), motion.nodes.end(),
                                           [this](Index node) { return node < n_owned_; }))

@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "contact/report.hpp"
+#include "contact/contact_report.hpp"
 #include "contact/rotation.hpp"
 
 namespace solidus::contact {
@@ -46,19 +46,19 @@ class NodalAverage {
 ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double> temperature) {
   const ContactKinematics& kinematics =
       pair.geometry.at(pair.end.time, pair.end.displacement, ContactKinematics::Points::own);
-  const std::vector<PointState>& points = pair.end.state.points;
+  const std::vector<ContactPointState>& points = pair.end.state.points;
   const std::optional<FrictionLaw>& friction = pair.law.friction;
   const bool keeps = friction || pair.has_temperature();
   const auto n = static_cast<std::size_t>(pair.geometry.mesh().n_owned_nodes);
   const std::vector<double> conductance = pair.heat != nullptr ? pair.heat->term().conductances(temperature)
                                                                : std::vector<double>(points.size(), 0.0);
-  std::vector<SurfaceHeat> heat(points.size());
+  std::vector<InterfaceHeatFlux> heat(points.size());
   if (pair.heat != nullptr && !temperature.empty()) heat = pair.heat->term().surface_heat(temperature);
   NodalAverage<k_met> met(n);
   std::vector<double> paired_area(n, 0.0);
   NodalAverage<k_kept> kept(n);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    const PointState& state = points[static_cast<std::size_t>(p)];
+    const ContactPointState& state = points[static_cast<std::size_t>(p)];
     const ContactKinematics::Particle particle = kinematics.particle(p);
     if (keeps) {
       const double mu =
@@ -71,7 +71,7 @@ ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double>
     const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
     if (!motion.partnered) continue;
     const Point traction = times(motion.push, state.traction);
-    const SurfaceHeat& q = heat[static_cast<std::size_t>(p)];
+    const InterfaceHeatFlux& q = heat[static_cast<std::size_t>(p)];
     const auto meet = [&](Index node, double share, std::size_t side) {
       if (const auto i = static_cast<std::size_t>(node); i < n) paired_area[i] += motion.weight * share;
       met.add(

@@ -11,7 +11,7 @@ std::size_t at(Index i) {
 }
 
 /// The state of a point of a contact that is off.
-void open_up(PointState& point) {
+void open_up(ContactPointState& point) {
   point.status = PointStatus::open;
   point.pressure = point.balance_pressure = point.multiplier = 0;
   point.suction = 0;
@@ -21,7 +21,7 @@ void open_up(PointState& point) {
 
 }  // namespace
 
-ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec spec,
+ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactParameters spec,
                          std::span<const double> body_modulus)
     : spec_(with_roles(mesh, std::move(spec), body_modulus)) {
   const PairSurfaces surfaces(mesh, spec_);
@@ -73,7 +73,7 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   step_.iterate.clear();
   if (pass.iterate == nullptr || pass.iterate->points.size() != step_.from.size()) return;
   for (std::size_t p = 0; p < step_.from.size(); ++p) {
-    const PointState &before = pass.iterate->points[p], &from = step_.from[p];
+    const ContactPointState &before = pass.iterate->points[p], &from = step_.from[p];
     step_.iterate.push_back(
         {before.temperature > 0 ? before.temperature : from.temperature, before.internal_variable});
     step_.from[p].multiplier = std::max(before.multiplier, least_multiplier(from));
@@ -90,7 +90,7 @@ const ContactState& ContactPair::update(std::span<const double> displacement) {
   end_.displacement.assign(displacement.begin(), displacement.end());
   end_.time = step_.time;
   const ContactKinematics& kinematics = geometry_->at(end_.time, end_.displacement);
-  std::vector<PointState>& points = end_.state.points;
+  std::vector<ContactPointState>& points = end_.state.points;
   points.resize(step_.from.size());
   end_.state.master = step_.worn_from;
   const bool fixed = !kinematics.partners_change() && partners_.n_points() > 0;
@@ -100,8 +100,8 @@ const ContactState& ContactPair::update(std::span<const double> displacement) {
     heat_->clear(points.size());
   }
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    const PointState& from = step_.from[at(p)];
-    PointState& now = points[at(p)];
+    const ContactPointState& from = step_.from[at(p)];
+    ContactPointState& now = points[at(p)];
     const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::motion);
     const PointForces forces = forces_->at(motion, p);
     now = forces_->law().next(motion, from, forces);
@@ -125,7 +125,7 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
   update(displacement);
   // Gaps and the points of the heat term follow from the motion alone: what the last step did is in the
   // state.
-  std::vector<PointState>& points = end_.state.points;
+  std::vector<ContactPointState>& points = end_.state.points;
   for (std::size_t p = 0; p < points.size(); ++p) {
     const double penetration = points[p].penetration;
     points[p] = step_.from[p];
@@ -170,7 +170,7 @@ std::vector<double> ContactPair::nodal_heat(std::span<const double> temperature)
 
 std::size_t ContactPair::bytes() const {
   return partners_.bytes() + step_.start_traction.capacity() * sizeof(Point) +
-         (end_.state.points.capacity() + step_.from.capacity()) * sizeof(PointState) +
+         (end_.state.points.capacity() + step_.from.capacity()) * sizeof(ContactPointState) +
          forces_->term().bytes() + (heat_ ? heat_->term().bytes() : 0);
 }
 

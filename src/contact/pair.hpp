@@ -2,11 +2,11 @@
 ///
 /// A pair is made of parts with one purpose each, which it gives their turn:
 ///
-///   geometry (geometry.hpp)  surfaces, points, partners in a configuration
-///   history  (history.hpp)   what points and nodes remember from step to step
-///   forces   (forces.hpp)    laws of the points, term of the mechanical phase, multipliers
-///   heat     (heat.hpp)      term of the thermal phase, balance of the interface
-///   report   (report.hpp)    sums, means at nodes, work of a step, from view()
+///   geometry (geometry.hpp)        surfaces, points, partners in a configuration
+///   history  (history.hpp)         what points and nodes remember from step to step
+///   forces   (forces.hpp)          laws of the points, term of the mechanical phase, multipliers
+///   heat     (heat.hpp)            term of the thermal phase, balance of the interface
+///   report   (contact_report.hpp)  sums, means at nodes, work of a step, from view()
 ///
 /// A mechanical pass goes begin(state at t_n) – Newton's iteration with mechanics() – update(solution);
 /// state() is then the history at t_{n+1}, which the scheme keeps or throws away. Points do not know each
@@ -23,12 +23,12 @@
 #include <span>
 #include <vector>
 
+#include "contact/contact_report.hpp"
 #include "contact/forces.hpp"
 #include "contact/geometry.hpp"
 #include "contact/heat.hpp"
 #include "contact/history.hpp"
-#include "contact/report.hpp"
-#include "contact/spec.hpp"
+#include "contact/parameters.hpp"
 #include "linear/contribution.hpp"
 #include "linear/coupled_matrix.hpp"
 
@@ -57,7 +57,7 @@ class ContactPair {
   /// Finds the partners and starts with zero displacement. Collective.
   /// @param body_modulus E [Pa] of every body of the mesh, for a penalty given as a factor
   /// Throws InputError for surfaces that do not exist, have no partner at all, or for a law that is none.
-  ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec spec,
+  ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactParameters spec,
               std::span<const double> body_modulus = {});
   ContactPair(const ContactPair&) = delete;
   ContactPair& operator=(const ContactPair&) = delete;
@@ -68,7 +68,7 @@ class ContactPair {
   void activate(bool on);
   bool active() const { return active_; }
 
-  const ContactSpec& spec() const { return spec_; }
+  const ContactParameters& spec() const { return spec_; }
   const ContactGeometry& geometry() const { return *geometry_; }
   const ContactHistory& history() const { return *history_; }
   const ContactForces& forces() const { return *forces_; }
@@ -148,7 +148,7 @@ class ContactPair {
  private:
   std::optional<double> tool_temperature_at(double time) const;
 
-  ContactSpec spec_;
+  ContactParameters spec_;
   bool active_ = true;
   std::unique_ptr<ContactGeometry> geometry_;
   ContactStep step_;

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/kinematics.hpp"
+#include "contact/contact_kinematics.hpp"
 
 namespace solidus::contact {
 

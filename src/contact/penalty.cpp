@@ -32,7 +32,7 @@ double local_stiffness(const mesh::Mesh& mesh, const ContactSurface& surface,
   // A face belongs to the process that owns its first node: it holds the element behind.
   double sum = 0, area = 0;
   std::vector<Index> vertices;
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.body < 0) continue;
     for (Index e = 0; e < block.size(); ++e) {
       const Index* nodes = block.element(e);
@@ -60,7 +60,7 @@ double local_stiffness(const mesh::Mesh& mesh, const ContactSurface& surface,
   return area > 0 ? sum / area : 0;
 }
 
-double penalty_of(const mesh::Mesh& mesh, const ContactSpec& spec, const PairSurfaces& surfaces,
+double penalty_of(const mesh::Mesh& mesh, const ContactParameters& spec, const PairSurfaces& surfaces,
                   std::span<const double> modulus) {
   if (!(spec.penalty > 0))
     throw InputError(spec.where, fmt::format("contact '{}': the penalty is not positive", spec.name));

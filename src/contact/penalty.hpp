@@ -16,7 +16,7 @@ double local_stiffness(const mesh::Mesh& mesh, const ContactSurface& surface,
 
 /// ε_N of a pair [Pa/m]: as given, or the factor on the stiffness of the stiffer of its surfaces. Collective.
 /// Throws InputError for one that is not positive, and for a factor where no stiffness is known.
-double penalty_of(const mesh::Mesh& mesh, const ContactSpec& spec, const PairSurfaces& surfaces,
+double penalty_of(const mesh::Mesh& mesh, const ContactParameters& spec, const PairSurfaces& surfaces,
                   std::span<const double> modulus);
 
 }  // namespace solidus::contact

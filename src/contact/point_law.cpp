@@ -32,7 +32,7 @@ FrictionResponse PointLaw::respond(const FrictionInput& in, const std::optional<
   return f;
 }
 
-PointForces PointLaw::forces(const PointMotion& motion, const PointState& from,
+PointForces PointLaw::forces(const PointMotion& motion, const ContactPointState& from,
                              const std::optional<Surroundings>& around,
                              const std::optional<FrictionInput::Iterate>& iterate) const {
   PointForces f;
@@ -78,8 +78,9 @@ PointForces PointLaw::forces(const PointMotion& motion, const PointState& from,
   return f;
 }
 
-PointState PointLaw::next(const PointMotion& motion, const PointState& from, const PointForces& f) const {
-  PointState to = from;
+ContactPointState PointLaw::next(const PointMotion& motion, const ContactPointState& from,
+                                 const PointForces& f) const {
+  ContactPointState to = from;
   to.status = f.status;
   to.pressure = f.normal.pressure;
   to.balance_pressure = f.normal.balance_pressure;
@@ -105,7 +106,7 @@ PointState PointLaw::next(const PointMotion& motion, const PointState& from, con
   return to;
 }
 
-double PointLaw::stored(const PointState& state) const {
+double PointLaw::stored(const ContactPointState& state) const {
   if (!state.anchored) return 0;
   double energy = normal.energy(state.penetration, state.suction);
   if (friction && normal.kind != NormalKind::augmented_lagrangian)

@@ -6,10 +6,10 @@
 
 #include <optional>
 
+#include "contact/contact_kinematics.hpp"
 #include "contact/friction.hpp"
 #include "contact/heat_transfer.hpp"
 #include "contact/interface_thermodynamics.hpp"
-#include "contact/kinematics.hpp"
 #include "contact/normal.hpp"
 #include "contact/rotation.hpp"
 #include "contact/wear.hpp"
@@ -45,7 +45,7 @@ inline double seen_by_heat(double penetration, double suction) {
   return suction > 0 && penetration < 0 ? 0.0 : penetration;
 }
 /// The least multiplier that a point may have, that of an open one [Pa].
-inline double least_multiplier(const PointState& state) {
+inline double least_multiplier(const ContactPointState& state) {
   return state.suction > 0 ? -state.suction : 0.0;
 }
 
@@ -68,28 +68,29 @@ struct PointForces {
 
 /// Returns the force per area on the master of a pressure and the traction of a state, in the current
 /// configuration: p n + F T.
-inline Point force_on_master(const PointMotion& motion, const PointState& state, double pressure) {
+inline Point force_on_master(const PointMotion& motion, const ContactPointState& state, double pressure) {
   return add_scaled(times(motion.push, state.traction), pressure, motion.normal);
 }
 
 struct PointLaw {
   NormalLaw normal;
   std::optional<FrictionLaw> friction;
-  std::optional<WearSpec> wear;  ///< with friction
-  bool isentropic = false;       ///< the mechanical phase holds the entropy of the interface (5.24)
-  double share = 1;              ///< s of normal.hpp
+  std::optional<WearParameters> wear;  ///< with friction
+  bool isentropic = false;             ///< the mechanical phase holds the entropy of the interface (5.24)
+  double share = 1;                    ///< s of normal.hpp
 
   /// @param from the state at t_n with the present multipliers: λ_N, and T_n or the traction that replaces it
   /// @param around   where slip and Θ_c are found together: the simultaneous scheme
   /// @param iterate  of a scheme whose phases take turns within the step
-  PointForces forces(const PointMotion& motion, const PointState& from,
+  PointForces forces(const PointMotion& motion, const ContactPointState& from,
                      const std::optional<Surroundings>& around = {},
                      const std::optional<FrictionInput::Iterate>& iterate = {}) const;
   /// The state that the forces lead to, at t_{n+1}. A point that is open, or where no friction acts, keeps
   /// what friction left.
-  PointState next(const PointMotion& motion, const PointState& from, const PointForces& forces) const;
+  ContactPointState next(const PointMotion& motion, const ContactPointState& from,
+                         const PointForces& forces) const;
   /// Returns the elastic energy of the normal and tangential penalty springs in a state [J/m²].
-  double stored(const PointState& state) const;
+  double stored(const ContactPointState& state) const;
 
  private:
   /// Friction's answer; with `around` and a known Θ_c of t_n, together with that of the interface.

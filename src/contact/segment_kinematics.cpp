@@ -164,7 +164,7 @@ void SegmentKinematics::for_each_place(Index point, Asked asked, Visit visit) co
   }
 }
 
-PointMotion SegmentKinematics::motion(Index point, const PointState& old, Asked asked) const {
+PointMotion SegmentKinematics::motion(Index point, const ContactPointState& old, Asked asked) const {
   const std::size_t c = at(point);
   PointMotion m;
   m.weight = particle(point).weight;
@@ -214,7 +214,7 @@ void SegmentKinematics::add_rates(Index place, double share, const PointMotion& 
 }
 
 // ΔG = P (W − W_n) with W the mean way and P = 1 − ν ⊗ ν of the mean normal; T_n is carried to its plane.
-void SegmentKinematics::find_slip(const PointState& old, const Point& way, Asked asked,
+void SegmentKinematics::find_slip(const ContactPointState& old, const Point& way, Asked asked,
                                   PointMotion& m) const {
   const Point& nu = m.master_normal;
   const Point gone = old.anchored ? subtract(way, old.anchor) : Point{};

@@ -48,7 +48,7 @@ class SegmentKinematics final : public ContactKinematics {
   using ContactKinematics::place;
   void place(std::span<const double> displacement, Points points) override;
   bool concerns(Index point) const override;
-  PointMotion motion(Index point, const PointState& old, Asked asked) const override;
+  PointMotion motion(Index point, const ContactPointState& old, Asked asked) const override;
   void add_geometric_tangent(Index point, double pressure, const Point& traction,
                              std::span<Tensor> k) const override;
   void add_share_rates(Index point, std::span<Point> rates) const override;
@@ -62,7 +62,7 @@ class SegmentKinematics final : public ContactKinematics {
   /// Finds the nodes of a place among those of the cell, in where_; new ones are added.
   void number_nodes(const PointMotion& place) const;
   void add_rates(Index place, double share, const PointMotion& at) const;
-  void find_slip(const PointState& old, const Point& way, Asked asked, PointMotion& motion) const;
+  void find_slip(const ContactPointState& old, const Point& way, Asked asked, PointMotion& motion) const;
   template <class Visit>
   void for_each_place(Index point, Asked asked, Visit visit) const;
 

@@ -191,7 +191,7 @@ void SlidingKinematics::list_nodes(std::size_t point) const {
   }
 }
 
-PointMotion SlidingKinematics::motion(Index point, const PointState& old, Asked asked) const {
+PointMotion SlidingKinematics::motion(Index point, const ContactPointState& old, Asked asked) const {
   const auto p = static_cast<std::size_t>(point);
   const Partner& partner = partner_[p];
   PointMotion m;
@@ -222,7 +222,7 @@ PointMotion SlidingKinematics::motion(Index point, const PointState& old, Asked 
 
 // ΔG = P (Ȳ − Ȳ_n) and T_n carried, with P and the rotation those of the plane at Ȳ. All of it changes with
 // ξ̄ alone.
-void SlidingKinematics::find_slip(const Partner& partner, const PointState& old, Asked asked,
+void SlidingKinematics::find_slip(const Partner& partner, const ContactPointState& old, Asked asked,
                                   PointMotion& m) const {
   const Point nu = m.master_normal;
   const Point way = old.anchored ? subtract(frame_.reference_y, old.anchor) : Point{};

@@ -12,8 +12,8 @@
 #include <memory>
 #include <vector>
 
+#include "contact/contact_kinematics.hpp"
 #include "contact/integration.hpp"
-#include "contact/kinematics.hpp"
 #include "contact/master.hpp"
 
 namespace solidus::contact {
@@ -55,7 +55,7 @@ class SlidingKinematics : public ContactKinematics {
   using ContactKinematics::place;
   void place(std::span<const double> displacement, Points points) override;
   bool concerns(Index point) const override { return concern_[static_cast<std::size_t>(point)] != none; }
-  PointMotion motion(Index point, const PointState& old, Asked asked) const override;
+  PointMotion motion(Index point, const ContactPointState& old, Asked asked) const override;
   void add_geometric_tangent(Index point, double pressure, const Point& traction,
                              std::span<Tensor> k) const override;
   void add_share_rates(Index point, std::span<Point> rates) const override;
@@ -90,7 +90,8 @@ class SlidingKinematics : public ContactKinematics {
   void find_rates(const Partner& partner) const;
   void find_face_rates(const Partner& partner) const;
   void find_wedge_rates(const Partner& partner) const;
-  void find_slip(const Partner& partner, const PointState& old, Asked asked, PointMotion& motion) const;
+  void find_slip(const Partner& partner, const ContactPointState& old, Asked asked,
+                 PointMotion& motion) const;
   std::span<const Index> allowed(Index slave_face) const;
 
   const mesh::Mesh& mesh_;

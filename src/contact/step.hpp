@@ -4,14 +4,14 @@
 #include <optional>
 #include <vector>
 
+#include "contact/contact_state.hpp"
 #include "contact/coupled_interface.hpp"
-#include "contact/state.hpp"
 
 namespace solidus::contact {
 
 struct ContactStep {
   /// At t_n, one per point; multipliers and tractions are those of the last turn of the augmented Lagrangian.
-  std::vector<PointState> from;
+  std::vector<ContactPointState> from;
   /// The tractions at t_n where the turns of the augmented Lagrangian have replaced those of `from`, [point]
   /// [Pa]; else empty.
   std::vector<Point> start_traction;
@@ -31,8 +31,8 @@ struct ContactStep {
     return iterate[static_cast<std::size_t>(point)];
   }
   /// The state of a point at t_n, with the traction that it had there.
-  PointState at_start(std::size_t point) const {
-    PointState start = from[point];
+  ContactPointState at_start(std::size_t point) const {
+    ContactPointState start = from[point];
     if (!start_traction.empty()) start.traction = start_traction[point];
     return start;
   }

@@ -20,7 +20,7 @@ ContactSurface::ContactSurface(const mesh::Mesh& mesh, const std::string& name) 
     const Index* nodes;
   };
   std::vector<Entry> entries;
-  for (const mesh::Block& block : surface.faces)
+  for (const mesh::ElementBlock& block : surface.faces)
     for (Index f = 0; f < block.size(); ++f) entries.push_back({block.shape, block.element(f)});
   if (entries.empty()) throw InputError({}, "surface '" + name + "' has no faces for contact");
   const auto key = [&](const Entry& e, std::vector<GlobalIndex>& k) {

@@ -8,7 +8,7 @@
 
 #include <span>
 
-#include "contact/kinematics.hpp"
+#include "contact/contact_kinematics.hpp"
 #include "contact/search.hpp"
 #include "contact/surface.hpp"
 

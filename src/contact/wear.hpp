@@ -15,7 +15,7 @@
 
 namespace solidus::contact {
 
-struct WearSpec {
+struct WearParameters {
   double coefficient = 0;   ///< k [1], >= 0
   Table hardness{1.0};      ///< H [Pa] over temperature [K], > 0
   double master_share = 0;  ///< m, 0 to 1

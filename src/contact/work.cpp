@@ -1,7 +1,7 @@
 /// Work of a contact pair in a step.
 #include <cmath>
 
-#include "contact/report.hpp"
+#include "contact/contact_report.hpp"
 #include "contact/rotation.hpp"
 #include "parallel/parallel.hpp"
 
@@ -37,7 +37,7 @@ double force_times_increment(const ContactView& pair, End end, std::span<const d
   double work = 0;
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     if (!kinematics.particle(p).counted) continue;
-    const PointState state = start ? pair.step.at_start(at(p)) : pair.end.state.points[at(p)];
+    const ContactPointState state = start ? pair.step.at_start(at(p)) : pair.end.state.points[at(p)];
     if (state.balance_pressure == 0 && state.status == PointStatus::open) continue;
     const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
     for (std::size_t b = 0; b < motion.nodes.size(); ++b) {
@@ -58,9 +58,9 @@ double force_times_relative_way(const ContactView& pair, End end, std::span<cons
   double work = 0;
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactKinematics::Particle particle = kinematics.particle(p);
-    const PointState from = pair.step.at_start(at(p)), &to = pair.end.state.points[at(p)];
+    const ContactPointState from = pair.step.at_start(at(p)), &to = pair.end.state.points[at(p)];
     if (!particle.counted || from.anchored == to.anchored) continue;
-    const PointState& state = start ? from : to;
+    const ContactPointState& state = start ? from : to;
     if (!state.anchored || (state.balance_pressure == 0 && state.status == PointStatus::open)) continue;
     const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
     const Point force = force_on_master(motion, state, state.balance_pressure);
@@ -92,7 +92,7 @@ double rigid_work(const ContactView& pair, double share) {
   if (share != 0) work_and_rigid_work += share * force_times_relative_way(pair, End::finish, increment);
   const ContactKinematics& kinematics = placed(pair, End::finish);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    const PointState from = pair.step.at_start(at(p)), &to = pair.end.state.points[at(p)];
+    const ContactPointState from = pair.step.at_start(at(p)), &to = pair.end.state.points[at(p)];
     if (!to.counted || !from.anchored || !to.anchored) continue;
     const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::motion);
     const double pressure = share * to.balance_pressure + (1 - share) * from.balance_pressure;

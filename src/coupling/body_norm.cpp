@@ -105,7 +105,7 @@ BodyNorm::BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind)
       diagonal_(diagonal_of(mesh)) {
   const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
   std::vector<std::vector<double>> weight(n_bodies_, std::vector<double>(n_owned, 0.0));
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     const PackVector<Lane> nodal = mesh::nodal_weights(mesh, block, kind);
     const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
     for (Index e = 0; e < block.size(); ++e)

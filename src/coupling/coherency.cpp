@@ -8,7 +8,7 @@ namespace solidus::coupling {
 Coherency::Coherency(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                      const linear::ActiveSet& active)
     : mesh_(mesh), material_(static_cast<std::size_t>(mesh.n_owned_nodes), nullptr) {
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
     if (!active.body(block.body) || material.solidification() == nullptr) continue;
     melts_ = true;  // every process has every block

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int k_most_augmentations = 400;
 // If points at the edge of contact open and close from turn to turn, the penetrations do not converge: after
-// k_enough_augmentations turns they may be k_tolerable times as large as allowed, with a warning.
+// k_enough_augmentations turns they may be k_tolerable times as large as allowed, with a warning. The passes
+// of a step that is iterated set out from the multipliers of the one before, and share these turns.
 constexpr int k_enough_augmentations = 60;
 constexpr double k_tolerable = 10;
 // Turns that nobody asked for (ContactSpec::pressure_tolerance) end here: what is left is less than the
@@ -29,15 +30,15 @@ const contact::ContactState& state_of(const std::vector<contact::ContactState>& 
 
 /// Advances the history of a point to the start of the second stage, from t_n and the end of the first stage;
 /// `start` is the latter on entry.
-void advance_history(const contact::PointState& from, const contact::PointState& to, double carried,
-                     contact::PointState& start) {
+void advance_history(const contact::ContactPointState& from, const contact::ContactPointState& to,
+                     double carried, contact::ContactPointState& start) {
   if (!from.anchored || !to.anchored) return;
-  for (auto field :
-       {&contact::PointState::penetration, &contact::PointState::internal_variable,
-        &contact::PointState::slip, &contact::PointState::work, &contact::PointState::dissipation,
-        &contact::PointState::wear_depth, &contact::PointState::plastic_entropy})
+  for (auto field : {&contact::ContactPointState::penetration, &contact::ContactPointState::internal_variable,
+                     &contact::ContactPointState::slip, &contact::ContactPointState::work,
+                     &contact::ContactPointState::dissipation, &contact::ContactPointState::wear_depth,
+                     &contact::ContactPointState::plastic_entropy})
     start.*field = from.*field + carried * (to.*field - from.*field);
-  for (auto field : {&contact::PointState::traction, &contact::PointState::anchor})
+  for (auto field : {&contact::ContactPointState::traction, &contact::ContactPointState::anchor})
     start.*field = contact::add_scaled(from.*field, carried, contact::subtract(to.*field, from.*field));
   // In the entropy of the interface's capacity.
   if (from.temperature > 0 && to.temperature > 0)
@@ -104,7 +105,7 @@ std::vector<contact::ContactState> second_start(const Phases& phases,
   return start;
 }
 
-bool penetrations_small(const Phases& phases, int turn) {
+bool penetrations_small(const Phases& phases, int turn, int earlier) {
   double excess = 0;
   const contact::ContactPair* worst = nullptr;
   for (const contact::ContactPair* pair : phases.contacts) {
@@ -115,7 +116,7 @@ bool penetrations_small(const Phases& phases, int turn) {
     }
   }
   if (excess <= 1) return true;
-  if (turn >= k_enough_augmentations && excess <= k_tolerable) {
+  if (turn + earlier >= k_enough_augmentations && excess <= k_tolerable) {
     logging::warn(
         "contact '{}': in some steps points open and close from one turn of the augmented Lagrangian to the "
         "next, and penetrations stay above penetration_tolerance, by less than {:g} times; normal = "

@@ -150,7 +150,7 @@ bool CoupledNewton::converged() const {
 
 linear::CoupledMatrix& CoupledNewton::assemble(const mechanics::MechanicalState& old,
                                                std::span<const double> x, int iteration) {
-  mechanics_.tangent();
+  mechanics_.tangent(x);
   if (thermal_->follow_graph())
     for (mechanics::CoupledKernel* kernel : kernels_) kernel->bind_heat(thermal_->matrix());
   if (matrix_.set_zero()) solver_->reset();

@@ -54,18 +54,22 @@ void DoublePass::forget() {
 
 StepEffort DoublePass::advance(const State& old, State& trial, double time, double dt) {
   State half;
-  StepEffort effort = first_half(old, half, time, dt);
+  mechanics::ForcesAtWork in_middle;
+  StepEffort effort = first_half(old, half, time, dt, in_middle);
   const contact::InterfaceSums first = effort.energy.interface;
-  effort += second_half(half, trial, time, dt);
+  effort += second_half(half, trial, time, dt, in_middle);
   effort.energy.interface.add(first);
   summarise(phases_, trial, effort);
   return effort;
 }
 
-void DoublePass::mechanical_half(const State& start, State& end, mechanics::MechanicalPass pass,
-                                 const std::function<void(State& led)>& answer, StepEffort& effort) const {
-  mechanical_pass(phases_, start, end, pass, effort);
-  if (!repeats()) return;
+mechanics::ForcesAtWork DoublePass::mechanical_half(const State& start, State& end,
+                                                    mechanics::MechanicalPass pass,
+                                                    const std::function<void(State& led)>& answer,
+                                                    StepEffort& effort) const {
+  int turns = 0;
+  mechanics::ForcesAtWork at_work = mechanical_pass(phases_, start, end, pass, effort, {}, &turns).at_work;
+  if (!repeats()) return at_work;
   std::vector<double> held(pass.iterate_temperature.begin(), pass.iterate_temperature.end());
   if (held.empty()) held.assign(pass.temperature.begin(), pass.temperature.end());
   double first = 0, change = 0;
@@ -74,14 +78,14 @@ void DoublePass::mechanical_half(const State& start, State& end, mechanics::Mech
     answer(led);
     change = largest_difference(led.heat.temperature, held);
     if (turn == 1) first = change;
-    if (!(change > k_settled * first)) return;
+    if (!(change > k_settled * first)) return at_work;
     held = std::move(led.heat.temperature);
     pass.iterate_temperature = held;
     pass.iterate = &end.mechanics;
     const std::vector<contact::ContactState> contacts = end.contacts;
-    mechanical_pass(phases_, start, end, pass, effort, contacts);
+    at_work = mechanical_pass(phases_, start, end, pass, effort, contacts, &turns).at_work;
   }
-  if (change <= k_falls * first) return;
+  if (change <= k_falls * first) return at_work;
   throw StepRejected(fmt::format("coupling: isothermal passes do not settle: the change of temperature went "
                                  "from {:.3g} K to {:.3g} K in {} turns",
                                  first, change, k_turns),
@@ -96,7 +100,8 @@ void DoublePass::thermal_half(const State& start, State& end, const heat::Therma
     thermal_pass_with_flow(phases_, start, end, heat, start.mechanics, moved, effort);
 }
 
-StepEffort DoublePass::first_half(const State& old, State& half, double time, double dt) {
+StepEffort DoublePass::first_half(const State& old, State& half, double time, double dt,
+                                  mechanics::ForcesAtWork& in_middle) {
   StepEffort effort;
   const double middle = time - 0.5 * dt;
   const bool moves = phases_.mechanics->dynamic();
@@ -106,14 +111,13 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
   for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
   State predicted;
   thermal_pass(phases_, old, predicted, {.time = middle, .dt = 0.5 * dt}, effort);
-  const mechanics::MechanicalPass pass{
-      .time = middle,
-      .dt = 0.5 * dt,
-      .temperature = old.heat.temperature,
-      .plateau_share = share,
-      .iterate_temperature = predicted.heat.temperature,
-      .work = moves ? mechanics::StressAtWork::end : mechanics::StressAtWork::end_kept};
-  mechanical_half(
+  const mechanics::MechanicalPass pass{.time = middle,
+                                       .dt = 0.5 * dt,
+                                       .temperature = old.heat.temperature,
+                                       .plateau_share = share,
+                                       .iterate_temperature = predicted.heat.temperature,
+                                       .returns_at_work = !moves};
+  in_middle = mechanical_half(
       old, half, pass,
       [&](State& led) { thermal_pass(phases_, old, led, {.time = middle, .dt = 0.5 * dt}, effort); }, effort);
   contact.add(phases_.mechanics->work_share());
@@ -129,18 +133,18 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
   return effort;
 }
 
-StepEffort DoublePass::second_half(const State& half, State& trial, double time, double dt) {
+StepEffort DoublePass::second_half(const State& half, State& trial, double time, double dt,
+                                   const mechanics::ForcesAtWork& in_middle) {
   StepEffort effort;
   const bool moves = phases_.mechanics->dynamic();
   const heat::ThermalPass adiabatic{.time = time, .dt = dt, .adiabatic = true};
   ContactWork contact(phases_);
   const std::vector<double> share = plateau_share(phases_, half.heat);
-  const mechanics::MechanicalPass pass{
-      .time = time,
-      .dt = 0.5 * dt,
-      .temperature = half.heat.temperature,
-      .plateau_share = share,
-      .work = moves ? mechanics::StressAtWork::end : mechanics::StressAtWork::kept};
+  const mechanics::MechanicalPass pass{.time = time,
+                                       .dt = 0.5 * dt,
+                                       .temperature = half.heat.temperature,
+                                       .plateau_share = share,
+                                       .at_work = moves ? nullptr : &in_middle};
   mechanical_half(
       half, trial, pass, [&](State& led) { thermal_pass(phases_, half, led, adiabatic, effort); }, effort);
   // In quasi-statics the work of the pressure in the middle, as that of the stress.

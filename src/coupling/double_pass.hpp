@@ -47,12 +47,17 @@ class DoublePass final : public CouplingScheme {
 
  private:
   /// Steps 0 to 2, from t_n; and 3, 4.
-  StepEffort first_half(const State& old, State& half, double time, double dt);
-  StepEffort second_half(const State& half, State& trial, double time, double dt);
+  /// @param in_middle  forces in the middle of the step; those whose work both halves do without inertia
+  StepEffort first_half(const State& old, State& half, double time, double dt,
+                        mechanics::ForcesAtWork& in_middle);
+  StepEffort second_half(const State& half, State& trial, double time, double dt,
+                         const mechanics::ForcesAtWork& in_middle);
   /// Step 1 or 3. `pass` begins at the temperature that is held first.
   /// @param answer  finds the temperatures to which the deformation that was found last leads
-  void mechanical_half(const State& start, State& end, mechanics::MechanicalPass pass,
-                       const std::function<void(State& led)>& answer, StepEffort& effort) const;
+  /// @return MechanicalReport::at_work of the last pass
+  mechanics::ForcesAtWork mechanical_half(const State& start, State& end, mechanics::MechanicalPass pass,
+                                          const std::function<void(State& led)>& answer,
+                                          StepEffort& effort) const;
   /// Whether a mechanical pass is repeated at the temperature that it leads to.
   bool repeats() const;
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/pair.hpp"
-#include "coupling/continuation.hpp"
+#include "coupling/restart_data.hpp"
 #include "heat/time_error.hpp"
 
 namespace solidus::coupling {
@@ -86,7 +86,7 @@ struct ContactSummary {
   double dissipation = 0;                        ///< of friction, since the start [J]
   double heat_to_slave = 0, heat_to_master = 0;  ///< in all, that of friction included [W]
   double wet_area = 0;                           ///< of points that liquid metal wets [m²]
-  /// The part of the liquid skin that has left its wall (contact::ContactSpec::leaving_gap): area [m²],
+  /// The part of the liquid skin that has left its wall (contact::ContactParameters::leaving_gap): area [m²],
   /// largest gap [m].
   double left_area = 0, left_gap = 0;
 };
@@ -141,7 +141,7 @@ class Observer {
   /// A shot is over; the last step told to step() was its last.
   virtual void shot(const ShotRecord& /*record*/, const State& /*state*/) {}
   /// A checkpoint is due at the committed state; with `continuation` the run can go on from it.
-  virtual void checkpoint(const Continuation& /*continuation*/, const State& /*state*/) {}
+  virtual void checkpoint(const RestartData& /*continuation*/, const State& /*state*/) {}
   /// The run cannot or shall not go on; `state` is the last committed one, its checkpoint is written.
   virtual void stopped(const Stop& stop, const State& state) = 0;
   virtual void end(const State& state) = 0;

@@ -32,21 +32,23 @@ constexpr double k_flow_settled = heat::k_nodal_tolerance;
 
 }  // namespace
 
-mechanics::PhaseReport mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
-                                       const mechanics::MechanicalPass& pass, StepEffort& effort,
-                                       const std::vector<contact::ContactState>& contacts) {
+mechanics::MechanicalReport mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
+                                            const mechanics::MechanicalPass& pass, StepEffort& effort,
+                                            const std::vector<contact::ContactState>& contacts, int* turns) {
   const profile::Part part("mechanics");
   const double start = processes::wall_time();
   const std::vector<double> coherency =
       phases.contacts.empty() ? std::vector<double>{} : coherency_of(phases, old.heat);
   begin_contacts(phases, old.contacts, old.mechanics, pass, coherency, contacts);
-  mechanics::PhaseReport report;
+  mechanics::MechanicalReport report;
   mechanics::MechanicalPass turn = pass;
   mechanics::MechanicalState next;
   // Most of a state is its history: the storage of the one that is overwritten serves again.
   if (pass.iterate != &trial.mechanics && &old.mechanics != &trial.mechanics)
     next.history = std::move(trial.mechanics.history);
+  const int earlier = turns != nullptr ? *turns : 0;
   for (int n_turns = 1;; ++n_turns) {
+    if (turns != nullptr) *turns = earlier + n_turns;
     try {
       report = phases.mechanics->solve(old.mechanics, next, turn);
       add(report.newton, report.newton.iterations, 0, effort.mechanics);
@@ -59,7 +61,7 @@ mechanics::PhaseReport mechanical_pass(const Phases& phases, const MechanicalSta
     }
     // Penetrations of an iterate that is not in equilibrium say nothing of the multipliers; those of one that
     // is are brought down in equilibrium too.
-    if (!report.newton.converged || penetrations_small(phases, n_turns)) break;
+    if (!report.newton.converged || penetrations_small(phases, n_turns, earlier)) break;
     turn.start = next.displacement;
     turn.newton_steps = 0;
   }
@@ -71,7 +73,7 @@ mechanics::PhaseReport mechanical_pass(const Phases& phases, const MechanicalSta
   return report;
 }
 
-void book_work(const mechanics::PhaseReport& report, StepEffort& effort) {
+void book_work(const mechanics::MechanicalReport& report, StepEffort& effort) {
   const mechanics::MechanicalWork& work = report.work;
   EnergyAudit& energy = effort.energy;
   energy.kinetic = work.kinetic;
@@ -94,7 +96,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
   const double start = processes::wall_time();
   if (phases.mechanics == nullptr) rest_contacts(phases, old, pass.time, pass.dt);
   for (contact::ContactPair* pair : phases.contacts) pair->begin_heat(pass.dt, pass.adiabatic);
-  heat::PhaseReport report = phases.heat->solve(old.heat, trial.heat, pass);
+  heat::ThermalReport report = phases.heat->solve(old.heat, trial.heat, pass);
 
   effort.energy.stored_heat = report.balance.stored;
   effort.energy.heat_in = 0;

@@ -24,11 +24,14 @@ struct MechanicalStart {
 /// the report of the phase: Newton's iteration may miss its tolerance only where the pass limits its steps.
 /// @param pass      its iterate may be `trial`
 /// @param contacts  states of the pairs after the pass before, of a scheme that iterates within the step
-mechanics::PhaseReport mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
-                                       const mechanics::MechanicalPass& pass, StepEffort& effort,
-                                       const std::vector<contact::ContactState>& contacts = {});
+/// @param turns     of the augmented Lagrangian in the passes of this step so far; updated. Null: this is the
+///                  only pass
+mechanics::MechanicalReport mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
+                                            const mechanics::MechanicalPass& pass, StepEffort& effort,
+                                            const std::vector<contact::ContactState>& contacts = {},
+                                            int* turns = nullptr);
 /// Enters the work and the support forces of a solved mechanical phase in the report of the step.
-void book_work(const mechanics::PhaseReport& report, StepEffort& effort);
+void book_work(const mechanics::MechanicalReport& report, StepEffort& effort);
 
 /// The balance of energy at the configuration of the last mechanical pass (4.43, 4.53); otherwise the same.
 /// Returns whether the iteration reached its tolerance.

@@ -1,6 +1,6 @@
 /// A coupling scheme as a plug-in: what it is called, what it needs, what it refuses and why, and how it is
-/// made. A scheme describes itself by a struct like DoublePassScheme (schemes/double_pass.hpp), in its own
-/// file:
+/// made. A scheme describes itself by a struct like DoublePassScheme (schemes/double_pass_keys.hpp), in its
+/// own file:
 ///
 ///   struct Lagged {
 ///     static constexpr std::string_view name = "lagged", doc = "…";
@@ -21,7 +21,7 @@
 #include <string_view>
 #include <vector>
 
-#include "coupling/continuation.hpp"
+#include "coupling/restart_data.hpp"
 #include "mechanics/mechanical_phase.hpp"
 #include "mechanics/structural_heat.hpp"
 #include "system/objection.hpp"

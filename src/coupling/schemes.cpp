@@ -1,9 +1,9 @@
 /// The coupling schemes that every program has, in the order of the reference page.
-#include "coupling/schemes/block_iterative.hpp"
-#include "coupling/schemes/double_pass.hpp"
-#include "coupling/schemes/isentropic.hpp"
-#include "coupling/schemes/isothermal.hpp"
-#include "coupling/schemes/simultaneous.hpp"
+#include "coupling/schemes/block_iterative_keys.hpp"
+#include "coupling/schemes/double_pass_keys.hpp"
+#include "coupling/schemes/isentropic_keys.hpp"
+#include "coupling/schemes/isothermal_keys.hpp"
+#include "coupling/schemes/simultaneous_keys.hpp"
 
 namespace solidus::coupling {
 

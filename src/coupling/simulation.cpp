@@ -79,7 +79,7 @@ bool Simulation::stop_asked() const {
 
 void Simulation::save(Progress& p, const ControlState& control) {
   scheme_->forget();
-  const Continuation continuation{
+  const RestartData continuation{
       p.record.number, options_.stages[p.stage].step, control, p.stage_start, p.step->rates(), p.shots,
       p.carried};
   for (Observer* o : observers_) o->checkpoint(continuation, p.committed);
@@ -93,7 +93,7 @@ void Simulation::measure_steps(Progress& p, const StepOptions& step, Rates rates
     p.step.emplace(*scheme_);
 }
 
-void Simulation::enter_stage(Progress& p, const std::optional<Continuation>& from) {
+void Simulation::enter_stage(Progress& p, const std::optional<RestartData>& from) {
   const Stage& stage = options_.stages[p.stage];
   const bool first = p.stage == 0, staged = stage.of_case > 0;
   const double start = first ? p.committed.time : options_.stages[p.stage - 1].end;
@@ -176,7 +176,7 @@ Outcome Simulation::stopped(const Stop& why, Progress& p, Outcome outcome) {
 }
 
 Outcome Simulation::run(State initial, const SolidFraction& solid_fraction,
-                        const std::optional<Continuation>& from) {
+                        const std::optional<RestartData>& from) {
   begin(std::move(initial), solid_fraction, from);
   std::optional<Outcome> outcome;
   while (!(outcome = take_step())) commit_step();
@@ -184,12 +184,13 @@ Outcome Simulation::run(State initial, const SolidFraction& solid_fraction,
   return *outcome;
 }
 
-void Simulation::begin(State initial, SolidFraction solid_fraction, const std::optional<Continuation>& from) {
+void Simulation::begin(State initial, SolidFraction solid_fraction, const std::optional<RestartData>& from) {
   progress_ = std::make_unique<Progress>();
   Progress& p = *progress_;
   p.solid_fraction_of = std::move(solid_fraction);
   if (criteria_ != nullptr) criteria_->forget();
-  criteria::State records = std::move(initial.criteria);  // there is one of them, which commit() hands on
+  criteria::CriteriaState records =
+      std::move(initial.criteria);  // there is one of them, which commit() hands on
   p.trial = initial;
   p.committed = std::move(initial);
   p.committed.criteria = std::move(records);

@@ -89,10 +89,10 @@ class Simulation {
   /// @param from where the run that `initial` comes from stood; without it a new run begins. Its step size
   /// counts only if the step options are still the same; it must have stood in the stage of this time.
   Outcome run(State initial, const SolidFraction& solid_fraction,
-              const std::optional<Continuation>& from = {});
+              const std::optional<RestartData>& from = {});
 
   /// Begins a run as run() does, up to its first step. Collective.
-  void begin(State initial, SolidFraction solid_fraction, const std::optional<Continuation>& from = {});
+  void begin(State initial, SolidFraction solid_fraction, const std::optional<RestartData>& from = {});
   /// Takes the next step, in as many tries as it needs, and leaves it pending: commit_step() or
   /// discard_step() follows. Returns nothing while the run goes on, else how it ended; then no step is
   /// pending. Collective.
@@ -121,7 +121,7 @@ class Simulation {
 
   enum class Try { taken, repeat, stuck };
   /// Begins the stage that holds at the committed time, or goes on in it.
-  void enter_stage(Progress& p, const std::optional<Continuation>& from);
+  void enter_stage(Progress& p, const std::optional<RestartData>& from);
   /// A run that goes on from its end has nothing left but to end.
   void end_at_once(Progress& p, const StageStart& stage_start);
   void begin_bodies(Progress& p, bool anew, bool changed_before);

@@ -210,7 +210,8 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
     fractions->advance(newton_->thermal().state(), std::ldexp(1.0, -fraction_turns / k_whole_turns));
     fractions->hold(pass);
   }
-  const mechanics::PhaseReport solved = phases_.mechanics->conclude(old, pass, std::move(x), trial.mechanics);
+  const mechanics::MechanicalReport solved =
+      phases_.mechanics->conclude(old, pass, std::move(x), trial.mechanics);
   const heat::HeatBalance balance = newton_->thermal().conclude(trial.heat);
 
   StepEffort effort;

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "contact/state.hpp"
-#include "criteria/state.hpp"
+#include "contact/contact_state.hpp"
+#include "criteria/criteria_state.hpp"
 #include "heat/exothermic.hpp"
 #include "heat/thermal_state.hpp"
 #include "mechanics/mechanical_state.hpp"
@@ -25,7 +25,7 @@ struct State {
   /// The same of the nodal pressure of mixed elements [Pa/s], [local node][field].
   std::vector<double> pressure_rate;
   /// Schemes leave these alone: the simulation brings them to the state that it commits.
-  criteria::State criteria;
+  criteria::CriteriaState criteria;
   heat::BurningState burning;
 };
 

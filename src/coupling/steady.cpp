@@ -34,7 +34,7 @@ void conduct(const Phases& phases, const State& initial, State& steady, StepEffo
   const double start = processes::wall_time();
   const heat::ThermalState& from = steady.heat.temperature.empty() ? initial.heat : steady.heat;
   heat::ThermalState next;
-  const heat::PhaseReport report = phases.heat->solve_steady(from, next, 0);
+  const heat::ThermalReport report = phases.heat->solve_steady(from, next, 0);
   steady.heat = std::move(next);
   EnergyAudit& energy = effort.energy;
   energy.heat_in = 0;

@@ -56,11 +56,11 @@ Connectivity::Connectivity(const mesh::Mesh& mesh, const parallel::GhostExchange
                            std::vector<char> chosen)
     : mesh_(mesh), ghosts_(ghosts), chosen_(std::move(chosen)) {}
 
-Parts Connectivity::parts(std::span<const char> inside) const {
+ConnectedParts Connectivity::parts(std::span<const char> inside) const {
   const std::size_t n = inside.size();
   Joined joined(n);
   std::vector<char> whole(n, 0);  // a node of each whole element
-  for (const mesh::Block& block : mesh_.blocks) {
+  for (const mesh::ElementBlock& block : mesh_.blocks) {
     if (chosen_[static_cast<std::size_t>(block.body)] == 0) continue;
     const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
     for (Index e = 0; e < block.size(); ++e) {
@@ -78,8 +78,8 @@ Parts Connectivity::parts(std::span<const char> inside) const {
     }
   }
 
-  Parts parts;
-  parts.label.assign(n, Parts::k_none);
+  ConnectedParts parts;
+  parts.label.assign(n, ConnectedParts::k_none);
   for (std::size_t i = 0; i < n; ++i)
     if (inside[i] != 0) {
       const std::size_t root = joined.root(i);  // of all its nodes the least local number: it comes first

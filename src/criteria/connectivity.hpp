@@ -11,7 +11,7 @@ namespace solidus::criteria {
 
 /// A part is told by the least number in the input (Mesh::input_node) of its nodes: the same whatever the
 /// number of processes.
-struct Parts {
+struct ConnectedParts {
   static constexpr double k_none = -1;
   std::vector<double> label;  ///< [local node], k_none outside of the set
   std::vector<double> whole;  ///< labels, rising: parts that hold a whole element, the same everywhere
@@ -24,7 +24,7 @@ class Connectivity {
 
   /// Two nodes of the set are connected where an element has both. Collective.
   /// @param inside  [local node]; ghosts as their owners say
-  Parts parts(std::span<const char> inside) const;
+  ConnectedParts parts(std::span<const char> inside) const;
 
  private:
   const mesh::Mesh& mesh_;

@@ -6,41 +6,42 @@
 
 namespace solidus::criteria {
 
-Criteria::NodalPhases Criteria::phases_of(const Moment& moment) const {
+Criteria::NodalFractions Criteria::phases_of(const CriterionInput& moment) const {
   if (phase_ == nullptr) return {};
   return {phase_->solid_fraction(moment.heat), phase_->plateau_share(moment.heat)};
 }
 
-State Criteria::initial(const Moment& start) const {
-  const NodalPhases phases = phases_of(start);
-  const Moment whole = phases.of(start);
-  State state;
+CriteriaState Criteria::initial(const CriterionInput& start) const {
+  const NodalFractions phases = phases_of(start);
+  const CriterionInput whole = phases.of(start);
+  CriteriaState state;
   for (const auto& criterion : list_) state.records.push_back(criterion->initial(whole));
   return state;
 }
 
-void Criteria::step(const Moment& old, const Moment& next, State& state) {
+void Criteria::step(const CriterionInput& old, const CriterionInput& next, CriteriaState& state) {
   assert(state.records.size() == list_.size());
   const double start = processes::wall_time();
-  const NodalPhases before = phases_time_ == old.time ? std::move(phases_) : phases_of(old);
+  const NodalFractions before = phases_time_ == old.time ? std::move(phases_) : phases_of(old);
   phases_ = phases_of(next);
   phases_time_ = next.time;
-  const Moment from = before.of(old), to = phases_.of(next);
+  const CriterionInput from = before.of(old), to = phases_.of(next);
   for (std::size_t i = 0; i < list_.size(); ++i) list_[i]->step(from, to, state.records[i]);
   seconds_ += processes::wall_time() - start;
 }
 
-std::vector<FieldInfo> Criteria::fields() const {
-  std::vector<FieldInfo> all;
+std::vector<CriterionField> Criteria::fields() const {
+  std::vector<CriterionField> all;
   for (const auto& criterion : list_)
-    for (const FieldInfo& field : criterion->fields()) all.push_back(field);
+    for (const CriterionField& field : criterion->fields()) all.push_back(field);
   return all;
 }
 
-void Criteria::fill(const Moment& now, const State& state, std::span<const std::span<double>> values) const {
+void Criteria::fill(const CriterionInput& now, const CriteriaState& state,
+                    std::span<const std::span<double>> values) const {
   assert(state.records.size() == list_.size());
-  const NodalPhases phases = phases_of(now);
-  const Moment whole = phases.of(now);
+  const NodalFractions phases = phases_of(now);
+  const CriterionInput whole = phases.of(now);
   std::size_t first = 0;
   for (std::size_t i = 0; i < list_.size(); ++i) {
     const std::size_t n = list_[i]->fields().size();
@@ -49,10 +50,10 @@ void Criteria::fill(const Moment& now, const State& state, std::span<const std::
   }
 }
 
-std::vector<Finding> Criteria::findings(const State& state) const {
-  std::vector<Finding> all;
+std::vector<CriterionResult> Criteria::findings(const CriteriaState& state) const {
+  std::vector<CriterionResult> all;
   for (std::size_t i = 0; i < list_.size(); ++i)
-    for (const Finding& finding : list_[i]->findings(state.records[i])) all.push_back(finding);
+    for (const CriterionResult& finding : list_[i]->findings(state.records[i])) all.push_back(finding);
   return all;
 }
 

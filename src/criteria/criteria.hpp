@@ -18,34 +18,35 @@ class Criteria {
   void add(std::unique_ptr<Criterion> criterion) { list_.push_back(std::move(criterion)); }
   bool empty() const { return list_.empty(); }
 
-  State initial(const Moment& start) const;
+  CriteriaState initial(const CriterionInput& start) const;
   /// Forgets the stored phases, because another run begins.
   void forget() { phases_time_ = std::numeric_limits<double>::quiet_NaN(); }
   /// Advances all criteria over a step, as Criterion::step does. `state` is that of t_n and becomes that of
   /// t_{n+1}. Collective.
-  void step(const Moment& old, const Moment& next, State& state);
+  void step(const CriterionInput& old, const CriterionInput& next, CriteriaState& state);
   /// Returns the fields of all criteria, one after the other.
-  std::vector<FieldInfo> fields() const;
+  std::vector<CriterionField> fields() const;
   /// @param values  one span per field, in the order of fields()
-  void fill(const Moment& now, const State& state, std::span<const std::span<double>> values) const;
-  std::vector<Finding> findings(const State& state) const;
+  void fill(const CriterionInput& now, const CriteriaState& state,
+            std::span<const std::span<double>> values) const;
+  std::vector<CriterionResult> findings(const CriteriaState& state) const;
   std::size_t bytes() const;
   double seconds() const { return seconds_; }  ///< spent in steps so far
 
  private:
   /// Nodal solid fractions and plateau shares at a moment, from the thermal phase.
-  struct NodalPhases {
+  struct NodalFractions {
     std::vector<double> solid_fraction, plateau_share;
-    Moment of(const Moment& moment) const {
+    CriterionInput of(const CriterionInput& moment) const {
       return {moment.time, moment.heat, moment.mechanics, solid_fraction, plateau_share};
     }
   };
-  NodalPhases phases_of(const Moment& moment) const;
+  NodalFractions phases_of(const CriterionInput& moment) const;
 
   const heat::ThermalPhase* phase_;
   std::vector<std::unique_ptr<Criterion>> list_;
   /// Nodal phases at the end of the last step, stored because the next step needs them again.
-  NodalPhases phases_;
+  NodalFractions phases_;
   double phases_time_ = std::numeric_limits<double>::quiet_NaN();  ///< never equal to a time
   double seconds_ = 0;
 };

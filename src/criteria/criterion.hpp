@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "criteria/state.hpp"
+#include "criteria/criteria_state.hpp"
 #include "heat/thermal_state.hpp"
 #include "mechanics/mechanical_state.hpp"
 
 namespace solidus::criteria {
 
 /// A committed state, as criteria see it.
-struct Moment {
+struct CriterionInput {
   double time = 0;                              ///< [s]
   const heat::ThermalState& heat;               ///< empty without a thermal phase
   const mechanics::MechanicalState& mechanics;  ///< empty without a mechanical phase
@@ -27,14 +27,14 @@ struct Moment {
 
 /// A field that a criterion can show. Values are finite always; where a criterion says nothing (yet) they are
 /// zero, unless its documentation names another mark.
-struct FieldInfo {
+struct CriterionField {
   std::string name, unit;  ///< SI: "K/s"; "1" for a number
   int components = 1;
-  Place place = Place::node;
+  mesh::FieldPlace place = mesh::FieldPlace::node;
 };
 
 /// A number for the summary, with where it was found.
-struct Finding {
+struct CriterionResult {
   std::string name, unit;  ///< "niyama_min", SI
   double value = 0;
   bool somewhere = false;  ///< `where` says where
@@ -45,17 +45,18 @@ class Criterion {
  public:
   virtual ~Criterion() = default;
   /// The record at the start of a run. Collective.
-  virtual Record initial(const Moment& start) const = 0;
+  virtual CriterionRecord initial(const CriterionInput& start) const = 0;
   /// A step from `old` to `next` was committed: brings the record from t_n to t_{n+1}. Phases that the
   /// criterion knows have just reached `next`. Collective. Neither throws nor depends on anything but its
   /// arguments: a run that is continued goes the same way.
-  virtual void step(const Moment& old, const Moment& next, Record& record) = 0;
-  virtual std::vector<FieldInfo> fields() const = 0;
-  /// Values of all fields at this moment, in their order; each span has the shape of a Column. Collective.
-  virtual void fill(const Moment& now, const Record& record,
+  virtual void step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) = 0;
+  virtual std::vector<CriterionField> fields() const = 0;
+  /// Values of all fields at this moment, in their order; each span has the shape of a CriterionColumn.
+  /// Collective.
+  virtual void fill(const CriterionInput& now, const CriterionRecord& record,
                     std::span<const std::span<double>> values) const = 0;
   /// Returns the findings for the summary at the end; the same on every process. Collective.
-  virtual std::vector<Finding> findings(const Record& /*record*/) const { return {}; }
+  virtual std::vector<CriterionResult> findings(const CriterionRecord& /*record*/) const { return {}; }
   virtual std::size_t bytes() const { return 0; }
 };
 

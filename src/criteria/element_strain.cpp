@@ -4,7 +4,7 @@
 
 namespace solidus::criteria {
 
-ElementStrain::ElementStrain(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind) {
+ElementStrain::ElementStrain(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind) {
   mesh::BlockGeometry g(mesh, block, kind, mesh::stiffness_rule(block.shape));
   n_nodes_ = g.n_nodes;
   dim_ = g.dim;

@@ -13,7 +13,7 @@ namespace solidus::criteria {
 /// Mean values over the elements of one block, eight elements at a time.
 class ElementStrain {
  public:
-  ElementStrain(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind);
+  ElementStrain(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind);
 
   Index n_batches() const { return n_batches_; }
   Index n_elements() const { return n_elements_; }

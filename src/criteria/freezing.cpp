@@ -50,8 +50,8 @@ std::vector<char> freezing_bodies(const mesh::Mesh& mesh, const heat::NodalEntha
 }  // namespace
 
 struct Freezing::Step {
-  const Moment& old;
-  const Moment& next;
+  const CriterionInput& old;
+  const CriterionInput& next;
   const heat::NodalEnthalpy& storage;
   double dt() const { return next.time - old.time; }
   double time(double at) const { return old.time + at * dt(); }
@@ -99,8 +99,8 @@ int Freezing::body_of(Index node, const std::vector<char>& chosen) const {
   return body;
 }
 
-Record Freezing::initial(const Moment& start) const {
-  Record record{"freezing", {make_column(mesh_, "history", Place::node, k_width, 0)}, {}};
+CriterionRecord Freezing::initial(const CriterionInput& start) const {
+  CriterionRecord record{"freezing", {make_column(mesh_, "history", mesh::FieldPlace::node, k_width, 0)}, {}};
   std::vector<double>& history = record.columns[0].values;
   for (std::size_t i = 0; i < mesh_.x.size(); ++i)
     for (const Slot time : {k_liquidus_at, k_evaluated_at, k_solidified_at})
@@ -255,7 +255,7 @@ void Freezing::complete(const FreezingNode& who, const Step& step, std::span<dou
   h[k_magnitude] = g.behind_magnitude;
 }
 
-void Freezing::step(const Moment& old, const Moment& next, Record& record) {
+void Freezing::step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) {
   std::vector<double>& history = record.columns[0].values;
   const Step step{old, next, storage_};
   std::vector<Passage> passages;
@@ -325,7 +325,7 @@ std::array<double, Freezing::k_fields> Freezing::values_of(const FreezingNode& w
   return {h[k_solidified_at], time, rate, gradient, speed, spacing, ny, number, pores};
 }
 
-std::vector<FieldInfo> Freezing::fields() const {
+std::vector<CriterionField> Freezing::fields() const {
   return {{"solidified_at", "s"},
           {"local_solidification_time", "s"},
           {"cooling_rate", "K/s"},
@@ -337,7 +337,7 @@ std::vector<FieldInfo> Freezing::fields() const {
           {"shrinkage_porosity", "1"}};
 }
 
-void Freezing::fill(const Moment& /*now*/, const Record& record,
+void Freezing::fill(const CriterionInput& /*now*/, const CriterionRecord& record,
                     std::span<const std::span<double>> values) const {
   for (std::size_t f = 0; f < k_fields; ++f)
     std::fill(values[f].begin(), values[f].end(), f == 0 ? k_never : 0.0);
@@ -349,7 +349,7 @@ void Freezing::fill(const Moment& /*now*/, const Record& record,
   for (std::size_t f = 0; f < k_fields; ++f) ghosts_.update(values[f], 1);
 }
 
-std::vector<Finding> Freezing::findings(const Record& record) const {
+std::vector<CriterionResult> Freezing::findings(const CriterionRecord& record) const {
   // Of every field least and greatest over the nodes that have it: value, number of the node, place.
   struct Extreme {
     double value = 0, number = -1;
@@ -381,8 +381,8 @@ std::vector<Finding> Freezing::findings(const Record& record) const {
     const std::size_t which = k % (2 * k_fields);
     if (row[1] >= 0) take(best[which], row[0], row[1], {row[2], row[3], row[4]}, which % 2 == 0);
   }
-  std::vector<Finding> found;
-  std::vector<FieldInfo> names = fields();
+  std::vector<CriterionResult> found;
+  std::vector<CriterionField> names = fields();
   names[6].unit = k_niyama_unit;
   for (std::size_t f = 0; f < k_fields; ++f)
     for (std::size_t side = 0; side < 2; ++side)

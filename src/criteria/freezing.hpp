@@ -50,17 +50,17 @@ class Freezing : public Criterion {
   Freezing(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalEnthalpy& storage,
            FreezingOptions options = {});
 
-  Record initial(const Moment& start) const override;
-  void step(const Moment& old, const Moment& next, Record& record) override;
+  CriterionRecord initial(const CriterionInput& start) const override;
+  void step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) override;
   /// solidified_at (−1: not in this run), local_solidification_time [s], cooling_rate [K/s], thermal_gradient
   /// [K/m], front_speed [m/s], secondary_arm_spacing [m], niyama [K^½ s^½/m, as a number without a unit],
   /// dimensionless_niyama, shrinkage_porosity; zero where the node has not frozen, or where the material does
   /// not say.
-  std::vector<FieldInfo> fields() const override;
-  void fill(const Moment& now, const Record& record,
+  std::vector<CriterionField> fields() const override;
+  void fill(const CriterionInput& now, const CriterionRecord& record,
             std::span<const std::span<double>> values) const override;
   /// The last node to freeze, and least and greatest values of the criteria.
-  std::vector<Finding> findings(const Record& record) const override;
+  std::vector<CriterionResult> findings(const CriterionRecord& record) const override;
   std::size_t bytes() const override;
 
  private:

@@ -21,16 +21,16 @@ FreezingLevels FreezingLevels::of(const material::Material& material) {
   return levels;
 }
 
-double FreezingLevels::begin(const heat::NodalEnthalpy& storage, Index node, const Moment& old,
-                             const Moment& next) const {
+double FreezingLevels::begin(const heat::NodalEnthalpy& storage, Index node, const CriterionInput& old,
+                             const CriterionInput& next) const {
   const auto i = static_cast<std::size_t>(node);
   if (liquidus_jump && !next.heat.enthalpy.empty())
     return passing(old.heat.enthalpy[i], next.heat.enthalpy[i], storage.upper(node, liquidus));
   return passing(old.heat.temperature[i], next.heat.temperature[i], liquidus);
 }
 
-double FreezingLevels::end(const heat::NodalEnthalpy& storage, Index node, const Moment& old,
-                           const Moment& next) const {
+double FreezingLevels::end(const heat::NodalEnthalpy& storage, Index node, const CriterionInput& old,
+                           const CriterionInput& next) const {
   const auto i = static_cast<std::size_t>(node);
   if (solidus_jump && !next.heat.enthalpy.empty())
     return passing(old.heat.enthalpy[i], next.heat.enthalpy[i], storage.lower(node, solidus));

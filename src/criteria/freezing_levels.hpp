@@ -16,8 +16,10 @@ struct FreezingLevels {
 
   static FreezingLevels of(const material::Material& material);
   /// The share of the step at which an owned node passes the liquidus, or the solidus, on its way down.
-  double begin(const heat::NodalEnthalpy& storage, Index node, const Moment& old, const Moment& next) const;
-  double end(const heat::NodalEnthalpy& storage, Index node, const Moment& old, const Moment& next) const;
+  double begin(const heat::NodalEnthalpy& storage, Index node, const CriterionInput& old,
+               const CriterionInput& next) const;
+  double end(const heat::NodalEnthalpy& storage, Index node, const CriterionInput& old,
+             const CriterionInput& next) const;
 };
 
 /// The share at which something linear passes a level downwards; one where it does not.

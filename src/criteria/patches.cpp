@@ -31,7 +31,7 @@ mesh::Point centre_of(mesh::Shape shape) {
 
 Patches::Patches(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<char> chosen)
     : mesh_(mesh), kind_(kind), chosen_(std::move(chosen)) {
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     Centre& centre = centres_.emplace_back();
     const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
     centre.values.resize(n);
@@ -41,7 +41,7 @@ Patches::Patches(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<char> ch
     for (const mesh::QuadraturePoint& point : mesh::gauss_rule(block.shape, 1)) centre.weight += point.weight;
   }
   first_.push_back(0);
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::ElementBlock& block : mesh.blocks)
     first_.push_back(first_.back() + static_cast<std::uint32_t>(block.size()));
 }
 

@@ -62,7 +62,7 @@ class Patches {
   /// Elements of the chosen bodies around one of the nodes gathered.
   Around around(Index node) const;
   std::span<const Index> nodes(const Element& e) const {
-    const mesh::Block& block = mesh_.blocks[static_cast<std::size_t>(e.block)];
+    const mesh::ElementBlock& block = mesh_.blocks[static_cast<std::size_t>(e.block)];
     return {block.element(e.number), static_cast<std::size_t>(mesh::node_count(block.shape))};
   }
   int body(const Element& e) const { return mesh_.blocks[static_cast<std::size_t>(e.block)].body; }

@@ -9,7 +9,7 @@ namespace solidus::criteria {
 
 /// A connected part of the melt.
 struct MeltPart {
-  double label = 0;                                   ///< Parts::label
+  double label = 0;                                   ///< ConnectedParts::label
   double volume = 0;                                  ///< [m³]
   double solid = 0;                                   ///< the solid in it [m³]
   bool whole = false;                                 ///< holds a whole element

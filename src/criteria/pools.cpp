@@ -95,24 +95,25 @@ double Pools::volume(std::size_t node) const {
   return volume;
 }
 
-std::vector<Pool> Pools::pools(const Record& record) {
+std::vector<Pool> Pools::pools(const CriterionRecord& record) {
   std::vector<Pool> pools;
   const std::vector<double>& values = record.tables[0].values;
   for (std::size_t i = 0; i < values.size(); i += k_row) pools.push_back(pool_of(values.data() + i));
   return pools;
 }
 
-Record Pools::initial(const Moment& start) const {
-  Record record{k_name, {make_column(mesh_, "pool", Place::node)}, {{"pools", k_row, {}}}};
+CriterionRecord Pools::initial(const CriterionInput& start) const {
+  CriterionRecord record{
+      k_name, {make_column(mesh_, "pool", mesh::FieldPlace::node)}, {{"pools", k_row, {}}}};
   track(nullptr, start, record);
   return record;
 }
 
-void Pools::step(const Moment& old, const Moment& next, Record& record) {
+void Pools::step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) {
   track(&old, next, record);
 }
 
-double Pools::passed_at(std::size_t node, const Moment& old, const Moment& next) const {
+double Pools::passed_at(std::size_t node, const CriterionInput& old, const CriterionInput& next) const {
   const double before = old.solid_fraction[node], after = next.solid_fraction[node];
   if (after <= before || body_[node] < 0) return next.time;
   const FreezingLevels& levels = levels_[static_cast<std::size_t>(body_[node])];
@@ -121,7 +122,7 @@ double Pools::passed_at(std::size_t node, const Moment& old, const Moment& next)
   return old.time + at * (next.time - old.time);
 }
 
-void Pools::track(const Moment* old, const Moment& next, Record& record) const {
+void Pools::track(const CriterionInput* old, const CriterionInput& next, CriterionRecord& record) const {
   std::vector<double>& number = record.columns[0].values;
   std::vector<Pool> pools = Pools::pools(record);
   std::vector<char> inside(mesh_.x.size());
@@ -131,7 +132,7 @@ void Pools::track(const Moment* old, const Moment& next, Record& record) const {
       std::any_of(pools.begin(), pools.end(), [](const Pool& p) { return p.present() || p.ended; });
   if (!parallel::any_process(melt_left) && !pool_left) return;
 
-  const Parts parts = connectivity_.parts(inside);
+  const ConnectedParts parts = connectivity_.parts(inside);
   std::map<double, MeltPart> own;
   std::map<std::pair<double, int>, double> overlaps;
   Melt melt;
@@ -179,11 +180,11 @@ void Pools::track(const Moment* old, const Moment& next, Record& record) const {
   }
 }
 
-std::vector<FieldInfo> Pools::fields() const {
+std::vector<CriterionField> Pools::fields() const {
   return {{"liquid_pool", "1"}, {"pool_volume", "m3"}};
 }
 
-void Pools::fill(const Moment& /*now*/, const Record& record,
+void Pools::fill(const CriterionInput& /*now*/, const CriterionRecord& record,
                  std::span<const std::span<double>> values) const {
   std::map<int, double> volume{{0, 0.0}};
   for (const Pool& pool : pools(record)) volume[pool.number] = pool.volume;
@@ -192,10 +193,11 @@ void Pools::fill(const Moment& /*now*/, const Record& record,
   for (std::size_t i = 0; i < number.size(); ++i) values[1][i] = volume.at(static_cast<int>(number[i]));
 }
 
-std::vector<Finding> Pools::findings(const Record& record) const {
+std::vector<CriterionResult> Pools::findings(const CriterionRecord& record) const {
   std::vector<Pool> closed = pools(record);
   std::erase_if(closed, [](const Pool& p) { return p.closed_off < 0; });
-  std::vector<Finding> found{{"closed_off_pools", "1", static_cast<double>(closed.size()), false, {}}};
+  std::vector<CriterionResult> found{
+      {"closed_off_pools", "1", static_cast<double>(closed.size()), false, {}}};
   std::stable_sort(closed.begin(), closed.end(),
                    [](const Pool& a, const Pool& b) { return a.largest > b.largest; });
   for (std::size_t k = 0; k < std::min(closed.size(), k_told); ++k) {

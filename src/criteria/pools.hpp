@@ -46,25 +46,25 @@ class Pools : public Criterion {
   /// Throws InputError for a feeder that is no group of the mesh.
   Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOptions options = {});
 
-  Record initial(const Moment& start) const override;
-  void step(const Moment& old, const Moment& next, Record& record) override;
+  CriterionRecord initial(const CriterionInput& start) const override;
+  void step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) override;
   /// liquid_pool (number, 0: none) and pool_volume [m³].
-  std::vector<FieldInfo> fields() const override;
-  void fill(const Moment& now, const Record& record,
+  std::vector<CriterionField> fields() const override;
+  void fill(const CriterionInput& now, const CriterionRecord& record,
             std::span<const std::span<double>> values) const override;
   /// Returns the number of pools that were cut off, and when and where the largest of them froze.
-  std::vector<Finding> findings(const Record& record) const override;
+  std::vector<CriterionResult> findings(const CriterionRecord& record) const override;
 
   static constexpr const char* k_name = "pools";
-  static std::vector<Pool> pools(const Record& record);
+  static std::vector<Pool> pools(const CriterionRecord& record);
 
  private:
   /// Volume around an owned node of the active bodies that can melt [m³].
   double volume(std::size_t node) const;
   /// When a node of a pool passed the limit in a step [s]: its solid fraction grows evenly until it is solid.
-  double passed_at(std::size_t node, const Moment& old, const Moment& next) const;
+  double passed_at(std::size_t node, const CriterionInput& old, const CriterionInput& next) const;
   /// Brings the record to `next`; `old` is null at the start.
-  void track(const Moment* old, const Moment& next, Record& record) const;
+  void track(const CriterionInput* old, const CriterionInput& next, CriterionRecord& record) const;
 
   const mesh::Mesh& mesh_;
   const heat::NodalEnthalpy& storage_;

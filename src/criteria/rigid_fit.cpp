@@ -35,7 +35,7 @@ std::array<double, n> global_sums(std::array<double, n> numbers) {
 
 }  // namespace
 
-Point RigidMotion::at(const Point& x) const {
+Point SmallMotion::at(const Point& x) const {
   const Point turned = cross(rotation, {x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]});
   return {translation[0] + turned[0], translation[1] + turned[1], translation[2] + turned[2]};
 }
@@ -45,7 +45,7 @@ RigidFit::RigidFit(const mesh::Mesh& mesh, AnalysisKind kind)
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     OfBody& body = bodies_[b];
     std::vector<double> volume(mesh.x.size(), 0.0);
-    for (const mesh::Block& block : mesh.blocks) {
+    for (const mesh::ElementBlock& block : mesh.blocks) {
       if (block.body != static_cast<int>(b)) continue;
       const PackVector<Lane> weights = mesh::nodal_weights(mesh, block, kind);
       const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
@@ -85,9 +85,9 @@ RigidFit::RigidFit(const mesh::Mesh& mesh, AnalysisKind kind)
   }
 }
 
-std::vector<RigidMotion> RigidFit::fit(std::span<const double> displacement) const {
+std::vector<SmallMotion> RigidFit::fit(std::span<const double> displacement) const {
   const auto components = static_cast<std::size_t>(displacement_components(kind_));
-  std::vector<RigidMotion> motions;
+  std::vector<SmallMotion> motions;
   for (const OfBody& body : bodies_) {
     std::array<double, 6> sums{};
     for (std::size_t k = 0; k < body.nodes.size(); ++k) {
@@ -102,7 +102,7 @@ std::vector<RigidMotion> RigidFit::fit(std::span<const double> displacement) con
       }
     }
     sums = global_sums(sums);
-    RigidMotion motion;
+    SmallMotion motion;
     motion.centre = body.centre;
     for (std::size_t i = 0; i < 3; ++i) {
       motion.translation[i] = sums[i] / body.total;

@@ -16,7 +16,7 @@
 namespace solidus::criteria {
 
 /// A small rigid motion: u = translation + rotation × (x − centre).
-struct RigidMotion {
+struct SmallMotion {
   mesh::Point centre{}, translation{}, rotation{};
   mesh::Point at(const mesh::Point& x) const;
 };
@@ -27,7 +27,7 @@ class RigidFit {
   RigidFit(const mesh::Mesh& mesh, AnalysisKind kind);
   /// The best fit of every body. Collective.
   /// @param displacement [local node][component] [m]
-  std::vector<RigidMotion> fit(std::span<const double> displacement) const;
+  std::vector<SmallMotion> fit(std::span<const double> displacement) const;
 
  private:
   const mesh::Mesh& mesh_;

@@ -66,7 +66,7 @@ std::vector<int> bodies_of_nodes(const mesh::Mesh& mesh, const std::vector<mater
   for (const bool melts : {true, false})
     for (int b = 0; b < static_cast<int>(mesh.bodies.size()); ++b) {
       if ((materials[static_cast<std::size_t>(b)].solidification() != nullptr) != melts) continue;
-      for (const mesh::Block& block : mesh.blocks) {
+      for (const mesh::ElementBlock& block : mesh.blocks) {
         if (block.body != b) continue;
         for (const Index node : block.nodes) {
           double& of_node = body[static_cast<std::size_t>(node)];
@@ -90,7 +90,7 @@ StrainCriteria::StrainCriteria(const mesh::Mesh& mesh, AnalysisKind kind,
       body_of_node_(bodies_of_nodes(mesh, materials)),
       rigid_(mesh, kind) {
   std::size_t first = 0;
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
     blocks_.push_back(
         {ElementStrain(mesh, block, kind), &material.casting, material.solidification(), {}, first});
@@ -102,27 +102,28 @@ StrainCriteria::StrainCriteria(const mesh::Mesh& mesh, AnalysisKind kind,
   }
 }
 
-std::span<const double> StrainCriteria::temperature(const Moment& moment) const {
+std::span<const double> StrainCriteria::temperature(const CriterionInput& moment) const {
   return temperature_.empty() ? moment.heat.temperature : temperature_;
 }
 
 /// f_S of a material at a node; without a heat content, which alone tells it at an isothermal change, melt.
-double StrainCriteria::solid_fraction(const material::PhaseChange& freezing, const Moment& moment,
+double StrainCriteria::solid_fraction(const material::PhaseChange& freezing, const CriterionInput& moment,
                                       std::size_t node) const {
   const double t = temperature(moment)[node];
   return moment.plateau_share.empty() ? freezing.fraction.value(t)
                                       : freezing.fraction.value(t, moment.plateau_share[node]);
 }
 
-Record StrainCriteria::initial(const Moment& /*start*/) const {
+CriterionRecord StrainCriteria::initial(const CriterionInput& /*start*/) const {
   return {"strain",
-          {make_column(mesh_, "at_coherency", Place::cell, k_tensor),
-           make_column(mesh_, "brittle", Place::cell, k_tensor),
-           make_column(mesh_, "displacement_at_coherency", Place::node, static_cast<int>(components_))},
+          {make_column(mesh_, "at_coherency", mesh::FieldPlace::cell, k_tensor),
+           make_column(mesh_, "brittle", mesh::FieldPlace::cell, k_tensor),
+           make_column(mesh_, "displacement_at_coherency", mesh::FieldPlace::node,
+                       static_cast<int>(components_))},
           {}};
 }
 
-void StrainCriteria::step(const Moment& old, const Moment& next, Record& record) {
+void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) {
   std::vector<double>&at_coherency = record.columns[k_at_coherency].values,
   &brittle = record.columns[k_brittle].values;
   std::vector<double> before(mesh_.x.size()), after(mesh_.x.size());  // f_S of the block's material
@@ -166,14 +167,14 @@ void StrainCriteria::step(const Moment& old, const Moment& next, Record& record)
   }
 }
 
-std::vector<FieldInfo> StrainCriteria::fields() const {
-  return {{"strain_in_liquid", "1", 1, Place::cell},
-          {"strain_since_coherency", "1", 1, Place::cell},
-          {"brittle_strain", "1", 1, Place::cell},
-          {"distortion", "m", static_cast<int>(components_), Place::node}};
+std::vector<CriterionField> StrainCriteria::fields() const {
+  return {{"strain_in_liquid", "1", 1, mesh::FieldPlace::cell},
+          {"strain_since_coherency", "1", 1, mesh::FieldPlace::cell},
+          {"brittle_strain", "1", 1, mesh::FieldPlace::cell},
+          {"distortion", "m", static_cast<int>(components_), mesh::FieldPlace::node}};
 }
 
-void StrainCriteria::fill(const Moment& now, const Record& record,
+void StrainCriteria::fill(const CriterionInput& now, const CriterionRecord& record,
                           std::span<const std::span<double>> values) const {
   const std::vector<double>& u = now.mechanics.displacement;
   for (const OfBlock& block : blocks_)
@@ -194,18 +195,18 @@ void StrainCriteria::fill(const Moment& now, const Record& record,
   const std::vector<double>& start = record.columns[k_displacement].values;
   const std::span<double> distortion = values[3];
   for (std::size_t i = 0; i < u.size(); ++i) distortion[i] = u[i] - start[i];
-  const std::vector<RigidMotion> motions = rigid_.fit(distortion);
+  const std::vector<SmallMotion> motions = rigid_.fit(distortion);
   for (std::size_t node = 0; node < mesh_.x.size(); ++node) {
     const mesh::Point rigid = motions[static_cast<std::size_t>(body_of_node_[node])].at(mesh_.x[node]);
     for (std::size_t i = 0; i < components_; ++i) distortion[node * components_ + i] -= rigid[i];
   }
 }
 
-std::vector<Finding> StrainCriteria::findings(const Record& record) const {
+std::vector<CriterionResult> StrainCriteria::findings(const CriterionRecord& record) const {
   double mine = 0;
-  Finding finding{"brittle_strain_max", "1", 0, true, {}};
+  CriterionResult finding{"brittle_strain_max", "1", 0, true, {}};
   std::size_t element = 0;
-  for (const mesh::Block& block : mesh_.blocks)
+  for (const mesh::ElementBlock& block : mesh_.blocks)
     for (Index e = 0; e < block.size(); ++e, ++element) {
       const double value = largest_principal(tensor(record.columns[k_brittle].values, element));
       if (e >= block.n_counted || value <= mine) continue;

@@ -37,13 +37,13 @@ class StrainCriteria : public Criterion {
                  std::vector<double> temperature = {});
 
   /// Nothing strained so far. Nodes and elements that never melt stay so.
-  Record initial(const Moment& start) const override;
-  void step(const Moment& old, const Moment& next, Record& record) override;
-  std::vector<FieldInfo> fields() const override;
-  void fill(const Moment& now, const Record& record,
+  CriterionRecord initial(const CriterionInput& start) const override;
+  void step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) override;
+  std::vector<CriterionField> fields() const override;
+  void fill(const CriterionInput& now, const CriterionRecord& record,
             std::span<const std::span<double>> values) const override;
   /// The largest strain in the brittle range.
-  std::vector<Finding> findings(const Record& record) const override;
+  std::vector<CriterionResult> findings(const CriterionRecord& record) const override;
   std::size_t bytes() const override;
 
  private:
@@ -54,8 +54,9 @@ class StrainCriteria : public Criterion {
     std::vector<Index> nodes;               ///< of a block that freezes, each once
     std::size_t first;                      ///< element in columns of cells
   };
-  std::span<const double> temperature(const Moment& moment) const;
-  double solid_fraction(const material::PhaseChange& freezing, const Moment& moment, std::size_t node) const;
+  std::span<const double> temperature(const CriterionInput& moment) const;
+  double solid_fraction(const material::PhaseChange& freezing, const CriterionInput& moment,
+                        std::size_t node) const;
 
   const mesh::Mesh& mesh_;
   std::size_t components_;

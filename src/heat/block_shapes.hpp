@@ -12,7 +12,7 @@
 namespace solidus::heat {
 
 template <int n_nodes>
-using ElementMatrix = std::array<std::array<Lane, n_nodes>, n_nodes>;
+using ConductionMatrix = std::array<std::array<Lane, n_nodes>, n_nodes>;
 
 template <int n_nodes>
 std::array<Lane, n_nodes> gather(const mesh::BlockGeometry& geometry, Index batch,
@@ -37,7 +37,7 @@ void scatter(const mesh::BlockGeometry& geometry, Index batch, const std::array<
 
 /// @param slot  [a][b][lane] of the batch
 template <int n_nodes>
-void scatter_matrix(const linear::BlockMatrix::Slot* slot, const ElementMatrix<n_nodes>& m,
+void scatter_matrix(const linear::BlockMatrix::Slot* slot, const ConductionMatrix<n_nodes>& m,
                     linear::BlockMatrix& matrix) {
   for (std::size_t a = 0; a < n_nodes; ++a)
     for (std::size_t b = 0; b < n_nodes; ++b)

@@ -31,7 +31,8 @@ PackVector<Lane> integrated_gradients(const mesh::BlockGeometry& g) {
 
 /// Points at the nodes with the weights ∫ N_a dV, and the constant shift of the gradients that makes their
 /// mean exact; none where it is rounding, as in parallelepipeds.
-mesh::BlockGeometry nodal_geometry(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind) {
+mesh::BlockGeometry nodal_geometry(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
+                                   AnalysisKind kind) {
   constexpr double k_rounding = 1e-13;
   mesh::BlockGeometry g(mesh, block, kind, mesh::nodal_rule(block.shape));
   const mesh::BlockGeometry gauss(mesh, block, kind, mesh::gauss_rule(block.shape, 3));
@@ -61,7 +62,7 @@ mesh::BlockGeometry nodal_geometry(const mesh::Mesh& mesh, const mesh::Block& bl
   return g;
 }
 
-mesh::BlockGeometry geometry_of(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
+mesh::BlockGeometry geometry_of(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind,
                                 bool closed) {
   if (at_nodes(block.shape, closed)) return nodal_geometry(mesh, block, kind);
   return {mesh, block, kind, mesh::stiffness_rule(block.shape)};
@@ -70,7 +71,7 @@ mesh::BlockGeometry geometry_of(const mesh::Mesh& mesh, const mesh::Block& block
 template <int n_nodes, int dim>
 class Conduction final : public ConductionBlock {
  public:
-  Conduction(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind, bool closed)
+  Conduction(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind, bool closed)
       : geometry_(geometry_of(mesh, block, kind, closed)) {
     PackVector<Lane>().swap(geometry_.counted);  // nothing is summed over elements here
   }
@@ -108,7 +109,7 @@ class Conduction final : public ConductionBlock {
 
   void add_batch(Index batch, double factor, std::span<const double> columns,
                  const linear::LaneSlots::Slot* slots, linear::BlockMatrix& matrix) const {
-    ElementMatrix<n_nodes> m{};
+    ConductionMatrix<n_nodes> m{};
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Lane* g = geometry_.gradients_at(batch, q);
       const Lane w = geometry_.weight_at(batch, q) * Lane(factor);
@@ -136,8 +137,9 @@ class Conduction final : public ConductionBlock {
 
 }  // namespace
 
-std::unique_ptr<ConductionBlock> make_conduction_block(const mesh::Mesh& mesh, const mesh::Block& block,
-                                                       AnalysisKind kind, bool closed) {
+std::unique_ptr<ConductionBlock> make_conduction_block(const mesh::Mesh& mesh,
+                                                       const mesh::ElementBlock& block, AnalysisKind kind,
+                                                       bool closed) {
   return for_shape(block.shape, [&]<int n, int dim>() -> std::unique_ptr<ConductionBlock> {
     return std::make_unique<Conduction<n, dim>>(mesh, block, kind, closed);
   });

@@ -37,7 +37,8 @@ class ConductionBlock {
   virtual std::size_t bytes() const = 0;
 };
 
-std::unique_ptr<ConductionBlock> make_conduction_block(const mesh::Mesh& mesh, const mesh::Block& block,
-                                                       AnalysisKind kind, bool closed);
+std::unique_ptr<ConductionBlock> make_conduction_block(const mesh::Mesh& mesh,
+                                                       const mesh::ElementBlock& block, AnalysisKind kind,
+                                                       bool closed);
 
 }  // namespace solidus::heat

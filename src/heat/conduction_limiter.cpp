@@ -63,9 +63,9 @@ void ConductionLimiter::finish(const linear::BlockMatrix& matrix) {
     for (const Pair& p : body.pairs) has_pairs[at(p.i)] = has_pairs[at(p.j)] = 1;
   }
   needed_ = parallel::any_process(n_pairs > 0);
-  quadratic_ =
-      parallel::any_process(std::any_of(mesh_.blocks.begin(), mesh_.blocks.end(),
-                                        [](const mesh::Block& b) { return mesh::order(b.shape) == 2; }));
+  quadratic_ = parallel::any_process(
+      std::any_of(mesh_.blocks.begin(), mesh_.blocks.end(),
+                  [](const mesh::ElementBlock& b) { return mesh::order(b.shape) == 2; }));
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
     if (has_pairs[at(i)] != 0) nodes_.push_back(i);
   for (Body& body : bodies_) {

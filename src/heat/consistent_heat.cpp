@@ -13,7 +13,7 @@ ConsistentHeat::ConsistentHeat(const mesh::Mesh& mesh,
       from_(static_cast<std::size_t>(mesh.n_owned_nodes)),
       local_(mesh.x.size()) {}
 
-void ConsistentHeat::begin_stage(const linear::Stage& stage, std::span<const double> before) {
+void ConsistentHeat::begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> before) {
   const bool first = stage.carried == 0;
   dt_ = stage.dt;
   on_ = true;

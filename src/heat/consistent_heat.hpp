@@ -38,7 +38,7 @@ class ConsistentHeat final : public linear::Contribution {
   void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) override;
   bool stores() const override { return true; }
   /// @param before  Θ_n in the first stage, that of the first one in the second [K], [local node]
-  void begin_stage(const linear::Stage& stage, std::span<const double> before) override;
+  void begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> before) override;
 
   // By how much more the points have taken up than the nodes, on this process: since the start of the stage,
   // latent heat and entropy between two temperatures [local node].

@@ -23,7 +23,7 @@ const typename Map::mapped_type& find(const Map& groups, const std::string& name
 
 }  // namespace
 
-void HeatSystem::add_conditions(const Conditions& conditions) {
+void HeatSystem::add_conditions(const ThermalConditions& conditions) {
   const auto add_surface = [&](const auto& condition) {
     surfaces_.emplace_back(mesh_, kind_,
                            active_.part(mesh_, find(mesh_.surfaces, condition.surface, "surface")),
@@ -74,7 +74,7 @@ void HeatSystem::add_burning(const std::vector<Exothermic>& exothermics) {
     volume.heat.resize(static_cast<std::size_t>(mesh_.n_owned_nodes));
     sources_.push_back(std::move(volume));
     if (!active_.body(body)) continue;
-    for (const mesh::Block& block : mesh_.blocks)
+    for (const mesh::ElementBlock& block : mesh_.blocks)
       if (block.body == body)
         for (const Index node : block.nodes) {
           double& lowest = ignition_[static_cast<std::size_t>(node)];
@@ -106,7 +106,7 @@ void HeatSystem::add_prescribed(const std::vector<PrescribedTemperature>& condit
 
 void HeatSystem::add_nodal_shares(int body, Volume& volume) const {
   std::vector<double> weight(static_cast<std::size_t>(mesh_.n_owned_nodes), 0.0);
-  for (const mesh::Block& block : mesh_.blocks) {
+  for (const mesh::ElementBlock& block : mesh_.blocks) {
     if (block.body != body || !active_.body(body)) continue;
     const PackVector<Lane> weights = at_nodes_[static_cast<std::size_t>(body)] != 0
                                          ? mesh::nodal_weights(mesh_, block, kind_)
@@ -130,7 +130,7 @@ void HeatSystem::add_nodal_shares(int body, Volume& volume) const {
 
 /// Σ_q N_i(x_q) R(x_q) w_q over the elements around the owned nodes.
 void HeatSystem::add_gauss_shares(int body, Volume& volume) const {
-  for (const mesh::Block& block : mesh_.blocks) {
+  for (const mesh::ElementBlock& block : mesh_.blocks) {
     if (block.body != body || !active_.body(body)) continue;
     const mesh::BlockGeometry g(mesh_, block, kind_,
                                 mesh::gauss_rule(block.shape, 2 * mesh::order(block.shape) + 1));

@@ -15,7 +15,7 @@
 namespace solidus::heat {
 
 HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
-                       const std::vector<material::Material>& materials, const Conditions& conditions,
+                       const std::vector<material::Material>& materials, const ThermalConditions& conditions,
                        bool closed, std::vector<linear::Contribution*> contributions,
                        linear::BlockMatrix::Storage storage)
     : mesh_(mesh), kind_(kind), closed_(closed), contributions_(std::move(contributions)), active_(mesh) {
@@ -40,7 +40,7 @@ HeatSystem::~HeatSystem() = default;
 
 linear::NodeGraph HeatSystem::graph() const {
   linear::NodeGraph graph(mesh_);
-  for (const mesh::Block& block : mesh_.blocks)
+  for (const mesh::ElementBlock& block : mesh_.blocks)
     if (active_.body(block.body)) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
   for (const linear::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
   return graph;
@@ -62,7 +62,7 @@ bool HeatSystem::follow_graph() {
 }
 
 // While the bodies are the same the graph need not change: the nodes of a face are nodes of one element.
-bool HeatSystem::set_conditions(const Conditions& conditions) {
+bool HeatSystem::set_conditions(const ThermalConditions& conditions) {
   const linear::ActiveSet active(mesh_, conditions.absent_bodies);
   const bool others = active != active_;
   if (others) change_bodies(active);
@@ -102,7 +102,7 @@ void HeatSystem::add_conduction(const std::vector<material::Material>& materials
 void HeatSystem::find_field_nodes(std::size_t body) {
   if (potentials_[body].constant()) return;
   std::vector<char> of_body(mesh_.x.size(), 0);
-  for (const mesh::Block& block : mesh_.blocks)
+  for (const mesh::ElementBlock& block : mesh_.blocks)
     if (static_cast<std::size_t>(block.body) == body)
       for (const Index node : block.nodes) of_body[static_cast<std::size_t>(node)] = 1;
   Field& u = fields_[body];

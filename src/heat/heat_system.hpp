@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include "heat/conditions.hpp"
 #include "heat/conduction_block.hpp"
 #include "heat/conduction_limiter.hpp"
 #include "heat/kirchhoff_potential.hpp"
 #include "heat/nodal_potential.hpp"
 #include "heat/surface_heat.hpp"
+#include "heat/thermal_conditions.hpp"
 #include "heat/thermal_state.hpp"
 #include "linear/active_set.hpp"
 #include "linear/contribution.hpp"
@@ -32,13 +32,14 @@ class HeatSystem {
   /// Throws InputError for a condition that names no group of the mesh, std::invalid_argument for absent
   /// bodies: they leave later.
   HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
-             const Conditions& conditions, bool closed, std::vector<linear::Contribution*> contributions,
+             const ThermalConditions& conditions, bool closed,
+             std::vector<linear::Contribution*> contributions,
              linear::BlockMatrix::Storage storage = linear::BlockMatrix::Storage::whole);
   ~HeatSystem();
 
   /// Replaces the conditions from here on. If bodies leave or come back, the matrix gets another pattern;
   /// returns whether it did. Throws InputError as the constructor does. Collective.
-  bool set_conditions(const Conditions& conditions);
+  bool set_conditions(const ThermalConditions& conditions);
   const linear::ActiveSet& active() const { return active_; }
   /// Collective where a condition varies with position. Throws InputError, on every process, where it has no
   /// value that is allowed.
@@ -178,7 +179,7 @@ class HeatSystem {
   linear::NodeGraph graph() const;
   void bind();
   void add_conduction(const std::vector<material::Material>& materials);
-  void add_conditions(const Conditions& conditions);
+  void add_conditions(const ThermalConditions& conditions);
   void change_bodies(const linear::ActiveSet& active);
   void find_field_nodes(std::size_t body);
   void conduct(std::span<const double> temperature);

@@ -70,7 +70,7 @@ void HeatSystem::find_node_bodies() {
   if (mesh_.bodies.size() == 1) return;
   constexpr int k_none = -2;
   node_body_.assign(mesh_.x.size(), k_none);
-  for (const mesh::Block& block : mesh_.blocks) {
+  for (const mesh::ElementBlock& block : mesh_.blocks) {
     if (!active_.body(block.body)) continue;
     for (const Index node : block.nodes) {
       int& body = node_body_[static_cast<std::size_t>(node)];

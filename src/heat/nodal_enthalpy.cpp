@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "mesh/block_geometry.hpp"
 
@@ -24,7 +25,7 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
   breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
 
   std::vector<std::vector<Share>> of_node(static_cast<std::size_t>(mesh.n_owned_nodes));
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     const PackVector<Lane> weights = mesh::nodal_weights(mesh, block, kind);
     const Index n = mesh::node_count(block.shape);
     for (Index e = 0; e < block.size(); ++e)
@@ -154,8 +155,8 @@ double NodalEnthalpy::slope(Index node, double heat) const {
 
 NodalEnthalpy::Point NodalEnthalpy::point(Index node, double heat) const {
   const auto list = shares(node);
+  if (list.empty()) return {std::numeric_limits<double>::quiet_NaN(), 0.0};  // it stores nothing
   if (list.size() != 1) {
-    assert(!list.empty());
     bool plateau = false;
     const double t = mixed_temperature(list, heat, plateau);
     return {t, plateau ? 0.0 : 1.0 / capacity(node, t)};

@@ -12,7 +12,7 @@ NodalPotential::NodalPotential(const mesh::Mesh& mesh, std::span<const Kirchhoff
                             [](const KirchhoffPotential& u) { return u.constant(); })) {
   if (identity_) return;
   std::vector<std::pair<Index, int>> pairs;
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     if (!active.body(block.body)) continue;
     std::vector<Index> nodes = block.nodes;
     std::sort(nodes.begin(), nodes.end());

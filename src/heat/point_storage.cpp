@@ -15,7 +15,7 @@ int default_degree(mesh::Shape shape) {
 template <int n_nodes>
 class Storage final : public PointStorage {
  public:
-  Storage(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
+  Storage(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind,
           const material::Material& material, SensibleForm form, int degree)
       : geometry_(mesh, block, kind,
                   mesh::gauss_rule(block.shape, degree > 0 ? degree : default_degree(block.shape))),
@@ -62,7 +62,7 @@ class Storage final : public PointStorage {
   void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const override {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Nodal t = gather<n_nodes>(geometry_, batch, temperature);
-      ElementMatrix<n_nodes> m{};
+      ConductionMatrix<n_nodes> m{};
       for (int q = 0; q < geometry_.n_points; ++q) {
         const double* n = values(q);
         const Lane theta = at_point(t, n);
@@ -176,7 +176,7 @@ class Storage final : public PointStorage {
 
 }  // namespace
 
-std::unique_ptr<PointStorage> make_point_storage(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<PointStorage> make_point_storage(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                                  AnalysisKind kind, const material::Material& material,
                                                  SensibleForm form, int degree) {
   return for_shape(block.shape, [&]<int n, int dim>() -> std::unique_ptr<PointStorage> {

@@ -45,7 +45,7 @@ class PointStorage {
 /// @param form     of the sensible heat
 /// @param degree   polynomial degree that the rule integrates; 0: 3 for linear shapes, 4 for quadratic
 /// simplices, 5 for others
-std::unique_ptr<PointStorage> make_point_storage(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<PointStorage> make_point_storage(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                                  AnalysisKind kind, const material::Material& material,
                                                  SensibleForm form, int degree);
 

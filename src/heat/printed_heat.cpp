@@ -22,7 +22,7 @@ void PrintedHeat::add_tangent(std::span<const double> temperature, linear::Block
         sum(i, temperature[static_cast<std::size_t>(i)], &PrintedExcess::slope) / dt_;
 }
 
-void PrintedHeat::begin_stage(const linear::Stage& stage, std::span<const double> old_temperature) {
+void PrintedHeat::begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> old_temperature) {
   assert(stage.carried == 0 && "printed forms have a single stage");
   dt_ = stage.dt;
   old_temperature_.assign(old_temperature.begin(), old_temperature.begin() + storage_.n_nodes());

@@ -23,7 +23,7 @@ class PrintedHeat final : public linear::Contribution {
   void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) override;
   bool stores() const override { return true; }
   /// @param old_temperature Θ_n [K], [local node]. A single stage only.
-  void begin_stage(const linear::Stage& stage, std::span<const double> old_temperature) override;
+  void begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> old_temperature) override;
 
  private:
   double sum(Index node, double temperature, double PrintedExcess::*part) const;

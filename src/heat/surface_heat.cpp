@@ -99,7 +99,7 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
     : name_(std::move(name)), law_(std::move(law)) {
   std::vector<double> lumped(static_cast<std::size_t>(mesh.n_owned_nodes), 0.0);  // ∫ N_i dA
   std::vector<double> positive(lumped.size(), 0.0);
-  for (const mesh::Block& faces : surface.faces) {
+  for (const mesh::ElementBlock& faces : surface.faces) {
     const int order = mesh::order(faces.shape);
     // Exact for N_a N_b times the radius on straight faces.
     const mesh::FaceGeometry g(mesh, faces, kind, mesh::gauss_rule(faces.shape, 2 * order + 1));
@@ -193,7 +193,7 @@ std::pair<double, double> SurfaceHeat::flux_range() const {
   return {least, greatest};
 }
 
-void SurfaceHeat::add_corners(const mesh::Block& faces, const mesh::FaceGeometry& g) {
+void SurfaceHeat::add_corners(const mesh::ElementBlock& faces, const mesh::FaceGeometry& g) {
   const int corners = g.n_nodes / 2;
   for (Index face = 0; face < g.n_faces; ++face) {
     const Index* nodes = faces.element(face);

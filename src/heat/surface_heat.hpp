@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "heat/conditions.hpp"
+#include "heat/thermal_conditions.hpp"
 #include "heat/thermal_state.hpp"
 #include "linear/block_matrix.hpp"
 #include "mesh/block_geometry.hpp"
@@ -105,7 +105,7 @@ class SurfaceHeat {
 
  private:
   /// Quadratic faces with negative weights.
-  void add_corners(const mesh::Block& faces, const mesh::FaceGeometry& g);
+  void add_corners(const mesh::ElementBlock& faces, const mesh::FaceGeometry& g);
   double flow(std::span<const double> temperature, std::size_t i) const;
   SurfaceFlux at_node(std::span<const double> temperature, Index node) const;
 

@@ -43,7 +43,6 @@ TemperatureSystem::TemperatureSystem(const mesh::Mesh& mesh, HeatSystem& system,
     : mesh_(mesh), system_(system), points_(points), ghosts_(ghosts) {}
 
 double TemperatureSystem::residual(std::span<const double> x, std::span<double> r) {
-  x_.assign(x.begin(), x.end());
   double moved = system_.residual(x, r);
   if (storing_) {
     local_.assign(mesh_.x.size(), 0.0);
@@ -59,26 +58,26 @@ double TemperatureSystem::residual(std::span<const double> x, std::span<double> 
   return moved_ / std::sqrt(static_cast<double>(mesh_.n_global_nodes));
 }
 
-linear::BlockMatrix& TemperatureSystem::tangent() {
+linear::BlockMatrix& TemperatureSystem::tangent(std::span<const double> x) {
   const NodalPotential& potential = system_.potential();
   slope_.resize(mesh_.x.size(), 1.0);
   if (!potential.identity()) {
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-      slope_[static_cast<std::size_t>(i)] = potential.slope(i, x_[static_cast<std::size_t>(i)]);
+      slope_[static_cast<std::size_t>(i)] = potential.slope(i, x[static_cast<std::size_t>(i)]);
     ghosts_.update(slope_, 1);
   }
-  const auto add_storage = [this](linear::BlockMatrix& matrix) {
+  const auto add_storage = [this, x](linear::BlockMatrix& matrix) {
     if (!storing_) return;
-    for (const auto& block : points_) block->add_tangent(x_, matrix);
+    for (const auto& block : points_) block->add_tangent(x, matrix);
   };
-  system_.assemble_symmetric(x_, slope_, add_storage, HeatSystem::SharedNodes::plain);
+  system_.assemble_symmetric(x, slope_, add_storage, HeatSystem::SharedNodes::plain);
   return system_.matrix();
 }
 
-linear::BlockMatrix& TemperatureSystem::exact_tangent() {
-  system_.assemble(x_);
+linear::BlockMatrix& TemperatureSystem::exact_tangent(std::span<const double> x) {
+  system_.assemble(x);
   if (storing_)
-    for (const auto& block : points_) block->add_tangent(x_, system_.matrix());
+    for (const auto& block : points_) block->add_tangent(x, system_.matrix());
   return system_.matrix();
 }
 
@@ -86,10 +85,10 @@ std::unique_ptr<linear::TangentSolver> TemperatureSystem::solver(linear::Tangent
   return std::make_unique<SlopeSolver>(solver, slope_);
 }
 
-double TemperatureSystem::round_off() const {
+double TemperatureSystem::round_off(std::span<const double> x) const {
   double sum = 0;
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
-    const double part = *system_.matrix().diagonal_block(i) * x_[static_cast<std::size_t>(i)];
+    const double part = *system_.matrix().diagonal_block(i) * x[static_cast<std::size_t>(i)];
     sum += part * part;
   }
   constexpr double rounding = 2e-15;

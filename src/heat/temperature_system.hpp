@@ -23,14 +23,14 @@ class TemperatureSystem final : public linear::NonlinearSystem {
   /// the heat moved over √N: the balance then closes to the tolerance.
   double residual(std::span<const double> x, std::span<double> r) override;
   /// In the unknown of nodal_potential.hpp, symmetric: for the solver of solver().
-  linear::BlockMatrix& tangent() override;
+  linear::BlockMatrix& tangent(std::span<const double> x) override;
   /// ∂r/∂Θ, unsymmetric where a conductivity varies.
-  linear::BlockMatrix& exact_tangent();
+  linear::BlockMatrix& exact_tangent(std::span<const double> x);
   /// Solves with tangent() by `solver` and returns steps of the temperature, which both must outlive.
   std::unique_ptr<linear::TangentSolver> solver(linear::TangentSolver& solver);
   double moved() const { return moved_; }  ///< of the last residual, all processes [W]
-  /// Residuals that rounding alone leaves.
-  double round_off() const;
+  /// Residuals that rounding alone leaves at x, by the last tangent.
+  double round_off(std::span<const double> x) const;
 
  private:
   const mesh::Mesh& mesh_;
@@ -39,7 +39,7 @@ class TemperatureSystem final : public linear::NonlinearSystem {
   const parallel::GhostExchange& ghosts_;
   bool storing_ = false;
   double moved_ = 0;
-  std::vector<double> x_, local_;
+  std::vector<double> local_;
   std::vector<double> slope_;  ///< dv/dΘ at the last tangent(), [local node]
 };
 

@@ -25,7 +25,7 @@ std::size_t at(Index i) {
 
 }  // namespace
 
-CarriedHeat ThermalPhase::set_conditions(const Conditions& conditions, ThermalState* state,
+CarriedHeat ThermalPhase::set_conditions(const ThermalConditions& conditions, ThermalState* state,
                                          const std::function<double(Index, int)>& fresh) {
   const linear::ActiveSet before = system_->active(), now(mesh_, conditions.absent_bodies);
   for (int body = 0; body < static_cast<int>(materials_.size()); ++body)
@@ -52,7 +52,7 @@ double ThermalPhase::take_out(const linear::ActiveSet& active, ThermalState& sta
     carried += heat - left - (cold - storage_->held_by(active, i, cold, k_counted_from));
     if (!state.enthalpy.empty()) state.enthalpy[at(i)] = left;
   }
-  if (options_.integration == Integration::closed) ghosts_.update(state.enthalpy, 1);
+  if (options_.integration == HeatIntegration::closed) ghosts_.update(state.enthalpy, 1);
   return parallel::global_sum(carried);
 }
 
@@ -97,10 +97,10 @@ void ThermalPhase::change_bodies(const linear::ActiveSet& before) {
   storage_->set_active(now);
   if (at_nodes_) at_nodes_->set_active(now);
   if (consistent_) consistent_->set_active(now);
-  if (options_.integration == Integration::closed) return;
+  if (options_.integration == HeatIntegration::closed) return;
   std::vector<std::unique_ptr<PointStorage>> left;
   auto points = points_.begin();
-  for (const mesh::Block& block : mesh_.blocks) {
+  for (const mesh::ElementBlock& block : mesh_.blocks) {
     if (at_nodes(block.body)) continue;
     std::unique_ptr<PointStorage> had = before.body(block.body) ? std::move(*points++) : nullptr;
     if (now.body(block.body)) left.push_back(had ? std::move(had) : store_at_points(block));

@@ -145,7 +145,8 @@ double ThermalIteration::moved() const {
 
 bool ThermalIteration::converged() const {
   if (nodal()) return newton_->converged();
-  return unbalanced_ <= tolerance() * moved() || unbalanced_ <= phase_.temperature_system_->round_off();
+  return unbalanced_ <= tolerance() * moved() ||
+         unbalanced_ <= phase_.temperature_system_->round_off(now_.temperature);
 }
 
 linear::BlockMatrix& ThermalIteration::matrix() {
@@ -160,7 +161,7 @@ linear::BlockMatrix& ThermalIteration::assemble(int iteration) {
   }
   rhs_.resize(residual_.size());
   for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] = phase_.system_->fixed()[i] ? 0.0 : -residual_[i];
-  return phase_.temperature_system_->exact_tangent();
+  return phase_.temperature_system_->exact_tangent(now_.temperature);
 }
 
 std::span<const double> ThermalIteration::right_hand_side() const {

@@ -25,8 +25,9 @@ std::size_t at(Index i) {
 }  // namespace
 
 ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
-                           const std::vector<material::Material>& materials, const Conditions& conditions,
-                           HeatOptions options, std::vector<linear::Contribution*> contributions)
+                           const std::vector<material::Material>& materials,
+                           const ThermalConditions& conditions, HeatOptions options,
+                           std::vector<linear::Contribution*> contributions)
     : mesh_(mesh),
       kind_(kind),
       options_(options),
@@ -34,7 +35,7 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       contributions_(std::move(contributions)),
       ghosts_(mesh) {
   assert(materials.size() == mesh.bodies.size());
-  const bool closed = options_.integration == Integration::closed;
+  const bool closed = options_.integration == HeatIntegration::closed;
   storage_ = std::make_unique<NodalEnthalpy>(mesh, kind, materials_);
   const bool nodal = closed || storage_->has_plateaus();
   std::vector<char> kept, others;
@@ -72,7 +73,7 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
                                options_.max_iterations},
         std::move(relaxed));
   }
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     if (at_nodes(block.body)) continue;
     points_.push_back(store_at_points(block));
     points_.back()->bind(system_->matrix());
@@ -83,13 +84,13 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
 
 ThermalPhase::~ThermalPhase() = default;
 
-std::unique_ptr<PointStorage> ThermalPhase::store_at_points(const mesh::Block& block) const {
+std::unique_ptr<PointStorage> ThermalPhase::store_at_points(const mesh::ElementBlock& block) const {
   return make_point_storage(mesh_, block, kind_, materials_[at(block.body)], options_.sensible,
                             options_.open_degree);
 }
 
 bool ThermalPhase::at_nodes(int body) const {
-  return options_.integration == Integration::closed || materials_[at(body)].changes_isothermally();
+  return options_.integration == HeatIntegration::closed || materials_[at(body)].changes_isothermally();
 }
 
 std::unique_ptr<ThermalIteration> ThermalPhase::iteration() {

@@ -11,7 +11,7 @@
 ///   H* = H_n + (1 − γ)/γ (H¹ − H_n) = H_n + (1 − γ) Δt f(t_n + γ Δt, H¹)
 ///
 /// so plateaus and both rules are as with backward Euler, and the heat of the step is
-/// Δt [(1 − γ) f¹ + γ f_{n+1}]. Contributions that store follow by linear::Stage.
+/// Δt [(1 − γ) f¹ + γ f_{n+1}]. Contributions that store follow by linear::RungeKuttaStage.
 ///
 /// H* is an extrapolation. Where with the closed rule a node's Θ(H*) leaves the range of the temperatures at
 /// t_n and around, or where it makes heat flow back beside nodes that have frozen or melted in the step
@@ -26,8 +26,8 @@
 #include <string>
 #include <vector>
 
-#include "heat/conditions.hpp"
 #include "heat/sensible_form.hpp"
+#include "heat/thermal_conditions.hpp"
 #include "heat/thermal_state.hpp"
 #include "heat/time_error.hpp"
 #include "linear/active_set.hpp"
@@ -49,7 +49,7 @@ class PrintedHeat;
 class ConsistentHeat;
 class ThermalIteration;
 
-enum class Integration {
+enum class HeatIntegration {
   closed,  ///< heat content at the nodes, conduction of quads and hexes too: no over- or undershoot
   /// Heat content at Gauss points; at the nodes of bodies whose material has an isothermal change, because a
   /// temperature at a point does not tell how much of it is solid.
@@ -64,7 +64,7 @@ enum class ThermalStepping { backward_euler, sdirk2 };
 inline constexpr double k_nodal_tolerance = 1e-6, k_point_tolerance = 1e-9;
 
 struct HeatOptions {
-  Integration integration = Integration::closed;
+  HeatIntegration integration = HeatIntegration::closed;
   int open_degree = 0;  ///< polynomial degree of the open rule; 0: by element
   /// Tolerance of the sum of the nodal residuals, as a share of the heat moved in the step; zero:
   /// k_nodal_tolerance where the nodes hold the heat, else k_point_tolerance.
@@ -111,7 +111,7 @@ class ThermalPhase {
   ///                       outlive the phase
   /// Throws InputError for a condition that names no group of the mesh.
   ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
-               const Conditions& conditions, HeatOptions options = {},
+               const ThermalConditions& conditions, HeatOptions options = {},
                std::vector<linear::Contribution*> contributions = {});
   ~ThermalPhase();
 
@@ -121,7 +121,7 @@ class ThermalPhase {
   /// @param state  loses what bodies that leave carry away, and gets what bodies that come bring along; null
   ///               where it has been changed before
   /// @param fresh  h(node, body) [J/m³] of bodies that come back, as of initial_state_of()
-  CarriedHeat set_conditions(const Conditions& conditions, ThermalState* state = nullptr,
+  CarriedHeat set_conditions(const ThermalConditions& conditions, ThermalState* state = nullptr,
                              const std::function<double(Index node, int body)>& fresh = {});
   /// Heat of the active bodies, counted from 20 °C [J]. With the open rule by the weights of the nodes.
   /// Collective.
@@ -152,7 +152,7 @@ class ThermalPhase {
   /// keeps as much of its old heat as that temperature allows. Throws StepRejected (on all processes) when
   /// the iteration fails; the place is the node of the largest residual. The same where a temperature is not
   /// above 0 K; the place is the coldest node.
-  PhaseReport solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass);
+  ThermalReport solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass);
   /// HeatOptions::stepping.
   ThermalStepping stepping() const { return options_.stepping.value_or(ThermalStepping::backward_euler); }
   /// The flow into the nodes at the end of a step, from its known flows, [local node], ghosts up to date [W]:
@@ -167,12 +167,12 @@ class ThermalPhase {
   /// ghosts up to date. Where nodes hold the heat. Collective.
   std::vector<double> change_in_kelvin(const ThermalState& a, const ThermalState& b) const;
   /// The first pass.
-  PhaseReport solve(const ThermalState& old, ThermalState& trial, double time, double dt) {
+  ThermalReport solve(const ThermalState& old, ThermalState& trial, double time, double dt) {
     return solve(old, trial, {.time = time, .dt = dt});
   }
   /// The steady state for the conditions at `time`, started from `start`; balance in watts. Something must
   /// hold the temperature of every body (prescribed, film, radiation, contact).
-  PhaseReport solve_steady(const ThermalState& start, ThermalState& trial, double time);
+  ThermalReport solve_steady(const ThermalState& start, ThermalState& trial, double time);
 
   /// The step piece by piece, for an iteration that has further unknowns; refers to this phase.
   std::unique_ptr<ThermalIteration> iteration();
@@ -222,17 +222,18 @@ class ThermalPhase {
   /// Heat through conditions and contributions.
   /// @param residual  at the solution, [owned node] [W]: where the temperature is prescribed, what holds it
   HeatBalance measure(std::span<const double> temperature, std::span<const double> residual, double dt) const;
-  PhaseReport solve_stage(const ThermalState& old, const ThermalState& before, const linear::Stage& stage,
-                          const ThermalPass& pass, ThermalState& next);
-  PhaseReport solve_two_stages(const ThermalState& old, const ThermalPass& pass, ThermalState& next);
+  ThermalReport solve_stage(const ThermalState& old, const ThermalState& before,
+                            const linear::RungeKuttaStage& stage, const ThermalPass& pass,
+                            ThermalState& next);
+  ThermalReport solve_two_stages(const ThermalState& old, const ThermalPass& pass, ThermalState& next);
   void start_from(std::span<const double> heat, ThermalState& next) const;
   static ThermalState stage_start(const ThermalState& old, const ThermalState& before,
-                                  const linear::Stage& stage);
+                                  const linear::RungeKuttaStage& stage);
   /// Into the nodes in a stage that has just been solved, from H* of `from`: for StageFlows.
   std::vector<double> flow(const ThermalState& from, const ThermalState& next,
-                           const linear::Stage& stage) const;
+                           const linear::RungeKuttaStage& stage) const;
   /// Tells the contributions that store.
-  void begin_stage(const linear::Stage& stage, std::span<const double> before);
+  void begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> before);
   TemperatureRange limit_conduction(const ThermalState& before, const ThermalState& old);
   void set_latent(HeatBalance& balance, const ThermalState& old, const ThermalState& next) const;
   /// Measures a solved step, whose last residual is given.
@@ -253,7 +254,7 @@ class ThermalPhase {
   }
   /// Whether a body stores its heat at the nodes.
   bool at_nodes(int body) const;
-  std::unique_ptr<PointStorage> store_at_points(const mesh::Block& block) const;
+  std::unique_ptr<PointStorage> store_at_points(const mesh::ElementBlock& block) const;
   double heat_at(const ThermalState& state, Index node) const;
   double take_out(const linear::ActiveSet& active, ThermalState& state) const;
   double put_in(const linear::ActiveSet& before, const std::function<double(Index, int)>& fresh,

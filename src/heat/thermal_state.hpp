@@ -54,7 +54,7 @@ struct EntropyChange {
   double magnitude = 0;  ///< sum of the magnitudes subtracted from each other: the scale of rounding
 };
 
-struct PhaseReport {
+struct ThermalReport {
   linear::NewtonReport newton;  ///< sums over the stages of the step
   int hardest = 0;              ///< the most iterations of one stage
   HeatBalance balance;

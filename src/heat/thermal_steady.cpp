@@ -43,7 +43,7 @@ void add_iterations(linear::NewtonReport& report, linear::NewtonReport last) {
 
 }  // namespace
 
-PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& trial, double time) {
+ThermalReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& trial, double time) {
   assert(start.temperature.size() == mesh_.x.size());
   follow_graph();
   system_->set_time(time);
@@ -53,7 +53,7 @@ PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& 
   system_->prescribe(temperature);
   temperature_system_->use_storage(false);
   if (consistent_) consistent_->use(false);
-  PhaseReport report;
+  ThermalReport report;
   std::vector<double> residual(at(mesh_.n_owned_nodes));
   const TemperatureRange range = limit_conduction({temperature, {}}, start);
   system_->clear_limits();  // a linear field, say, needs none
@@ -76,11 +76,11 @@ PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& 
 linear::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperature, std::span<double> r,
                                                      int newton_steps) {
   temperature_system_->residual(temperature, r);
-  temperature_system_->tangent();
+  temperature_system_->tangent(temperature);
   linear::NewtonOptions newton;
   newton.tolerance = options_.tolerance > 0 ? options_.tolerance : k_point_tolerance;
   newton.inexact = false;  // an iteration costs as much as 25 of the linear solver, which takes as many
-  newton.absolute_tolerance = temperature_system_->round_off();
+  newton.absolute_tolerance = temperature_system_->round_off(temperature);
   newton.max_iterations = newton_steps > 0 ? newton_steps : options_.max_iterations;
   const linear::NewtonReport report =
       linear::newton(*temperature_system_, *temperature_system_->solver(solver_->strong()), ghosts_,

@@ -24,6 +24,10 @@ namespace solidus::heat {
 
 namespace {
 
+/// Share of the range of temperatures by which the end of a step may leave it where the caller takes part of
+/// that back: deformation of the whole step acts before both stages (coupling/double_pass.hpp).
+constexpr double k_far_overshoot = 0.01;
+
 using material::k_sdirk_carried;
 using material::k_sdirk_share;
 
@@ -32,7 +36,7 @@ std::size_t at(Index i) {
 }
 
 /// Adds the last stage: total = last + carried × first, of all that counts in joules.
-void add_stage(PhaseReport& report, double carried, PhaseReport& last) {
+void add_stage(ThermalReport& report, double carried, ThermalReport& last) {
   HeatBalance& first = report.balance;
   HeatBalance& sum = last.balance;
   sum.stored += carried * first.stored;
@@ -50,13 +54,13 @@ void add_stage(PhaseReport& report, double carried, PhaseReport& last) {
 
 }  // namespace
 
-PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass) {
+ThermalReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass) {
   assert(old.temperature.size() == mesh_.x.size() && pass.dt > 0);
   follow_graph();
   solver_->begin(true);
   system_->exchange(!pass.adiabatic);
   ThermalState next;
-  PhaseReport report;
+  ThermalReport report;
   const bool flows = nodal() && !pass.adiabatic;
   if (pass.stepping == ThermalStepping::sdirk2) {
     report = solve_two_stages(old, pass, next);
@@ -70,33 +74,37 @@ PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, co
 }
 
 /// SDIRK2; its second stage is backward Euler over the rest of the step where SDIRK2 would overshoot.
-PhaseReport ThermalPhase::solve_two_stages(const ThermalState& old, const ThermalPass& pass,
-                                           ThermalState& next) {
-  const linear::Stage first{k_sdirk_share * pass.dt, 0}, extrapolated{first.dt, k_sdirk_carried},
+ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const ThermalPass& pass,
+                                             ThermalState& next) {
+  const linear::RungeKuttaStage first{k_sdirk_share * pass.dt, 0}, extrapolated{first.dt, k_sdirk_carried},
       rest{pass.dt - first.dt, 1};
   const bool flows = nodal() && !pass.adiabatic;
   ThermalState middle;
-  PhaseReport report = solve_stage(
+  ThermalReport report = solve_stage(
       old, old, first, {pass.time - pass.dt + first.dt, pass.dt, pass.iterate, pass.newton_steps}, middle);
   StageFlows stage_flows;
   if (flows) stage_flows.first = flow(old, middle, first);
   std::optional<ExtrapolationGuard> guard;
   TemperatureRange around;
   bool second_order = true;
-  if (flows && pass.within_range && options_.integration == Integration::closed) {
+  if (flows && options_.integration == HeatIntegration::closed) {
     around = system_->surroundings();
     system_->set_time(pass.time);
     const TemperatureRange at_end = system_->surroundings();
     around = {std::min(around.lowest, at_end.lowest), std::max(around.highest, at_end.highest)};
     guard.emplace(*system_, *storage_, old, middle);
-    second_order = !guard->extrapolates_too_far(around);
+    second_order = !pass.within_range || !guard->extrapolates_too_far(around);
   }
   const ThermalPass to_end{pass.time, pass.dt, pass.iterate, pass.newton_steps};
-  PhaseReport last = solve_stage(old, middle, second_order ? extrapolated : rest, to_end, next);
-  if (second_order && guard && (guard->overshoots(next, around) || guard->turns_back(next, ghosts_))) {
+  ThermalReport last = solve_stage(old, middle, second_order ? extrapolated : rest, to_end, next);
+  const auto overshoots = [&] {
+    if (!pass.within_range) return guard->overshoots(next, around, k_far_overshoot);
+    return guard->overshoots(next, around) || guard->turns_back(next, ghosts_);
+  };
+  if (second_order && guard && overshoots()) {
     second_order = false;
     begin_stage(first, old.temperature);
-    PhaseReport again = solve_stage(old, middle, rest, to_end, next);
+    ThermalReport again = solve_stage(old, middle, rest, to_end, next);
     again.newton.iterations += last.newton.iterations;
     again.newton.linear_iterations += last.newton.linear_iterations;
     again.hardest = std::max(again.hardest, last.hardest);
@@ -104,7 +112,7 @@ PhaseReport ThermalPhase::solve_two_stages(const ThermalState& old, const Therma
   }
   if (!second_order)
     logging::debug("heat: the step to t = {:g} s would overshoot; it is of first order", pass.time);
-  const linear::Stage& stage = second_order ? extrapolated : rest;
+  const linear::RungeKuttaStage& stage = second_order ? extrapolated : rest;
   if (flows) stage_flows.last = flow(stage_start(old, middle, stage), next, stage);
   stage_flows.second_order = second_order;
   stage_flows.share = k_sdirk_share;
@@ -116,12 +124,12 @@ PhaseReport ThermalPhase::solve_two_stages(const ThermalState& old, const Therma
 }
 
 /// From H* = H_n + carried (H − H_n) with the H of `before`, which is the state at t_n in the first stage.
-PhaseReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalState& before,
-                                      const linear::Stage& stage, const ThermalPass& pass,
-                                      ThermalState& next) {
+ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalState& before,
+                                        const linear::RungeKuttaStage& stage, const ThermalPass& pass,
+                                        ThermalState& next) {
   begin_stage(stage, before.temperature);
   next = start(pass.iterate != nullptr ? *pass.iterate : before, pass.time);
-  PhaseReport report;
+  ThermalReport report;
   if (!nodal()) {
     for (const auto& block : points_) {
       block->start(old.temperature, stage.dt);
@@ -153,7 +161,7 @@ PhaseReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalStat
 
 /// H* of a stage: H_n + carried (H − H_n) with the H of `before`.
 ThermalState ThermalPhase::stage_start(const ThermalState& old, const ThermalState& before,
-                                       const linear::Stage& stage) {
+                                       const linear::RungeKuttaStage& stage) {
   ThermalState from = old;
   if (stage.carried != 0)
     for (std::size_t i = 0; i < from.enthalpy.size(); ++i)
@@ -164,7 +172,7 @@ ThermalState ThermalPhase::stage_start(const ThermalState& old, const ThermalSta
 // Computes the heat flow into the nodes: the heat that they have taken up, less that from contributions that
 // store heat.
 std::vector<double> ThermalPhase::flow(const ThermalState& from, const ThermalState& next,
-                                       const linear::Stage& stage) const {
+                                       const linear::RungeKuttaStage& stage) const {
   std::vector<double> flow(at(mesh_.n_owned_nodes));
   for (std::size_t i = 0; i < flow.size(); ++i) flow[i] = (next.enthalpy[i] - from.enthalpy[i]) / stage.dt;
   const std::span<const double> stored = system_->stored_by_contributions();
@@ -210,7 +218,7 @@ TemperatureRange ThermalPhase::limit_conduction(const ThermalState& before, cons
   return {parallel::global_min(range.lowest), parallel::global_max(range.highest)};
 }
 
-void ThermalPhase::begin_stage(const linear::Stage& stage, std::span<const double> before) {
+void ThermalPhase::begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> before) {
   for (linear::Contribution* contribution : contributions_) contribution->begin_stage(stage, before);
 }
 

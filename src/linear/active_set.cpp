@@ -12,7 +12,7 @@ namespace solidus::linear {
 
 namespace {
 
-mesh::FaceKey face_of_element(const mesh::Block& block, Index element, int face) {
+mesh::FaceKey face_of_element(const mesh::ElementBlock& block, Index element, int face) {
   const auto local = mesh::face_nodes(block.shape, face);
   std::array<Index, 4> vertices{};
   const int n = mesh::vertex_count(mesh::face_shape(block.shape));
@@ -35,7 +35,7 @@ ActiveSet::ActiveSet(const mesh::Mesh& mesh, std::span<const std::string> absent
   }
   // A process holds every element at the nodes it owns; their owners know the ghosts.
   std::vector<double> touched(mesh.x.size(), 0.0);
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::ElementBlock& block : mesh.blocks)
     if (body(block.body))
       for (const Index node : block.nodes) touched[static_cast<std::size_t>(node)] = 1;
   parallel::GhostExchange(mesh).update(touched, 1);
@@ -44,13 +44,13 @@ ActiveSet::ActiveSet(const mesh::Mesh& mesh, std::span<const std::string> absent
 
 mesh::Surface ActiveSet::part(const mesh::Mesh& mesh, const mesh::Surface& surface) const {
   using Faces = std::unordered_set<mesh::FaceKey, mesh::FaceKeyHash>;
-  const auto key = [](const mesh::Block& faces, Index f) {
+  const auto key = [](const mesh::ElementBlock& faces, Index f) {
     return mesh::face_key(faces.element(f), mesh::vertex_count(faces.shape));
   };
   Faces asked, found;
-  for (const mesh::Block& faces : surface.faces)
+  for (const mesh::ElementBlock& faces : surface.faces)
     for (Index f = 0; reversed(faces) && f < faces.size(); ++f) asked.insert(key(faces, f));
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     if (asked.empty() || !body(block.body)) continue;
     for (Index e = 0; e < block.size(); ++e)
       for (int k = 0; k < mesh::face_count(block.shape); ++k) {
@@ -59,8 +59,8 @@ mesh::Surface ActiveSet::part(const mesh::Mesh& mesh, const mesh::Surface& surfa
       }
   }
   mesh::Surface part;
-  for (const mesh::Block& faces : surface.faces) {
-    mesh::Block& to = part.faces.emplace_back();
+  for (const mesh::ElementBlock& faces : surface.faces) {
+    mesh::ElementBlock& to = part.faces.emplace_back();
     to.shape = faces.shape;
     to.body = faces.body;
     for (Index f = 0; f < faces.size(); ++f) {

@@ -28,7 +28,7 @@ class ActiveSet {
   mesh::Surface part(const mesh::Mesh& mesh, const mesh::Surface& surface) const;
   /// Whether the faces belong to an inactive body (where two bodies share nodes, faces belong to the first of
   /// them, mesh/faces.hpp): the other body lies on the side to which their normals point.
-  bool reversed(const mesh::Block& faces) const { return faces.body >= 0 && !body(faces.body); }
+  bool reversed(const mesh::ElementBlock& faces) const { return faces.body >= 0 && !body(faces.body); }
 
   bool operator==(const ActiveSet&) const = default;
 

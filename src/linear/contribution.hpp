@@ -10,7 +10,7 @@ namespace solidus::linear {
 
 /// One stage of a step of the thermal phase (heat/thermal_phase.hpp): a term that stores heat stores it over
 /// `dt`, from E* = E_n + carried (E(x) − E_n) with the x of the stage before.
-struct Stage {
+struct RungeKuttaStage {
   double dt = 0;       ///< [s]
   double carried = 0;  ///< zero in the first stage
 };
@@ -39,7 +39,7 @@ class Contribution {
   /// [local node], ghosts up to date; they add to those of earlier calls. Empty: everywhere as it is without.
   virtual void limit_exchange(std::span<const char> /*nodes*/) {}
   /// For terms that store.
-  virtual void begin_stage(const Stage& /*stage*/, std::span<const double> /*x*/) {}
+  virtual void begin_stage(const RungeKuttaStage& /*stage*/, std::span<const double> /*x*/) {}
 };
 
 /// Whether a matrix with these terms must be made anew, on any process. Collective only where that may be.

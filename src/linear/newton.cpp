@@ -182,7 +182,7 @@ double Iteration::search(double slope) {
 NewtonReport Iteration::run() {
   NewtonReport report;
   evaluate();
-  BlockMatrix* tangent = &system_.tangent();  // knows what is fixed, and serves the first solve
+  BlockMatrix* tangent = &system_.tangent(x_);  // knows what is fixed, and serves the first solve
   fixed_ = &tangent->fixed();
   constraints_ = &tangent->constraints();
   constrain();
@@ -204,7 +204,7 @@ NewtonReport Iteration::run() {
       report.reason = "no convergence in " + std::to_string(options_.max_iterations) + " iterations";
       return report;
     }
-    if (!tangent && !chord) tangent = &system_.tangent();
+    if (!tangent && !chord) tangent = &system_.tangent(x_);
     for (double& value : r_) value = -value;
     const double eta = forcing.next(norm_, goal() / norm_);
     const LinearReport linear =

@@ -47,8 +47,9 @@ class NonlinearSystem {
   /// that ‖r‖ is measured against: the norm of the forces (or heat) before they cancel, reactions included,
   /// over all processes.
   virtual double residual(std::span<const double> x, std::span<double> r) = 0;
-  /// The tangent at the x of the last residual().
-  virtual BlockMatrix& tangent() = 0;
+  /// The tangent at x, where the residual has been asked for before: terms may find there, for both, which
+  /// nodes couple.
+  virtual BlockMatrix& tangent(std::span<const double> x) = 0;
   /// Returns the size of the step d that has led to x, as a share of the change of x since the start of the
   /// time step; zero: there is no measure of it. Called if NewtonOptions::step_tolerance is set.
   virtual double relative_step(std::span<const double> /*x*/, std::span<const double> /*d*/) { return 0; }

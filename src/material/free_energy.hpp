@@ -111,7 +111,7 @@ ForcesInTemperature<T> forces(const Viscoplastic& law, const StateVariables<T>& 
 
 /// Entropy, energy and capacity of a state.
 template <class T>
-struct ThermalState {
+struct ThermodynamicState {
   T entropy;          ///< S^E, zero at ε^E = 0, ξ = 0, ζ = 0, Θ_0 [J/(m³ K)]
   T internal_energy;  ///< E, without latent heat [J/m³]
   T capacity;         ///< C of 2.127a [J/(m³ K)]
@@ -119,8 +119,8 @@ struct ThermalState {
   T latent_capacity;  ///< dL/dΘ of 2.129 [J/(m³ K)]
 };
 template <class T>
-ThermalState<T> thermal_state(const Viscoplastic& law, const StateVariables<T>& state, const T& temperature,
-                              const T& initial_temperature) {
+ThermodynamicState<T> thermal_state(const Viscoplastic& law, const StateVariables<T>& state,
+                                    const T& temperature, const T& initial_temperature) {
   using J = Jet<T>;
   StateVariables<J> held;
   for (int i = 0; i < 6; ++i) {

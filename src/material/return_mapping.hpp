@@ -117,11 +117,12 @@ template <class T>
 
 /// The scalars of Yield alone, which suffice for the iteration.
 template <class T>
-struct Point {
+struct YieldScalars {
   T value, slope, noise;
 };
 template <class T>
-[[gnu::always_inline]] inline Point<T> point(const Problem<T>& p, const Yield<T>& trial, const T& gamma) {
+[[gnu::always_inline]] inline YieldScalars<T> point(const Problem<T>& p, const Yield<T>& trial,
+                                                    const T& gamma) {
   if (p.recalls) {
     const Yield<T> y = yield(p, gamma);
     return {y.value, y.slope, y.noise};
@@ -221,7 +222,7 @@ template <class T>
     auto done = !plastic;
     s.converged = false;
     for (int i = 0; i < k_max_iterations; ++i) {
-      const Point<T> at = point(p, trial, gamma);
+      const YieldScalars<T> at = point(p, trial, gamma);
       const T f = c * at.value - eta * gamma, stiffness = select(plastic, T(eta - c * at.slope), one);
       const T newton = gamma + f / stiffness;
       done = either(done, within(f, T(c * at.noise)));
@@ -275,7 +276,7 @@ Solution<T> solve_power_rate(const Problem<T>& p, const Yield<T>& trial) {
   for (int i = 0; i < k_max_iterations; ++i) {
     const T raised = flow_curve(select(viscous, v, T(v * inverse_a)), select(viscous, n, inverse_n));
     const T gamma = select(viscous, T(a * raised), v), y = select(viscous, v, raised);
-    const Point<T> at = point(p, trial, gamma);
+    const YieldScalars<T> at = point(p, trial, gamma);
     const T r = at.value - drag * y;
     // dγ/dx, finite where viscosity rules, and dx/dγ, finite elsewhere
     const T compliance = select(viscous, T(n * gamma / (drag * select(viscous, y, one))), zero);
@@ -313,7 +314,7 @@ Solution<T> solve_rate_law(const Problem<T>& p, const Yield<T>& trial) {
   auto done = !plastic;
   Solution<T> s{zero, zero, zero, false};
   for (int i = 0; i < k_max_iterations; ++i) {
-    const Point<T> at = point(p, trial, gamma);
+    const YieldScalars<T> at = point(p, trial, gamma);
     const Overstress<T> x = overstress(p.rate_dependence, *p.flow, T(gamma * per_time));
     const T rise = x.slope * per_time, inverse = one / select(plastic, T(rise - at.slope), one);
     const T r = at.value - x.stress, by = inverse * r;

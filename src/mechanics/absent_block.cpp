@@ -7,8 +7,8 @@ namespace solidus::mechanics {
 
 namespace {
 
-mesh::Block without_elements(const mesh::Block& block) {
-  mesh::Block none;
+mesh::ElementBlock without_elements(const mesh::ElementBlock& block) {
+  mesh::ElementBlock none;
   none.shape = block.shape;
   none.body = block.body;
   return none;
@@ -16,7 +16,7 @@ mesh::Block without_elements(const mesh::Block& block) {
 
 }  // namespace
 
-AbsentBlock::AbsentBlock(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
+AbsentBlock::AbsentBlock(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind,
                          const material::Material& material, std::unique_ptr<BlockKernel> kept)
     : nowhere_(mesh, without_elements(block), kind, mesh::stiffness_rule(block.shape)),
       points_(nowhere_, material),

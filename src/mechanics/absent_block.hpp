@@ -13,7 +13,7 @@ namespace solidus::mechanics {
 class AbsentBlock final : public BlockKernel, public CoupledKernel {
  public:
   /// @param kept  of the body when it was there, whose fields are shown until keep_fields(); may be null
-  AbsentBlock(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
+  AbsentBlock(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind,
               const material::Material& material, std::unique_ptr<BlockKernel> kept = nullptr);
 
   bool symmetric() const override { return true; }
@@ -22,7 +22,7 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
   double prepare(const StepStart&) override { return 0; }
   double add_forces(std::span<const double>, std::span<double>) override { return 0; }
   void add_tangent(std::span<const double>, linear::BlockMatrix&) override {}
-  BlockWork finish(std::span<const double>, std::span<const double>, BlockHistory&) override { return {}; }
+  BlockWork finish(std::span<const double>, std::span<const double>, const BlockEnd&) override { return {}; }
   FlowChange restart_flow(const StepStart&, std::span<const double>, std::span<const double>,
                           BlockHistory&) override {
     return {};
@@ -36,7 +36,7 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
 
   void spread_heat_as_stored(const PackVector<Lane>&) override {}
   void add_structural_heat(StructuralForm, std::span<const double>, bool, std::span<double>) const override {}
-  void begin_heat_stage(const linear::Stage&, std::span<const double>) override {}
+  void begin_heat_stage(const linear::RungeKuttaStage&, std::span<const double>) override {}
   const StructuralPoints& structural_points() const override { return points_; }
   std::size_t bytes() const override { return 0; }
 

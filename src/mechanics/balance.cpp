@@ -20,7 +20,7 @@ constexpr double k_at_rest = 1e-8;
 std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh, const linear::ActiveSet& active) {
   const std::size_t n = mesh.bodies.size();
   std::vector<int> touching(n * n, 0), first_body(mesh.x.size(), -1);
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     if (!active.body(block.body)) continue;
     for (const Index node : block.nodes) {
       int& first = first_body[static_cast<std::size_t>(node)];
@@ -68,7 +68,7 @@ BodyBalance::BodyBalance(const mesh::Mesh& mesh, const linear::ActiveSet& active
       node_group_(static_cast<std::size_t>(mesh.n_owned_nodes), 0),
       n_groups_(mesh.bodies.size()),
       sums_(mesh.bodies.size()) {
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     if (!active.body(block.body)) continue;
     for (const Index node : block.nodes)
       if (node < mesh.n_owned_nodes)

@@ -11,7 +11,7 @@ namespace solidus::mechanics {
 namespace {
 
 template <class Law>
-std::unique_ptr<BlockKernel> make_block_of_law(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<BlockKernel> make_block_of_law(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                                AnalysisKind kind, const material::Material& material,
                                                bool b_bar) {
   switch (kind) {
@@ -34,7 +34,7 @@ void refuse_external(const material::Material& material, const std::string& what
 
 }  // namespace
 
-std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                                AnalysisKind kind, const material::Material& material,
                                                Mapping mapping, bool b_bar) {
   if (mapping != Mapping::isothermal)
@@ -60,7 +60,7 @@ std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mes
   return make_block_of_law<material::Viscoplastic>(mesh, block, kind, material, b_bar);
 }
 
-std::unique_ptr<BlockKernel> make_mixed_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<BlockKernel> make_mixed_kernel(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                                AnalysisKind kind, const material::Material& material,
                                                Mapping mapping, Stabilisation stabilisation) {
   refuse_external(material, "mixed elements",

@@ -31,12 +31,12 @@ struct StepStart {
   const BlockHistory* start_history;            ///< z*, from which the effective step sets out
   double dt;                                    ///< t_{n+1} − t_n [s]
   double effective_dt;                          ///< of the law [s] (material/time_integration.hpp)
-  /// Stress at the points at t_n and, written by finish(), at t_{n+1}: of a step whose work is that of a mean
-  /// stress (motion.hpp). Null: the work is that of σ_{n+1}.
+  /// Stress at the points at t_n, of a step whose work is that of a mean stress (motion.hpp). Null: the work
+  /// is that of σ_{n+1}.
   const BlockHistory* old_stress = nullptr;
-  BlockHistory* new_stress = nullptr;
   double stress_share = 1;  ///< of t_{n+1} in the mean
-  StressAtWork work = StressAtWork::end;
+  /// The stress whose work the step does; null: that at its end, or the mean.
+  const StressAtWork* at_work = nullptr;
   PhaseFields phases{};  ///< of the block's body at t_n
   /// The melt whose viscosity the program chooses; null, or a modulus of zero: the material has its
   /// viscosity.
@@ -53,6 +53,13 @@ struct StepStart {
     const Lane viscosity = melt_viscosity(select(solid, Lane(0.0), solid_fraction));
     return select(solid, Lane(0.0), viscosity / Lane(effective_dt));
   }
+};
+
+/// What finish() writes, of the block's size.
+struct BlockEnd {
+  BlockHistory& history;
+  BlockHistory* stress = nullptr;   ///< at the points at t_{n+1}; null: not asked for
+  StressAtWork* at_work = nullptr;  ///< of this step, for a later one; null: not asked for
 };
 
 /// Sums over the counted elements of a block.
@@ -107,8 +114,8 @@ class BlockKernel {
   virtual double add_forces(std::span<const double> u, std::span<double> forces) = 0;
   /// matrix += ∫ B̄ᵀ C B̄ dV at u.
   virtual void add_tangent(std::span<const double> u, linear::BlockMatrix& matrix) = 0;
-  /// Writes the new history, and stores stresses and the data for the thermal phase.
-  virtual BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) = 0;
+  /// Writes the new history and what else `end` asks for, and stores the data for the thermal phase.
+  virtual BlockWork finish(std::span<const double> old_u, std::span<const double> u, const BlockEnd& end) = 0;
   /// Finds the flow of solid metal anew at `pass_temperature`, the strains being those of the last finish()
   /// and the flow that of t_n (4.45, 4.49, 4.54): history, values for results and what the thermal phase
   /// needs. Melt and mush keep their flow, and the stress power stays that of the last finish().
@@ -135,14 +142,15 @@ class BlockKernel {
   /// StructuralHeat: out += its residual, or (tangent) its lumped diagonal; [local node].
   virtual void add_structural_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
                                    std::span<double> out) const = 0;
-  virtual void begin_heat_stage(const linear::Stage& stage, std::span<const double> temperature) = 0;
+  virtual void begin_heat_stage(const linear::RungeKuttaStage& stage,
+                                std::span<const double> temperature) = 0;
   /// Returns the data of the deformation that the heat balance and the audit need, as of the last finish().
   virtual const StructuralPoints& structural_points() const = 0;
   virtual std::size_t bytes() const = 0;
 };
 
 /// @param b_bar  for quads and hexes (kinematics.hpp); simplices have the standard operator
-std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                                AnalysisKind kind, const material::Material& material,
                                                Mapping mapping, bool b_bar);
 

@@ -16,19 +16,19 @@ class ExternalBlockLaw;  // external_block_law.hpp
 
 /// Displacements alone. Throws std::invalid_argument for a shape that the kind does not have.
 template <class Law, AnalysisKind kind>
-std::unique_ptr<BlockKernel> make_block(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<BlockKernel> make_block(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                         const material::Material& material, bool b_bar);
 
 /// Of the simultaneous scheme (coupled_kernel.hpp). Throws std::invalid_argument for a shape that the kind
 /// does not have.
 template <AnalysisKind kind>
-std::unique_ptr<BlockKernel> make_coupled_block(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<BlockKernel> make_coupled_block(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                                 const material::Material& material, bool b_bar);
 
 /// Pressures at the nodes (mixed_kernel.hpp). Throws std::invalid_argument for a shape that has no such
 /// kernel.
 template <AnalysisKind kind>
-std::unique_ptr<BlockKernel> make_mixed_block(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<BlockKernel> make_mixed_block(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                               const material::Material& material, Mapping mapping,
                                               Stabilisation stabilisation);
 

@@ -13,7 +13,7 @@ struct CoupledKernels {
 };
 
 template <AnalysisKind kind>
-std::unique_ptr<BlockKernel> make_coupled_block(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<BlockKernel> make_coupled_block(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                                 const material::Material& material, bool b_bar) {
   return make_kernel_of_shape<CoupledKernels<kind>, kind>(mesh, block, material, b_bar);
 }

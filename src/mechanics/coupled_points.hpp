@@ -16,11 +16,11 @@
 
 namespace solidus::mechanics {
 
-/// @tparam Block  a kernel of material::Viscoplastic that derives from PointBlock
-template <class Block>
-class CoupledPoints : public Block, public CoupledKernel {
+/// @tparam Kernel  a kernel of material::Viscoplastic that derives from PointBlock
+template <class Kernel>
+class CoupledPoints : public Kernel, public CoupledKernel {
  public:
-  using Block::Block;
+  using Kernel::Kernel;
 
   void bind_heat(const linear::BlockMatrix& matrix) override {
     heat_slots_ = {matrix, this->geometry_.nodes, this->geometry_.n_nodes, this->geometry_.n_elements};
@@ -31,11 +31,11 @@ class CoupledPoints : public Block, public CoupledKernel {
     this->points_.keep();
     // Every iterate is a new start here, and the other parts of the tangent are the consistent ones.
     this->follows_directions_ = false;
-    return Block::prepare(start);
+    return Kernel::prepare(start);
   }
 
-  BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) override {
-    const BlockWork work = Block::finish(old_u, u, trial);
+  BlockWork finish(std::span<const double> old_u, std::span<const double> u, const BlockEnd& end) override {
+    const BlockWork work = Kernel::finish(old_u, u, end);
     count_from(carried_);
     return work;
   }
@@ -62,7 +62,7 @@ class CoupledPoints : public Block, public CoupledKernel {
   }
 
   std::size_t bytes() const override {
-    return Block::bytes() + heat_slots_.bytes() +
+    return Kernel::bytes() + heat_slots_.bytes() +
            (carried_.capacity() + before_.capacity()) * sizeof(StructuralDensities);
   }
 

@@ -16,7 +16,7 @@ namespace solidus::mechanics {
 /// @tparam Kernels  has a template Kernel<n_nodes, b_bar>, made of (mesh, block, material)
 /// Throws std::invalid_argument for a shape that the kind does not have.
 template <class Kernels, AnalysisKind kind>
-std::unique_ptr<BlockKernel> make_kernel_of_shape(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<BlockKernel> make_kernel_of_shape(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                                   const material::Material& material, bool b_bar) {
   std::unique_ptr<BlockKernel> made;
   const auto try_row = [&]<std::size_t i>() {

@@ -24,11 +24,11 @@ MassMatrix::MassMatrix(const mesh::Mesh& mesh, AnalysisKind kind, std::span<cons
   assert(density.size() == mesh.bodies.size());
   linear::NodeGraph graph(mesh);  // with the diagonal of every node
   if (mass == MassKind::consistent)
-    for (const mesh::Block& block : mesh.blocks)
+    for (const mesh::ElementBlock& block : mesh.blocks)
       graph.add_cliques(block.nodes, mesh::node_count(block.shape));
   graph.compress(row_start_, columns_);
   values_.assign(columns_.size(), 0.0);
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     const double rho = density[static_cast<std::size_t>(block.body)];
     if (mass == MassKind::consistent)
       add_consistent(mesh, block, kind, rho);
@@ -45,7 +45,7 @@ std::size_t MassMatrix::place(Index row, Index column) const {
   return static_cast<std::size_t>(found - columns_.begin());
 }
 
-void MassMatrix::add_consistent(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
+void MassMatrix::add_consistent(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind,
                                 double density) {
   const mesh::BlockGeometry g(mesh, block, kind, mass_rule(block.shape, kind));
   const auto n_owned = static_cast<Index>(row_start_.size()) - 1;
@@ -64,7 +64,7 @@ void MassMatrix::add_consistent(const mesh::Mesh& mesh, const mesh::Block& block
     }
 }
 
-void MassMatrix::add_lumped(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
+void MassMatrix::add_lumped(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind,
                             double density) {
   const PackVector<Lane> weights = mesh::nodal_weights(mesh, block, kind);
   const int n_nodes = mesh::node_count(block.shape);

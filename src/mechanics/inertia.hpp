@@ -33,8 +33,9 @@ class MassMatrix {
   std::size_t bytes() const;
 
  private:
-  void add_consistent(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind, double density);
-  void add_lumped(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind, double density);
+  void add_consistent(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind,
+                      double density);
+  void add_lumped(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind, double density);
   /// Place of an owned row's pair in values_.
   std::size_t place(Index row, Index column) const;
 

@@ -32,7 +32,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
   using typename Base::Operator, typename Base::Vectors, typename Base::Properties, typename Base::Response,
       typename Base::Matrix;
 
-  LawBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material)
+  LawBlock(const mesh::Mesh& mesh, const mesh::ElementBlock& block, const material::Material& material)
       : Base(mesh, block, material), tangents_(this->law_.symmetric()) {
     if constexpr (b_bar)
       for (const mesh::QuadraturePoint& point : mesh::stiffness_rule(block.shape)) {
@@ -112,7 +112,8 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
     }
   }
 
-  BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) override {
+  BlockWork finish(std::span<const double> old_u, std::span<const double> u, const BlockEnd& end) override {
+    this->begin_finish(end);
     typename Base::Tally tally;
     Workspace<Law> space(this->law_);
     if constexpr (KeepsStateInPlace<Law>) space.wants_tangent = false;
@@ -122,8 +123,8 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
         const Sym<Lane> strain = b.strain(displacement);
-        this->record(batch, q, b.strain(old_displacement), strain, this->update(batch, q, strain, space),
-                     trial, average, tally);
+        this->record(batch, q, b.strain(old_displacement), strain, this->update(batch, q, strain, space), end,
+                     average, tally);
       }
       this->keep(batch, average);
     }

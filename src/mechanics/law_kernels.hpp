@@ -13,7 +13,7 @@ struct LawKernels {
 };
 
 template <class Law, AnalysisKind kind>
-std::unique_ptr<BlockKernel> make_block(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<BlockKernel> make_block(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                         const material::Material& material, bool b_bar) {
   return make_kernel_of_shape<LawKernels<Law, kind>, kind>(mesh, block, material, b_bar);
 }

@@ -27,7 +27,7 @@ const typename Map::mapped_type& find(const Map& groups, const std::string& name
 void integrate(const mesh::Mesh& mesh, AnalysisKind kind, const linear::ActiveSet& active,
                const mesh::Surface& surface,
                const std::function<void(Index, double, const mesh::Point&)>& visit) {
-  for (const mesh::Block& faces : active.part(mesh, surface).faces) {
+  for (const mesh::ElementBlock& faces : active.part(mesh, surface).faces) {
     const mesh::FaceGeometry geometry(mesh, faces, kind,
                                       mesh::gauss_rule(faces.shape, 2 * mesh::order(faces.shape) + 1));
     const double out = active.reversed(faces) ? -1.0 : 1.0;
@@ -85,7 +85,7 @@ void merge(std::vector<std::pair<Index, double>>& force) {
 
 }  // namespace
 
-Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions,
+Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, MechanicalConditions conditions,
              const linear::ActiveSet& active, std::span<const double> start)
     : conditions_(std::move(conditions)),
       components_(displacement_components(kind)),

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "linear/active_set.hpp"
-#include "mechanics/conditions.hpp"
+#include "mechanics/mechanical_conditions.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::mechanics {
@@ -17,8 +17,8 @@ class Loads {
   /// normal to a coordinate, prescribed in that direction or tied to another. Collective.
   /// @param active  that of the conditions' bodies
   /// @param start     displacement that relative ones count from, [local node][component]; empty: zero
-  Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions, const linear::ActiveSet& active,
-        std::span<const double> start = {});
+  Loads(const mesh::Mesh& mesh, AnalysisKind kind, MechanicalConditions conditions,
+        const linear::ActiveSet& active, std::span<const double> start = {});
 
   /// Adds a load that does not change in time, [local node][component] [N].
   void add_constant(std::span<const double> force);
@@ -37,7 +37,7 @@ class Loads {
   void prescribe_rate(double time, std::span<double> velocity) const;
   /// The degrees of freedom of each plane face, ghosts included, for BlockMatrix::constrain.
   const std::vector<std::vector<Index>>& constraint_groups() const { return constraint_groups_; }
-  const Conditions& conditions() const { return conditions_; }
+  const MechanicalConditions& conditions() const { return conditions_; }
 
  private:
   struct Unit {
@@ -59,7 +59,7 @@ class Loads {
   void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const linear::ActiveSet& active,
                    const Traction& traction);
 
-  Conditions conditions_;
+  MechanicalConditions conditions_;
   int components_;
   std::vector<Unit> units_;
   std::vector<Support> supports_;

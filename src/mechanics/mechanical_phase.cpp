@@ -29,8 +29,8 @@ linear::LinearSolverOptions linear_options(const MechanicsOptions& options) {
           .relative_tolerance = options.linear_tolerance};
 }
 
-std::unique_ptr<BlockKernel> make_kernel(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
-                                         const material::Material& material,
+std::unique_ptr<BlockKernel> make_kernel(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
+                                         AnalysisKind kind, const material::Material& material,
                                          const MechanicsOptions& options) {
   return is_mixed(block, material, options.simplices)
              ? make_mixed_kernel(mesh, block, kind, material, options.mapping, options.stabilisation)
@@ -41,7 +41,7 @@ std::unique_ptr<BlockKernel> make_kernel(const mesh::Mesh& mesh, const mesh::Blo
 
 MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
                                  const std::vector<material::Material>& materials,
-                                 std::span<const double> initial_temperature, Conditions conditions,
+                                 std::span<const double> initial_temperature, MechanicalConditions conditions,
                                  MechanicsOptions options, std::vector<linear::Contribution*> contributions)
     : mesh_(mesh),
       kind_(kind),
@@ -81,7 +81,7 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
 MechanicalPhase::~MechanicalPhase() = default;
 
 void MechanicalPhase::create_blocks(const std::vector<material::Material>& materials) {
-  for (const mesh::Block& block : mesh_.blocks) {
+  for (const mesh::ElementBlock& block : mesh_.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
     if (!active_.body(block.body)) {
       blocks_.push_back(std::make_unique<AbsentBlock>(mesh_, block, kind_, material));
@@ -118,7 +118,7 @@ void MechanicalPhase::find_weight(const std::array<double, 3>& gravity) {
 void MechanicalPhase::remove_bodies(const linear::ActiveSet& active) {
   if (inertia_) throw std::invalid_argument("bodies can leave in quasi-statics only");
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const mesh::Block& block = mesh_.blocks[b];
+    const mesh::ElementBlock& block = mesh_.blocks[b];
     if (active.body(block.body) == active_.body(block.body)) continue;
     if (active.body(block.body)) {
       blocks_[b] =
@@ -143,7 +143,7 @@ linear::NodeGraph MechanicalPhase::graph() const {
     for (std::size_t i = 0; i < absent.size(); ++i) absent[i] = !active_.node(static_cast<Index>(i));
     graph.leave_out(std::move(absent));
   }
-  for (const mesh::Block& block : mesh_.blocks)
+  for (const mesh::ElementBlock& block : mesh_.blocks)
     if (active_.body(block.body)) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
   for (const linear::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
   return graph;
@@ -227,7 +227,7 @@ void MechanicalPhase::create_solver() {
   solver_ = std::move(solver);
 }
 
-void MechanicalPhase::set_conditions(Conditions conditions, std::span<const double> start) {
+void MechanicalPhase::set_conditions(MechanicalConditions conditions, std::span<const double> start) {
   const linear::ActiveSet active(mesh_, conditions.absent_bodies);
   auto loads = std::make_unique<Loads>(mesh_, kind_, std::move(conditions), active, start);
   const bool same_matrix =
@@ -302,7 +302,7 @@ void MechanicalPhase::set_in_motion(MechanicalState& state) {
 std::vector<double> MechanicalPhase::element_field(ElementField which) const {
   const auto n = static_cast<std::size_t>(component_count(which));
   std::size_t n_elements = 0, first = 0;
-  for (const mesh::Block& block : mesh_.blocks) n_elements += static_cast<std::size_t>(block.size());
+  for (const mesh::ElementBlock& block : mesh_.blocks) n_elements += static_cast<std::size_t>(block.size());
   std::vector<double> values(n_elements * n);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const std::size_t size = static_cast<std::size_t>(mesh_.blocks[b].size()) * n;

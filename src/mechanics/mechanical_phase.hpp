@@ -25,9 +25,9 @@
 #include "material/melt.hpp"
 #include "material/time_integration.hpp"
 #include "mechanics/balance.hpp"
-#include "mechanics/conditions.hpp"
 #include "mechanics/element_field.hpp"
 #include "mechanics/inertial_forces.hpp"
+#include "mechanics/mechanical_conditions.hpp"
 #include "mechanics/mechanical_state.hpp"
 #include "mechanics/phase_fields.hpp"
 #include "mechanics/simplices.hpp"
@@ -92,17 +92,13 @@ struct MechanicalWork {
 };
 
 /// Result of a pass, besides the state.
-struct PhaseReport {
+struct MechanicalReport {
   linear::NewtonReport newton;
   MechanicalWork work;
   std::vector<double> reactions;  ///< support forces [owned node][component] [N], zero where free
   std::vector<double> applied;    ///< forces of loads and contact [owned node][component] [N]
+  ForcesAtWork at_work;           ///< those at the end of the pass, if it is asked for them
 };
-
-/// The stress whose product with Δε is the work of a pass. Both passes of a step in two halves work with the
-/// stress in the middle, which is in equilibrium: the first one keeps it, the second one uses it
-/// (coupling/double_pass.hpp).
-enum class StressAtWork { end, end_kept, kept };
 
 /// Input of one pass of the mechanical phase. The fields of an iterate belong to schemes that solve the phase
 /// several times a step; empty, the pass is the first one.
@@ -121,7 +117,11 @@ struct MechanicalPass {
   /// Displacement and history of the iterate: Newton's start, and whose entropy is held.
   const MechanicalState* iterate = nullptr;
   int newton_steps = 0;  ///< at most; the pass may end with them before equilibrium. Zero: until equilibrium
-  StressAtWork work = StressAtWork::end;
+  /// The forces whose product with the increment is the work of the pass; null: those at its end. Both passes
+  /// of a step in two halves work with the stress in the middle, which is in equilibrium
+  /// (coupling/double_pass.hpp).
+  const ForcesAtWork* at_work = nullptr;
+  bool returns_at_work = false;  ///< the report is to have those at the end of this pass, for a later one
   /// Whether the stress at the points is to be written to MechanicalState::stress, as it is with inertia.
   bool stores_stress = false;
   std::span<const double> start{};  ///< of Newton's iteration, instead of the iterate's displacement
@@ -130,7 +130,7 @@ struct MechanicalPass {
   std::span<const double> guessed_pressure{};  ///< that goes with it [Pa], [local node][field]
 };
 
-class MechanicalPhase : private linear::NonlinearSystem {
+class MechanicalPhase {
  public:
   /// @param materials            one per body of the mesh; kept by reference. Those of bodies that are absent
   ///                             from the start need no mechanical properties
@@ -138,9 +138,9 @@ class MechanicalPhase : private linear::NonlinearSystem {
   /// @param contributions        further terms in the displacement (contact); must outlive the phase
   /// Throws InputError for a condition that names no group of the mesh or contradicts another.
   MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
-                  std::span<const double> initial_temperature, Conditions conditions,
+                  std::span<const double> initial_temperature, MechanicalConditions conditions,
                   MechanicsOptions options, std::vector<linear::Contribution*> contributions = {});
-  ~MechanicalPhase() override;
+  ~MechanicalPhase();
 
   int components() const { return components_; }
   AnalysisKind kind() const { return kind_; }
@@ -153,7 +153,7 @@ class MechanicalPhase : private linear::NonlinearSystem {
   /// Collective.
   /// @param start  displacement that relative supports count from, [local node][component]; empty: zero
   /// Throws InputError as the constructor does, and std::invalid_argument for a body that comes back.
-  void set_conditions(Conditions conditions, std::span<const double> start);
+  void set_conditions(MechanicalConditions conditions, std::span<const double> start);
   /// Bodies and nodes that are active in the present stage.
   const linear::ActiveSet& active() const { return active_; }
   /// Zero displacement, no inelastic strain. With inertia at t = 0: the velocities of the bodies and of the
@@ -169,10 +169,10 @@ class MechanicalPhase : private linear::NonlinearSystem {
   /// Solves for t_{n+1} from the state at t_n. `trial` is written only on success; it may be the iterate.
   /// Throws StepRejected (on all processes) when Newton's iteration fails; the place is the element whose law
   /// found no state, with its inputs, or the node of the largest residual.
-  PhaseReport solve(const MechanicalState& old, MechanicalState& trial, const MechanicalPass& pass);
+  MechanicalReport solve(const MechanicalState& old, MechanicalState& trial, const MechanicalPass& pass);
   /// The first pass.
-  PhaseReport solve(const MechanicalState& old, MechanicalState& trial, std::span<const double> temperature,
-                    double time, double dt) {
+  MechanicalReport solve(const MechanicalState& old, MechanicalState& trial,
+                         std::span<const double> temperature, double time, double dt) {
     return solve(old, trial, {.time = time, .dt = dt, .temperature = temperature});
   }
 
@@ -205,10 +205,9 @@ class MechanicalPhase : private linear::NonlinearSystem {
   std::size_t n_residuals() const;
   /// The properties at another temperature of the iterate, after begin().
   void prepare(const MechanicalState& old, const MechanicalPass& pass);
-  /// Implements linear::NonlinearSystem: the norm of r against the reference is that of Newton's criterion.
-  double residual(std::span<const double> x, std::span<double> r) override;
-  /// At the x of the last residual().
-  linear::BlockMatrix& tangent() override;
+  /// As linear::NonlinearSystem has them.
+  double residual(std::span<const double> x, std::span<double> r);
+  linear::BlockMatrix& tangent(std::span<const double> x);
   /// Size of a step relative to the displacement since t_n: BodyBalance::relative_step, of the unknowns x and
   /// of the step d that has led to them.
   double relative_step(const MechanicalState& old, std::span<const double> x,
@@ -216,11 +215,14 @@ class MechanicalPhase : private linear::NonlinearSystem {
   /// The matrix of the tangent, with its fixed degrees of freedom and multi-point constraints.
   linear::BlockMatrix& matrix() { return *matrix_; }
   /// Passes the deformation at x to StructuralHeat and writes the history at x.
-  BlockWork finish(const MechanicalState& old, std::span<const double> x, std::vector<BlockHistory>& history);
+  /// @param stress   at the points at x, of the right size; null: not asked for
+  /// @param at_work  of every block; null: not asked for
+  BlockWork finish(const MechanicalState& old, std::span<const double> x, std::vector<BlockHistory>& history,
+                   std::vector<BlockHistory>* stress = nullptr, std::vector<StressAtWork>* at_work = nullptr);
   /// finish() at the solution; the state and the report that follow from it, the latter without that of
   /// Newton's iteration.
-  PhaseReport conclude(const MechanicalState& old, const MechanicalPass& pass, std::vector<double> x,
-                       MechanicalState& trial);
+  MechanicalReport conclude(const MechanicalState& old, const MechanicalPass& pass, std::vector<double> x,
+                            MechanicalState& trial);
   /// Throws StepRejected on all processes, with the place that says most.
   [[noreturn]] void reject(const std::string& reason, std::span<const double> x);
   /// The nodal pressure and the solver with its matrix, which are made anew with the conditions; null where
@@ -271,9 +273,6 @@ class MechanicalPhase : private linear::NonlinearSystem {
   }
   std::size_t n_unknowns() const;
   void set_in_motion(MechanicalState& state);
-  double relative_step(std::span<const double> x, std::span<const double> d) override {
-    return relative_step(*solved_from_, x, d);
-  }
   void add_residual_to_balance(std::span<const double> r);
   /// ‖r(x)‖ of the free unknowns: without prescribed ones, and with constraints summed.
   double unbalanced(std::span<const double> x);
@@ -284,8 +283,8 @@ class MechanicalPhase : private linear::NonlinearSystem {
   std::string flowing_body(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
   material::TimeStep time_step(const MechanicalState& old, double dt) const;
-  PhaseReport measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums,
-                      MechanicalState& next);
+  MechanicalReport measure(const MechanicalState& old, const MechanicalPass& pass, std::span<const double> x,
+                           const BlockWork& sums, MechanicalState& next);
 
   const mesh::Mesh& mesh_;
   AnalysisKind kind_;
@@ -309,22 +308,15 @@ class MechanicalPhase : private linear::NonlinearSystem {
   BodyBalance balance_;
   std::vector<double> initial_temperature_;
   NodalPhases nodal_phases_;
-  std::vector<BlockHistory> start_;               ///< z* of the two-step method, one per block
-  bool keeps_fields_ = false;                     ///< keep_fields() has been called
-  std::vector<BlockHistory> no_stress_;           ///< to keep it against
-  double round_off_ = 0;                          ///< residual that is rounding [N]
-  const MechanicalState* solved_from_ = nullptr;  ///< t_n of the solve that goes on
-  std::vector<double> x_;                         ///< unknowns of the last residual
-  std::vector<double> residual_;                  ///< there
-  bool residual_is_known_ = false;                ///< for the arguments of the last prepare()
-  std::vector<double> forces_;        ///< internal forces, [local node][component]; ghost rows are scrap
-  std::vector<double> external_;      ///< loads at t_{n+1}, [owned node][component]
-  std::vector<double> inertial_;      ///< J at the last residual, [owned node][component]; with inertia
-  std::vector<BlockHistory> stress_;  ///< of the last finish(), where the next step needs it
-  StressAtWork stress_at_work_ = StressAtWork::end;
-  struct {
-    std::vector<double> external, residual;
-  } kept_;  ///< of the stress at work, [owned node][component]
+  std::vector<BlockHistory> start_;  ///< z* of the two-step method, one per block
+  bool keeps_fields_ = false;        ///< keep_fields() has been called
+  double round_off_ = 0;             ///< residual that is rounding [N]
+  std::vector<double> x_;            ///< unknowns of the last residual
+  std::vector<double> residual_;     ///< there
+  bool residual_is_known_ = false;   ///< for the arguments of the last prepare()
+  std::vector<double> forces_;       ///< internal forces, [local node][component]; ghost rows are scrap
+  std::vector<double> external_;     ///< loads at t_{n+1}, [owned node][component]
+  std::vector<double> inertial_;     ///< J at the last residual, [owned node][component]; with inertia
   double seconds_assembly_ = 0, seconds_residual_ = 0;
   double seconds_before_ = 0;  ///< of solvers that others have replaced
 };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "numbers/simd.hpp"
+#include "numbers/tensor.hpp"
 
 namespace solidus::mechanics {
 
@@ -14,6 +15,19 @@ namespace solidus::mechanics {
 struct BlockHistory {
   int n_components = 0, n_points = 0;
   PackVector<Lane> values;
+};
+
+/// The stress of one mesh block whose product with a later increment is work.
+struct StressAtWork {
+  PackVector<Sym<Lane>> stress;  ///< [batch][point] [Pa]
+  // Of mixed elements: ζ div u̇ where melt flows, [batch], and p_a − p̄ where there is a hoop, [batch][node].
+  PackVector<Lane> compaction, variation;  ///< [Pa]
+};
+
+/// Forces in equilibrium whose product with a later increment is work.
+struct ForcesAtWork {
+  std::vector<StressAtWork> stress;        ///< one per block of the mesh
+  std::vector<double> external, residual;  ///< loads and what supports hold, [owned node][component] [N]
 };
 
 struct MechanicalState {

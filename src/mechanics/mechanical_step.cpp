@@ -23,6 +23,21 @@ namespace {
 /// Forces that a strain of this size would cause count as round-off: the criterion of a body without load.
 constexpr double k_round_off_strain = 1e-13;
 
+/// Equilibrium at the end of a step from `old`, for Newton's method.
+class Equilibrium final : public linear::NonlinearSystem {
+ public:
+  Equilibrium(MechanicalPhase& phase, const MechanicalState& old) : phase_(phase), old_(old) {}
+  double residual(std::span<const double> x, std::span<double> r) override { return phase_.residual(x, r); }
+  linear::BlockMatrix& tangent(std::span<const double> x) override { return phase_.tangent(x); }
+  double relative_step(std::span<const double> x, std::span<const double> d) override {
+    return phase_.relative_step(old_, x, d);
+  }
+
+ private:
+  MechanicalPhase& phase_;
+  const MechanicalState& old_;
+};
+
 }  // namespace
 
 /// The first step, and one that grows beyond the limit of stability of the two-step method, are backward
@@ -49,13 +64,6 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
     }
   }
   const bool remembers = inertia_ && inertia_->motion().remembers();
-  const bool keeps = pass.stores_stress && !remembers;
-  if (remembers) stress_ = old.stress;  // of the right size
-  if (keeps) {
-    no_stress_.clear();
-    for (const BlockHistory& history : old.history) no_stress_.push_back(no_stress(history));
-    stress_ = no_stress_;
-  }
   double stiffness = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     stiffness += blocks_[b]->prepare(
@@ -69,18 +77,14 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
          .start_history = extrapolates ? &start_[b] : &old.history[b],
          .dt = pass.dt,
          .effective_dt = step.dt,
-         .old_stress = remembers ? &old.stress[b]
-                       : keeps   ? &no_stress_[b]
-                                 : nullptr,
-         .new_stress = remembers || keeps ? &stress_[b] : nullptr,
+         .old_stress = remembers ? &old.stress[b] : nullptr,
          .stress_share = remembers ? inertia_->motion().work_share : 1,
-         .work = pass.work,
+         .at_work = pass.at_work != nullptr ? &pass.at_work->stress[b] : nullptr,
          .phases = nodal_phases_.evaluate(
              b, pass.phase_temperature.empty() ? pass.temperature : pass.phase_temperature,
              pass.plateau_share),
          .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
   if (pressure_) pressure_->begin();
-  stress_at_work_ = pass.work;
   residual_is_known_ = false;
   round_off_ = k_round_off_strain * std::sqrt(parallel::global_sum(stiffness));
   if (inertia_) round_off_ += inertia_->round_off();
@@ -147,7 +151,7 @@ double MechanicalPhase::relative_step(const MechanicalState& old, std::span<cons
   return balance_.relative_step(d.first(increment.size()), increment);
 }
 
-linear::BlockMatrix& MechanicalPhase::tangent() {
+linear::BlockMatrix& MechanicalPhase::tangent(std::span<const double> x) {
   const Stopwatch watch(seconds_assembly_);
   const profile::Part part("assembly");
   if (linear::graph_outdated(contributions_)) {
@@ -156,7 +160,7 @@ linear::BlockMatrix& MechanicalPhase::tangent() {
     bind();
   }
   matrix_->set_zero();
-  const std::span<const double> u = std::span<const double>(x_).first(n_displacements());
+  const std::span<const double> u = x.first(n_displacements());
   for (const auto& block : blocks_) block->add_tangent(u, *matrix_);
   if (inertia_) inertia_->add_tangent(*matrix_);
   {
@@ -167,23 +171,23 @@ linear::BlockMatrix& MechanicalPhase::tangent() {
   return *matrix_;
 }
 
-PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& trial,
-                                   const MechanicalPass& pass) {
+MechanicalReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& trial,
+                                        const MechanicalPass& pass) {
   begin(old, pass);
-  solved_from_ = &old;
+  Equilibrium equilibrium(*this, old);
   linear::NewtonOptions newton_options = options_.newton;
   newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
   if (pass.newton_steps > 0) newton_options.max_iterations = pass.newton_steps;
   if (pressure_ && pass.iterate == nullptr && pass.start.empty()) pressure_->release_pores();
   std::vector<double> x = start(old, pass);
   const bool guessed = try_guess(pass, x);
-  PhaseReport report;
-  report.newton = linear::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
+  MechanicalReport report;
+  report.newton = linear::newton(equilibrium, *solver_, ghosts_, fields_, x, newton_options);
   if (guessed && !report.newton.converged) {
     // A guess may lift a body off its support, which leaves a singular tangent.
     const linear::NewtonReport from_guess = std::move(report.newton);
     x = start(old, pass);
-    report.newton = linear::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
+    report.newton = linear::newton(equilibrium, *solver_, ghosts_, fields_, x, newton_options);
     report.newton.iterations += from_guess.iterations;
     report.newton.linear_iterations += from_guess.linear_iterations;
   }
@@ -192,13 +196,13 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
        ++turn) {
     const linear::NewtonReport before = std::move(report.newton);
     residual_is_known_ = false;
-    report.newton = linear::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
+    report.newton = linear::newton(equilibrium, *solver_, ghosts_, fields_, x, newton_options);
     report.newton.iterations += before.iterations;
     report.newton.linear_iterations += before.linear_iterations;
   }
   const bool may_end = pass.newton_steps > 0 && report.newton.out_of_iterations;
   if (!report.newton.converged && !may_end) reject(report.newton.reason, x);
-  PhaseReport concluded = conclude(old, pass, std::move(x), trial);
+  MechanicalReport concluded = conclude(old, pass, std::move(x), trial);
   concluded.newton = std::move(report.newton);
   return concluded;
 }
@@ -309,11 +313,13 @@ FlowChange MechanicalPhase::restart_flow(const MechanicalState& old, const Mecha
 }
 
 BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,
-                                  std::vector<BlockHistory>& history) {
+                                  std::vector<BlockHistory>& history, std::vector<BlockHistory>* stress,
+                                  std::vector<StressAtWork>* at_work) {
   const profile::Part part("history");
   const std::span<const double> u = x.first(n_displacements());
   BlockWork total;
   history.resize(blocks_.size());
+  if (at_work != nullptr) at_work->resize(blocks_.size());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     history[b].n_components = old.history[b].n_components;
     history[b].n_points = old.history[b].n_points;
@@ -321,21 +327,31 @@ BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const do
       history[b].values.resize(old.history[b].values.size());
     else  // of the layout that a checkpoint knows
       history[b].values.assign(old.history[b].values.size(), Lane(0.0));
-    total += blocks_[b]->finish(old.displacement, u, history[b]);
+    total += blocks_[b]->finish(old.displacement, u,
+                                {.history = history[b],
+                                 .stress = stress != nullptr ? &(*stress)[b] : nullptr,
+                                 .at_work = at_work != nullptr ? &(*at_work)[b] : nullptr});
   }
   return total;
 }
 
-PhaseReport MechanicalPhase::conclude(const MechanicalState& old, const MechanicalPass& pass,
-                                      std::vector<double> x, MechanicalState& trial) {
+MechanicalReport MechanicalPhase::conclude(const MechanicalState& old, const MechanicalPass& pass,
+                                           std::vector<double> x, MechanicalState& trial) {
   MechanicalState next;
   // Most of a state is its history: the storage of the one that is overwritten serves again.
   if (&trial != &old) next.history = std::move(trial.history);
-  const BlockWork total = finish(old, x, next.history);
-  PhaseReport report = measure(old, x, total, next);
+  const bool remembers = inertia_ && inertia_->motion().remembers();
+  if (remembers)
+    next.stress = old.stress;  // of the right size
+  else if (pass.stores_stress)
+    for (const BlockHistory& history : old.history) next.stress.push_back(no_stress(history));
+  std::vector<StressAtWork> at_work;
+  const BlockWork total = finish(old, x, next.history, next.stress.empty() ? nullptr : &next.stress,
+                                 pass.returns_at_work ? &at_work : nullptr);
+  MechanicalReport report = measure(old, pass, x, total, next);
+  report.at_work.stress = std::move(at_work);
   x.resize(n_displacements());
   next.displacement = std::move(x);
-  next.stress = std::move(stress_);
   // If the last body with a pressure has been removed, the old values are kept, because checkpoints have room
   // for them.
   next.pressure = pressure_ ? pressure_->pressure() : old.pressure;
@@ -348,15 +364,16 @@ PhaseReport MechanicalPhase::conclude(const MechanicalState& old, const Mechanic
 }
 
 /// Forces, works and energies at the solution; with inertia also the motion of the next state.
-PhaseReport MechanicalPhase::measure(const MechanicalState& old, std::span<const double> x,
-                                     const BlockWork& sums, MechanicalState& next) {
+MechanicalReport MechanicalPhase::measure(const MechanicalState& old, const MechanicalPass& pass,
+                                          std::span<const double> x, const BlockWork& sums,
+                                          MechanicalState& next) {
   // The residual at the solution: internal + contributions + inertia − loads, the support force where fixed.
   // Newton's iteration ends with it.
   std::vector<double> r(n_residuals());
   residual(x, r);
   r.resize(n_forces());
   x = x.first(n_displacements());
-  PhaseReport report;
+  MechanicalReport report;
   report.reactions.resize(r.size());
   report.applied.resize(r.size());
   for (std::size_t i = 0; i < r.size(); ++i) report.applied[i] = forces_[i] - r[i];
@@ -370,12 +387,14 @@ PhaseReport MechanicalPhase::measure(const MechanicalState& old, std::span<const
                       0,
                       sums.stabilisation_work,
                       sums.inelastic_entropy};
-  if (stress_at_work_ != StressAtWork::kept) kept_ = {external_, r};
+  if (pass.returns_at_work) report.at_work = {{}, external_, r};
+  const std::span<const double> external = pass.at_work != nullptr ? pass.at_work->external : external_;
+  const std::span<const double> support = pass.at_work != nullptr ? pass.at_work->residual : r;
   for (std::size_t i = 0; i < r.size(); ++i) {
     const double increment = x[i] - old.displacement[i];
     report.reactions[i] = loads_->fixed()[i] ? r[i] : 0.0;
-    local[0] += kept_.external[i] * increment;
-    local[loads_->fixed()[i] ? 1 : 2] += kept_.residual[i] * increment;
+    local[0] += external[i] * increment;
+    local[loads_->fixed()[i] ? 1 : 2] += support[i] * increment;
   }
   if (inertia_) {
     for (std::size_t i = 0; i < r.size(); ++i) r[i] -= inertial_[i];

@@ -13,7 +13,7 @@ namespace {
 /// Extent of a body along a unit vector [m]. Collective.
 double extent_along(const mesh::Mesh& mesh, int body, const std::array<double, 3>& direction) {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.body != body) continue;
     for (const Index node : block.nodes) {
       const mesh::Point& x = mesh.x[static_cast<std::size_t>(node)];

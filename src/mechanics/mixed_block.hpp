@@ -37,7 +37,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   using typename Base::Operator, typename Base::Vectors;
   using typename Nodes::Nodal;
 
-  MixedBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material,
+  MixedBlock(const mesh::Mesh& mesh, const mesh::ElementBlock& block, const material::Material& material,
              Stabilisation stabilisation)
       : Base(mesh, block, material),
         Nodes(mesh, block, Base::geometry_, material, stabilisation),
@@ -142,7 +142,9 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     }
   }
 
-  BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) override {
+  BlockWork finish(std::span<const double> old_u, std::span<const double> u, const BlockEnd& end) override {
+    this->begin_finish(end);
+    BlockHistory& trial = end.history;
     typename Base::Tally tally;
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Operator b = at_point(batch);
@@ -153,7 +155,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const MixedPoint point = answer(batch, gradient, mean_pressure);
       typename Base::Average average;
       const Sym<Lane> at_work = this->record(batch, 0, strain(old_gradient, old_volume), point.strain,
-                                             point.response, trial, average, tally);
+                                             point.response, end, average, tally);
       keep_volume(trial, batch, point.volume);
       trial.values[at(batch) * n_kept_ + n_state_ + 1] = pores_.finish(batch, mean_pressure);
       keep_flow(trial, batch);
@@ -161,9 +163,9 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       // and the flow of melt; that of compaction by its viscosity.
       const Nodal now = this->volume_change(b, batch, displacement),
                   before = this->volume_change(b, batch, old_displacement);
-      const Nodal variation = variation_at_work(batch, trial);
+      const Nodal variation = variation_at_work(batch, end);
       const Lane pressure = Lane(1.0 / 3.0) * trace(at_work);
-      const Lane compacting = compaction_at_work(batch, trace(gradient), trial);
+      const Lane compacting = compaction_at_work(batch, trace(gradient), end);
       Lane left_over = weight(batch) * (pressure * (old_volume - point.volume) +
                                         compacting * (trace(gradient) - old_divergence_[at(batch)]));
       for (std::size_t a = 0; a < n_nodes; ++a) left_over += (pressure + variation[a]) * (now[a] - before[a]);
@@ -246,10 +248,9 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   std::size_t bytes() const override {
     return Base::bytes() + this->bytes_of_nodes() +
            (volume_.capacity() + old_volume_.capacity() + old_divergence_.capacity() +
-            compaction_.capacity() + kept_compaction_.capacity()) *
+            compaction_.capacity()) *
                sizeof(Lane) +
-           tangent_.capacity() * sizeof(VolumeTangent) + pores_.bytes() +
-           kept_variation_.capacity() * sizeof(Nodal);
+           tangent_.capacity() * sizeof(VolumeTangent) + pores_.bytes();
   }
 
   void add_augmentation(double factor, std::span<const double> stiffness,
@@ -394,39 +395,41 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     }
   }
 
-  /// The mean stress of compaction whose work the step does; leaves that of its end for the next one.
-  Lane compaction_at_work(Index batch, const Lane& divergence, BlockHistory& trial) {
+  /// The mean stress of compaction whose work the step does; writes that of its end for the next one.
+  Lane compaction_at_work(Index batch, const Lane& divergence, const BlockEnd& end) const {
     if (!this->flow_.flows()) return Lane(0.0);
     const std::size_t place = flow_place(batch) + dim;
-    Lane stress = trial.values[place] = compaction_stress(batch, divergence);
-    if (this->new_stress_ != nullptr)
+    Lane stress = end.history.values[place] = compaction_stress(batch, divergence);
+    if (this->old_stress_ != nullptr)
       stress = Lane(this->stress_share_) * stress +
                Lane(1.0 - this->stress_share_) * this->old_history_->values[place];
-    if (this->work_ == StressAtWork::end) return stress;
-    kept_compaction_.resize(volume_.size());
-    Lane& kept = kept_compaction_[at(batch)];
-    if (this->work_ == StressAtWork::end_kept) kept = stress;
-    return kept;
+    if (end.at_work != nullptr) {
+      end.at_work->compaction.resize(volume_.size());
+      end.at_work->compaction[at(batch)] = stress;
+    }
+    return this->at_work_ != nullptr ? this->at_work_->compaction[at(batch)] : stress;
   }
-  /// p_a − p̄ of the stress whose work the step does; leaves that of its end for the next one. Without a hoop
+  /// p_a − p̄ of the stress whose work the step does; writes that of its end for the next one. Without a hoop
   /// it does no work.
-  Nodal variation_at_work(Index batch, BlockHistory& trial) {
+  Nodal variation_at_work(Index batch, const BlockEnd& end) const {
     Nodal variation{};
     if constexpr (Nodes::hoop) {
       const Nodal p = this->gather_pressure(this->field_.pressure, batch);
       const Lane middle = mean(p, batch);
       for (std::size_t a = 0; a < n_nodes; ++a) {
         const std::size_t place = at(batch) * n_kept_ + n_state_ + 2 + a;
-        variation[a] = trial.values[place] = p[a] - middle;
-        if (this->new_stress_ != nullptr)
+        variation[a] = end.history.values[place] = p[a] - middle;
+        if (this->old_stress_ != nullptr)
           variation[a] = Lane(this->stress_share_) * variation[a] +
                          Lane(1.0 - this->stress_share_) * this->old_history_->values[place];
       }
-      if (this->work_ == StressAtWork::end) return variation;
-      kept_variation_.resize(volume_.size());
-      Nodal& kept = kept_variation_[at(batch)];
-      if (this->work_ == StressAtWork::end_kept) kept = variation;
-      return kept;
+      const std::size_t first = at(batch) * n_nodes;
+      if (end.at_work != nullptr) {
+        end.at_work->variation.resize(volume_.size() * n_nodes);
+        for (std::size_t a = 0; a < n_nodes; ++a) end.at_work->variation[first + a] = variation[a];
+      }
+      if (this->at_work_ != nullptr)
+        for (std::size_t a = 0; a < n_nodes; ++a) variation[a] = this->at_work_->variation[first + a];
     }
     return variation;
   }
@@ -437,8 +440,6 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   PackVector<Lane> compaction_;      ///< [batch]; empty where no melt flows
   Pores pores_;
   PackVector<VolumeTangent> tangent_;  ///< of the last add_tangent(), adiabatic laws only
-  PackVector<Lane> kept_compaction_;   ///< [batch] [Pa]; empty where it is not requested
-  PackVector<Nodal> kept_variation_;   ///< [batch] [Pa]; empty where it is not requested
 };
 
 }  // namespace solidus::mechanics

@@ -91,7 +91,7 @@ class MixedKernel {
 };
 
 /// Throws std::invalid_argument where the kind has no such maker.
-std::unique_ptr<BlockKernel> make_mixed_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<BlockKernel> make_mixed_kernel(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                                AnalysisKind kind, const material::Material& material,
                                                Mapping mapping, Stabilisation stabilisation);
 

@@ -7,7 +7,7 @@
 namespace solidus::mechanics {
 
 template <AnalysisKind kind>
-std::unique_ptr<BlockKernel> make_mixed_block(const mesh::Mesh& mesh, const mesh::Block& block,
+std::unique_ptr<BlockKernel> make_mixed_block(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                               const material::Material& material, Mapping mapping,
                                               Stabilisation stabilisation) {
   constexpr mesh::ShapeRow row = mixed_row(kind);

@@ -7,7 +7,7 @@ namespace solidus::mechanics {
 
 std::vector<char> nodes_of_bodies(const mesh::Mesh& mesh, const std::vector<char>& bodies) {
   std::vector<char> marked(mesh.x.size(), 0);
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::ElementBlock& block : mesh.blocks)
     if (bodies[static_cast<std::size_t>(block.body)] != 0)
       for (const Index node : block.nodes) marked[static_cast<std::size_t>(node)] = 1;
   return marked;
@@ -33,7 +33,7 @@ void renew_history(const MechanicalPhase& phase, const std::vector<char>& bodies
 }
 
 void spread_heat_as_stored(const MechanicalPhase& phase, bool closed) {
-  const std::vector<mesh::Block>& blocks = phase.mesh().blocks;
+  const std::vector<mesh::ElementBlock>& blocks = phase.mesh().blocks;
   for (std::size_t b = 0; b < blocks.size(); ++b)
     phase.blocks()[b]->spread_heat_as_stored(
         closed || phase.material(blocks[b].body).changes_isothermally()

@@ -21,10 +21,10 @@ std::vector<char> mixed_blocks(std::span<const std::unique_ptr<BlockKernel>> blo
   return mixed;
 }
 
-std::vector<const mesh::Block*> blocks_with_pressure(const mesh::Mesh& mesh,
-                                                     std::span<const std::unique_ptr<BlockKernel>> blocks) {
+std::vector<const mesh::ElementBlock*> blocks_with_pressure(
+    const mesh::Mesh& mesh, std::span<const std::unique_ptr<BlockKernel>> blocks) {
   const std::vector<char> mixed = mixed_blocks(blocks);
-  std::vector<const mesh::Block*> result;
+  std::vector<const mesh::ElementBlock*> result;
   for (std::size_t b = 0; b < mixed.size(); ++b)
     if (mixed[b]) result.push_back(&mesh.blocks[b]);
   return result;
@@ -97,7 +97,8 @@ NodalPressure::NodalPressure(const mesh::Mesh& mesh, PressureFields fields_of_bo
 
 linear::NodeGraph NodalPressure::graph() const {
   linear::NodeGraph graph(mesh_);
-  for (const mesh::Block* block : blocks_) graph.add_cliques(block->nodes, mesh::node_count(block->shape));
+  for (const mesh::ElementBlock* block : blocks_)
+    graph.add_cliques(block->nodes, mesh::node_count(block->shape));
   return graph;
 }
 

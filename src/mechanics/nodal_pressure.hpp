@@ -88,7 +88,7 @@ class NodalPressure {
   bool orthogonal_;
   parallel::GhostExchange ghosts_;
   PressureFields fields_of_body_;
-  std::vector<const mesh::Block*> blocks_;  ///< of the kernels
+  std::vector<const mesh::ElementBlock*> blocks_;  ///< of the kernels
   std::vector<MixedKernel*> kernels_;
   std::vector<char> absent_;
   double unit_ = 1;

@@ -21,7 +21,7 @@ class PointBlock : public PointRestart<Law, n_nodes, kind, b_bar, n_extra> {
   using typename Base::Operator, typename Base::Properties, typename Base::Response, typename Base::Vectors;
   using Matrix = ElementMatrix<n_nodes, Operator::dim>;
 
-  PointBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material)
+  PointBlock(const mesh::Mesh& mesh, const mesh::ElementBlock& block, const material::Material& material)
       : Base(mesh, block, material), block_(block) {}
 
   std::size_t bytes() const override { return Base::bytes() + directions_.bytes(); }
@@ -137,7 +137,7 @@ class PointBlock : public PointRestart<Law, n_nodes, kind, b_bar, n_extra> {
     return s;
   }
 
-  const mesh::Block& block_;
+  const mesh::ElementBlock& block_;
   FlowDirections directions_;  ///< of the tangents since begin_step()
   /// Whether they are unknowns of their own: false for the consistent tangent.
   bool follows_directions_ = true;

@@ -6,20 +6,20 @@
 #include <cstring>
 #include <optional>
 
-#include "mechanics/point_state.hpp"
+#include "mechanics/law_history.hpp"
 
 namespace solidus::mechanics {
 
 template <class Law, int n_nodes, AnalysisKind kind, bool b_bar, int n_extra = 0>
-class PointRecord : public PointState<Law, n_nodes, kind, b_bar, n_extra> {
-  using Base = PointState<Law, n_nodes, kind, b_bar, n_extra>;
+class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
+  using Base = LawHistory<Law, n_nodes, kind, b_bar, n_extra>;
 
  public:
   using typename Base::Lanes, typename Base::Properties, typename Base::Response, typename Base::State;
   using Values = decltype(values_of(std::declval<Law>(), std::declval<Properties>(), std::declval<Response>(),
                                     Sym<Lane>{}));
 
-  PointRecord(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material)
+  PointRecord(const mesh::Mesh& mesh, const mesh::ElementBlock& block, const material::Material& material)
       : Base(mesh, block, material), averages_(static_cast<std::size_t>(Base::geometry_.n_batches)) {}
 
   void get_field(ElementField which, std::span<double> out) const override {
@@ -40,8 +40,7 @@ class PointRecord : public PointState<Law, n_nodes, kind, b_bar, n_extra> {
   }
 
   std::size_t bytes() const override {
-    return Base::bytes() + averages_.bytes() + (kept_averages_ ? kept_averages_->bytes() : 0) +
-           kept_stress_.capacity() * sizeof(Sym<Lane>);
+    return Base::bytes() + averages_.bytes() + (kept_averages_ ? kept_averages_->bytes() : 0);
   }
 
  protected:
@@ -64,16 +63,19 @@ class PointRecord : public PointState<Law, n_nodes, kind, b_bar, n_extra> {
   void begin_step(const StepStart& start) {
     Base::begin_step(start);
     old_stress_ = start.old_stress;
-    new_stress_ = start.new_stress;
     stress_share_ = start.stress_share;
-    work_ = start.work;
+    at_work_ = start.at_work;
+  }
+  void begin_finish(const BlockEnd& end) const {
+    if (end.at_work != nullptr) end.at_work->stress.resize(properties_.size());
   }
 
   /// Keeps the answer of a point at the end of a step: history, values for results, what the thermal phase
   /// needs; strains are those that the law has seen.
   /// @return the stress whose work the step does
   Sym<Lane> record(Index batch, int q, const Sym<Lane>& old_strain, const Sym<Lane>& strain,
-                   const Response& response, BlockHistory& trial, Average& average, Tally& tally) {
+                   const Response& response, const BlockEnd& end, Average& average, Tally& tally) {
+    BlockHistory& trial = end.history;
     const Lane w = geometry_.weight_at(batch, q), share = counted(batch) * w;
     const Properties p = properties_[index(batch, q)];
     Lane* to = trial.values.data() + index(batch, q) * n_kept_;
@@ -86,7 +88,12 @@ class PointRecord : public PointState<Law, n_nodes, kind, b_bar, n_extra> {
     average.volume += w;
     add_weighted(average.sums, w, values_of(law_, p, response, strain));
 
-    const Sym<Lane> at_work = stress_at_work(batch, q, mean_stress(batch, q, response.stress));
+    if (end.stress != nullptr)
+      std::memcpy(static_cast<void*>(end.stress->values.data() + index(batch, q) * k_stress_lanes),
+                  &response.stress, sizeof response.stress);
+    Sym<Lane> at_work = mean_stress(batch, q, response.stress);
+    if (end.at_work != nullptr) end.at_work->stress[index(batch, q)] = at_work;
+    if (at_work_ != nullptr) at_work = at_work_->stress[index(batch, q)];
     const Lane work = dot(at_work, strain - old_strain);
     if (points_.kept()) {
       const LaneMask solid = elastic_part(law_, p).solid_fraction >= Lane(1.0);
@@ -138,14 +145,12 @@ class PointRecord : public PointState<Law, n_nodes, kind, b_bar, n_extra> {
     return work;
   }
 
-  /// The mean of the stresses at both ends of a dynamic step; leaves that of its end for the next one.
+  /// The mean of the stresses at both ends of a dynamic step.
   Sym<Lane> mean_stress(Index batch, int point, const Sym<Lane>& stress) const {
-    if (new_stress_ == nullptr) return stress;
-    constexpr std::size_t n = sizeof(Sym<Lane>) / sizeof(Lane);
+    if (old_stress_ == nullptr) return stress;
     Sym<Lane> old;
-    std::memcpy(static_cast<void*>(&old), old_stress_->values.data() + index(batch, point) * n, sizeof old);
-    std::memcpy(static_cast<void*>(new_stress_->values.data() + index(batch, point) * n), &stress,
-                sizeof stress);
+    std::memcpy(static_cast<void*>(&old), old_stress_->values.data() + index(batch, point) * k_stress_lanes,
+                sizeof old);
     return Lane(stress_share_) * stress + Lane(1.0 - stress_share_) * old;
   }
 
@@ -160,26 +165,17 @@ class PointRecord : public PointState<Law, n_nodes, kind, b_bar, n_extra> {
             cold_work(state) - cold_work(old)};
   }
 
-  double stress_share_ = 1;  ///< of the end of the step in the stress at work
-  BlockHistory* new_stress_ = nullptr;
-  StressAtWork work_ = StressAtWork::end;
+  double stress_share_ = 1;                   ///< of the end of the step in the stress at work
+  const BlockHistory* old_stress_ = nullptr;  ///< as in StepStart
+  const StressAtWork* at_work_ = nullptr;     ///< as in StepStart
 
  private:
-  /// The stress whose work the step does; keeps the one of its end where that is asked for.
-  const Sym<Lane>& stress_at_work(Index batch, int point, const Sym<Lane>& stress) {
-    if (work_ == StressAtWork::end) return stress;
-    kept_stress_.resize(properties_.size());
-    Sym<Lane>& kept = kept_stress_[index(batch, point)];
-    if (work_ == StressAtWork::end_kept) kept = stress;
-    return kept;
-  }
+  static constexpr std::size_t k_stress_lanes = sizeof(Sym<Lane>) / sizeof(Lane);
 
   CommonPacks<Values> averages_;  ///< [batch], of the last finish()
   /// Those that are kept, from the next finish() until the one after it is committed.
   std::optional<CommonPacks<Values>> kept_averages_;
   bool keeps_averages_ = false;  ///< the next finish() sets them aside
-  const BlockHistory* old_stress_ = nullptr;
-  PackVector<Sym<Lane>> kept_stress_;  ///< [batch][point] [Pa]; empty where it is not requested
 };
 
 }  // namespace solidus::mechanics

@@ -26,7 +26,7 @@ class PressureNodes : public MixedKernel {
   static_assert(n_nodes == static_cast<int>(dim) + 1, "a linear simplex");
 
   /// @param geometry  of the block, with one point; must outlive this object
-  PressureNodes(const mesh::Mesh& mesh, const mesh::Block& block, const mesh::BlockGeometry& geometry,
+  PressureNodes(const mesh::Mesh& mesh, const mesh::ElementBlock& block, const mesh::BlockGeometry& geometry,
                 const material::Material& material, Stabilisation stabilisation)
       : orthogonal_(stabilisation == Stabilisation::orthogonal),
         flow_(material, geometry.n_batches),

@@ -15,7 +15,7 @@ bool nearly_incompressible(const material::Material& material) {
          external_law(material) != nullptr || material.poisson_ratio.max_value() > k_incompressible;
 }
 
-bool is_mixed(const mesh::Block& block, const material::Material& material, Simplices simplices) {
+bool is_mixed(const mesh::ElementBlock& block, const material::Material& material, Simplices simplices) {
   if (!mesh::row_of(block.shape).mixed) return false;
   return simplices == Simplices::mixed ||
          (simplices == Simplices::automatic && nearly_incompressible(material));

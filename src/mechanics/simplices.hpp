@@ -22,6 +22,6 @@ enum class Stabilisation {
 bool nearly_incompressible(const material::Material& material);
 
 /// Whether the elements of a block are mixed: linear simplices alone ever are.
-bool is_mixed(const mesh::Block& block, const material::Material& material, Simplices simplices);
+bool is_mixed(const mesh::ElementBlock& block, const material::Material& material, Simplices simplices);
 
 }  // namespace solidus::mechanics

@@ -29,7 +29,7 @@ void StructuralHeat::add_tangent(std::span<const double> temperature, linear::Bl
   }
 }
 
-void StructuralHeat::begin_stage(const linear::Stage& stage, std::span<const double> temperature) {
+void StructuralHeat::begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> temperature) {
   for (const auto& block : phase_.blocks()) block->begin_heat_stage(stage, temperature);
 }
 

@@ -64,7 +64,7 @@ class StructuralHeat : public linear::Contribution {
   void add_residual(std::span<const double> temperature, std::span<double> r) override;
   void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) override;
   bool stores() const override { return true; }
-  void begin_stage(const linear::Stage& stage, std::span<const double> temperature) override;
+  void begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> temperature) override;
   /// The tangent is another's affair: the simultaneous scheme has the exact one (coupled_kernel.hpp).
   void leave_tangent() { has_tangent_ = false; }
   StructuralForm form() const { return form_; }

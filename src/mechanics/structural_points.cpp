@@ -128,7 +128,8 @@ void StructuralPoints::hold_deformation(Index batch, int point, const Deformatio
   set_old(batch, point, deformation, base);
 }
 
-void StructuralPoints::begin_stage(const linear::Stage& stage, std::span<const double> temperature) {
+void StructuralPoints::begin_stage(const linear::RungeKuttaStage& stage,
+                                   std::span<const double> temperature) {
   stage_ = stage;
   if (stage.carried == 0) {
     carried_.clear();

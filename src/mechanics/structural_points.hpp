@@ -78,7 +78,7 @@ class StructuralPoints {
     of_mechanics_[index(batch, point)] = deformation;
   }
   /// StructuralHeat::begin_stage.
-  void begin_stage(const linear::Stage& stage, std::span<const double> temperature);
+  void begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> temperature);
   /// Heat of the points is spread over the nodes by the basis functions; its mean over an element by these
   /// weights, with which the thermal phase stores heat: [batch][node] [m³]. So uniform heating warms every
   /// node of an element alike whatever the shape and rule.
@@ -151,7 +151,7 @@ class StructuralPoints {
   /// Point::now of the mechanical phase, where the thermal phase maps the flow anew; else empty.
   PackVector<Deformation> of_mechanics_;
   PackVector<Lane> correction_;  ///< share of a node less that of the points, [batch][node]; empty: none
-  linear::Stage stage_;
+  linear::RungeKuttaStage stage_;
   struct Start {
     Lane entropy, energy;
   };

@@ -83,7 +83,7 @@ Index element_of(Index batch, int lane, Index n_elements) {
 
 }  // namespace
 
-BlockGeometry::BlockGeometry(const Mesh& mesh, const Block& block, AnalysisKind kind, const Rule& rule)
+BlockGeometry::BlockGeometry(const Mesh& mesh, const ElementBlock& block, AnalysisKind kind, const Rule& rule)
     : shape(block.shape),
       n_nodes(node_count(block.shape)),
       dim(dimension(block.shape)),
@@ -192,15 +192,15 @@ Rule weighting_rule(Shape shape, bool squared) {
 // ∫ f(N_a) dV and ∫ dV of every element. Gradients are of no interest here, so the geometry is made for a few
 // batches at a time.
 template <class Function>
-void integrate_basis(const Mesh& mesh, const Block& block, AnalysisKind kind, const Rule& rule, Function f,
-                     PackVector<Lane>& integral, PackVector<Lane>& volume) {
+void integrate_basis(const Mesh& mesh, const ElementBlock& block, AnalysisKind kind, const Rule& rule,
+                     Function f, PackVector<Lane>& integral, PackVector<Lane>& volume) {
   constexpr Index k_chunk = 64 * k_lanes;
   const auto nn = static_cast<std::size_t>(node_count(block.shape));
   integral.assign(static_cast<std::size_t>(batches(block.size())) * nn, Lane(0.0));
   volume.assign(static_cast<std::size_t>(batches(block.size())), Lane(0.0));
   for (Index first = 0; first < block.size(); first += k_chunk) {
     const Index n = std::min(k_chunk, block.size() - first);
-    Block part;
+    ElementBlock part;
     part.shape = block.shape;
     part.nodes.assign(block.element(first), block.element(first) + n * node_count(block.shape));
     const BlockGeometry geometry(mesh, part, kind, rule);
@@ -217,14 +217,14 @@ void integrate_basis(const Mesh& mesh, const Block& block, AnalysisKind kind, co
 
 }  // namespace
 
-PackVector<Lane> basis_integrals(const Mesh& mesh, const Block& block, AnalysisKind kind) {
+PackVector<Lane> basis_integrals(const Mesh& mesh, const ElementBlock& block, AnalysisKind kind) {
   PackVector<Lane> integral, volume;
   integrate_basis(
       mesh, block, kind, weighting_rule(block.shape, false), [](double n) { return n; }, integral, volume);
   return integral;
 }
 
-PackVector<Lane> nodal_weights(const Mesh& mesh, const Block& block, AnalysisKind kind) {
+PackVector<Lane> nodal_weights(const Mesh& mesh, const ElementBlock& block, AnalysisKind kind) {
   if (order(block.shape) == 1) return basis_integrals(mesh, block, kind);
   PackVector<Lane> weights, volume;
   integrate_basis(
@@ -240,7 +240,7 @@ PackVector<Lane> nodal_weights(const Mesh& mesh, const Block& block, AnalysisKin
   return weights;
 }
 
-FaceGeometry::FaceGeometry(const Mesh& mesh, const Block& faces, AnalysisKind kind, const Rule& rule)
+FaceGeometry::FaceGeometry(const Mesh& mesh, const ElementBlock& faces, AnalysisKind kind, const Rule& rule)
     : n_nodes(node_count(faces.shape)),
       n_points(static_cast<int>(rule.size())),
       n_faces(faces.size()),

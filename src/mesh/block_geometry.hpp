@@ -16,7 +16,7 @@ namespace solidus::mesh {
 /// Gradients, weights and node numbers of a block at the points of a rule. The last batch is padded with
 /// copies of the last element whose weights are zero. Keeps a reference to the mesh.
 struct BlockGeometry {
-  BlockGeometry(const Mesh& mesh, const Block& block, AnalysisKind kind, const Rule& rule);
+  BlockGeometry(const Mesh& mesh, const ElementBlock& block, AnalysisKind kind, const Rule& rule);
 
   Shape shape;
   int n_nodes = 0, dim = 0, n_points = 0;
@@ -59,14 +59,14 @@ struct BlockGeometry {
 /// The nodal weights of the closed rule, ∫ N_a dV > 0 for linear shapes; for quadratic shapes diagonal
 /// scaling V ∫N_a² dV / Σ_b ∫N_b² dV (Hinton, Rock, Zienkiewicz 1976), which is positive too: [batch][node]
 /// [m³].
-PackVector<Lane> nodal_weights(const Mesh& mesh, const Block& block, AnalysisKind kind);
+PackVector<Lane> nodal_weights(const Mesh& mesh, const ElementBlock& block, AnalysisKind kind);
 
 /// ∫ N_a dV of every element, which the nodal weights are for linear shapes: [batch][node] [m³].
-PackVector<Lane> basis_integrals(const Mesh& mesh, const Block& block, AnalysisKind kind);
+PackVector<Lane> basis_integrals(const Mesh& mesh, const ElementBlock& block, AnalysisKind kind);
 
 /// Boundary faces: values of N and surface weights (area × 2π r | 1) and outward unit normals, face by face.
 struct FaceGeometry {
-  FaceGeometry(const Mesh& mesh, const Block& faces, AnalysisKind kind, const Rule& rule);
+  FaceGeometry(const Mesh& mesh, const ElementBlock& faces, AnalysisKind kind, const Rule& rule);
   int n_nodes = 0, n_points = 0;
   Index n_faces = 0, n_counted = 0;
   std::vector<double> values;  ///< [point][node]

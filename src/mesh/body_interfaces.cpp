@@ -174,7 +174,7 @@ std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& b
       std::vector<SkinFace> others;
       for (const std::size_t f : candidates(partner_of[at(pair[1 - s])], pair[s]))
         others.push_back(skins[at(pair[1 - s])][f]);
-      const FaceSearch search(others, distance);
+      const SkinSearch search(others, distance);
       for (const std::size_t f : candidates(partner_of[at(pair[s])], pair[1 - s])) {
         const std::vector<Point> points = sample_points(own[f]);
         const double share = own[f].area / static_cast<double>(points.size());

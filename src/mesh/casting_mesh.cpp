@@ -42,15 +42,16 @@ class Mesher {
       : source_(source), geometry_(geometry), way_(way), parts_(make_parts(source, geometry, way.healing)) {}
 
   void make_groups() {
-    for (const Part& part : parts_) {
+    for (const GeometryBody& part : parts_) {
       std::vector<int> tags;
       for (const auto& volume : part.volumes) tags.push_back(volume.second);
       gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, tags), part.name);
     }
     for (const BodySize& s : geometry_.sizes)
-      if (std::none_of(parts_.begin(), parts_.end(), [&](const Part& p) { return p.name == s.body; })) {
+      if (std::none_of(parts_.begin(), parts_.end(),
+                       [&](const GeometryBody& p) { return p.name == s.body; })) {
         std::vector<std::string> names;
-        for (const Part& part : parts_) names.push_back(part.name);
+        for (const GeometryBody& part : parts_) names.push_back(part.name);
         refuse("[[mesh.size]] is of the body '" + s.body + "', which the geometry does not have",
                one_of(names, s.body));
       }
@@ -102,7 +103,7 @@ class Mesher {
     } catch (const std::string& complaint) {
       refuse("Gmsh could not mesh the geometry: " + complaint + place_of_complaints(parts_));
     }
-    for (const Part& part : parts_)
+    for (const GeometryBody& part : parts_)
       for (const auto& volume : part.volumes) {
         std::vector<int> types;
         std::vector<std::vector<std::size_t>> elements, nodes;
@@ -119,7 +120,7 @@ class Mesher {
 
   double parts_extent() const {
     gmsh::vectorpair parts;
-    for (const Part& part : parts_)
+    for (const GeometryBody& part : parts_)
       if (!geometry_.mould || part.name != geometry_.mould->name)
         parts.insert(parts.end(), part.volumes.begin(), part.volumes.end());
     return extent_of(parts).diagonal();
@@ -128,7 +129,7 @@ class Mesher {
   const MeshSource& source_;
   const CastingGeometry& geometry_;
   const Way& way_;
-  std::vector<Part> parts_;
+  std::vector<GeometryBody> parts_;
 };
 
 }  // namespace

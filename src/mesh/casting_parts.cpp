@@ -42,7 +42,7 @@ std::vector<int> boundary_of(int volume) {
   return tags;
 }
 
-std::string place_of_complaints(const std::vector<Part>& parts) {
+std::string place_of_complaints(const std::vector<GeometryBody>& parts) {
   std::vector<std::string> log;
   gmsh::logger::get(log);
   std::set<int> faces;
@@ -59,7 +59,7 @@ std::string place_of_complaints(const std::vector<Part>& parts) {
     constexpr std::size_t k_most = 4;
     if (said == k_most) break;
     std::string owner;
-    for (const Part& part : parts)
+    for (const GeometryBody& part : parts)
       for (const auto& volume : part.volumes) {
         const std::vector<int> boundary = boundary_of(volume.second);
         if (std::find(boundary.begin(), boundary.end(), face) != boundary.end() && owner.empty())

@@ -27,7 +27,7 @@ gmsh::vectorpair all_volumes();
 std::vector<int> boundary_of(int volume);
 
 /// A body of the file: its volumes change their numbers on the way.
-struct Part {
+struct GeometryBody {
   std::string name;
   gmsh::vectorpair volumes;
 };
@@ -36,10 +36,11 @@ struct Part {
 /// other so that they share the faces in which they touch.
 /// @param healing  tolerance, of the extent of each body; 0: the bodies stay as the file has them
 /// Throws InputError where nothing solid is there, bodies overlap, or a group of the case fits none.
-std::vector<Part> make_parts(const MeshSource& source, const CastingGeometry& geometry, double healing);
+std::vector<GeometryBody> make_parts(const MeshSource& source, const CastingGeometry& geometry,
+                                     double healing);
 
 /// The last error of Gmsh, and the surfaces that it complained of by their owners and places:
 /// " (Error: …); at fault: a face of 'casting' around (1, 2, 3), 4 long"; empty where it has said nothing.
-std::string place_of_complaints(const std::vector<Part>& parts);
+std::string place_of_complaints(const std::vector<GeometryBody>& parts);
 
 }  // namespace solidus::mesh

@@ -13,8 +13,8 @@ const BodySize* size_of(const CastingGeometry& geometry, const std::string& body
   return geometry.sizes.empty() ? nullptr : &geometry.sizes.front();
 }
 
-CastingSizes::CastingSizes(const std::vector<Part>& parts, const CastingGeometry& geometry, double scale,
-                           double unit, bool details)
+CastingSizes::CastingSizes(const std::vector<GeometryBody>& parts, const CastingGeometry& geometry,
+                           double scale, double unit, bool details)
     : parts_(parts), geometry_(geometry), scale_(scale), unit_(unit), details_(details) {
   limit_entities();
 }
@@ -25,7 +25,7 @@ void CastingSizes::limit_entities() {
     const auto [place, is_new] = limit_.emplace(std::pair(dimension, tag), limit);
     if (!is_new) place->second = std::min(place->second, limit);
   };
-  for (const Part& part : parts_) {
+  for (const GeometryBody& part : parts_) {
     const BodySize* size = size_of(geometry_, part.name);
     if (size == nullptr) continue;
     for (const auto& volume : part.volumes) {
@@ -78,7 +78,7 @@ void CastingSizes::read_nodes() {
 std::vector<SizeSample> CastingSizes::samples() {
   std::vector<SizeSample> all;
   read_nodes();
-  for (const Part& part : parts_) {
+  for (const GeometryBody& part : parts_) {
     const BodySize* size = size_of(geometry_, part.name);
     if (size == nullptr) continue;
     for (const auto& volume : part.volumes) {

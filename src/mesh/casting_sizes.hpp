@@ -20,8 +20,8 @@ class CastingSizes {
   /// @param scale  of all sizes
   /// @param unit   of the file [m]
   /// @param details  narrow faces and short curves count
-  CastingSizes(const std::vector<Part>& parts, const CastingGeometry& geometry, double scale, double unit,
-               bool details);
+  CastingSizes(const std::vector<GeometryBody>& parts, const CastingGeometry& geometry, double scale,
+               double unit, bool details);
 
   /// The largest size of an entity by dimension and number, the least of the bodies that it belongs to, in
   /// units of the file.
@@ -39,7 +39,7 @@ class CastingSizes {
   void sample_narrow_faces(std::vector<SizeSample>& all) const;
   void sample_short_curves(std::vector<SizeSample>& all) const;
 
-  const std::vector<Part>& parts_;
+  const std::vector<GeometryBody>& parts_;
   const CastingGeometry& geometry_;
   double scale_, unit_;
   bool details_;

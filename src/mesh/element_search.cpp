@@ -47,7 +47,7 @@ ElementSearch::Found ElementSearch::find(const Point& point) const {
        entry != boxes.qend(); ++entry) {
     if (bg::distance(at, entry->first) > best.distance) break;
     const Tree::Element element = entry->second;
-    const Block& block = mesh_.blocks[element.block];
+    const ElementBlock& block = mesh_.blocks[element.block];
     NearestPlace here = nearest_place(mesh_, block.shape, block.element(element.element), point);
     if (here.distance > best.distance || (here.distance == best.distance && answers < element)) continue;
     best = std::move(here);
@@ -57,7 +57,7 @@ ElementSearch::Found ElementSearch::find(const Point& point) const {
   found.distance = best.distance;
   found.weights.resize(best.local.size());
   basis_values(best.shape, best.xi, found.weights);
-  const Block& block = mesh_.blocks[answers.block];
+  const ElementBlock& block = mesh_.blocks[answers.block];
   for (const int a : best.local) found.nodes.push_back(block.element(answers.element)[a]);
   return found;
 }

@@ -82,7 +82,7 @@ class Lattice {
     number = static_cast<Index>(mesh_.x.size());
     Point x{};
     for (std::size_t d = 0; d < grid_.axes.size(); ++d) {
-      const Axis& axis = grid_.axes[d];
+      const GridAxis& axis = grid_.axes[d];
       const auto i = static_cast<std::size_t>(at[d] / 2);
       x[d] = at[d] % 2 == 0 ? axis[i] : 0.5 * (axis[i] + axis[i + 1]);
     }
@@ -172,13 +172,13 @@ void add_boundary(RawMesh& mesh, const Grid& grid, const std::vector<Index>& ele
 
 }  // namespace
 
-Axis uniform_axis(double a, double b, int n) {
-  Axis axis(static_cast<std::size_t>(n) + 1);
+GridAxis uniform_axis(double a, double b, int n) {
+  GridAxis axis(static_cast<std::size_t>(n) + 1);
   for (int i = 0; i <= n; ++i) axis[static_cast<std::size_t>(i)] = i == n ? b : a + (b - a) * i / n;
   return axis;
 }
 
-Axis graded_axis(double a, double b, double first, double last) {
+GridAxis graded_axis(double a, double b, double first, double last) {
   const double length = b - a;
   // The mean of sizes in geometric progression from `first` to `last` is near their logarithmic mean.
   const double mean = std::abs(last - first) < 1e-9 * first ? first : (last - first) / std::log(last / first);
@@ -187,7 +187,7 @@ Axis graded_axis(double a, double b, double first, double last) {
   std::vector<double> at{0};
   double size = 1;
   for (int i = 0; i < n; ++i, size *= ratio) at.push_back(at.back() + size);
-  Axis axis;
+  GridAxis axis;
   for (const double s : at) axis.push_back(a + length * s / at.back());
   axis.back() = b;
   return axis;

@@ -11,15 +11,15 @@
 namespace solidus::mesh {
 
 /// Lines of a grid along one axis, rising [m].
-using Axis = std::vector<double>;
+using GridAxis = std::vector<double>;
 
 /// n equal pieces from a to b.
-Axis uniform_axis(double a, double b, int n);
+GridAxis uniform_axis(double a, double b, int n);
 /// From a to b, the first piece about `first`, the last about `last`, sizes in geometric progression.
-Axis graded_axis(double a, double b, double first, double last);
+GridAxis graded_axis(double a, double b, double first, double last);
 
 struct Grid {
-  std::vector<Axis> axes;      ///< two or three
+  std::vector<GridAxis> axes;  ///< two or three
   Shape shape = Shape::quad4;  ///< triangles and tetrahedra come from cutting the cells
   std::string body;            ///< the group that the elements join
   /// Cells that exist; empty: all.

@@ -287,7 +287,7 @@ class Room {
   void look_at_layers() {
     RawMesh column;  // the vertices above one face, level by level
     column.dimension = mesh_.dimension;
-    std::vector<Column> columns;
+    std::vector<LayerColumn> columns;
     for (const WallFace& face : wall_.wall) {
       if (!has_changed(face.nodes.data(), face.n_vertices)) continue;
       const auto n = static_cast<std::size_t>(face.n_vertices);

@@ -12,7 +12,7 @@ bool repeats(std::vector<Index> vertices) {
 }
 
 /// Sorts columns by their vertices of the wall; true if that took an odd number of exchanges.
-bool sort_columns(std::vector<Column>& columns) {
+bool sort_columns(std::vector<LayerColumn>& columns) {
   bool odd = false;
   for (std::size_t i = 1; i < columns.size(); ++i)
     for (std::size_t j = i; j > 0 && columns[j].wall < columns[j - 1].wall; --j) {
@@ -23,7 +23,7 @@ bool sort_columns(std::vector<Column>& columns) {
 }
 
 /// The simplices of a prism: its columns go up one after the other.
-std::vector<std::vector<Index>> stairs(std::vector<Column> columns) {
+std::vector<std::vector<Index>> stairs(std::vector<LayerColumn> columns) {
   const bool odd = sort_columns(columns);
   std::vector<std::vector<Index>> simplices;
   for (std::size_t step = 0; step < columns.size(); ++step) {
@@ -44,19 +44,19 @@ bool is_simplex(Shape shape) {
   return vertex_count(shape) == dimension(shape) + 1;
 }
 
-std::vector<std::vector<Index>> layer_elements(Shape body, const std::vector<Column>& face) {
+std::vector<std::vector<Index>> layer_elements(Shape body, const std::vector<LayerColumn>& face) {
   // Seen from the layer, an outward face of the body is clockwise; an edge is counter-clockwise.
-  std::vector<Column> columns = face;
+  std::vector<LayerColumn> columns = face;
   if (dimension(body) == 3) std::reverse(columns.begin(), columns.end());
   if (is_simplex(body)) return stairs(std::move(columns));
   std::vector<Index> element;
-  for (const Column& c : columns) element.push_back(c.lower);
+  for (const LayerColumn& c : columns) element.push_back(c.lower);
   if (dimension(body) == 2) std::reverse(columns.begin(), columns.end());
-  for (const Column& c : columns) element.push_back(c.upper);
+  for (const LayerColumn& c : columns) element.push_back(c.upper);
   return {element};
 }
 
-std::vector<std::vector<Index>> rim_faces(Shape body, const std::vector<Column>& rim) {
+std::vector<std::vector<Index>> rim_faces(Shape body, const std::vector<LayerColumn>& rim) {
   if (rim.size() == 1) {
     if (rim[0].lower == rim[0].upper) return {};
     return {{rim[0].lower, rim[0].upper}};

@@ -46,7 +46,7 @@ LocatedPoint locate(const Mesh& mesh, const Point& point, int body) {
   Candidate best;
   best.process = rank;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    const Block& block = mesh.blocks[b];
+    const ElementBlock& block = mesh.blocks[b];
     if (body >= 0 && block.body != body) continue;
     for (Index e = 0; e < block.n_counted; ++e) {
       if (distance_to_box(element_box(mesh, block, e), point) > best.distance) continue;
@@ -76,7 +76,7 @@ LocatedPoint locate(const Mesh& mesh, const Point& point, int body) {
   }
 
   // From the face's coordinates to the element's: reference faces are flat.
-  const Block& block = mesh.blocks[static_cast<std::size_t>(located.block)];
+  const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(located.block)];
   std::vector<double> values(nearest.local.size());
   basis_values(nearest.shape, nearest.xi, values);
   const Rule reference_nodes = nodal_rule(block.shape);
@@ -108,7 +108,7 @@ NodalFunctional integral(const Mesh& mesh, const std::string& group, GroupKind g
                          AnalysisKind kind) {
   std::vector<double> weight(static_cast<std::size_t>(mesh.n_nodes()), 0.0);
   if (group_kind == GroupKind::body) {
-    for (const Block& block : mesh.blocks) {
+    for (const ElementBlock& block : mesh.blocks) {
       if (mesh.bodies[static_cast<std::size_t>(block.body)].name != group) continue;
       const PackVector<Lane> integrals = basis_integrals(mesh, block, kind);
       const int nn = node_count(block.shape);
@@ -119,7 +119,7 @@ NodalFunctional integral(const Mesh& mesh, const std::string& group, GroupKind g
                         static_cast<std::size_t>(a)][e % k_lanes];
     }
   } else if (group_kind == GroupKind::surface && mesh.surfaces.contains(group)) {
-    for (const Block& faces : mesh.surfaces.at(group).faces) {
+    for (const ElementBlock& faces : mesh.surfaces.at(group).faces) {
       const FaceGeometry geometry(mesh, faces, kind, gauss_rule(faces.shape, 5));
       const auto nn = static_cast<std::size_t>(geometry.n_nodes),
                  np = static_cast<std::size_t>(geometry.n_points);

@@ -18,7 +18,7 @@ namespace solidus::mesh {
 
 /// Elements (or boundary faces) of one shape and one body. The first `n_counted` are the ones this process
 /// counts in sums: over all processes each element is counted exactly once.
-struct Block {
+struct ElementBlock {
   Shape shape = Shape::tri3;
   int body = -1;             ///< index into Mesh::bodies; −1 for faces of no body
   std::vector<Index> nodes;  ///< [element][node] local numbers
@@ -35,9 +35,9 @@ struct Block {
 /// A named set of boundary faces, nodes included. In 2-D faces are lines. Faces are oriented outward of the
 /// element they bound.
 struct Surface {
-  std::vector<Block> faces;  ///< one block per face shape
-  std::vector<Index> nodes;  ///< local numbers, sorted, without repetition
-  bool replicated = false;   ///< every process holds the whole surface
+  std::vector<ElementBlock> faces;  ///< one block per face shape
+  std::vector<Index> nodes;         ///< local numbers, sorted, without repetition
+  bool replicated = false;          ///< every process holds the whole surface
 };
 
 struct Body {
@@ -55,7 +55,7 @@ struct Mesh {
   GlobalIndex first_owned = 0;  ///< global number of local node 0
 
   std::vector<Body> bodies;
-  std::vector<Block> blocks;                ///< volume elements (areas in 2-D)
+  std::vector<ElementBlock> blocks;         ///< volume elements (areas in 2-D)
   std::map<std::string, Surface> surfaces;  ///< named groups of boundary faces
   std::map<std::string, std::vector<Index>>
       node_sets;  ///< every named group (surfaces, bodies, points) as local nodes

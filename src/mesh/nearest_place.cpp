@@ -131,7 +131,7 @@ NearestPlace nearest_place(const Mesh& mesh, Shape shape, const Index* nodes, co
   return Search(mesh, point).element(shape, nodes);
 }
 
-Box element_box(const Mesh& mesh, const Block& block, Index e) {
+Box element_box(const Mesh& mesh, const ElementBlock& block, Index e) {
   const Index* nodes = block.element(e);
   Box box;
   for (std::size_t i = 0; i < 3; ++i) {

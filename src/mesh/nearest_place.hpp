@@ -23,7 +23,7 @@ NearestPlace nearest_place(const Mesh& mesh, Shape shape, const Index* nodes, co
 struct Box {
   Point low{}, high{};
 };
-Box element_box(const Mesh& mesh, const Block& block, Index e);
+Box element_box(const Mesh& mesh, const ElementBlock& block, Index e);
 /// A lower bound of the distance to the elements in the box.
 double distance_to_box(const Box& box, const Point& p);
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "mesh/shapes.hpp"
+#include "mesh/parametric_meshes.hpp"
 
 namespace solidus::mesh {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesh/faces.hpp"
 #include "system/errors.hpp"
@@ -78,6 +79,13 @@ void measure(SkinFace& face) {
 
 }  // namespace
 
+SkinFace face_through(std::vector<Point> corners) {
+  SkinFace face;
+  face.corners = std::move(corners);
+  measure(face);
+  return face;
+}
+
 std::vector<SkinFace> skin_of(const RawMesh& mesh, const std::string& body) {
   const RawGroup& group = mesh.groups.at(body);
   std::unordered_map<FaceKey, int, FaceKeyHash> count;
@@ -141,7 +149,7 @@ double mean_edge(const std::vector<SkinFace>& faces) {
   return n > 0 ? sum / static_cast<double>(n) : 0.0;
 }
 
-FaceSearch::FaceSearch(const std::vector<SkinFace>& faces, double reach)
+SkinSearch::SkinSearch(const std::vector<SkinFace>& faces, double reach)
     : faces_(faces), reach_(reach), size_(std::max(2 * reach, mean_edge(faces))) {
   for (std::size_t f = 0; f < faces.size(); ++f) {
     Point low = faces[f].corners[0], high = low;
@@ -155,12 +163,12 @@ FaceSearch::FaceSearch(const std::vector<SkinFace>& faces, double reach)
   }
 }
 
-FaceSearch::Cell FaceSearch::cell(const Point& p) const {
+SkinSearch::Cell SkinSearch::cell(const Point& p) const {
   return {std::lround(std::floor(p[0] / size_)), std::lround(std::floor(p[1] / size_)),
           std::lround(std::floor(p[2] / size_))};
 }
 
-std::optional<FaceSearch::Found> FaceSearch::facing(const Point& point, const Point& normal,
+std::optional<SkinSearch::Found> SkinSearch::facing(const Point& point, const Point& normal,
                                                     double opposed) const {
   const auto here = cells_.find(cell(point));
   if (here == cells_.end()) return {};

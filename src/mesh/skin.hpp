@@ -21,6 +21,9 @@ struct SkinFace {
   double area = 0;           ///< [m²]; of a line its length [m]
 };
 
+/// A face with its measures, of which only the places of its corners are known.
+SkinFace face_through(std::vector<Point> corners);
+
 /// The skin of a group of full dimension, in the order of its elements.
 std::vector<SkinFace> skin_of(const RawMesh& mesh, const std::string& body);
 
@@ -31,10 +34,10 @@ Point nearest_on_face(const SkinFace& face, const Point& point);
 double mean_edge(const std::vector<SkinFace>& faces);
 
 /// Faces by the cells of a grid, to find those near a point.
-class FaceSearch {
+class SkinSearch {
  public:
   /// @param reach  how far from a point faces are looked for [m]; the faces must outlive this
-  FaceSearch(const std::vector<SkinFace>& faces, double reach);
+  SkinSearch(const std::vector<SkinFace>& faces, double reach);
   struct Found {
     std::size_t face = 0;
     double distance = 0;  ///< [m]

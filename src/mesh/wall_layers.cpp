@@ -77,7 +77,9 @@ class Builder {
     return level == 0 || !has_layers(wall) ? wall : static_cast<Index>(first_[at(wall)] + level - 1);
   }
   Index inner(Index wall) const { return vertex(wall, layers_.number); }
-  Column column(Index wall, int level) const { return {wall, vertex(wall, level), vertex(wall, level + 1)}; }
+  LayerColumn column(Index wall, int level) const {
+    return {wall, vertex(wall, level), vertex(wall, level + 1)};
+  }
   Index add_node(const Point& x) {
     mesh_.x.push_back(x);
     mesh_.input_node.push_back(++last_node_);
@@ -243,7 +245,7 @@ class Builder {
         for (const GlobalIndex number : block.input_element) last_element_ = std::max(last_element_, number);
     for (std::size_t f = 0; f < wall_.wall.size(); ++f)
       for (int level = 0; level < layers_.number; ++level) {
-        std::vector<Column> columns;
+        std::vector<LayerColumn> columns;
         for (const Index wall : wall_.wall[f].nodes) columns.push_back(column(wall, level));
         for (std::vector<Index>& element : layer_elements(face_shape_[f], columns))
           append(body_, face_shape_[f], std::move(element));
@@ -253,7 +255,7 @@ class Builder {
     const Shape shape = body_.blocks.front().shape;
     for (const auto& [edge, groups] : rim_)
       for (int level = 0; level < layers_.number; ++level) {
-        std::vector<Column> columns{column(edge.first, level)};
+        std::vector<LayerColumn> columns{column(edge.first, level)};
         if (edge.second != edge.first) columns.push_back(column(edge.second, level));
         for (const std::vector<Index>& face : rim_faces(shape, columns))
           for (const std::string& name : groups) append(mesh_.groups.at(name), face_shape(shape), face);

@@ -314,12 +314,12 @@ void append_ghost_rows(const parallel::RowExchange& ghosts, Index n_local, Coars
 /// Adds up the contributions of the processes to each other's coarse rows; own rows stay.
 void sum_over_processes(CoarseNumbers& numbers, const Numbering& numbering, BlockRows<double>& coarse) {
   if (!parallel::any_process(!numbering.ghosts.empty())) return;
-  struct Block {
+  struct CoarseBlock {
     Index column;
     const double* values;
   };
   const auto entries = at(coarse.block_entries());
-  std::vector<std::vector<Block>> rows(at(numbering.n_owned));
+  std::vector<std::vector<CoarseBlock>> rows(at(numbering.n_owned));
   for (Index row = 0; row < numbering.n_owned; ++row)
     for (std::int64_t t = coarse.start[at(row)]; t < coarse.start[at(row) + 1]; ++t)
       rows[at(row)].push_back({coarse.column[at(t)], coarse.block(t)});
@@ -336,10 +336,10 @@ void sum_over_processes(CoarseNumbers& numbers, const Numbering& numbering, Bloc
   BlockRows<double> sum;
   sum.rows = coarse.rows;
   sum.columns = coarse.columns;
-  for (std::vector<Block>& blocks : rows) {
+  for (std::vector<CoarseBlock>& blocks : rows) {
     // Stable: blocks of one place are added in the order of the processes.
     std::stable_sort(blocks.begin(), blocks.end(),
-                     [](const Block& l, const Block& r) { return l.column < r.column; });
+                     [](const CoarseBlock& l, const CoarseBlock& r) { return l.column < r.column; });
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       if (b == 0 || blocks[b].column != blocks[b - 1].column) {
         sum.column.push_back(blocks[b].column);

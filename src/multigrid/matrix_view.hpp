@@ -14,13 +14,13 @@ namespace solidus::multigrid {
 /// on and above it.
 class LowerPart {
  public:
-  struct Block {
+  struct MirroredBlock {
     Index column;  ///< of the block below the diagonal: the row in which its mirror image stands
     Index place;   ///< within that row
   };
   LowerPart(std::span<const std::int64_t> start, std::span<const Index> column);
   /// Returns the blocks of a block row, columns rising.
-  std::span<const Block> row(Index row) const {
+  std::span<const MirroredBlock> row(Index row) const {
     const auto i = static_cast<std::size_t>(row);
     return std::span(blocks_).subspan(static_cast<std::size_t>(start_[i]),
                                       static_cast<std::size_t>(start_[i + 1] - start_[i]));
@@ -28,7 +28,7 @@ class LowerPart {
 
  private:
   std::vector<std::int64_t> start_;
-  std::vector<Block> blocks_;
+  std::vector<MirroredBlock> blocks_;
 };
 
 /// The block rows of this process; columns are its own, then ghosts.
@@ -50,7 +50,7 @@ struct MatrixView {
   template <class F>
   void each(Index row, const F& f) const {
     if (lower != nullptr)
-      for (const LowerPart::Block& block : lower->row(row))
+      for (const LowerPart::MirroredBlock& block : lower->row(row))
         f(block.column, begin(block.column) + block.place, true);
     for (std::int64_t s = begin(row); s < end(row); ++s) f(column[static_cast<std::size_t>(s)], s, false);
   }

@@ -93,10 +93,10 @@ inline Register exp_of_sum(Sum x) {
 }
 
 /// x = 2^exponent · mantissa with a mantissa in [sqrt(1/2), sqrt(2)); x positive, normal and finite.
-struct Parts {
+struct ScaledMantissa {
   Register exponent, mantissa;
 };
-inline Parts split(Register x) {
+inline ScaledMantissa split(Register x) {
   constexpr std::uint64_t k_root_half = 0x3fe6a09e667f3bcd, k_one = 0x3ff0000000000000;
   const RegisterBits shifted = bits(x) + (k_one - k_root_half);
   // A small integer in the last bits of 2^52 is that integer plus 2^52.
@@ -108,7 +108,7 @@ inline Parts split(Register x) {
 inline constexpr double k_atanh_series[] = {2.0 / 3,  2.0 / 5,  2.0 / 7,  2.0 / 9,  2.0 / 11,
                                             2.0 / 13, 2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21};
 
-inline Register log_of_parts(Parts x) {
+inline Register log_of_parts(ScaledMantissa x) {
   const auto [k, m] = x;
   const Register f = m - 1.0, s = f / (2.0 + f), z = s * s;
   // ln m = 2 s + s R(z) = f - (f²/2 - s (f²/2 + R)): the large term f is exact.
@@ -118,7 +118,7 @@ inline Register log_of_parts(Parts x) {
 }
 
 /// ln x to about 68 bits.
-inline Sum log_as_sum(Parts x) {
+inline Sum log_as_sum(ScaledMantissa x) {
   const auto [k, m] = x;
   // s = f/t = s_high + s_low, t = t_high + t_low
   const Register f = m - 1.0, t = m + 1.0, inverse = 1.0 / t, s = f * inverse;
@@ -144,7 +144,7 @@ inline RegisterMask special(Register x) {
   return ~((x >= 0x1p-1022) & (x < k_infinity));
 }
 /// As split, for positive numbers of which some may be less than normal.
-inline Parts split_scaled(Register x) {
+inline ScaledMantissa split_scaled(Register x) {
   const RegisterMask subnormal = x < 0x1p-1022;
   const auto [exponent, mantissa] = split(subnormal ? x * 0x1p54 : x);
   return {subnormal ? exponent - 54.0 : exponent, mantissa};

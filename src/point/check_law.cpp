@@ -154,7 +154,7 @@ class Checks {
   }
 
   void check_energies(const StepResult& step, double dt) {
-    const PointState& before = point_.state();
+    const MaterialPointState& before = point_.state();
     const double work = 0.5 * dot(before.stress + step.state.stress, step.state.strain - before.strain);
     const double dissipated = dt * step.response.dissipation;
     moved_ += std::abs(work);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "point/run.hpp"
+#include "point/point_history.hpp"
 
 namespace solidus::point {
 

@@ -68,7 +68,7 @@ MaterialPoint::MaterialPoint(const material::Material& material, const Options& 
     if (!outside_->loaded())
       throw InputError(where, "the law from outside of '" + material.name + "' is not loaded",
                        "--trust-laws, where you trust it");
-    if (options.integration == Integration::two_step)
+    if (options.integration == PointIntegration::two_step)
       throw InputError(where,
                        "the two-step method extrapolates state, which a law from outside does not allow",
                        "integration = \"backward_euler\"");
@@ -80,7 +80,7 @@ MaterialPoint::MaterialPoint(const material::Material& material, const Options& 
   for (int i = 0; i < 3; ++i) now_.strain[i] = thermal / 3;
 }
 
-Stored MaterialPoint::stored(const PointState& s) const {
+Stored MaterialPoint::stored(const MaterialPointState& s) const {
   const Sym<double> elastic = s.strain - s.history.viscous_strain - s.history.plastic_strain;
   const auto state = material::thermal_state<double>(
       law_, {elastic, s.history.hardening, s.history.back_strain}, s.temperature, strain_reference());
@@ -161,7 +161,7 @@ Answer MaterialPoint::answer(double temperature, const Sym<double>& strain, doub
 }
 
 StepResult MaterialPoint::attempt_at(double temperature, const Target& end, double dt) const {
-  const bool two_step = options_.integration == Integration::two_step && step_before_ > 0;
+  const bool two_step = options_.integration == PointIntegration::two_step && step_before_ > 0;
   const auto step =
       two_step ? material::TimeStep::two_step(dt, step_before_) : material::TimeStep::backward_euler(dt);
   const auto start = material::start_state(step, now_.history, history_before_);

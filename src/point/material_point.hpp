@@ -25,10 +25,10 @@
 
 namespace solidus::point {
 
-enum class Integration { backward_euler, two_step };
+enum class PointIntegration { backward_euler, two_step };
 enum class Thermal { prescribed, adiabatic };
 
-struct PointState {
+struct MaterialPointState {
   double time = 0;  ///< [s]
   double temperature = 0;
   Sym<double> strain, stress;  ///< total strain, σ [Pa]
@@ -38,7 +38,7 @@ struct PointState {
 };
 
 struct StepResult {
-  PointState state;
+  MaterialPointState state;
   material::Viscoplastic::Response<double> response;
   double effective_step = 0;      ///< of the law [s]
   std::vector<double> residuals;  ///< largest stress missing before each Newton correction [Pa]
@@ -58,7 +58,7 @@ struct Answer {
   /// Of a law from outside without what is of plastic flow alone.
   material::Viscoplastic::Response<double> response;
   Sym4<double> tangent;         ///< ∂σ/∂ε on engineering shears [Pa]
-  std::vector<double> outside;  ///< PointState::outside
+  std::vector<double> outside;  ///< MaterialPointState::outside
   std::string complaint;        ///< of a law from outside that found no answer
 };
 
@@ -67,7 +67,7 @@ class MaterialPoint {
   struct Options {
     double temperature = 293.15;       ///< at the start [K]
     double strain_reference = 293.15;  ///< Θ_0 of 2.51, where the strain is zero [K]
-    Integration integration = Integration::backward_euler;
+    PointIntegration integration = PointIntegration::backward_euler;
     Thermal thermal = Thermal::prescribed;
   };
 
@@ -84,10 +84,10 @@ class MaterialPoint {
   /// Makes the next step one of backward Euler: the loading turns here, so earlier steps do not predict it.
   void restart() { step_before_ = 0; }
 
-  const PointState& state() const { return now_; }
+  const MaterialPointState& state() const { return now_; }
   const material::Viscoplastic& law() const { return law_; }
   double strain_reference() const { return options_.strain_reference; }
-  Stored stored(const PointState& state) const;
+  Stored stored(const MaterialPointState& state) const;
 
  private:
   material::Viscoplastic::Properties<double> properties(double temperature, double effective_step) const;
@@ -100,7 +100,7 @@ class MaterialPoint {
   material::Viscoplastic law_;
   const material::ExternalLaw* outside_;  ///< null: law_ it is
   Options options_;
-  PointState now_;
+  MaterialPointState now_;
   material::Viscoplastic::State<double> history_before_;
   double step_before_ = 0;  ///< [s]; zero: there is no step to build on
 };

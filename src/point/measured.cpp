@@ -36,17 +36,17 @@ std::vector<std::string_view> cells(std::string_view line) {
 }
 
 struct Heading {
-  const Column* column;
+  const RecordColumn* column;
   units::Conversion to_shown;
 };
 
 Heading heading(std::string_view text, const SourceLocation& where) {
   const std::size_t bracket = text.find('[');
   const std::string name(trimmed(text.substr(0, bracket)));
-  const Column* column = find_column(name);
+  const RecordColumn* column = find_column(name);
   if (column == nullptr) {
     std::vector<std::string> names;
-    for (const Column& each : columns()) names.push_back(each.name);
+    for (const RecordColumn& each : columns()) names.push_back(each.name);
     throw InputError(where, fmt::format("the history has no column '{}'", name), one_of(names, name));
   }
   if (bracket == std::string_view::npos || text.back() != ']')
@@ -69,8 +69,8 @@ double number(std::string_view cell, const SourceLocation& where) {
 }
 
 /// The computed value at an abscissa; nothing outside the history.
-std::optional<double> computed(const Column& x, const Column& y, const std::vector<Record>& history,
-                               double at) {
+std::optional<double> computed(const RecordColumn& x, const RecordColumn& y,
+                               const std::vector<MaterialPointRecord>& history, double at) {
   for (std::size_t i = 1; i < history.size(); ++i) {
     const double from = x.shown(history[i - 1]), to = x.shown(history[i]);
     if (at < std::min(from, to) || at > std::max(from, to) || from == to) continue;
@@ -80,7 +80,7 @@ std::optional<double> computed(const Column& x, const Column& y, const std::vect
   return std::nullopt;
 }
 
-bool one_way(const Column& x, const std::vector<Record>& history) {
+bool one_way(const RecordColumn& x, const std::vector<MaterialPointRecord>& history) {
   bool rises = false, falls = false;
   for (std::size_t i = 1; i < history.size(); ++i) {
     rises = rises || x.shown(history[i]) > x.shown(history[i - 1]);
@@ -118,9 +118,9 @@ Measured read_measured(const std::filesystem::path& file, const SourceLocation& 
   return measured;
 }
 
-std::vector<Deviation> deviations(const Measured& measured, const std::vector<Record>& history) {
+std::vector<Deviation> deviations(const Measured& measured, const std::vector<MaterialPointRecord>& history) {
   std::vector<Deviation> result;
-  const Column& x = *measured.columns.front();
+  const RecordColumn& x = *measured.columns.front();
   if (!one_way(x, history)) return result;
   for (std::size_t c = 1; c < measured.columns.size(); ++c) {
     double squares = 0, largest = 0;

@@ -12,7 +12,7 @@ namespace solidus::point {
 
 /// Rows of numbers in the units in which the columns are shown; the first column is the abscissa.
 struct Measured {
-  std::vector<const Column*> columns;
+  std::vector<const RecordColumn*> columns;
   std::vector<std::vector<double>> rows;
 };
 
@@ -22,7 +22,7 @@ struct Measured {
 Measured read_measured(const std::filesystem::path& file, const SourceLocation& where);
 
 struct Deviation {
-  const Column* column;
+  const RecordColumn* column;
   double rms;      ///< in the column's unit
   double largest;  ///< measured value, by size, to compare with
   int points;      ///< that lie within the history
@@ -30,6 +30,6 @@ struct Deviation {
 
 /// For each column but the abscissa, over the points that the history covers. Empty where the history's
 /// abscissa does not rise or fall throughout, and where it covers no point.
-std::vector<Deviation> deviations(const Measured& measured, const std::vector<Record>& history);
+std::vector<Deviation> deviations(const Measured& measured, const std::vector<MaterialPointRecord>& history);
 
 }  // namespace solidus::point

@@ -39,12 +39,12 @@ std::array<ComponentRamp, 6> loaded_components(const SegmentSpec& s) {
   std::array<ComponentRamp, 6> ramps;
   ramps.fill(stress_ramp(0.0, {}));
   const ComponentRamp loaded = loaded_ramp(s);
-  ramps[s.kind == Kind::shear ? 3 : 0] = loaded;
-  if (s.kind == Kind::biaxial) {
+  ramps[s.kind == SegmentKind::shear ? 3 : 0] = loaded;
+  if (s.kind == SegmentKind::biaxial) {
     ramps[1] = loaded;
     if (loaded.target && loaded.rate) ramps[1].rate.reset();  // one of the two gives the duration
   }
-  if (s.kind == Kind::plane_strain) ramps[2] = strain_ramp({}, {});
+  if (s.kind == SegmentKind::plane_strain) ramps[2] = strain_ramp({}, {});
   return ramps;
 }
 
@@ -68,9 +68,9 @@ std::array<ComponentRamp, 6> named_components(const SegmentSpec& s) {
 
 Segment make_segment(const SegmentSpec& s) {
   Segment segment;
-  if (s.kind == Kind::components)
+  if (s.kind == SegmentKind::components)
     segment.components = named_components(s);
-  else if (s.kind == Kind::constrained)
+  else if (s.kind == SegmentKind::constrained)
     segment.components.fill(strain_ramp({}, {}));
   else
     segment.components = loaded_components(s);
@@ -86,7 +86,7 @@ Segment make_segment(const SegmentSpec& s) {
 std::vector<Segment> make_segments(std::vector<SegmentSpec> specs, const CurveSpec& curve) {
   std::vector<Segment> segments;
   for (SegmentSpec& s : specs) {
-    if (s.kind == Kind::repeat) {
+    if (s.kind == SegmentKind::repeat) {
       const auto last = static_cast<std::size_t>(s.last);
       if (last > segments.size())
         throw InputError(s.where, fmt::format("the last {} segments are to be repeated, and there are {}",
@@ -155,9 +155,9 @@ Curve make_curve(const PointSpec& spec, const CurveSpec& curve, std::span<const 
 void check_picture(const PictureSpec& picture) {
   check_file_name(picture.file, picture.where);
   std::vector<std::string> names;
-  for (const Column& column : columns()) names.push_back(column.name);
+  for (const RecordColumn& column : columns()) names.push_back(column.name);
   const auto find = [&](const std::string& name) {
-    const Column* column = find_column(name);
+    const RecordColumn* column = find_column(name);
     if (column == nullptr)
       throw InputError(picture.where, fmt::format("the history has no column '{}'", name),
                        one_of(names, name));

@@ -10,7 +10,7 @@
 #include "input/document.hpp"
 #include "material/material.hpp"
 #include "point/measured.hpp"
-#include "point/run.hpp"
+#include "point/point_history.hpp"
 #include "point/spec.hpp"
 
 namespace solidus::point {

@@ -10,7 +10,7 @@
 namespace solidus::point {
 
 /// SI, absolute temperature.
-struct Record {
+struct MaterialPointRecord {
   double time = 0, temperature = 0;
   Sym<double> strain, stress, plastic_strain, viscous_strain, back_stress;
   double thermal_strain = 0;       ///< linear, e^θ/3
@@ -32,20 +32,20 @@ struct Record {
   std::vector<double> residuals;   ///< of Newton's method [Pa]; no column
 };
 
-struct Column {
+struct RecordColumn {
   std::string name, unit;  ///< "stress_xx", "MPa"
-  std::string si;          ///< the unit of Record, "Pa"
+  std::string si;          ///< the unit of MaterialPointRecord, "Pa"
   double scale, offset;    ///< shown = scale × SI + offset
-  double (*of)(const Record&);
+  double (*of)(const MaterialPointRecord&);
 
   std::string header() const { return name + "[" + unit + "]"; }
-  double shown(const Record& record) const { return scale * of(record) + offset; }
+  double shown(const MaterialPointRecord& record) const { return scale * of(record) + offset; }
 };
 
 /// Every column of a history, in order.
-const std::vector<Column>& columns();
+const std::vector<RecordColumn>& columns();
 /// The column of that name; null when there is none.
-const Column* find_column(std::string_view name);
+const RecordColumn* find_column(std::string_view name);
 
 inline constexpr const char* k_component_names[6] = {"xx", "yy", "zz", "xy", "yz", "xz"};
 

@@ -16,12 +16,12 @@ struct ComponentValues {
   std::optional<double> of(int component) const;
 };
 
-enum class Kind { uniaxial, biaxial, plane_strain, shear, constrained, components, repeat };
+enum class SegmentKind { uniaxial, biaxial, plane_strain, shear, constrained, components, repeat };
 enum class Hold { nothing, strain, stress };
 
 /// [[segment]]
 struct SegmentSpec {
-  Kind kind = Kind::uniaxial;
+  SegmentKind kind = SegmentKind::uniaxial;
   std::optional<double> strain, strain_rate, stress, stress_rate;
   Hold hold = Hold::nothing;
   ComponentValues strains, strain_rates, stresses, stress_rates;
@@ -51,7 +51,7 @@ struct PointSpec {
   std::string title, material;
   double temperature = 0;
   std::optional<double> strain_reference;
-  Integration integration = Integration::backward_euler;
+  PointIntegration integration = PointIntegration::backward_euler;
   Thermal thermal = Thermal::prescribed;
   std::vector<SegmentSpec> segments;
   std::vector<CurveSpec> curves;

@@ -8,7 +8,7 @@
 #include "python/bindings.hpp"
 #include "results/state_fields.hpp"
 #include "results/vtu.hpp"
-#include "run/run.hpp"
+#include "run/session.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::python {
@@ -127,7 +127,7 @@ class Driver {
     std::vector<std::int64_t> connectivity, offsets, element;
     std::vector<std::int32_t> body;
     std::vector<std::uint8_t> types;
-    for_cells([&](const mesh::Block& block, Index e, std::size_t) {
+    for_cells([&](const mesh::ElementBlock& block, Index e, std::size_t) {
       for (const int a : mesh::vtk_node_order(block.shape)) connectivity.push_back(block.element(e)[a]);
       offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
       types.push_back(static_cast<std::uint8_t>(mesh::vtk_cell_type(block.shape)));
@@ -151,7 +151,7 @@ class Driver {
     py::list all;
     for (const results::Field& field : state_fields().bodies().all())
       all.append(py::make_tuple(field.name, field.unit,
-                                field.place == results::Place::node ? "nodes" : "elements",
+                                field.place == mesh::FieldPlace::node ? "nodes" : "elements",
                                 is_criterion(field.name)));
     return all;
   }
@@ -172,10 +172,10 @@ class Driver {
     const auto take = [&](std::size_t entity) {
       for (std::size_t i = 0; i < padded; ++i) taken.push_back(i < nc ? values[entity * nc + i] : 0.0);
     };
-    if (found->place == results::Place::node)
+    if (found->place == mesh::FieldPlace::node)
       for (std::size_t i = 0; i < session_->assembly().mesh.x.size(); ++i) take(i);
     else
-      for_cells([&](const mesh::Block&, Index, std::size_t number) { take(number); });
+      for_cells([&](const mesh::ElementBlock&, Index, std::size_t number) { take(number); });
     const auto n = static_cast<py::ssize_t>(taken.size() / padded);
     std::vector<py::ssize_t> shape{n};
     if (padded > 1) shape.push_back(static_cast<py::ssize_t>(padded));
@@ -203,7 +203,7 @@ class Driver {
     const mesh::Mesh& m = session_->assembly().mesh;
     const linear::ActiveSet* active = state_fields().bodies().active();
     std::size_t first = 0;
-    for (const mesh::Block& block : m.blocks) {
+    for (const mesh::ElementBlock& block : m.blocks) {
       if (active == nullptr || active->body(block.body))
         for (Index e = 0; e < block.n_counted; ++e) use(block, e, first + static_cast<std::size_t>(e));
       first += static_cast<std::size_t>(block.size());
@@ -231,7 +231,7 @@ class Driver {
   bool is_criterion(const std::string& name) const {
     const criteria::Criteria* criteria = session_->assembly().phases.criteria;
     if (criteria == nullptr) return false;
-    const std::vector<criteria::FieldInfo> fields = criteria->fields();
+    const std::vector<criteria::CriterionField> fields = criteria->fields();
     return std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field.name == name; });
   }
 

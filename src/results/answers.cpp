@@ -52,7 +52,7 @@ struct Values {
 /// The owned nodes of a body.
 std::vector<char> nodes_of(const mesh::Mesh& mesh, int body) {
   std::vector<char> chosen(static_cast<std::size_t>(mesh.n_owned_nodes), 0);
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::ElementBlock& block : mesh.blocks)
     if (block.body == body)
       for (const Index node : block.nodes)
         if (node < mesh.n_owned_nodes) chosen[static_cast<std::size_t>(node)] = 1;
@@ -103,8 +103,8 @@ CastAnswer cast_answer(const mesh::Mesh& mesh, const coupling::Phases& phases, c
   return answer;
 }
 
-std::optional<Answers::CutOffPools> cut_off_pools(const criteria::State& state) {
-  for (const criteria::Record& record : state.records) {
+std::optional<Answers::CutOffPools> cut_off_pools(const criteria::CriteriaState& state) {
+  for (const criteria::CriterionRecord& record : state.records) {
     if (record.name != criteria::Pools::k_name) continue;
     Answers::CutOffPools found;
     for (const criteria::Pool& pool : criteria::Pools::pools(record)) {
@@ -137,7 +137,7 @@ std::vector<GapAnswer> open_gaps(const mesh::Mesh& mesh, const coupling::Phases&
   return gaps;
 }
 
-mesh::Point centre(const mesh::Mesh& mesh, const mesh::Block& block, Index element) {
+mesh::Point centre(const mesh::Mesh& mesh, const mesh::ElementBlock& block, Index element) {
   mesh::Point sum{};
   const int n = mesh::node_count(block.shape);
   for (int a = 0; a < n; ++a)
@@ -153,7 +153,7 @@ void add_stress(const mesh::Mesh& mesh, const FieldSet& fields, const std::vecto
   if (stress.empty()) return;
   std::vector<Largest> of_body(mesh.bodies.size());
   std::size_t first = 0;
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     const auto body = static_cast<std::size_t>(block.body);
     if (bodies[body] != 0)
       for (Index e = 0; e < block.n_counted; ++e)
@@ -179,7 +179,7 @@ std::optional<Answers::Pores> pores(const mesh::Mesh& mesh, AnalysisKind kind, c
   Largest densest;
   double volume = 0, whole = 0;
   std::size_t first = 0;
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     if (bodies[static_cast<std::size_t>(block.body)] != 0) {
       const PackVector<Lane> integrals = mesh::basis_integrals(mesh, block, kind);
       const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));

@@ -14,7 +14,7 @@
 #include "criteria/criterion.hpp"
 #include "results/display_units.hpp"
 #include "results/field.hpp"
-#include "results/json.hpp"
+#include "results/json_document.hpp"
 #include "results/shot_table.hpp"
 
 namespace solidus::results {
@@ -86,7 +86,7 @@ double solid_fraction(const coupling::Phases& phases, const coupling::State& sta
 
 /// Lines for people, times in s since pouring.
 /// @param criteria  what the criteria found, for the lines on solidification times, arm spacing and Niyama
-std::string text(const Answers& answers, const std::vector<criteria::Finding>& criteria,
+std::string text(const Answers& answers, const std::vector<criteria::CriterionResult>& criteria,
                  const DisplayUnits& units = {});
 /// For summary.json, SI.
 Json json(const Answers& answers);

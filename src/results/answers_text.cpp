@@ -152,10 +152,10 @@ constexpr Line k_lines[] = {{"longest local solidification time", "local_solidif
                             {"least dimensionless Niyama", "dimensionless_niyama_min", "", 1},
                             {"largest estimate of porosity", "shrinkage_porosity_max", "%", 100}};
 
-std::string criteria_lines(const std::vector<criteria::Finding>& found, const Formatter& format) {
+std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, const Formatter& format) {
   std::string text;
   for (const Line& wanted : k_lines) {
-    const auto f = std::find_if(found.begin(), found.end(), [&](const criteria::Finding& finding) {
+    const auto f = std::find_if(found.begin(), found.end(), [&](const criteria::CriterionResult& finding) {
       return finding.name == wanted.finding;
     });
     if (f == found.end()) continue;
@@ -169,7 +169,7 @@ std::string criteria_lines(const std::vector<criteria::Finding>& found, const Fo
 
 }  // namespace
 
-std::string text(const Answers& a, const std::vector<criteria::Finding>& criteria,
+std::string text(const Answers& a, const std::vector<criteria::CriterionResult>& criteria,
                  const DisplayUnits& units) {
   const Formatter format(units);
   std::string text = shot_lines(a.shots, format);

@@ -68,7 +68,7 @@ void set_numbers(TableReader& in, Checkpoint& c) {
 }
 
 // History of the elements this process counts, [element][point][component].
-std::vector<double> pack_history(const mesh::Block& block, const mechanics::BlockHistory& history) {
+std::vector<double> pack_history(const mesh::ElementBlock& block, const mechanics::BlockHistory& history) {
   const auto per_element = static_cast<std::size_t>(history.n_points * history.n_components);
   std::vector<double> packed(static_cast<std::size_t>(block.n_counted) * per_element);
   for (std::size_t e = 0; e < static_cast<std::size_t>(block.n_counted); ++e)
@@ -102,7 +102,7 @@ void take_nodes(TableReader& in, const std::string& name, const Places& places, 
 }
 
 void take_history(TableReader& in, const std::string& name, const std::string& values,
-                  const mesh::Block& block, mechanics::BlockHistory& history) {
+                  const mesh::ElementBlock& block, mechanics::BlockHistory& history) {
   const auto per_element = static_cast<std::size_t>(history.n_points * history.n_components);
   if (per_element == 0) return;
   const Places places = places_of(block.input_element);
@@ -290,7 +290,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
     nodal(shot_table(j, "displacement").c_str(), shots.iterates[j].displacement);
   }
   for (std::size_t b = 0; b < c.state.mechanics.history.size(); ++b) {
-    const mesh::Block& block = mesh.blocks[b];
+    const mesh::ElementBlock& block = mesh.blocks[b];
     const mechanics::BlockHistory& history = c.state.mechanics.history[b];
     const std::string name = block_name(mesh, b);
     out.rows<std::int64_t>(name + "/element", 1,

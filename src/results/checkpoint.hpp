@@ -21,7 +21,7 @@ using Fingerprint = std::vector<std::pair<std::string, std::string>>;
 
 struct Checkpoint {
   coupling::State state;
-  coupling::Continuation continuation;
+  coupling::RestartData continuation;
   coupling::EnergyAudit energy;             ///< summed over the steps so far
   int rejected = 0, shortened = 0;          ///< tries so far
   coupling::StabilityAudit stability = {};  ///< summed likewise
@@ -30,7 +30,7 @@ struct Checkpoint {
 /// References to the data that are written, without a copy of the state.
 struct CheckpointView {
   const coupling::State& state;
-  const coupling::Continuation& continuation;
+  const coupling::RestartData& continuation;
   const coupling::EnergyAudit& energy;
   int rejected, shortened;
   const coupling::StabilityAudit& stability;

@@ -21,13 +21,13 @@ void each_number(Point& p, const Visit& visit) {
   all(p.internal_variable, p.slip, p.work, p.dissipation, p.wear_depth, p.temperature, p.plastic_entropy);
 }
 
-std::vector<double> numbers_of(const contact::PointState& p) {
+std::vector<double> numbers_of(const contact::ContactPointState& p) {
   std::vector<double> numbers{static_cast<double>(p.status), p.anchored ? 1.0 : 0.0};
   each_number(p, [&](double n) { numbers.push_back(n); });
   return numbers;
 }
 
-void set_numbers(contact::PointState& p, std::span<const double> numbers) {
+void set_numbers(contact::ContactPointState& p, std::span<const double> numbers) {
   p.status = static_cast<contact::PointStatus>(numbers[0]);
   p.anchored = numbers[1] != 0;
   std::size_t i = 2;
@@ -41,7 +41,7 @@ void write_contacts(TableWriter& out, const std::vector<contact::ContactState>& 
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     std::vector<std::int64_t> keys;
     std::vector<double> values;
-    for (const contact::PointState& point : contacts[i].points) {
+    for (const contact::ContactPointState& point : contacts[i].points) {
       if (!point.counted) continue;
       keys.push_back(point.number);
       const std::vector<double> numbers = numbers_of(point);
@@ -85,7 +85,7 @@ void take_master(TableReader& in, const std::string& pair, std::vector<contact::
 void take_contacts(TableReader& in, std::vector<contact::ContactState>& contacts) {
   const std::size_t width = numbers_of({}).size();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    std::vector<contact::PointState>& points = contacts[i].points;
+    std::vector<contact::ContactPointState>& points = contacts[i].points;
     std::unordered_map<std::int64_t, std::size_t> places;
     for (std::size_t p = 0; p < points.size(); ++p) places.emplace(points[p].number, p);
     std::size_t taken = 0;

@@ -1,7 +1,7 @@
 /// Histories of contact points in a checkpoint: a table per pair, by the points' numbers.
 #pragma once
 
-#include "contact/state.hpp"
+#include "contact/contact_state.hpp"
 #include "results/checkpoint_tables.hpp"
 
 namespace solidus::results {

@@ -10,11 +10,10 @@ namespace solidus::results {
 
 namespace {
 
-using criteria::Column;
-using criteria::Place;
-using criteria::Record;
+using criteria::CriterionColumn;
+using criteria::CriterionRecord;
 
-std::string path(const Record& record, const std::string& name) {
+std::string path(const CriterionRecord& record, const std::string& name) {
   return "criteria/" + record.name + "/" + name;
 }
 
@@ -29,14 +28,15 @@ struct Part {
   std::string keys, values;              ///< tables of the file
 };
 
-std::vector<Part> parts(const mesh::Mesh& mesh, const Record& record, const Column& column) {
+std::vector<Part> parts(const mesh::Mesh& mesh, const CriterionRecord& record,
+                        const CriterionColumn& column) {
   const std::string values = path(record, column.name);
-  if (column.place == Place::node)
+  if (column.place == mesh::FieldPlace::node)
     return {{0, static_cast<std::size_t>(mesh.n_owned_nodes), mesh.input_node, "node", values}};
   std::vector<Part> result;
   std::size_t first = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    const mesh::Block& block = mesh.blocks[b];
+    const mesh::ElementBlock& block = mesh.blocks[b];
     result.push_back({first, static_cast<std::size_t>(block.n_counted), block.input_element,
                       element_path(b, "element"), element_path(b, record.name + "_" + column.name)});
     first += block.input_element.size();
@@ -44,14 +44,14 @@ std::vector<Part> parts(const mesh::Mesh& mesh, const Record& record, const Colu
   return result;
 }
 
-bool has_cells(const criteria::State& state) {
-  return std::any_of(state.records.begin(), state.records.end(), [](const Record& r) {
+bool has_cells(const criteria::CriteriaState& state) {
+  return std::any_of(state.records.begin(), state.records.end(), [](const CriterionRecord& r) {
     return std::any_of(r.columns.begin(), r.columns.end(),
-                       [](const Column& c) { return c.place == Place::cell; });
+                       [](const CriterionColumn& c) { return c.place == mesh::FieldPlace::cell; });
   });
 }
 
-void take_part(TableReader& in, const Part& part, Column& column) {
+void take_part(TableReader& in, const Part& part, CriterionColumn& column) {
   std::unordered_map<std::int64_t, std::size_t> places;
   for (std::size_t i = 0; i < part.numbers.size(); ++i) places.emplace(part.numbers[i], i);
   const auto width = static_cast<std::size_t>(column.components);
@@ -68,20 +68,20 @@ void take_part(TableReader& in, const Part& part, Column& column) {
 
 }  // namespace
 
-void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::State& state) {
+void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::CriteriaState& state) {
   if (has_cells(state))
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
       out.rows<std::int64_t>(
           element_path(b, "element"), 1,
           std::span(mesh.blocks[b].input_element).first(static_cast<std::size_t>(mesh.blocks[b].n_counted)));
-  for (const Record& record : state.records) {
-    for (const criteria::Column& column : record.columns) {
+  for (const CriterionRecord& record : state.records) {
+    for (const criteria::CriterionColumn& column : record.columns) {
       const auto width = static_cast<std::size_t>(column.components);
       for (const Part& part : parts(mesh, record, column))
         out.rows<double>(part.values, column.components,
                          std::span(column.values).subspan(part.first * width, part.owned * width));
     }
-    for (const criteria::Table& table : record.tables) {
+    for (const criteria::CriterionTable& table : record.tables) {
       // Every process holds all rows: the first writes them.
       const std::size_t n = processes::rank() == 0 ? table.values.size() : 0;
       std::vector<std::int64_t> rows(n / static_cast<std::size_t>(table.width));
@@ -92,11 +92,11 @@ void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::St
   }
 }
 
-void take_criteria(TableReader& in, const mesh::Mesh& mesh, criteria::State& state) {
-  for (Record& record : state.records) {
-    for (criteria::Column& column : record.columns)
+void take_criteria(TableReader& in, const mesh::Mesh& mesh, criteria::CriteriaState& state) {
+  for (CriterionRecord& record : state.records) {
+    for (criteria::CriterionColumn& column : record.columns)
       for (const Part& part : parts(mesh, record, column)) take_part(in, part, column);
-    for (criteria::Table& table : record.tables) {
+    for (criteria::CriterionTable& table : record.tables) {
       table.values.clear();
       in.each(path(record, table.name) + "_row", path(record, table.name),
               [&](std::int64_t, std::span<const double> row) {

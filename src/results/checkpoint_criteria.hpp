@@ -5,14 +5,14 @@
 #include <string>
 #include <unordered_map>
 
-#include "criteria/state.hpp"
+#include "criteria/criteria_state.hpp"
 #include "results/checkpoint_tables.hpp"
 
 namespace solidus::results {
 
 /// Collective.
-void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::State& state);
+void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::CriteriaState& state);
 /// Fills `state`, which has the records of this run; tables get the rows that the file has. Collective.
-void take_criteria(TableReader& in, const mesh::Mesh& mesh, criteria::State& state);
+void take_criteria(TableReader& in, const mesh::Mesh& mesh, criteria::CriteriaState& state);
 
 }  // namespace solidus::results

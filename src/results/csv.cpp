@@ -40,14 +40,14 @@ std::string csv_text(std::string_view text) {
 
 namespace {
 
-std::string header_row(const std::vector<Column>& columns) {
+std::string header_row(const std::vector<CsvColumn>& columns) {
   std::string row;
-  for (const Column& column : columns) row += (row.empty() ? "" : ",") + csv_text(column.header());
+  for (const CsvColumn& column : columns) row += (row.empty() ? "" : ",") + csv_text(column.header());
   return row + "\n";
 }
 
 // Cuts the file behind its last row that is finished and not later than `time`.
-void cut_after(const std::filesystem::path& path, const std::vector<Column>& columns, double time) {
+void cut_after(const std::filesystem::path& path, const std::vector<CsvColumn>& columns, double time) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw OutputError(path.string(), "there is no table to go on with");
   std::stringstream buffer;
@@ -68,7 +68,7 @@ void cut_after(const std::filesystem::path& path, const std::vector<Column>& col
 }
 
 struct ToText {
-  const Column& column;
+  const CsvColumn& column;
   std::string operator()(double value) const {
     if (!std::isfinite(value)) throw NotFiniteError("column '" + column.header() + "'", {});
     return number_text(value);
@@ -79,17 +79,17 @@ struct ToText {
 
 }  // namespace
 
-CsvTable::CsvTable(std::filesystem::path path, std::vector<Column> columns)
+CsvTable::CsvTable(std::filesystem::path path, std::vector<CsvColumn> columns)
     : columns_(std::move(columns)), file_(std::move(path)) {
   file_.write(header_row(columns_));
   file_.flush();
 }
 
-CsvTable::CsvTable(std::filesystem::path path, std::vector<Column> columns, double time)
+CsvTable::CsvTable(std::filesystem::path path, std::vector<CsvColumn> columns, double time)
     : columns_(std::move(columns)),
       file_((cut_after(path, columns_, time), std::move(path)), OutputFile::Mode::append) {}
 
-void CsvTable::add(std::span<const Cell> cells) {
+void CsvTable::add(std::span<const CsvCell> cells) {
   if (cells.size() != columns_.size())
     throw std::invalid_argument(
         fmt::format("{}: {} cells for {} columns", file_.path().string(), cells.size(), columns_.size()));
@@ -104,7 +104,7 @@ void CsvTable::add(std::span<const Cell> cells) {
 }
 
 void CsvTable::add(std::span<const double> cells) {
-  const std::vector<Cell> row(cells.begin(), cells.end());
+  const std::vector<CsvCell> row(cells.begin(), cells.end());
   add(row);
 }
 

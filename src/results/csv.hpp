@@ -15,7 +15,7 @@
 
 namespace solidus::results {
 
-struct Column {
+struct CsvColumn {
   std::string name;  ///< "T_center"
   std::string unit;  ///< "degC"; "1" for a pure number; empty for text
   /// "T_center[degC]", "reason".
@@ -23,28 +23,28 @@ struct Column {
 };
 
 /// A number of the run and the column that shows it.
-using Reading = std::pair<Column, double>;
+using Reading = std::pair<CsvColumn, double>;
 
-using Cell = std::variant<double, std::int64_t, std::string>;
+using CsvCell = std::variant<double, std::int64_t, std::string>;
 
 /// One process writes it. Every row is handed to the system when it is added, so a run that is killed leaves
 /// whole rows. Numbers are written with as few digits as give the same bits back.
 class CsvTable {
  public:
   /// Replaces an older file. Throws OutputError.
-  CsvTable(std::filesystem::path path, std::vector<Column> columns);
+  CsvTable(std::filesystem::path path, std::vector<CsvColumn> columns);
   /// Goes on with the file of an earlier run (a restart): keeps the rows whose first column is at most `time`
   /// and cuts a last row that was not finished. Throws OutputError when the columns are not the same.
-  CsvTable(std::filesystem::path path, std::vector<Column> columns, double time);
+  CsvTable(std::filesystem::path path, std::vector<CsvColumn> columns, double time);
 
   /// Throws std::invalid_argument for a wrong number of cells, NotFiniteError naming the column, OutputError.
-  void add(std::span<const Cell> cells);
+  void add(std::span<const CsvCell> cells);
   void add(std::span<const double> cells);
 
-  const std::vector<Column>& columns() const { return columns_; }
+  const std::vector<CsvColumn>& columns() const { return columns_; }
 
  private:
-  std::vector<Column> columns_;
+  std::vector<CsvColumn> columns_;
   OutputFile file_;
 };
 

@@ -55,7 +55,7 @@ std::vector<Index> connected_parts(const mesh::Mesh& mesh, const linear::ActiveS
     while (part[static_cast<std::size_t>(node)] != node) node = part[static_cast<std::size_t>(node)];
     return node;
   };
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     if (!active.body(block.body)) continue;
     const int n = mesh::node_count(block.shape);
     for (Index e = 0; e < block.size(); ++e)

@@ -47,12 +47,12 @@ FieldSet FieldSet::select(const std::vector<std::string>& names) const {
   return chosen;
 }
 
-std::size_t value_count(const mesh::Mesh& mesh, Place place, int components) {
+std::size_t value_count(const mesh::Mesh& mesh, mesh::FieldPlace place, int components) {
   std::size_t n = 0;
-  if (place == Place::node)
+  if (place == mesh::FieldPlace::node)
     n = mesh.x.size();
   else
-    for (const mesh::Block& block : mesh.blocks) n += static_cast<std::size_t>(block.size());
+    for (const mesh::ElementBlock& block : mesh.blocks) n += static_cast<std::size_t>(block.size());
   return n * static_cast<std::size_t>(components);
 }
 

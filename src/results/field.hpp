@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "linear/active_set.hpp"
+#include "mesh/field_place.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::results {
-
-enum class Place { node, cell };
 
 /// Values in SI. Shapes by place and number of components (1 scalar, 2 or 3 vector, 6 symmetric tensor in the
 /// order xx, yy, zz, xy, yz, xz):
@@ -23,7 +22,7 @@ struct Field {
   std::string name;  ///< "temperature"
   std::string unit;  ///< of the values, SI: "K"; "1" for a fraction
   int components = 1;
-  Place place = Place::node;
+  mesh::FieldPlace place = mesh::FieldPlace::node;
   std::span<const double> values;                     ///< empty where they are computed
   std::function<std::vector<double>()> compute = {};  ///< local to this process; empty: there are values
   /// The part of the surface around a node that its value holds for, [local node]: what means and integrals
@@ -62,7 +61,7 @@ class FieldSet {
 };
 
 /// Number of values a field of this place and number of components has on this process.
-std::size_t value_count(const mesh::Mesh& mesh, Place place, int components);
+std::size_t value_count(const mesh::Mesh& mesh, mesh::FieldPlace place, int components);
 
 /// Throws std::invalid_argument when the number of values that a field has does not fit the mesh (our bug).
 void check_size(const mesh::Mesh& mesh, const Field& field, std::size_t n_values);

@@ -38,16 +38,16 @@ void FieldMoment::add(const fs::path& path, bool part) {
     }
 }
 
-bool FieldColumn::of_points() const {
+bool FieldArray::of_points() const {
   return section == std::string_view("PointData");
 }
 
-bool FieldColumn::is_of_mesh() const {
+bool FieldArray::is_of_mesh() const {
   return name == "node" || name == "element" || name == "body" || name == "process";
 }
 
-std::vector<FieldColumn> columns_of(const FieldMoment::Piece& piece) {
-  std::vector<FieldColumn> columns;
+std::vector<FieldArray> columns_of(const FieldMoment::Piece& piece) {
+  std::vector<FieldArray> columns;
   for (const char* section : {"PointData", "CellData"})
     for (const std::string& name : mesh::array_names(*piece.tree, section)) {
       if (name == k_hidden_cells) continue;
@@ -58,7 +58,7 @@ std::vector<FieldColumn> columns_of(const FieldMoment::Piece& piece) {
   return columns;
 }
 
-std::vector<double> values_of(const FieldMoment& moment, const FieldColumn& column) {
+std::vector<double> values_of(const FieldMoment& moment, const FieldArray& column) {
   std::vector<double> all;
   for (const FieldMoment::Piece& piece : moment.pieces()) {
     const ptree* array = mesh::find_array(*piece.tree, column.section, column.name);

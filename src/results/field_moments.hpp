@@ -37,7 +37,7 @@ class FieldMoment {
 };
 
 /// An array of the grid's points or cells.
-struct FieldColumn {
+struct FieldArray {
   const char* section;  ///< "PointData" or "CellData"
   std::string name, unit;
   std::size_t components = 1;
@@ -48,11 +48,11 @@ struct FieldColumn {
 };
 
 /// All arrays of a piece but that which hides cells (hidden_cells).
-std::vector<FieldColumn> columns_of(const FieldMoment::Piece& piece);
+std::vector<FieldArray> columns_of(const FieldMoment::Piece& piece);
 
 /// Values of all pieces, one behind the other, components of an entity together. Throws InputError where a
 /// piece has no such array.
-std::vector<double> values_of(const FieldMoment& moment, const FieldColumn& column);
+std::vector<double> values_of(const FieldMoment& moment, const FieldArray& column);
 
 /// VTK's array for cells that are not drawn, those of bodies that have left: 0 where a cell is there.
 constexpr const char* k_hidden_cells = "vtkGhostType";

@@ -14,7 +14,7 @@ std::vector<double> element_means(const mesh::Mesh& mesh, AnalysisKind kind,
                                   std::span<const double> temperature, std::size_t n_components,
                                   const Add& add) {
   std::vector<double> means;
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     const mesh::BlockGeometry g(mesh, block, kind, mesh::stiffness_rule(block.shape));
     const auto n_nodes = static_cast<std::size_t>(g.n_nodes), dim = static_cast<std::size_t>(g.dim);
     const Table& conductivity = material_of(block.body).conductivity;

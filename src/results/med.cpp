@@ -201,7 +201,7 @@ MedReport write_all(const std::vector<PvdCollection::Entry>& moments, const fs::
                     const std::vector<std::string>& bodies, const fs::path& path) {
   Writer writer(path);
   MedReport report;
-  std::vector<FieldColumn> columns;
+  std::vector<FieldArray> columns;
   std::vector<CellBlock> blocks;
   bool has_absent = false;
   for (const PvdCollection::Entry& entry : moments) {
@@ -212,7 +212,7 @@ MedReport write_all(const std::vector<PvdCollection::Entry>& moments, const fs::
       blocks = cell_blocks(files);
       write_mesh(writer, files, blocks);
       write_bodies(writer, files, blocks, bodies);
-      for (const FieldColumn& column : columns_of(files.pieces().front())) {
+      for (const FieldArray& column : columns_of(files.pieces().front())) {
         if (column.is_of_mesh()) continue;
         make_field(writer, column.name, column.components, column.unit);
         columns.push_back(column);
@@ -220,7 +220,7 @@ MedReport write_all(const std::vector<PvdCollection::Entry>& moments, const fs::
     }
     check_same_mesh(files, report.points, report.cells, root / entry.file);
     const Moment moment{static_cast<med_int>(report.times) + 1, entry.time};
-    for (const FieldColumn& column : columns) {
+    for (const FieldArray& column : columns) {
       const std::vector<double> values = values_of(files, column);
       if (column.of_points())
         write_values(writer, column.name, moment, MED_NODE, MED_NONE, report.points, values);

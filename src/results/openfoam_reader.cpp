@@ -336,7 +336,7 @@ ReadField read_openfoam(const fs::path& time, const std::string& name, double le
   const std::vector<Point> centre = centres(poly);
   mesh.x.insert(mesh.x.end(), centre.begin(), centre.end());
   const auto n_points = static_cast<Index>(poly.points.size());
-  mesh::Block block{.shape = mesh::Shape::tet4, .body = 0, .nodes = {}, .input_element = {}};
+  mesh::ElementBlock block{.shape = mesh::Shape::tet4, .body = 0, .nodes = {}, .input_element = {}};
   for_each_triangle(poly, [&](std::size_t cell, Index a, Index b, Index c) {
     const auto corner = [&](Index node) -> const Point& {
       return poly.points[static_cast<std::size_t>(node)];

@@ -9,7 +9,7 @@ namespace solidus::results {
 
 namespace {
 
-std::vector<Column> pool_columns() {
+std::vector<CsvColumn> pool_columns() {
   return {{"time", "s"},
           {"pool", "1"},
           {"parent", "1"},
@@ -33,7 +33,7 @@ PoolTable::PoolTable(const std::filesystem::path& path, std::optional<double> fr
     : table_(make_table(path, from)) {}
 
 void PoolTable::add(const coupling::State& state) {
-  for (const criteria::Record& record : state.criteria.records) {
+  for (const criteria::CriterionRecord& record : state.criteria.records) {
     if (record.name != criteria::Pools::k_name) continue;
     for (const criteria::Pool& pool : criteria::Pools::pools(record)) {
       if (!pool.present() && !pool.ended) continue;

@@ -48,7 +48,7 @@ std::string group_names(const Mesh& mesh) {
 }
 
 // The extent of an element in its widest direction.
-double element_size(const Mesh& mesh, const mesh::Block& block, Index e) {
+double element_size(const Mesh& mesh, const mesh::ElementBlock& block, Index e) {
   double size = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto at = [&](int a) { return mesh.x[static_cast<std::size_t>(block.element(e)[a])][i]; };
@@ -67,7 +67,7 @@ std::vector<std::pair<std::size_t, double>> cell_weights(const Mesh& mesh, Analy
   std::vector<std::pair<std::size_t, double>> weights;
   double all = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    const mesh::Block& block = mesh.blocks[b];
+    const mesh::ElementBlock& block = mesh.blocks[b];
     if (block.body != body) continue;
     const mesh::BlockGeometry g(mesh, block, kind, mesh::stiffness_rule(block.shape));
     for (Index e = 0; e < block.n_counted; ++e) {
@@ -92,7 +92,7 @@ std::map<Index, std::vector<ElementAt>> elements_at(const Mesh& mesh, const std:
   std::map<Index, std::vector<ElementAt>> at;
   for (const Index node : group) at[node];
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    const mesh::Block& block = mesh.blocks[b];
+    const mesh::ElementBlock& block = mesh.blocks[b];
     const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
     for (Index e = 0; e < block.size(); ++e) {
       const ElementAt here{cell_offset(mesh, b) + static_cast<std::size_t>(e), {block.element(e), n}};
@@ -111,7 +111,7 @@ std::vector<std::pair<std::size_t, double>> face_weights(const Mesh& mesh, Analy
   double all = 0;
   if (const auto surface = mesh.surfaces.find(group); surface != mesh.surfaces.end()) {
     const auto around = elements_at(mesh, surface->second.nodes);
-    for (const mesh::Block& faces : surface->second.faces) {
+    for (const mesh::ElementBlock& faces : surface->second.faces) {
       const mesh::FaceGeometry g(mesh, faces, kind, mesh::gauss_rule(faces.shape, 4));
       const auto n_points = static_cast<std::size_t>(g.n_points), n = static_cast<std::size_t>(g.n_nodes);
       for (Index f = 0; f < faces.n_counted; ++f) {
@@ -168,7 +168,7 @@ const Reading* find_global(const std::vector<Reading>& globals, const std::strin
   return found == globals.end() ? nullptr : &*found;
 }
 
-units::Conversion conversion_to(const Column& column, const std::string& si, units::Temperature kind,
+units::Conversion conversion_to(const CsvColumn& column, const std::string& si, units::Temperature kind,
                                 const SourceLocation& where) {
   if (!units::compatible(column.unit, si))
     throw InputError(where, fmt::format("probe '{}': the unit '{}' does not fit", column.name, column.unit),
@@ -242,7 +242,7 @@ Probes::Sample Probes::point_sample(const Mesh& mesh, const PointProbe& probe, c
   }
   const int here = place.here && place.block >= 0 ? mesh.blocks[block].body : -1;
   sample.body = static_cast<int>(parallel::global_max(static_cast<double>(here)));
-  if (place.here && field.place == Place::cell)
+  if (place.here && field.place == mesh::FieldPlace::cell)
     sample.weights = {{cell_offset(mesh, block) + static_cast<std::size_t>(place.element), 1.0}};
   else
     for (std::size_t a = 0; a < place.nodes.size(); ++a)
@@ -274,7 +274,7 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
   sample.body = body;
   if (extreme) {
     sample.reduce = probe.statistic == Statistic::minimum ? Reduce::minimum : Reduce::maximum;
-    if (field.place == Place::node) {
+    if (field.place == mesh::FieldPlace::node) {
       for (const Index node : nodes->second)
         if (node < mesh.n_owned_nodes) sample.weights.emplace_back(static_cast<std::size_t>(node), 1.0);
     } else {
@@ -282,7 +282,7 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
     }
     if (!parallel::any_process(!sample.weights.empty()))
       refuse(fmt::format("the group '{}' is empty", probe.group), {});
-  } else if (field.place == Place::cell) {
+  } else if (field.place == mesh::FieldPlace::cell) {
     sample.weights = of_elements();
   } else {
     const mesh::NodalFunctional mean = mesh::group_mean(mesh, probe.group, kind);
@@ -310,10 +310,10 @@ Probes::Sample Probes::linear_sample(const LinearProbe& probe) const {
     const double factor = term.first;
     const std::string& name = term.second;
     const auto found =
-        std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
+        std::find_if(columns_.begin(), columns_.end(), [&](const CsvColumn& c) { return c.name == name; });
     if (found == columns_.end()) {
       std::string known;
-      for (const Column& column : columns_) known += (known.empty() ? "" : ", ") + column.name;
+      for (const CsvColumn& column : columns_) known += (known.empty() ? "" : ", ") + column.name;
       throw InputError(probe.where,
                        fmt::format("probe '{}': there is no probe '{}' before it", probe.column.name, name),
                        "probes so far: " + known);
@@ -368,8 +368,8 @@ void Probes::take(const Sample& sample, const Field& field, std::span<const doub
     // Written so that a NaN stays and is found in the end, which std::max would lose.
     const auto raise = [&](double& peak) { peak = sign * value <= peak ? peak : sign * value; };
     raise(to.peak_of_all);
-    const bool there =
-        active == nullptr || field.place == Place::cell || active->node(static_cast<Index>(entity));
+    const bool there = active == nullptr || field.place == mesh::FieldPlace::cell ||
+                       active->node(static_cast<Index>(entity));
     if (there) raise(to.peak);
   }
 }

@@ -24,7 +24,7 @@ inline constexpr int k_magnitude = -1;
 
 /// Field and component, and how the column is called; `column.unit` is the unit shown.
 struct Sampled {
-  Column column;
+  CsvColumn column;
   std::string field;
   int component = 0;
   SourceLocation where;  ///< of the probe in the case, for messages
@@ -53,7 +53,7 @@ struct GroupProbe : Sampled {
 /// Σ factor × probe, of other probes that measure the same: gap = 1 × u_mould − 1 × u_casting. Factors that
 /// sum to zero make differences (of temperatures: no zero point).
 struct LinearProbe {
-  Column column;
+  CsvColumn column;
   std::vector<std::pair<double, std::string>> terms;  ///< factor, name of a probe defined before
   SourceLocation where;
 };
@@ -61,7 +61,7 @@ struct LinearProbe {
 /// A column that history.csv has anyway, under another name, times a factor, in another unit: "pass" = the
 /// cycle, the force on 10 mm of a sheet = 0.01 x the force per metre. Without a unit the number as it is.
 struct GlobalProbe {
-  Column column;
+  CsvColumn column;
   std::string global;  ///< name of the column, without its unit
   double factor = 1;
   SourceLocation where;
@@ -77,7 +77,7 @@ class Probes {
   Probes(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<Probe>& probes, const FieldSet& fields,
          const std::vector<Reading>& globals = {});
 
-  const std::vector<Column>& columns() const { return columns_; }
+  const std::vector<CsvColumn>& columns() const { return columns_; }
   /// The values of the columns in their units, on every process. Collective.
   std::vector<double> values(const FieldSet& fields, const std::vector<Reading>& globals = {}) const;
   std::size_t bytes() const;
@@ -107,7 +107,7 @@ class Probes {
                    const linear::ActiveSet* active, Totals to);
   static Sample global_sample(const GlobalProbe& probe, const std::vector<Reading>& globals);
 
-  std::vector<Column> columns_;
+  std::vector<CsvColumn> columns_;
   std::vector<Sample> samples_;
 };
 

@@ -26,7 +26,7 @@ bool follows_internal_energy(const coupling::Phases& phases, const RecorderOptio
 
 /// @param taken  columns that probes give
 GlobalHistory::Options global_columns(const coupling::Phases& phases, const RecorderOptions& options,
-                                      const std::vector<Column>& taken) {
+                                      const std::vector<CsvColumn>& taken) {
   GlobalHistory::Options columns{.melting = phases.heat != nullptr && options.melting,
                                  .contact = !phases.contacts.empty(),
                                  .mechanics = phases.mechanics != nullptr,
@@ -64,7 +64,7 @@ std::vector<Reading> global_readings(const coupling::Phases& phases, const Recor
 }
 
 // A probe that samples a field of a criterion.
-bool samples_criteria(const Probe& probe, const std::vector<criteria::FieldInfo>& fields) {
+bool samples_criteria(const Probe& probe, const std::vector<criteria::CriterionField>& fields) {
   return std::visit(
       [&](const auto& p) {
         if constexpr (std::is_base_of_v<Sampled, std::decay_t<decltype(p)>>)
@@ -77,7 +77,7 @@ bool samples_criteria(const Probe& probe, const std::vector<criteria::FieldInfo>
 
 bool samples_criteria(const coupling::Phases& phases, const std::vector<Probe>& probes) {
   if (phases.criteria == nullptr) return false;
-  const std::vector<criteria::FieldInfo> fields = phases.criteria->fields();
+  const std::vector<criteria::CriterionField> fields = phases.criteria->fields();
   return std::any_of(probes.begin(), probes.end(),
                      [&](const Probe& p) { return samples_criteria(p, fields); });
 }
@@ -111,11 +111,11 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
     profiles_.emplace_back(mesh, options_.kind, profile, fields_.bodies());
   fields_.bodies().select(options_.fields);  // complains about a field there is not
   on_first_process([&] {
-    std::vector<Column> columns{{"time", "s"}};
+    std::vector<CsvColumn> columns{{"time", "s"}};
     if (options_.stages) columns.insert(columns.end(), {{"stage", "1"}, {"cycle", "1"}});
     if (options_.shots) columns.insert(columns.end(), {{"shot", "1"}, {"time_since_pouring", "s"}});
     columns.insert(columns.end(), probes_.columns().begin(), probes_.columns().end());
-    for (const Column& c : globals_.columns()) columns.push_back(c);
+    for (const CsvColumn& c : globals_.columns()) columns.push_back(c);
     if (options_.continue_from) {
       const double time = options_.continue_from->state.time;
       history_.emplace(folder.history(), columns, time);
@@ -248,7 +248,7 @@ void Recorder::note_left_walls(const coupling::StepRecord& record) {
   }
 }
 
-void Recorder::checkpoint(const coupling::Continuation& continuation, const coupling::State& state) {
+void Recorder::checkpoint(const coupling::RestartData& continuation, const coupling::State& state) {
   const profile::Part part("checkpoints");
   const double start = processes::wall_time();
   checkpoints_.write(mesh_, options_.fingerprint,

@@ -13,7 +13,7 @@
 #include "results/field_output.hpp"
 #include "results/pool_table.hpp"
 #include "results/probes.hpp"
-#include "results/profile.hpp"
+#include "results/profile_table.hpp"
 #include "results/progress.hpp"
 #include "results/run_folder.hpp"
 #include "results/shot_table.hpp"
@@ -57,7 +57,7 @@ class Recorder : public coupling::Observer {
   void begin(const coupling::State& state) override;
   void step(const coupling::StepRecord& record, const coupling::State& state) override;
   void shot(const coupling::ShotRecord& record, const coupling::State& state) override;
-  void checkpoint(const coupling::Continuation& continuation, const coupling::State& state) override;
+  void checkpoint(const coupling::RestartData& continuation, const coupling::State& state) override;
   void stopped(const coupling::Stop& stop, const coupling::State& state) override;
   void end(const coupling::State& state) override;
 

@@ -23,12 +23,12 @@ std::size_t at(Index i) {
 
 /// Element that a cell of the file corresponds to.
 struct ElementOfCell {
-  const mesh::Block* block;
+  const mesh::ElementBlock* block;
   Index element;
 };
 std::vector<ElementOfCell> cells_of(const mesh::Mesh& mesh) {
   std::vector<ElementOfCell> cells;
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::ElementBlock& block : mesh.blocks)
     for (Index e = 0; e < block.size(); ++e) cells.push_back({&block, e});
   return cells;
 }
@@ -65,7 +65,7 @@ void solve_upper(const Small& l, std::size_t n, double* x) {
 
 /// Volume centroids, and how far the nodes lie from them.
 void StressRecovery::measure_cells(AnalysisKind kind) {
-  for (const mesh::Block& block : mesh_.blocks) {
+  for (const mesh::ElementBlock& block : mesh_.blocks) {
     const mesh::BlockGeometry g(mesh_, block, kind, mesh::stiffness_rule(block.shape));
     const auto n_nodes = at(g.n_nodes);
     std::vector<double> weight(n_nodes);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double k_not_solid = -1;
 
-std::vector<Column> shot_columns() {
+std::vector<CsvColumn> shot_columns() {
   return {{"time", "s"},
           {"shot", "1"},
           {"poured_at", "s"},
@@ -90,7 +90,7 @@ std::optional<double> time_to_solidify(const mesh::Mesh& mesh, const FieldSet& f
   const std::span<const double> solidified = field->read(storage);
   double last = 0;
   bool liquid = false;
-  for (const mesh::Block& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks) {
     if (std::none_of(castings.begin(), castings.end(),
                      [&](const CastBody& cast) { return cast.body == block.body; }))
       continue;

@@ -10,7 +10,7 @@
 #include "mesh/mesh.hpp"
 #include "results/csv.hpp"
 #include "results/field.hpp"
-#include "results/json.hpp"
+#include "results/json_document.hpp"
 
 namespace solidus::results {
 

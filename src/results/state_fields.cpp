@@ -95,15 +95,15 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
     : mesh_(mesh), phases_(phases), kind_(kind), ghosts_(mesh) {
   find_side_areas(kind);
   if (phases.heat != nullptr) {
-    add("temperature", "K", 1, Place::node);
-    add("solid_fraction", "1", 1, Place::node);
+    add("temperature", "K", 1, mesh::FieldPlace::node);
+    add("solid_fraction", "1", 1, mesh::FieldPlace::node);
     add_heat_flux();
   }
   if (phases.mechanics != nullptr) {
-    add("displacement", "m", phases.mechanics->components(), Place::node);
+    add("displacement", "m", phases.mechanics->components(), mesh::FieldPlace::node);
     if (phases.mechanics->dynamic()) {
-      add("velocity", "m/s", phases.mechanics->components(), Place::node);
-      add("acceleration", "m/s2", phases.mechanics->components(), Place::node);
+      add("velocity", "m/s", phases.mechanics->components(), mesh::FieldPlace::node);
+      add("acceleration", "m/s2", phases.mechanics->components(), mesh::FieldPlace::node);
     }
     add_elements();
     add_nodal_stress();
@@ -117,17 +117,17 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
 
   FieldSet contact;
   for (std::size_t i = 0; i < n_of_phases; ++i)
-    if (const auto& v = values_[i]; v->place == Place::node && !v->compute)
+    if (const auto& v = values_[i]; v->place == mesh::FieldPlace::node && !v->compute)
       contact.add({v->name, v->unit, v->components, v->place, v->values});
   const auto add_everywhere = [&](const FieldName& field, int components) {
-    const std::vector<double>& values = add(field.name, field.unit, components, Place::node);
+    const std::vector<double>& values = add(field.name, field.unit, components, mesh::FieldPlace::node);
     values_.back()->of_contact = true;
-    contact.add({field.name, field.unit, components, Place::node, values});
+    contact.add({field.name, field.unit, components, mesh::FieldPlace::node, values});
     const bool of_area = std::ranges::find(k_of_area, std::string_view(field.name)) != std::end(k_of_area);
     bodies_.add({field.name,
                  field.unit,
                  components,
-                 Place::node,
+                 mesh::FieldPlace::node,
                  values,
                  {},
                  of_area ? std::span<const double>(covered_) : std::span<const double>()});
@@ -161,7 +161,7 @@ void StateFields::find_side_areas(AnalysisKind kind) {
       sides[side].assign(mesh_.x.size(), 0.0);
       const auto surface = mesh_.surfaces.find(side == 0 ? pair->spec().slave : pair->spec().master);
       if (surface == mesh_.surfaces.end()) continue;  // a rigid one
-      for (const mesh::Block& faces : surface->second.faces) {
+      for (const mesh::ElementBlock& faces : surface->second.faces) {
         const mesh::FaceGeometry g(mesh_, faces, kind, mesh::gauss_rule(faces.shape, 4));
         const auto n = static_cast<std::size_t>(g.n_nodes), n_points = static_cast<std::size_t>(g.n_points);
         for (Index f = 0; f < g.n_faces; ++f)
@@ -174,7 +174,8 @@ void StateFields::find_side_areas(AnalysisKind kind) {
   }
 }
 
-std::vector<double>& StateFields::add(std::string name, std::string unit, int components, Place place) {
+std::vector<double>& StateFields::add(std::string name, std::string unit, int components,
+                                      mesh::FieldPlace place) {
   auto v =
       std::make_unique<Values>(Values{std::move(name), std::move(unit), components, place, {}, false, {}});
   v->values.assign(value_count(mesh_, place, components), 0.0);
@@ -196,7 +197,7 @@ void StateFields::add_elements() {
     values_.push_back(std::make_unique<Values>(Values{field.name,
                                                       field.unit,
                                                       component_count(field.which),
-                                                      Place::cell,
+                                                      mesh::FieldPlace::cell,
                                                       {},
                                                       false,
                                                       compute,
@@ -212,8 +213,8 @@ void StateFields::add_heat_flux() {
           [this](int body) -> const material::Material& { return phases_.heat->storage().material(body); },
           *by_name_.at("temperature"));
     };
-    values_.push_back(
-        std::make_unique<Values>(Values{name, unit, components, Place::cell, {}, false, compute, true}));
+    values_.push_back(std::make_unique<Values>(
+        Values{name, unit, components, mesh::FieldPlace::cell, {}, false, compute, true}));
   };
   add("heat_flux", "W/m2", mesh_.dimension, element_heat_flux);
   add("conduction_dissipation", "W/m3", 1, element_conduction_dissipation);
@@ -226,8 +227,15 @@ void StateFields::add_nodal_stress() {
   };
   const auto add = [this](const char* name, int components,
                           const std::function<std::vector<double>(int body)>& compute) {
-    values_.push_back(std::make_unique<Values>(Values{
-        name, "Pa", components, Place::node, {}, false, [compute] { return compute(-1); }, true, compute}));
+    values_.push_back(std::make_unique<Values>(Values{name,
+                                                      "Pa",
+                                                      components,
+                                                      mesh::FieldPlace::node,
+                                                      {},
+                                                      false,
+                                                      [compute] { return compute(-1); },
+                                                      true,
+                                                      compute}));
   };
   add("nodal_stress", 6, nodal);
   add("nodal_von_mises", 1, [nodal](int body) { return von_mises_values(nodal(body)); });
@@ -237,8 +245,8 @@ void StateFields::add_nodal_stress() {
 
 void StateFields::add_criteria() {
   if (phases_.criteria == nullptr) return;
-  for (const criteria::FieldInfo& field : phases_.criteria->fields()) {
-    const Place place = field.place == criteria::Place::node ? Place::node : Place::cell;
+  for (const criteria::CriterionField& field : phases_.criteria->fields()) {
+    const mesh::FieldPlace place = field.place;
     values_.push_back(
         std::make_unique<Values>(Values{field.name, field.unit, field.components, place, {}, false, {}}));
     Values* v = values_.back().get();
@@ -251,17 +259,16 @@ void StateFields::add_criteria() {
 
 void StateFields::release_criteria() {
   if (phases_.criteria == nullptr) return;
-  for (const criteria::FieldInfo& field : phases_.criteria->fields())
+  for (const criteria::CriterionField& field : phases_.criteria->fields())
     std::vector<double>().swap(*by_name_.at(field.name));
 }
 
 void StateFields::update_criteria(const coupling::State& state) {
   if (phases_.criteria == nullptr) return;
   std::vector<std::span<double>> values;
-  for (const criteria::FieldInfo& field : phases_.criteria->fields()) {
+  for (const criteria::CriterionField& field : phases_.criteria->fields()) {
     std::vector<double>& of_field = *by_name_.at(field.name);
-    of_field.resize(value_count(mesh_, field.place == criteria::Place::node ? Place::node : Place::cell,
-                                field.components));
+    of_field.resize(value_count(mesh_, field.place, field.components));
     values.emplace_back(of_field);
   }
   phases_.criteria->fill({state.time - state.poured, state.heat, state.mechanics}, state.criteria, values);

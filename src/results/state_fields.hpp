@@ -47,14 +47,14 @@ class StateFields {
   struct Values {
     std::string name, unit;
     int components;
-    Place place;
+    mesh::FieldPlace place;
     std::vector<double> values;
     bool of_contact;
     std::function<std::vector<double>()> compute;               ///< instead of values
     bool on_request = false;                                    ///< Field::on_request
     std::function<std::vector<double>(int body)> compute_of{};  ///< Field::compute_of
   };
-  std::vector<double>& add(std::string name, std::string unit, int components, Place place);
+  std::vector<double>& add(std::string name, std::string unit, int components, mesh::FieldPlace place);
   void find_side_areas(AnalysisKind kind);
   void add_elements();
   void add_heat_flux();

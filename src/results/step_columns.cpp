@@ -58,9 +58,9 @@ void add_pair(const PairColumns& pair, const coupling::ContactSummary& sums, std
 /// A column of steps.csv: its head, when it is there, and its cell of a step whose contacts add up to
 /// `contact`.
 struct StepColumn {
-  Column head;
+  CsvColumn head;
   bool (*shown)(const StepTable& table);
-  Cell (*cell)(const coupling::StepRecord& r, const coupling::ContactSummary& contact);
+  CsvCell (*cell)(const coupling::StepRecord& r, const coupling::ContactSummary& contact);
 };
 
 /// ΔS of a step or a run less what came with heat from outside: not below zero but for errors [J/K].
@@ -68,7 +68,7 @@ double entropy_production(const coupling::StabilityAudit& stability, const coupl
   return stability.entropy + stability.frictional_entropy + energy.inelastic_entropy - energy.entropy_in;
 }
 
-Cell whole(int value) {
+CsvCell whole(int value) {
   return static_cast<std::int64_t>(value);
 }
 
@@ -81,129 +81,133 @@ const std::vector<StepColumn>& all_step_columns() {
   constexpr auto stability = [](const StepTable& t) { return t.stability; };
   constexpr auto stages = [](const StepTable& t) { return t.stages; };
   static const std::vector<StepColumn> k_columns = {
-      {{"time", "s"}, always, [](const Record& r, const Contact&) -> Cell { return r.time; }},
-      {{"step", "1"}, always, [](const Record& r, const Contact&) -> Cell { return whole(r.number); }},
-      {{"dt", "s"}, always, [](const Record& r, const Contact&) -> Cell { return r.dt; }},
-      {{"reason", ""}, always, [](const Record& r, const Contact&) -> Cell { return r.reason; }},
-      {{"rejected", "1"}, always, [](const Record& r, const Contact&) -> Cell { return whole(r.rejected); }},
+      {{"time", "s"}, always, [](const Record& r, const Contact&) -> CsvCell { return r.time; }},
+      {{"step", "1"}, always, [](const Record& r, const Contact&) -> CsvCell { return whole(r.number); }},
+      {{"dt", "s"}, always, [](const Record& r, const Contact&) -> CsvCell { return r.dt; }},
+      {{"reason", ""}, always, [](const Record& r, const Contact&) -> CsvCell { return r.reason; }},
+      {{"rejected", "1"},
+       always,
+       [](const Record& r, const Contact&) -> CsvCell { return whole(r.rejected); }},
       {{"shortened", "1"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return whole(r.shortened); }},
-      {{"rejection", ""}, always, [](const Record& r, const Contact&) -> Cell { return r.rejection; }},
+       [](const Record& r, const Contact&) -> CsvCell { return whole(r.shortened); }},
+      {{"rejection", ""}, always, [](const Record& r, const Contact&) -> CsvCell { return r.rejection; }},
       {{"temperature_error", "K"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return r.temperature_error; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.temperature_error; }},
       {{"displacement_error", "m"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return r.displacement_error; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.displacement_error; }},
       {{"output", "1"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return whole(r.output ? 1 : 0); }},
+       [](const Record& r, const Contact&) -> CsvCell { return whole(r.output ? 1 : 0); }},
       {{"heat_iterations", "1"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return whole(r.heat.iterations); }},
+       [](const Record& r, const Contact&) -> CsvCell { return whole(r.heat.iterations); }},
       {{"heat_linear_iterations", "1"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return whole(r.heat.linear_iterations); }},
+       [](const Record& r, const Contact&) -> CsvCell { return whole(r.heat.linear_iterations); }},
       {{"heat_residual", "1"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return r.heat.residual; }},
-      {{"heat_seconds", "s"}, always, [](const Record& r, const Contact&) -> Cell { return r.heat.seconds; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.heat.residual; }},
+      {{"heat_seconds", "s"},
+       always,
+       [](const Record& r, const Contact&) -> CsvCell { return r.heat.seconds; }},
       {{"mechanics_iterations", "1"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return whole(r.mechanics.iterations); }},
+       [](const Record& r, const Contact&) -> CsvCell { return whole(r.mechanics.iterations); }},
       {{"mechanics_linear_iterations", "1"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return whole(r.mechanics.linear_iterations); }},
+       [](const Record& r, const Contact&) -> CsvCell { return whole(r.mechanics.linear_iterations); }},
       {{"mechanics_residual", "1"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return r.mechanics.residual; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.mechanics.residual; }},
       {{"mechanics_seconds", "s"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return r.mechanics.seconds; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.mechanics.seconds; }},
       {{"coupling_iterations", "1"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return whole(r.coupling_iterations); }},
+       [](const Record& r, const Contact&) -> CsvCell { return whole(r.coupling_iterations); }},
       {{"closed_points", "1"},
        always,
-       [](const Record&, const Contact& contact) -> Cell { return whole(contact.closed_points); }},
+       [](const Record&, const Contact& contact) -> CsvCell { return whole(contact.closed_points); }},
       {{"contact_points", "1"},
        always,
-       [](const Record&, const Contact& contact) -> Cell { return whole(contact.points); }},
+       [](const Record&, const Contact& contact) -> CsvCell { return whole(contact.points); }},
       {{"solid_fraction", "1"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return r.solid_fraction; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.solid_fraction; }},
       {{"T_min", "degC"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return r.min_temperature - k_zero_celsius; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.min_temperature - k_zero_celsius; }},
       {{"T_max", "degC"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return r.max_temperature - k_zero_celsius; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.max_temperature - k_zero_celsius; }},
       {{"contact_energy", "J"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return r.energy.contact; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.energy.contact; }},
       {{"numerical_dissipation", "J"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return r.energy.numerical; }},
-      {{"work", "J"}, always, [](const Record& r, const Contact&) -> Cell { return r.energy.work; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.energy.numerical; }},
+      {{"work", "J"}, always, [](const Record& r, const Contact&) -> CsvCell { return r.energy.work; }},
       {{"viscous_dissipation", "J"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return r.energy.viscous_dissipation; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.energy.viscous_dissipation; }},
       {{"plastic_dissipation", "J"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return r.energy.plastic_dissipation; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.energy.plastic_dissipation; }},
       {{"plastic_work", "J"},
        always,
-       [](const Record& r, const Contact&) -> Cell { return r.energy.plastic_work; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.energy.plastic_work; }},
       {{"stored_heat", "J"},
        heat,
-       [](const Record& r, const Contact&) -> Cell { return r.energy.stored_heat; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.energy.stored_heat; }},
       {{"structural_energy", "J"},
        heat,
-       [](const Record& r, const Contact&) -> Cell { return r.energy.structural; }},
-      {{"heat_in", "J"}, heat, [](const Record& r, const Contact&) -> Cell { return r.energy.heat_in; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.energy.structural; }},
+      {{"heat_in", "J"}, heat, [](const Record& r, const Contact&) -> CsvCell { return r.energy.heat_in; }},
       {{"heat_exchanged", "J"},
        heat,
-       [](const Record& r, const Contact&) -> Cell { return r.energy.heat_exchanged; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.energy.heat_exchanged; }},
       {{"energy_defect", "J"},
        heat,
-       [](const Record& r, const Contact&) -> Cell { return r.energy.defect(); }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.energy.defect(); }},
       {{"kinetic_energy", "J"},
        dynamics,
-       [](const Record& r, const Contact&) -> Cell { return r.energy.kinetic; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.energy.kinetic; }},
       {{"lyapunov_mechanical", "J"},
        stability,
-       [](const Record& r, const Contact&) -> Cell { return r.stability.mechanical; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.stability.mechanical; }},
       {{"lyapunov_thermal", "J"},
        stability,
-       [](const Record& r, const Contact&) -> Cell { return r.stability.thermal; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.stability.thermal; }},
       {{"lyapunov_tolerance", "J"},
        stability,
-       [](const Record& r, const Contact&) -> Cell { return r.stability.tolerance; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.stability.tolerance; }},
       {{"entropy", "J/K"},
        stability,
-       [](const Record& r, const Contact&) -> Cell { return r.stability.entropy; }},
+       [](const Record& r, const Contact&) -> CsvCell { return r.stability.entropy; }},
       {{"entropy_production", "J/K"},
        stability,
-       [](const Record& r, const Contact&) -> Cell { return entropy_production(r.stability, r.energy); }},
-      {{"stage", ""}, stages, [](const Record& r, const Contact&) -> Cell { return r.stage; }},
-      {{"cycle", "1"}, stages, [](const Record& r, const Contact&) -> Cell { return whole(r.cycle); }},
+       [](const Record& r, const Contact&) -> CsvCell { return entropy_production(r.stability, r.energy); }},
+      {{"stage", ""}, stages, [](const Record& r, const Contact&) -> CsvCell { return r.stage; }},
+      {{"cycle", "1"}, stages, [](const Record& r, const Contact&) -> CsvCell { return whole(r.cycle); }},
   };
   return k_columns;
 }
 
 }  // namespace
 
-std::vector<Column> step_columns(StepTable table) {
-  std::vector<Column> columns;
+std::vector<CsvColumn> step_columns(StepTable table) {
+  std::vector<CsvColumn> columns;
   for (const StepColumn& column : all_step_columns())
     if (column.shown(table)) columns.push_back(column.head);
   return columns;
 }
 
-std::vector<Cell> step_row(const coupling::StepRecord& r, StepTable table) {
+std::vector<CsvCell> step_row(const coupling::StepRecord& r, StepTable table) {
   const coupling::ContactSummary contact = total(r.contacts);
-  std::vector<Cell> cells;
+  std::vector<CsvCell> cells;
   for (const StepColumn& column : all_step_columns())
     if (column.shown(table)) cells.push_back(column.cell(r, contact));
   return cells;
@@ -271,13 +275,13 @@ std::vector<Reading> GlobalHistory::entries() const {
   std::vector<Reading> all = this->all();
   std::erase_if(all, [this](const auto& entry) {
     return std::any_of(options_.taken.begin(), options_.taken.end(),
-                       [&](const Column& c) { return c.header() == entry.first.header(); });
+                       [&](const CsvColumn& c) { return c.header() == entry.first.header(); });
   });
   return all;
 }
 
-std::vector<Column> GlobalHistory::columns() const {
-  std::vector<Column> columns;
+std::vector<CsvColumn> GlobalHistory::columns() const {
+  std::vector<CsvColumn> columns;
   for (const auto& [column, value] : entries()) columns.push_back(column);
   return columns;
 }

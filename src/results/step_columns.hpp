@@ -20,8 +20,8 @@ struct StepTable {
   /// deformation is not counted there.
   bool heat = true;
 };
-std::vector<Column> step_columns(StepTable table = {});
-std::vector<Cell> step_row(const coupling::StepRecord& record, StepTable table = {});
+std::vector<CsvColumn> step_columns(StepTable table = {});
+std::vector<CsvCell> step_row(const coupling::StepRecord& record, StepTable table = {});
 
 /// The columns of one contact pair in history.csv; their names begin with the pair's.
 struct PairColumns {
@@ -39,7 +39,7 @@ class GlobalHistory {
   struct Options {
     bool melting = true, contact = true, mechanics = true;
     /// Columns that probes of the same header give already; they are left out here.
-    std::vector<Column> taken = {};
+    std::vector<CsvColumn> taken = {};
     bool plastic = false;    ///< a material can flow plastically
     bool dynamics = false;   ///< bodies have inertia
     bool stability = false;  ///< 𝓛 is followed
@@ -50,7 +50,7 @@ class GlobalHistory {
   };
   explicit GlobalHistory(Options options) : options_(std::move(options)) {}
 
-  std::vector<Column> columns() const;
+  std::vector<CsvColumn> columns() const;
   /// The state before the first step; energies begin at zero.
   /// @param energy, stability  sums of the steps before, where a run goes on
   /// @param heat_content       of that state, as of coupling::heat_content() [J]

@@ -117,7 +117,7 @@ class Writer {
   void elements() {
     for (std::size_t b = 0; b < d_.mesh.blocks.size(); ++b) {
       if (!there(b)) continue;
-      const mesh::Block& block = d_.mesh.blocks[b];
+      const mesh::ElementBlock& block = d_.mesh.blocks[b];
       line("*ELEMENT, TYPE={}, ELSET={}", deck_element_type(d_.kind, block.shape), body_set(block.body));
       const auto order = mesh::abaqus_node_order(block.shape);
       const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
@@ -163,14 +163,14 @@ class Writer {
     };
     std::unordered_map<mesh::FaceKey, Behind, mesh::FaceKeyHash> behind;
     const auto faces_of = [&](const mesh::Surface& surface, auto visit) {
-      for (const mesh::Block& faces : surface.faces)
+      for (const mesh::ElementBlock& faces : surface.faces)
         for (Index f = 0; f < faces.size(); ++f)
           visit(mesh::face_key(faces.element(f), mesh::vertex_count(faces.shape)));
     };
     for (const auto& [name, surface] : d_.mesh.surfaces)
       faces_of(surface, [&](const mesh::FaceKey& key) { behind[key] = {0, 0}; });
     for (std::size_t b = 0; b < d_.mesh.blocks.size(); ++b) {
-      const mesh::Block& block = d_.mesh.blocks[b];
+      const mesh::ElementBlock& block = d_.mesh.blocks[b];
       const int vertices = mesh::vertex_count(mesh::face_shape(block.shape));
       for (Index e = 0; there(b) && e < block.size(); ++e)
         for (int k = 0; k < mesh::face_count(block.shape); ++k) {

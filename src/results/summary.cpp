@@ -5,7 +5,7 @@
 #include <array>
 
 #include "parallel/parallel.hpp"
-#include "results/json.hpp"
+#include "results/json_document.hpp"
 #include "results/output_file.hpp"
 #include "system/processes.hpp"
 #include "system/version.hpp"
@@ -22,9 +22,9 @@ Json object(const std::vector<std::pair<std::string, T>>& members) {
 }
 
 // Values by their names; places [m] beside those that have one.
-Json findings(const std::vector<criteria::Finding>& found) {
+Json findings(const std::vector<criteria::CriterionResult>& found) {
   Json json;
-  for (const criteria::Finding& f : found) {
+  for (const criteria::CriterionResult& f : found) {
     const std::string name = f.name + (f.unit == "1" ? "" : "[" + f.unit + "]");
     json.add(name, f.value);
     if (f.somewhere) json.add(f.name + "_at[m]", Json::Array(f.where.begin(), f.where.end()));
@@ -68,17 +68,17 @@ MeshCounts count(const mesh::Mesh& mesh) {
                                    Shape::quad8, Shape::tet4,  Shape::tet10, Shape::hex8, Shape::hex20};
   const auto counted = [&](const auto& belongs) {
     Index n = 0;
-    for (const mesh::Block& block : mesh.blocks)
+    for (const mesh::ElementBlock& block : mesh.blocks)
       if (belongs(block)) n += block.n_counted;
     return sum(n);
   };
   MeshCounts counts;
   counts.nodes = mesh.n_global_nodes;
   for (const Shape shape : k_shapes)
-    if (const GlobalIndex n = counted([&](const mesh::Block& b) { return b.shape == shape; }); n > 0)
+    if (const GlobalIndex n = counted([&](const mesh::ElementBlock& b) { return b.shape == shape; }); n > 0)
       counts.elements_of_shape.emplace_back(mesh::name(shape), n);
   for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
-    counts.elements_of_body.emplace_back(mesh.bodies[body].name, counted([&](const mesh::Block& b) {
+    counts.elements_of_body.emplace_back(mesh.bodies[body].name, counted([&](const mesh::ElementBlock& b) {
                                            return b.body == static_cast<int>(body);
                                          }));
   return counts;

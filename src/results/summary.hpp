@@ -12,7 +12,7 @@
 #include "criteria/criterion.hpp"
 #include "mesh/mesh.hpp"
 #include "results/answers.hpp"
-#include "results/balance.hpp"
+#include "results/load_balance.hpp"
 #include "results/overview.hpp"
 
 namespace solidus::results {
@@ -68,7 +68,7 @@ struct Summary {
   std::vector<std::pair<std::string, std::size_t>> table_bytes;  ///< of process 0
   std::optional<double> relative_energy_defect;                  ///< absent without heat
   std::vector<std::pair<std::string, double>> final_values;
-  std::vector<criteria::Finding> criteria;
+  std::vector<criteria::CriterionResult> criteria;
   std::optional<Answers> answers;  ///< absent in steady runs
   std::vector<ChosenMelt> melt;
   std::vector<LeftWall> left_walls;

@@ -119,11 +119,11 @@ std::vector<std::int64_t> whole(const std::vector<double>& numbers) {
   return all;
 }
 
-std::string path_of(const FieldColumn& column) {
+std::string path_of(const FieldArray& column) {
   return fmt::format("VTKHDF/{}/{}", column.section, column.name);
 }
 
-void write_mesh(Writer& writer, const FieldMoment& moment, const std::vector<FieldColumn>& columns,
+void write_mesh(Writer& writer, const FieldMoment& moment, const std::vector<FieldArray>& columns,
                 VtkHdfReport& report) {
   std::vector<std::int64_t> connectivity, offsets = {0};
   std::vector<std::uint8_t> types;
@@ -146,7 +146,7 @@ void write_mesh(Writer& writer, const FieldMoment& moment, const std::vector<Fie
   writer.append("VTKHDF/Connectivity", connectivity);
   writer.append("VTKHDF/Offsets", offsets);
   writer.append("VTKHDF/Types", types);
-  for (const FieldColumn& column : columns)
+  for (const FieldArray& column : columns)
     if (column.is_of_mesh()) writer.append(path_of(column), whole(values_of(moment, column)));
 }
 
@@ -157,7 +157,7 @@ VtkHdfReport write_all(const std::vector<PvdCollection::Entry>& moments, const f
   writer.group("VTKHDF");
   writer.integer_attribute("VTKHDF", "Version", {2, 0});
   writer.text_attribute("VTKHDF", "Type", "UnstructuredGrid");
-  std::vector<FieldColumn> columns;
+  std::vector<FieldArray> columns;
   std::vector<double> times;
   for (const PvdCollection::Entry& entry : moments) {
     const FieldMoment moment(root / entry.file);
@@ -168,7 +168,7 @@ VtkHdfReport write_all(const std::vector<PvdCollection::Entry>& moments, const f
     }
     check_same_mesh(moment, report.points, report.cells, root / entry.file);
     const auto step = static_cast<std::int64_t>(report.times);
-    for (const FieldColumn& column : columns) {
+    for (const FieldArray& column : columns) {
       const auto n = static_cast<std::int64_t>(column.of_points() ? report.points : report.cells);
       const std::int64_t offset = column.is_of_mesh() ? 0 : step * n;
       writer.append(fmt::format("VTKHDF/Steps/{}Offsets/{}", column.section, column.name),
@@ -183,7 +183,7 @@ VtkHdfReport write_all(const std::vector<PvdCollection::Entry>& moments, const f
     times.push_back(entry.time);
     ++report.times;
   }
-  for (const FieldColumn& column : columns) {
+  for (const FieldArray& column : columns) {
     if (column.is_of_mesh()) continue;
     ++report.fields;
     if (!column.unit.empty()) writer.text_attribute(path_of(column), "UNITS_LABEL", column.unit);

@@ -15,7 +15,7 @@
 
 namespace solidus::results {
 
-using mesh::Block;
+using mesh::ElementBlock;
 using mesh::Mesh;
 using mesh::Shape;
 using mesh::vtk_cell_type;
@@ -26,16 +26,16 @@ namespace {
 // Contents of one file: the counted cells of some blocks and the nodes they touch.
 struct Part {
   const Mesh& mesh;
-  std::span<const Block> blocks;
+  std::span<const ElementBlock> blocks;
   bool volume;                // the blocks are Mesh::blocks: cell fields belong to them
   std::vector<Index> nodes;   // local numbers, in the order of the file
   std::vector<Index> number;  // the inverse; -1 elsewhere
   std::size_t n_cells = 0, n_corners = 0;
 };
 
-Part make_part(const Mesh& mesh, std::span<const Block> blocks, bool volume) {
+Part make_part(const Mesh& mesh, std::span<const ElementBlock> blocks, bool volume) {
   Part part{mesh, blocks, volume, {}, std::vector<Index>(mesh.x.size(), -1)};
-  for (const Block& block : blocks) {
+  for (const ElementBlock& block : blocks) {
     const auto n = static_cast<std::size_t>(block.n_counted);
     part.n_cells += n;
     part.n_corners += n * static_cast<std::size_t>(mesh::node_count(block.shape));
@@ -75,7 +75,7 @@ std::string add_field(AppendedData& data, const Part& part, const Field& field) 
   check_size(mesh, field, values.size());
   const auto nc = static_cast<std::size_t>(field.components);
   const auto pad = static_cast<std::size_t>(file_components(field)) - nc;
-  const bool at_nodes = field.place == Place::node;
+  const bool at_nodes = field.place == mesh::FieldPlace::node;
   const std::size_t n = (at_nodes ? part.nodes.size() : part.n_cells) * (nc + pad);
   return data.add<double>(head_of(field), n, [&](const auto& put) {
     const auto take = [&](std::size_t entity, const auto& where) {
@@ -91,7 +91,7 @@ std::string add_field(AppendedData& data, const Part& part, const Field& field) 
           return fmt::format("node {} {}", mesh.input_node[static_cast<std::size_t>(node)], near(mesh, node));
         });
     std::size_t first = 0;
-    for (const Block& block : at_nodes ? std::span<const Block>() : part.blocks) {
+    for (const ElementBlock& block : at_nodes ? std::span<const ElementBlock>() : part.blocks) {
       for (Index e = 0; e < block.n_counted; ++e)
         take(first + static_cast<std::size_t>(e), [&] {
           return fmt::format("element {} near {}", block.input_element[static_cast<std::size_t>(e)],
@@ -109,7 +109,7 @@ constexpr const char* k_ghost_type = "vtkGhostType";
 template <class T, class F>
 std::string add_of_cells(AppendedData& data, const Part& part, const std::string& name, const F& value) {
   return data.add<T>({name}, part.n_cells, [&](const auto& put) {
-    for (const Block& block : part.blocks)
+    for (const ElementBlock& block : part.blocks)
       for (Index e = 0; e < block.n_counted; ++e) put(static_cast<T>(value(block, e)));
   });
 }
@@ -124,13 +124,14 @@ std::string add_points(AppendedData& data, const Part& part) {
 // The data in the order in which they have always been in the file.
 std::string add_cells(AppendedData& data, const Part& part) {
   const std::string types = add_of_cells<std::uint8_t>(
-      data, part, "types", [](const Block& block, Index) { return vtk_cell_type(block.shape); });
+      data, part, "types", [](const ElementBlock& block, Index) { return vtk_cell_type(block.shape); });
   std::int64_t end = 0;
   const std::string offsets = add_of_cells<std::int64_t>(
-      data, part, "offsets", [&](const Block& block, Index) { return end += mesh::node_count(block.shape); });
+      data, part, "offsets",
+      [&](const ElementBlock& block, Index) { return end += mesh::node_count(block.shape); });
   const std::string connectivity =
       data.add<std::int64_t>({"connectivity"}, part.n_corners, [&](const auto& put) {
-        for (const Block& block : part.blocks) {
+        for (const ElementBlock& block : part.blocks) {
           const auto order = vtk_node_order(block.shape);
           for (Index e = 0; e < block.n_counted; ++e)
             for (const int a : order) put(part.number[static_cast<std::size_t>(block.element(e)[a])]);
@@ -140,7 +141,7 @@ std::string add_cells(AppendedData& data, const Part& part) {
 }
 
 // Returns ' Scalars="temperature" Vectors="displacement"', the fields that ParaView shows first.
-std::string active(const FieldSet& fields, Place place) {
+std::string active(const FieldSet& fields, mesh::FieldPlace place) {
   std::string scalars, vectors;
   for (const Field& field : fields.all()) {
     if (field.place != place) continue;
@@ -171,28 +172,31 @@ void write_part(const std::filesystem::path& path, const Part& part, const Field
   xml += fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", part.nodes.size(),
                      part.n_cells);
 
-  xml += fmt::format("      <PointData{}>\n", active(fields, Place::node));
+  xml += fmt::format("      <PointData{}>\n", active(fields, mesh::FieldPlace::node));
   for (const Field& field : fields.all())
-    if (field.place == Place::node) xml += add_field(data, part, field);
+    if (field.place == mesh::FieldPlace::node) xml += add_field(data, part, field);
   xml += data.add<std::int64_t>({"node"}, part.nodes.size(), [&part](const auto& put) {
     for (const Index node : part.nodes) put(part.mesh.input_node[static_cast<std::size_t>(node)]);
   });
   xml += "      </PointData>\n";
 
-  xml += fmt::format("      <CellData{}>\n", part.volume ? active(fields, Place::cell) : "");
+  xml += fmt::format("      <CellData{}>\n", part.volume ? active(fields, mesh::FieldPlace::cell) : "");
   if (part.volume)
     for (const Field& field : fields.all())
-      if (field.place == Place::cell) xml += add_field(data, part, field);
+      if (field.place == mesh::FieldPlace::cell) xml += add_field(data, part, field);
   const int rank = processes::rank();
-  xml += add_of_cells<std::int64_t>(data, part, "element", [](const Block& block, Index e) {
+  xml += add_of_cells<std::int64_t>(data, part, "element", [](const ElementBlock& block, Index e) {
     return block.input_element[static_cast<std::size_t>(e)];
   });
-  xml += add_of_cells<std::int32_t>(data, part, "body", [](const Block& block, Index) { return block.body; });
-  xml += add_of_cells<std::int32_t>(data, part, "process", [rank](const Block&, Index) { return rank; });
+  xml += add_of_cells<std::int32_t>(data, part, "body",
+                                    [](const ElementBlock& block, Index) { return block.body; });
+  xml +=
+      add_of_cells<std::int32_t>(data, part, "process", [rank](const ElementBlock&, Index) { return rank; });
   if (const linear::ActiveSet* active_set = fields.active())
-    xml += add_of_cells<std::uint8_t>(data, part, k_ghost_type, [active_set](const Block& block, Index) {
-      return block.body < 0 || active_set->body(block.body) ? std::uint8_t{0} : k_hidden_cell;
-    });
+    xml +=
+        add_of_cells<std::uint8_t>(data, part, k_ghost_type, [active_set](const ElementBlock& block, Index) {
+          return block.body < 0 || active_set->body(block.body) ? std::uint8_t{0} : k_hidden_cell;
+        });
   xml += "      </CellData>\n";
   xml += "      <Points>\n" + add_points(data, part) + "      </Points>\n";
   xml += "      <Cells>\n" + add_cells(data, part) + "      </Cells>\n";
@@ -223,14 +227,15 @@ void write_pvtu(const std::filesystem::path& path, const std::vector<std::string
                        array_information(head));
   };
   std::string xml = vtk_head("PUnstructuredGrid") + "  <PUnstructuredGrid GhostLevel=\"0\">\n";
-  xml += fmt::format("    <PPointData{}>\n", active(fields, Place::node));
+  xml += fmt::format("    <PPointData{}>\n", active(fields, mesh::FieldPlace::node));
   for (const Field& field : fields.all())
-    if (field.place == Place::node) xml += array(head_of(field), vtk_type<double>());
+    if (field.place == mesh::FieldPlace::node) xml += array(head_of(field), vtk_type<double>());
   xml += array({"node"}, vtk_type<std::int64_t>());
-  xml += fmt::format("    </PPointData>\n    <PCellData{}>\n", surface ? "" : active(fields, Place::cell));
+  xml += fmt::format("    </PPointData>\n    <PCellData{}>\n",
+                     surface ? "" : active(fields, mesh::FieldPlace::cell));
   if (!surface)
     for (const Field& field : fields.all())
-      if (field.place == Place::cell) xml += array(head_of(field), vtk_type<double>());
+      if (field.place == mesh::FieldPlace::cell) xml += array(head_of(field), vtk_type<double>());
   xml += array({"element"}, vtk_type<std::int64_t>()) + array({"body"}, vtk_type<std::int32_t>()) +
          array({"process"}, vtk_type<std::int32_t>());
   if (fields.active() != nullptr) xml += array({k_ghost_type}, vtk_type<std::uint8_t>());

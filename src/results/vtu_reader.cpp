@@ -60,7 +60,7 @@ class Reader {
     mesh.bodies.push_back({"body"});
     for (auto& [shape, nodes] : cells_) {
       if (mesh::dimension(shape) != dimension) continue;
-      mesh::Block block{.shape = shape, .body = 0, .nodes = std::move(nodes), .input_element = {}};
+      mesh::ElementBlock block{.shape = shape, .body = 0, .nodes = std::move(nodes), .input_element = {}};
       block.n_counted = block.size();
       for (Index e = 0; e < block.size(); ++e) block.input_element.push_back(e + 1);
       mesh.blocks.push_back(std::move(block));
@@ -138,7 +138,7 @@ ReadField read_vtu(const fs::path& file, const std::string& field, int body, dou
   reader.read(file);
   ReadField read = reader.result(file);
   // Points that no kept cell has (of other bodies) may hold anything; those of cells must be numbers.
-  for (const mesh::Block& block : read.mesh.blocks)
+  for (const mesh::ElementBlock& block : read.mesh.blocks)
     for (const Index node : block.nodes)
       if (!std::isfinite(read.values[static_cast<std::size_t>(node)]))
         throw InputError({file.string(), 0, 0}, fmt::format("the field '{}' is not finite somewhere", field));

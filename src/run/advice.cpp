@@ -69,7 +69,7 @@ std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const Case
 /// Advice for steps that coupling::GuardedScheme refuses.
 std::vector<std::string> guard_advice(const coupling::Stop& stop, const CaseSpec& spec) {
   std::vector<std::string> advice;
-  if (spec.heat.integration == heat::Integration::open)
+  if (spec.heat.integration == heat::HeatIntegration::open)
     advice.emplace_back(
         "the closed rule, heat.integration = \"closed\": the open one over- and undershoots at sudden "
         "chills");
@@ -105,14 +105,14 @@ std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec&
   if (says(stop, "temperature falls") || says(stop, "temperature is not")) {
     std::vector<std::string> advice = {
         "fluxes and sources at that place: do they take more heat than there is?"};
-    if (spec.heat.integration == heat::Integration::open) advice.insert(advice.begin(), closed);
+    if (spec.heat.integration == heat::HeatIntegration::open) advice.insert(advice.begin(), closed);
     return advice;
   }
   std::vector<std::string> advice = {
       fmt::format("more iterations: heat.max_iterations (now {}), or heat.tolerance",
                   spec.heat.max_iterations),
       "films, radiation, sources or conductivities that change steeply with temperature at that place"};
-  if (spec.heat.integration == heat::Integration::open)
+  if (spec.heat.integration == heat::HeatIntegration::open)
     advice.emplace_back("the closed rule, heat.integration = \"closed\", converges for any step");
   return advice;
 }

@@ -6,7 +6,7 @@
 
 #include "case/case_spec.hpp"
 #include "check/coupling_estimate.hpp"
-#include "coupling/continuation.hpp"
+#include "coupling/restart_data.hpp"
 
 namespace solidus::model {
 

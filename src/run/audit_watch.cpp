@@ -14,7 +14,7 @@ namespace {
 
 /// The scheme closes the first law to its residuals.
 bool closes_first_law(const CaseSpec& spec) {
-  return !spec.coupled() || (spec.coupling.structural_heating == CouplingSpec::StructuralHeating::energy &&
+  return !spec.coupled() || (spec.coupling.structural_heating == CouplingSpec::StructuralHeatForm::energy &&
                              !spec.coupling.as_printed);
 }
 
@@ -51,7 +51,7 @@ void FirstLawWatch::report() const {
   const bool closes = closes_first_law(spec_);
   if (!(defect > unsolved_ + (closes ? k_rounding : k_seen) * scale)) return;
   const bool printed =
-      spec_.coupled() && (spec_.coupling.structural_heating != CouplingSpec::StructuralHeating::energy ||
+      spec_.coupled() && (spec_.coupling.structural_heating != CouplingSpec::StructuralHeatForm::energy ||
                           spec_.coupling.as_printed);
   logging::warn("the first law is violated by {:.2g} of the {}, {:.3g} J; {}", defect / scale,
                 scale == sum_.heat_exchanged ? "heat exchanged" : "energy at hand", sum_.defect(),

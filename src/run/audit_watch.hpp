@@ -66,7 +66,7 @@ class LagWatch : public coupling::Observer {
 };
 
 /// Reports at the end of a run that liquid metal has left its wall, and where
-/// (contact::ContactSpec::leaving_gap).
+/// (contact::ContactParameters::leaving_gap).
 class WallWatch : public coupling::Observer {
  public:
   /// @param contacts  kept by reference

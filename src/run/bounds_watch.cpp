@@ -13,7 +13,7 @@ namespace {
 constexpr double k_worth_a_word = 0.1;  ///< beyond the range [K]
 
 const char* remedy(const CaseSpec& spec) {
-  if (spec.heat.integration == heat::Integration::open)
+  if (spec.heat.integration == heat::HeatIntegration::open)
     return "the open rule over- and undershoots at sudden chills; the closed one does not";
   if (!spec.heat.bounds) return "heat.bounds = true keeps temperatures within their range";
   return "shorter steps help";

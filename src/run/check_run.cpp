@@ -2,10 +2,10 @@
 #include "build/assembly.hpp"
 #include "build/mesh_input.hpp"
 #include "case/case_materials.hpp"
+#include "check/case_overview.hpp"
 #include "check/findings.hpp"
-#include "check/overview.hpp"
 #include "run/recording.hpp"
-#include "run/run.hpp"
+#include "run/session.hpp"
 
 namespace solidus::model {
 

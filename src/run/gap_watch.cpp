@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "contact/report.hpp"
+#include "contact/contact_report.hpp"
 #include "coupling/state.hpp"
 #include "parallel/parallel.hpp"
 #include "system/log.hpp"

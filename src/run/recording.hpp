@@ -3,7 +3,7 @@
 
 #include "build/assembly.hpp"
 #include "results/recorder.hpp"
-#include "run/run.hpp"
+#include "run/session.hpp"
 
 namespace solidus::model {
 

@@ -6,7 +6,7 @@
 #include "build/assembly.hpp"
 #include "build/fingerprint.hpp"
 #include "results/recorder.hpp"
-#include "run/run.hpp"
+#include "run/session.hpp"
 
 namespace solidus::model {
 

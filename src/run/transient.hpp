@@ -14,7 +14,7 @@
 #include "run/dissipation_watch.hpp"
 #include "run/gap_watch.hpp"
 #include "run/range_watch.hpp"
-#include "run/run.hpp"
+#include "run/session.hpp"
 
 namespace solidus::model {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "run/run.hpp"
+#include "run/session.hpp"
 #include "system/log.hpp"
 
 namespace solidus::testing {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "results/overview.hpp"
-#include "run/run.hpp"
+#include "run/session.hpp"
 #include "system/log.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "case_folder.hpp"
-#include "run/export.hpp"
+#include "run/structural_export.hpp"
 
 namespace {
 

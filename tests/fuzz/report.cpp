@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "input.hpp"
-#include "results/report/report.hpp"
+#include "results/report/report_page.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace solidus;

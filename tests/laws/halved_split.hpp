@@ -1,7 +1,7 @@
 /// The isentropic split in two halves of the step, a scheme that the sources do not have.
 #pragma once
 #include "coupling/add_scheme.hpp"
-#include "coupling/isentropic.hpp"
+#include "coupling/isentropic_split.hpp"
 
 namespace solidus::coupling {
 

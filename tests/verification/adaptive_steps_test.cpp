@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/isothermal.hpp"
+#include "coupling/isothermal_split.hpp"
 #include "coupling/simulation.hpp"
 #include "strip.hpp"
 
@@ -33,8 +33,8 @@ struct QuenchedBar {
     m.specific_heat = Table(500.0);
     return m;
   }
-  static heat::Conditions cold_end() {
-    heat::Conditions conditions;
+  static heat::ThermalConditions cold_end() {
+    heat::ThermalConditions conditions;
     conditions.temperatures.push_back({"cold end", "x_min", Table(300.0)});
     return conditions;
   }

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "contact/spec.hpp"
-#include "heat/conditions.hpp"
-#include "mechanics/conditions.hpp"
+#include "contact/parameters.hpp"
+#include "heat/thermal_conditions.hpp"
+#include "mechanics/mechanical_conditions.hpp"
 
 namespace solidus::verification {
 
@@ -16,9 +16,9 @@ namespace solidus::verification {
 /// coupling_stability.md, 2): dead loads, supports at rest, no flux and no source, one constant temperature
 /// of all surroundings. Insulated: the lowest temperature of the start. Tables are looked at in a thousand
 /// times.
-inline std::optional<double> admissible_ambient(const heat::Conditions& thermal,
-                                                const mechanics::Conditions& mechanical,
-                                                const std::optional<contact::ContactSpec>& contact,
+inline std::optional<double> admissible_ambient(const heat::ThermalConditions& thermal,
+                                                const mechanics::MechanicalConditions& mechanical,
+                                                const std::optional<contact::ContactParameters>& contact,
                                                 const std::vector<double>& start, double end) {
   constexpr int k_times = 1000;
   const auto stays = [&](const PlaceFunction& f, double value) {

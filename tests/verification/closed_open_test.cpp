@@ -43,7 +43,8 @@ mesh::Mesh cylinder(mesh::Shape shape) {
 }
 
 /// How far temperatures leave the range of the start [K], over some steps.
-double overshoot(const mesh::Mesh& mesh, heat::Integration rule, double dt, const std::string& file = {}) {
+double overshoot(const mesh::Mesh& mesh, heat::HeatIntegration rule, double dt,
+                 const std::string& file = {}) {
   const std::string folder = std::string(SOLIDUS_SOURCE_DIR) + "/materials/";
   heat::HeatOptions options;
   options.integration = rule;
@@ -76,8 +77,9 @@ TEST(CastIronInSand, OvershootsWithTheOpenRuleAndNeverWithTheClosedOne) {
     double worst_open = 0;
     for (const double dt : {1e-3, 1e-1, 1.0, 10.0, 1e2, 1e4, 1e6}) {
       const bool shown = shape == mesh::Shape::quad4 && dt == 1.0;
-      const double closed = overshoot(mesh, heat::Integration::closed, dt, shown ? "cast_iron_closed" : "");
-      const double open = overshoot(mesh, heat::Integration::open, dt, shown ? "cast_iron_open" : "");
+      const double closed =
+          overshoot(mesh, heat::HeatIntegration::closed, dt, shown ? "cast_iron_closed" : "");
+      const double open = overshoot(mesh, heat::HeatIntegration::open, dt, shown ? "cast_iron_open" : "");
       table << dt << ',' << mesh::name(shape) << ',' << closed << ',' << open << '\n';
       EXPECT_LE(closed, 1e-6) << dt;  // rounding
       worst_open = std::max(worst_open, open);

@@ -31,7 +31,7 @@ AnalysisKind kind_of(Shape shape) {
 }
 heat::HeatOptions options_of(bool closed) {
   heat::HeatOptions options;
-  options.integration = closed ? heat::Integration::closed : heat::Integration::open;
+  options.integration = closed ? heat::HeatIntegration::closed : heat::HeatIntegration::open;
   options.solver = linear::SolverKind::direct;
   return options;
 }
@@ -58,7 +58,7 @@ TEST_P(Order, OfTheSteadyTemperatureInAnAnnulusIsThatOfTheElementPlusOne) {
     const mesh::Mesh mesh =
         verification::block(shape(), is_3d(shape()) ? std::vector{1.0, 1.0, 0.2} : std::vector{1.0, 1.0},
                             is_3d(shape()) ? std::vector{n, n, 1} : std::vector{n, n}, map);
-    heat::Conditions conditions;
+    heat::ThermalConditions conditions;
     conditions.temperatures.push_back({"inner", "x_min", Table(exact.inner_temperature)});
     conditions.temperatures.push_back({"outer", "x_max", Table(exact.outer_temperature)});
     heat::ThermalPhase phase(mesh, kind_of(shape()), {conductor(Table(50.0))}, conditions,
@@ -138,7 +138,7 @@ TEST(Conduction, OfAnAxisymmetricTubeCarriesTheHeatOfTheClosedForm) {
         const mesh::Mesh mesh = verification::block(shape, {0.2, 0.05}, {n, 2}, [](mesh::Point x) {
           return mesh::Point{0.1 + x[0], x[1], 0.0};
         });
-        heat::Conditions conditions;
+        heat::ThermalConditions conditions;
         conditions.temperatures.push_back({"inner", "x_min", Table(exact.inner_temperature)});
         conditions.temperatures.push_back({"outer", "x_max", Table(exact.outer_temperature)});
         heat::ThermalPhase phase(mesh, AnalysisKind::axisymmetric, {conductor(Table(50.0))}, conditions,
@@ -161,7 +161,7 @@ TEST(Conduction, WithAConductivityThatVariesIsExactInOneDimensionAndConvergesQua
     for (const Shape shape :
          {Shape::tri3, Shape::quad4, Shape::quad8, Shape::tet4, Shape::hex8, Shape::tet10}) {
       const mesh::Mesh mesh = verification::strip(shape, exact.length, 20);
-      heat::Conditions conditions;
+      heat::ThermalConditions conditions;
       conditions.temperatures.push_back({"cold", "x_min", Table(exact.cold)});
       conditions.temperatures.push_back({"hot", "x_max", Table(exact.hot)});
       heat::HeatOptions options = options_of(closed);
@@ -187,7 +187,7 @@ TEST(Surface, CoolsALumpedBodyByFilmAndRadiationAsTheScalarEquationsSay) {
   const analytic::LumpedBody body{2.5e6 * 0.02 * 0.01, 0.01, 1200, 300};  // one side of 0.01 m, per metre
   for (const bool closed : {true, false}) {
     // So conductive that the body has one temperature.
-    heat::Conditions film, radiation;
+    heat::ThermalConditions film, radiation;
     film.films.push_back({"film", "x_min", {Table(300.0), false}, Table(body.ambient)});
     radiation.radiations.push_back({"glow", "x_min", {Table(0.8), false}, Table(body.ambient)});
     heat::ThermalPhase filmed(mesh, AnalysisKind::plane_strain, {conductor(Table(1e9))}, film,

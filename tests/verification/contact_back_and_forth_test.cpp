@@ -38,7 +38,7 @@ test::Rubbing make_brake(bool smoothing, contact::IntegrationRule rule) {
   test::map_body(raw, "lower", [](mesh::Point x) { return bend(x[0] - 60, k_radius - 0.01 + x[1]); });
   test::map_body(raw, "upper", [](mesh::Point x) { return bend(x[0] - 12, k_radius - 0.01 + x[1]); });
   mesh::Mesh mesh = test::distribute_blocks(raw);
-  mechanics::Conditions c;
+  mechanics::MechanicalConditions c;
   std::vector<double> times;
   for (int i = 0; i <= 12 * k_steps; ++i) times.push_back(static_cast<double>(i) / k_steps);
   test::move_rigidly(
@@ -50,7 +50,7 @@ test::Rubbing make_brake(bool smoothing, contact::IntegrationRule rule) {
       c);
   c.displacements.push_back({"upper_y_max", 0, 0.0});
   c.displacements.push_back({"upper_y_max", 1, k_lift});
-  contact::ContactSpec spec = test::rubbing(test::coulomb(k_friction), 1e12);
+  contact::ContactParameters spec = test::rubbing(test::coulomb(k_friction), 1e12);
   spec.smoothing = smoothing;
   spec.integration = rule;
   spec.search_distance = 0.01;

@@ -27,8 +27,8 @@ inline material::Material elastic(double young, double poisson, double expansion
   return m;
 }
 
-inline contact::ContactSpec interface() {
-  contact::ContactSpec s;
+inline contact::ContactParameters interface() {
+  contact::ContactParameters s;
   s.name = "interface";
   s.slave = "lower_top";
   s.master = "upper_bottom";
@@ -46,8 +46,8 @@ inline mechanics::MechanicsOptions strict_mechanics() {
 
 /// Supports under which a block under pressure along its last axis is in a homogeneous state: symmetry at the
 /// low sides, the lower block stands on its bottom.
-inline mechanics::Conditions symmetric_supports(int dimension) {
-  mechanics::Conditions c;
+inline mechanics::MechanicalConditions symmetric_supports(int dimension) {
+  mechanics::MechanicalConditions c;
   const std::string last = dimension == 2 ? "y" : "z";
   for (const std::string body : {"lower", "upper"}) {
     c.displacements.push_back({body + "_x_min", 0, 0.0});

@@ -52,11 +52,12 @@ test::Rubbing make_cylinders(int n, double press, double shear, contact::Formula
     if (surface) y[1] = 0.5 * y[0] * y[0] / k_radius;
     return y;
   });
-  mechanics::Conditions c;
+  mechanics::MechanicalConditions c;
   for (int i = 0; i < 2; ++i) c.displacements.push_back({"lower_y_min", i, 0.0});
   c.displacements.push_back({"upper_y_max", 1, Table({0, 1, 2}, {0, -press, -press})});
   c.displacements.push_back({"upper_y_max", 0, Table({0, 1, 2}, {0, 0, shear})});
-  contact::ContactSpec spec = test::rubbing(test::coulomb(k_friction), 4 * k_young / (k_zone / (0.6 * n)));
+  contact::ContactParameters spec =
+      test::rubbing(test::coulomb(k_friction), 4 * k_young / (k_zone / (0.6 * n)));
   spec.formulation = formulation;
   if (formulation == contact::Formulation::small_sliding) spec.integration = contact::IntegrationRule::nodal;
   spec.search_distance = 5e-3;
@@ -98,7 +99,7 @@ PartialSlip pull(int n, contact::Formulation formulation) {
   for (std::size_t i = 0; i < bodies.contact.points.size(); ++i) {
     const auto particle = bodies.pair.geometry().kinematics().particle(static_cast<Index>(i));
     if (!particle.counted) continue;
-    const contact::PointState& point = bodies.contact.points[i];
+    const contact::ContactPointState& point = bodies.contact.points[i];
     const double x = particle.position[0];
     if (point.status != contact::PointStatus::open) closed += 0.5 * particle.weight;
     if (point.status == contact::PointStatus::sticks) sticking += 0.5 * particle.weight;

@@ -18,7 +18,7 @@ namespace {
 using mesh::Shape;
 
 /// The upper block goes down, forth and back, up, further and down again, on and back.
-test::Rubbing make_blocks(Shape shape, contact::FrictionSpec friction, bool rigid, bool segments) {
+test::Rubbing make_blocks(Shape shape, contact::FrictionParameters friction, bool rigid, bool segments) {
   const bool flat = mesh::dimension(shape) == 2;
   mesh::TwoBlocks blocks{{0.2, 0.04}, {0.06, 0.03}, {17, 3}, {7, 3}, 0};
   if (!flat) blocks = {{0.2, 0.06, 0.04}, {0.06, 0.04, 0.03}, {11, 2, 2}, {4, 3, 2}, 0};
@@ -30,7 +30,7 @@ test::Rubbing make_blocks(Shape shape, contact::FrictionSpec friction, bool rigi
   });
   const std::string last = flat ? "y" : "z";
   const int up = flat ? 1 : 2;
-  mechanics::Conditions c;
+  mechanics::MechanicalConditions c;
   for (int i = 0; i <= up; ++i)
     c.displacements.push_back({rigid ? "lower" : "lower_" + last + "_min", i, 0.0});
   const std::string top = "upper_" + last + "_max";
@@ -39,7 +39,7 @@ test::Rubbing make_blocks(Shape shape, contact::FrictionSpec friction, bool rigi
   if (!flat) c.displacements.push_back({top, 1, Table({0, 1, 3}, {0, 0, 0.004})});
   c.displacements.push_back(
       {top, up, Table({0, 1, 7, 7.5, 8.5, 9, 13}, {0, -4e-5, -6e-5, 1e-3, 1e-3, -4e-5, -4e-5})});
-  contact::ContactSpec spec = test::rubbing(std::move(friction), 5e12);
+  contact::ContactParameters spec = test::rubbing(std::move(friction), 5e12);
   if (segments) spec.integration = contact::IntegrationRule::segments;
   mechanics::MechanicsOptions options = test::strict_mechanics();
   options.newton.tolerance = 1e-10;
@@ -51,7 +51,7 @@ test::Rubbing make_blocks(Shape shape, contact::FrictionSpec friction, bool rigi
           options};
 }
 
-void balance(Shape shape, const contact::FrictionSpec& friction, int steps, const std::string& name,
+void balance(Shape shape, const contact::FrictionParameters& friction, int steps, const std::string& name,
              bool rigid = false, bool segments = false) {
   SCOPED_TRACE(name);
   test::Rubbing blocks = make_blocks(shape, friction, rigid, segments);

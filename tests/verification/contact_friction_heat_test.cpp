@@ -32,11 +32,11 @@ constexpr double k_width = 0.01, k_length = 0.05;  // [m]
 constexpr double k_speed = 0.1;                    // [m/s]
 constexpr double k_capacity = 7800.0 * 500.0;      // of test::elastic [J/(m³ K)]
 
-contact::ContactSpec rubbing(double conductance) {
-  contact::ContactSpec s = test::interface();
+contact::ContactParameters rubbing(double conductance) {
+  contact::ContactParameters s = test::interface();
   s.heat = contact::HeatTransferSpec{};
   s.heat->contact_law = contact::contact_law(contact::PowerContact{conductance});
-  s.friction = contact::FrictionSpec{};
+  s.friction = contact::FrictionParameters{};
   s.friction->coefficient.terms = {Table(0.3)};
   return s;
 }
@@ -59,7 +59,7 @@ double warmed(const Coupled& c, const char* body, const std::vector<double>& tem
   double sum = 0;
   std::vector<char> inside(c.mesh.x.size(), 0);
   for (const Index n : c.mesh.node_sets.at(body)) inside[static_cast<std::size_t>(n)] = 1;
-  for (const mesh::Block& block : c.mesh.blocks)
+  for (const mesh::ElementBlock& block : c.mesh.blocks)
     for (Index e = 0; e < block.n_counted; ++e) {
       const Index* nodes = block.element(e);
       if (inside[static_cast<std::size_t>(nodes[0])] == 0) continue;
@@ -181,8 +181,8 @@ TEST(FrictionHeat, IsDividedAsTheOneSidedConductances) {
 }
 
 // A coefficient that hardens, the less the hotter; heat capacity in the interface.
-contact::ContactSpec hardening(double heat_capacity) {
-  contact::ContactSpec s = rubbing(2e4);
+contact::ContactParameters hardening(double heat_capacity) {
+  contact::ContactParameters s = rubbing(2e4);
   s.friction->coefficient.terms = {Table(0.05), Table({300, 900}, {0.7, 0.1})};
   s.friction->coefficient.unit = 2e5;  // of the order of the normal work of a run
   s.interface_heat_capacity = heat_capacity;
@@ -194,7 +194,7 @@ Coupled hardening_run(Mapping mapping, bool nodal, double heat_capacity) {
   c.mapping = mapping;
   c.form = StructuralForm::entropy;
   c.ambient = 300;
-  c.integration = nodal ? heat::Integration::closed : heat::Integration::open;
+  c.integration = nodal ? heat::HeatIntegration::closed : heat::HeatIntegration::open;
   c.contact = hardening(heat_capacity);
   c.contact->nodal_heat = nodal;
   return c;
@@ -283,7 +283,7 @@ struct Interface {
 Interface interface_of(const coupling::State& state) {
   Interface mean;
   const auto& points = state.contacts.at(0).points;
-  for (const contact::PointState& point : points) {
+  for (const contact::ContactPointState& point : points) {
     const double share = 1.0 / static_cast<double>(points.size());
     mean.temperature += share * point.temperature;
     mean.work += share * point.internal_variable;
@@ -346,7 +346,7 @@ TEST(FrictionHeat, OfThermalReturnMappingsBelongsToTheTemperatureOfItsStep) {
         const contact::FrictionLaw law(*c.contact->friction, 1.0, 500);
         const auto run =
             verification::march(c, 0.1, 10, [&](const coupling::State& state, const auto& effort) {
-              for (const contact::PointState& point : state.contacts.at(0).points) {
+              for (const contact::ContactPointState& point : state.contacts.at(0).points) {
                 if (point.status != contact::PointStatus::slips) continue;
                 const double mu = law.coefficient().value(point.internal_variable, point.temperature).value;
                 off = std::max(off, std::abs(contact::norm(point.traction) / (mu * point.pressure) - 1));

@@ -54,7 +54,7 @@ class StickingFriction : public ::testing::TestWithParam<Bodies> {
 TEST_P(StickingFriction, TurnsWithTheBodies) {
   const mesh::Mesh mesh = blocks();
   const bool flat = mesh.dimension == 2;
-  contact::ContactSpec spec = test::rubbing(test::coulomb(10), 1e11);
+  contact::ContactParameters spec = test::rubbing(test::coulomb(10), 1e11);
   spec.smoothing = GetParam().smoothing;
   spec.integration = GetParam().rule;
   spec.stabilisation = 0;

@@ -24,9 +24,9 @@ constexpr double k_hot = 900, k_cold = 300;  // [K]
 constexpr double k_l1 = 0.1, k_l2 = 0.2;     // [m]
 constexpr double k_k1 = 200, k_k2 = 40;      // [W/(m K)]
 
-heat::Conditions ends(const mesh::Mesh& mesh) {
+heat::ThermalConditions ends(const mesh::Mesh& mesh) {
   const std::string last = mesh.dimension == 2 ? "y" : "z";
-  heat::Conditions c;
+  heat::ThermalConditions c;
   c.temperatures.push_back({"hot", "lower_" + last + "_min", k_hot});
   c.temperatures.push_back({"cold", "upper_" + last + "_max", k_cold});
   return c;
@@ -41,7 +41,7 @@ struct Steady {
   heat::HeatBalance balance;
 };
 Steady steady(const mesh::Mesh& mesh, AnalysisKind kind, contact::ContactPair& pair,
-              heat::Integration integration = heat::Integration::closed) {
+              heat::HeatIntegration integration = heat::HeatIntegration::closed) {
   heat::HeatOptions options;
   options.integration = integration;
   options.tolerance = 1e-12;
@@ -66,8 +66,8 @@ double deviation(const mesh::Mesh& mesh, const heat::ThermalState& state, double
   return parallel::global_max(worst);
 }
 
-contact::ContactSpec conducting(double h) {
-  contact::ContactSpec s = test::interface();
+contact::ContactParameters conducting(double h) {
+  contact::ContactParameters s = test::interface();
   s.heat = HeatLaw{};
   s.heat->contact_law = contact::contact_law(contact::PowerContact{h});
   return s;
@@ -75,22 +75,22 @@ contact::ContactSpec conducting(double h) {
 
 TEST(TwoBars, InThermalContactHaveTheInterfaceTemperaturesOfTheClosedForm) {
   for (Shape shape : {Shape::tri3, Shape::quad4, Shape::quad8, Shape::tet4, Shape::hex8, Shape::hex20})
-    for (auto integration : {heat::Integration::closed, heat::Integration::open})
+    for (auto integration : {heat::HeatIntegration::closed, heat::HeatIntegration::open})
       for (auto rule : {contact::IntegrationRule::segments, contact::IntegrationRule::nodal}) {
         // On meshes that do not match, only segments integrate the master's side exactly; the nodal rule is
         // recorded, not required.
-        if (rule == contact::IntegrationRule::nodal && integration == heat::Integration::open) continue;
+        if (rule == contact::IntegrationRule::nodal && integration == heat::HeatIntegration::open) continue;
         const mesh::Mesh mesh = test::two_blocks(shape);
         const auto kind = mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
-        contact::ContactSpec spec = conducting(2300);
+        contact::ContactParameters spec = conducting(2300);
         spec.integration = rule;
-        spec.nodal_heat = integration == heat::Integration::closed;
+        spec.nodal_heat = integration == heat::HeatIntegration::closed;
         contact::ContactPair pair(mesh, kind, spec, std::vector<double>{70e9, 210e9});
         const Steady found = steady(mesh, kind, pair, integration);
         const double q = (k_hot - k_cold) / (k_l1 / k_k1 + 1 / 2300.0 + k_l2 / k_k2);
         const double worst = deviation(mesh, found.state, k_hot - q * k_l1 / k_k1, k_cold + q * k_l2 / k_k2);
         const std::string name = std::string(mesh::name(shape)) +
-                                 (integration == heat::Integration::closed ? "_closed" : "_open") +
+                                 (integration == heat::HeatIntegration::closed ? "_closed" : "_open") +
                                  (rule == contact::IntegrationRule::segments ? "_segments" : "_nodal");
         RecordProperty(name, fmt::format("{:.1e}", worst));
         if (rule == contact::IntegrationRule::segments) {
@@ -138,7 +138,7 @@ TEST(ConcentricCylinders, ConductThroughAWideGapAsTheClosedForm) {
           x = {radius * std::cos(angle), radius * std::sin(angle), solid ? -x[1] : 0.0};
       }
       const mesh::Mesh mesh = test::distribute_blocks(raw);
-      contact::ContactSpec spec = conducting(1e9);  // at a gap of zero
+      contact::ContactParameters spec = conducting(1e9);  // at a gap of zero
       spec.slave = from_outside ? "upper_bottom" : "lower_top";
       spec.master = from_outside ? "lower_top" : "upper_bottom";
       spec.search_distance = 0.05;
@@ -161,7 +161,7 @@ TEST(ConcentricCylinders, ConductThroughAWideGapAsTheClosedForm) {
 
 TEST(TwoBars, WithRadiationBesideConductionBalanceTheFourthPowers) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 1e-3);
-  contact::ContactSpec spec = conducting(20);
+  contact::ContactParameters spec = conducting(20);
   spec.heat->slave_emissivity = 0.9;
   spec.heat->master_emissivity = 0.7;
   contact::ContactPair pair(mesh, AnalysisKind::plane_strain, spec, std::vector<double>{70e9, 210e9});
@@ -182,7 +182,7 @@ TEST(TwoBars, WithRadiationBesideConductionBalanceTheFourthPowers) {
 
 TEST(TwoBars, WithTablesOfTheTemperatureConductAtItsMeanAcrossTheInterface) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  contact::ContactSpec spec = test::interface();
+  contact::ContactParameters spec = test::interface();
   spec.heat = HeatLaw{};
   spec.heat->contact_law = contact::contact_law(contact::TableContact{});
   spec.heat->gap_law = contact::gap_law(contact::TableGap{});
@@ -194,10 +194,10 @@ TEST(TwoBars, WithTablesOfTheTemperatureConductAtItsMeanAcrossTheInterface) {
     heat::HeatOptions options;
     options.tolerance = 1e-12;
     options.symmetric = false;
-    options.integration = nodal ? heat::Integration::closed : heat::Integration::open;
+    options.integration = nodal ? heat::HeatIntegration::closed : heat::HeatIntegration::open;
     heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, bars(), ends(mesh), options, {pair.heat()});
     heat::ThermalState state = phase.initial_state(std::vector<double>{600, 600});
-    const heat::PhaseReport report = phase.solve_steady(heat::ThermalState(state), state, 1);
+    const heat::ThermalReport report = phase.solve_steady(heat::ThermalState(state), state, 1);
     EXPECT_LE(report.newton.iterations, 6) << "quadratic, with the exact tangent";
     // q (R_1 + R_2 + 1/h) = ΔΘ with h of the mean of the two interface temperatures, by bisection.
     double low = 0, high = (k_hot - k_cold) / (k_l1 / k_k1 + k_l2 / k_k2);
@@ -247,12 +247,12 @@ struct ClosedForm {
 
 void expand(double gap0, double alpha, bool closes) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4, gap0);
-  contact::ContactSpec spec = conducting(3000);
+  contact::ContactParameters spec = conducting(3000);
   spec.heat->contact_law = contact::contact_law(contact::PowerContact{3000, 0.95, 5e8});
   spec.heat->gap_law = contact::gap_law(contact::GasGap{.conductivity = 0.05, .open_conductance = 1500});
   contact::ContactPair pair(mesh, AnalysisKind::plane_strain, spec, std::vector<double>{70e9, 210e9});
 
-  mechanics::Conditions supports = test::symmetric_supports(2);
+  mechanics::MechanicalConditions supports = test::symmetric_supports(2);
   for (const char* side : {"lower_x_max", "upper_x_max"}) supports.displacements.push_back({side, 0, 0.0});
   supports.displacements.push_back({"upper_y_max", 1, 0.0});
   const std::vector<double> cold(mesh.x.size(), 300.0);
@@ -277,7 +277,7 @@ void expand(double gap0, double alpha, bool closes) {
   exact.solve();
   EXPECT_EQ(closes, exact.pressure > 0);
   // Opening and pressure are measured against the elongation and the stress that it would take to hold it.
-  for (const contact::PointState& point : pair.state().points) {
+  for (const contact::ContactPointState& point : pair.state().points) {
     EXPECT_NEAR(point.penetration, -exact.opening, 1e-7 * exact.elongation(exact.q));
     EXPECT_NEAR(point.pressure, exact.pressure, 1e-6 * exact.pressure);
   }

@@ -73,7 +73,7 @@ struct Hertz {
       : mesh(hertz_mesh(c)),
         round(c.bodies != HertzCase::Bodies::rigid_in_block),
         line(c.kind == AnalysisKind::plane_strain) {
-    contact::ContactSpec spec = interface();
+    contact::ContactParameters spec = interface();
     std::swap(spec.slave, spec.master);
     spec.formulation = c.formulation;
     spec.integration = c.rule;
@@ -86,7 +86,7 @@ struct Hertz {
     // Gives a half width of about 0.03 R.
     const bool block = c.bodies == HertzCase::Bodies::round_on_block;
     const double approach = (line ? 1.6e-3 : 1e-3) * (block ? 1.3 : 1);
-    mechanics::Conditions conditions;
+    mechanics::MechanicalConditions conditions;
     for (const char* side : {"lower_x_min", "upper_x_min"})
       conditions.displacements.push_back({side, 0, 0.0});
     conditions.displacements.push_back({"lower_y_min", 1, 0.0});

@@ -52,8 +52,8 @@ mesh::Mesh bodies() {
   return test::distribute_blocks(raw);
 }
 
-contact::ContactSpec sliding() {
-  contact::ContactSpec s = test::rubbing(test::coulomb(k_friction), k_penalty);
+contact::ContactParameters sliding() {
+  contact::ContactParameters s = test::rubbing(test::coulomb(k_friction), k_penalty);
   s.heat = contact::HeatTransferSpec{};
   s.heat->contact_law = contact::contact_law(contact::PowerContact{k_conductance});
   s.search_distance = 1e-3;
@@ -83,7 +83,7 @@ double warmed(const Coupled& c, const char* body, const std::vector<double>& tem
   double sum = 0;
   std::vector<char> inside(c.mesh.x.size(), 0);
   for (const Index n : c.mesh.node_sets.at(body)) inside[static_cast<std::size_t>(n)] = 1;
-  for (const mesh::Block& block : c.mesh.blocks)
+  for (const mesh::ElementBlock& block : c.mesh.blocks)
     for (Index e = 0; e < block.n_counted; ++e) {
       const Index* nodes = block.element(e);
       if (inside[static_cast<std::size_t>(nodes[0])] == 0) continue;

@@ -84,12 +84,12 @@ struct Method {
 Impact impact(int elements, const Method& method, std::ofstream table = {}) {
   const mesh::Mesh mesh = test::distribute_blocks(test::raw_blocks(
       {{k_width, k_width}, {k_width, k_length}, {1, 1}, {1, elements}, k_gap}, mesh::Shape::quad4));
-  contact::ContactSpec spec = test::interface();
+  contact::ContactParameters spec = test::interface();
   std::swap(spec.slave, spec.master);
   spec.normal = method.normal;
   spec.search_distance = 0.1;
   spec.penalty = method.factor;
-  mechanics::Conditions conditions;
+  mechanics::MechanicalConditions conditions;
   conditions.displacements = {{"lower", 1, 0.0}, {"lower", 0, 0.0}, {"upper", 0, 0.0}};
   mechanics::MechanicsOptions options = test::strict_mechanics();
   options.dynamics = mechanics::DynamicsOptions{

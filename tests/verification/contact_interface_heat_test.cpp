@@ -80,7 +80,7 @@ double largest_error(const Scheme& scheme, int n_steps) {
   c.thermal.temperatures.push_back({"upper", "upper", Table(k_cold)});
   double worst = 0;
   verification::march(c, k_end, n_steps, [&](const coupling::State& state) {
-    for (const contact::PointState& point : state.contacts.at(0).points)
+    for (const contact::ContactPointState& point : state.contacts.at(0).points)
       worst = std::max(worst, std::abs(point.temperature - exact(state.time)));
   });
   return worst;
@@ -116,7 +116,7 @@ TEST(InterfaceHeat, IsInTheFirstLaw) {
 TEST(InterfaceHeat, IsStoredWhereOnlyHeatIsComputed) {
   const Coupled c = blocks();
   contact::ContactPair pair(c.mesh, c.kind, *c.contact, std::vector<double>{2e11, 2e11});
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.temperatures.push_back({"lower", "lower", Table(k_hot)});
   conditions.temperatures.push_back({"upper", "upper", Table(k_cold)});
   heat::HeatOptions options;
@@ -137,7 +137,7 @@ TEST(InterfaceHeat, IsStoredWhereOnlyHeatIsComputed) {
     const coupling::StepEffort effort = scheme.advance(state, trial, trial.time, k_end / 80);
     EXPECT_LT(std::abs(effort.energy.defect()), 1e-9 * effort.energy.heat_exchanged);
     state = std::move(trial);
-    for (const contact::PointState& point : state.contacts.at(0).points)
+    for (const contact::ContactPointState& point : state.contacts.at(0).points)
       worst = std::max(worst, std::abs(point.temperature - exact(state.time)));
   }
   EXPECT_LT(worst, 1.2);

@@ -28,7 +28,7 @@ constexpr double k_young = 1e9;
 enum class Die { mesh, cylinder };
 
 /// @param n cells over the block's height
-test::Rubbing make_ironing(Shape shape, int n, contact::FrictionSpec friction, Die die) {
+test::Rubbing make_ironing(Shape shape, int n, contact::FrictionParameters friction, Die die) {
   const bool flat = mesh::dimension(shape) == 2;
   mesh::TwoBlocks blocks{{k_length, k_height}, {80, 0.01}, {4 * n, n}, {20, 1}, 0};
   if (!flat) blocks = {{k_length, 0.02, k_height}, {80, 0.03, 0.01}, {4 * n, 2, n}, {20, 1, 1}, 0};
@@ -43,10 +43,10 @@ test::Rubbing make_ironing(Shape shape, int n, contact::FrictionSpec friction, D
   });
   const int last = static_cast<int>(up);
   const std::string bottom = flat ? "lower_y_min" : "lower_z_min";
-  mechanics::Conditions c;
+  mechanics::MechanicalConditions c;
   for (int i = 0; i <= last; ++i) c.displacements.push_back({bottom, i, 0.0});
   const Table along({0, 1, 2}, {0, 0, k_way}), down({0, 1, 2}, {0, -k_depth, -k_depth});
-  contact::ContactSpec spec = test::rubbing(std::move(friction), 20 * k_young / (k_height / n));
+  contact::ContactParameters spec = test::rubbing(std::move(friction), 20 * k_young / (k_height / n));
   spec.slave = "lower_top";
   spec.master = "upper_bottom";
   spec.smoothing = true;
@@ -83,7 +83,7 @@ struct Curve {
   int cuts = 0, iterations = 0;
 };
 
-Curve iron(Shape shape, int n, const contact::FrictionSpec& friction, int steps, Die die = Die::mesh) {
+Curve iron(Shape shape, int n, const contact::FrictionParameters& friction, int steps, Die die = Die::mesh) {
   test::Rubbing ironing = make_ironing(shape, n, friction, die);
   const std::size_t up = shape == Shape::quad4 ? 1 : 2;
   ironing.advance(1, 4);
@@ -156,7 +156,7 @@ TEST(Ironing, InThreeDimensionsGoesThrough) {
 
 TEST(Ironing, CutsStepsThatJamAndGoesOn) {
   // Friction that hardens with its own work: backward Euler has a solution for slips below 1/(p μ') only.
-  const contact::FrictionSpec hardens =
+  const contact::FrictionParameters hardens =
       contact::friction_spec({0.1, 1}, 1e6, contact::InternalVariable::frictional_work);
   const Curve jams = iron(Shape::quad4, 12, hardens, 2), fine = iron(Shape::quad4, 12, hardens, 50);
   EXPECT_GT(jams.cuts, 0);

@@ -46,7 +46,7 @@ struct Foot {
 
   Foot(mesh::Shape shape, const mechanics::MechanicsOptions& options) : mesh(make_mesh(shape)) {
     const bool flat = mesh.dimension == 2;
-    contact::ContactSpec spec = test::interface();
+    contact::ContactParameters spec = test::interface();
     std::swap(spec.slave, spec.master);
     spec.formulation = Formulation::large_sliding;
     spec.integration = contact::IntegrationRule::gauss;
@@ -54,7 +54,7 @@ struct Foot {
     spec.friction->coefficient.terms = {Table(0.3)};
     const std::string last = flat ? "y" : "z";
     const int up = mesh.dimension - 1;
-    mechanics::Conditions c;
+    mechanics::MechanicalConditions c;
     for (int i = 0; i <= up; ++i) c.displacements.push_back({"lower_" + last + "_min", i, 0.0});
     c.displacements.push_back({"upper_" + last + "_max", up, Table({0, 1}, {0, -2e-4})});
     c.displacements.push_back({"upper_" + last + "_max", 0, Table({0, 1, 2}, {0, 0, 0.1})});

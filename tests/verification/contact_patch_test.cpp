@@ -47,9 +47,9 @@ mechanics::MechanicsOptions newton_to(double tolerance) {
 
 enum class Sides { free, held };
 
-Deviation press(const mesh::Mesh& mesh, AnalysisKind kind, contact::ContactSpec spec, double p,
+Deviation press(const mesh::Mesh& mesh, AnalysisKind kind, contact::ContactParameters spec, double p,
                 Sides sides = Sides::free, double tolerance = 1e-12) {
-  mechanics::Conditions conditions = test::symmetric_supports(mesh.dimension);
+  mechanics::MechanicalConditions conditions = test::symmetric_supports(mesh.dimension);
   if (sides == Sides::held)
     for (const std::string body : {"lower", "upper"}) {
       conditions.displacements.push_back({body + "_x_max", 0, 0.0});
@@ -61,7 +61,7 @@ Deviation press(const mesh::Mesh& mesh, AnalysisKind kind, contact::ContactSpec 
   Deviation d;
   d.iterations = run.iterations();
   d.turns = static_cast<int>(run.turns.size());
-  for (const contact::PointState& point : run.points()) {
+  for (const contact::ContactPointState& point : run.points()) {
     d.pressure = std::max(d.pressure, std::abs(point.pressure / p - 1));
     d.penetration =
         std::max(d.penetration, std::abs(point.penetration * run.pair.forces().penalty() / p - 1));
@@ -82,8 +82,8 @@ mesh::Mesh matching_blocks(Shape shape) {
   return test::distribute_blocks(test::raw_blocks(blocks, shape));
 }
 
-contact::ContactSpec large_sliding(int gauss_degree) {
-  contact::ContactSpec spec = test::interface();
+contact::ContactParameters large_sliding(int gauss_degree) {
+  contact::ContactParameters spec = test::interface();
   spec.formulation = Formulation::large_sliding;
   spec.integration = IntegrationRule::gauss;
   spec.gauss_degree = gauss_degree;
@@ -97,7 +97,7 @@ TEST_P(ContactPatch, PassesAUniformPressureToSolverAccuracyWithSegmentsAndTheirM
   const mesh::Mesh mesh = test::two_blocks(shape);
   for (const auto rule : {IntegrationRule::segments, IntegrationRule::mortar})
     for (const bool swapped : {false, true}) {
-      contact::ContactSpec spec = test::interface();
+      contact::ContactParameters spec = test::interface();
       spec.integration = rule;
       if (swapped) std::swap(spec.slave, spec.master);
       const Deviation d = press(mesh, kind, spec, 5e7);
@@ -113,7 +113,7 @@ TEST_P(ContactPatch, PassesAUniformPressureToSolverAccuracyWithSegmentsAndTheirM
 TEST_P(ContactPatch, LeavesNoPenetrationWithTheAugmentedLagrangian) {
   const auto [shape, kind] = GetParam();
   const mesh::Mesh mesh = test::two_blocks(shape);
-  contact::ContactSpec spec = test::interface();
+  contact::ContactParameters spec = test::interface();
   spec.normal = NormalKind::augmented_lagrangian;
   const Deviation d = press(mesh, kind, spec, 5e7);
   RecordProperty("pressure", fmt::format("{:.1e}", d.pressure));
@@ -129,16 +129,16 @@ TEST_P(ContactPatch, LeavesNoPenetrationWithTheAugmentedLagrangian) {
 TEST_P(ContactPatch, PassesOnMatchingMeshesInBothFormulations) {
   const auto [shape, kind] = GetParam();
   const mesh::Mesh mesh = matching_blocks(shape);
-  contact::ContactSpec gauss = test::interface();
+  contact::ContactParameters gauss = test::interface();
   gauss.integration = IntegrationRule::gauss;
-  for (const contact::ContactSpec& spec : {test::interface(), gauss}) {
+  for (const contact::ContactParameters& spec : {test::interface(), gauss}) {
     const Deviation d = press(mesh, kind, spec, 5e7);
     EXPECT_LT(d.pressure, 1e-8);
     EXPECT_LT(d.stress, 1e-8);
   }
   // Between rigid walls, see SeesNominalPressuresInLargeSliding.
   for (const auto normal : {NormalKind::penalty, NormalKind::augmented_lagrangian}) {
-    contact::ContactSpec spec = large_sliding(4);
+    contact::ContactParameters spec = large_sliding(4);
     spec.normal = normal;
     const Deviation d = press(mesh, kind, spec, 5e7, Sides::held);
     RecordProperty(normal == NormalKind::penalty ? "penalty" : "augmented", fmt::format("{:.1e}", d.stress));
@@ -175,7 +175,7 @@ TEST_P(ContactPatch, PassesAUniformPressureInLargeSlidingWithSegments) {
   const mesh::Mesh mesh = test::two_blocks(shape);
   for (const auto normal : {NormalKind::penalty, NormalKind::augmented_lagrangian})
     for (const bool swapped : {false, true}) {
-      contact::ContactSpec spec = large_sliding(0);
+      contact::ContactParameters spec = large_sliding(0);
       spec.integration = IntegrationRule::segments;
       spec.normal = normal;
       if (swapped) std::swap(spec.slave, spec.master);
@@ -232,7 +232,7 @@ TEST(ContactPatch, FailsWithoutSegmentsByTheErrorOfIntegratingAcrossTheMastersEd
   // of a uniform pressure.
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
   for (auto rule : {IntegrationRule::nodal, IntegrationRule::gauss}) {
-    contact::ContactSpec spec = test::interface();
+    contact::ContactParameters spec = test::interface();
     spec.integration = rule;
     const Deviation d = press(mesh, AnalysisKind::plane_strain, spec, 5e7);
     RecordProperty(rule == IntegrationRule::nodal ? "nodal" : "gauss", fmt::format("{:.1e}", d.stress));
@@ -254,14 +254,14 @@ TEST(ContactPatch, SeesNominalPressuresInLargeSliding) {
 
 TEST(ContactPatch, PassesThroughAGapThatTheLoadCloses) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 2e-5);
-  mechanics::Conditions conditions = test::symmetric_supports(2);
+  mechanics::MechanicalConditions conditions = test::symmetric_supports(2);
   conditions.displacements.push_back({"upper_y_max", 1, -1e-4});
   test::ContactSteps run(mesh, AnalysisKind::plane_strain, k_materials, test::interface(), conditions);
   run.step(1);
   // In series: 0.1 m of E_1' , the penalty, 0.2 m of E_2', with E' = E/(1 − ν²) in plane strain, free sides.
   const double e1 = 70e9 / (1 - 0.33 * 0.33), e2 = 210e9 / (1 - 0.09), penalty = run.pair.forces().penalty();
   const double p = (1e-4 - 2e-5) / (0.1 / e1 + 0.2 / e2 + 1 / penalty);
-  for (const contact::PointState& point : run.points()) EXPECT_NEAR(point.pressure, p, 1e-8 * p);
+  for (const contact::ContactPointState& point : run.points()) EXPECT_NEAR(point.pressure, p, 1e-8 * p);
   EXPECT_NEAR(contact::sums(run.pair.view(), {}).energy, 0.3 * 0.5 * p * p / penalty,
               1e-8 * 0.3 * p * p / penalty);
 }
@@ -272,7 +272,7 @@ TEST(RestingBody, HeldOnlyByContactTakesItsWeightInOneStep) {
     SCOPED_TRACE(mesh::name(shape));
     const mesh::Mesh mesh = test::two_blocks(shape);
     const auto kind = mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
-    mechanics::Conditions conditions = test::symmetric_supports(mesh.dimension);
+    mechanics::MechanicalConditions conditions = test::symmetric_supports(mesh.dimension);
     // Nothing holds the upper block sideways either.
     std::erase_if(conditions.displacements, [](const auto& d) { return d.node_set.rfind("upper", 0) == 0; });
     conditions.gravity[static_cast<std::size_t>(mesh.dimension - 1)] = -9.81;
@@ -286,7 +286,7 @@ TEST(RestingBody, HeldOnlyByContactTakesItsWeightInOneStep) {
 TEST(FallingBody, ThatNothingHoldsLandsOnItsSupportInOneStep) {
   // A gap of 10 µm all over: at the start the upper block has no support at all.
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 1e-5);
-  mechanics::Conditions conditions = test::symmetric_supports(2);
+  mechanics::MechanicalConditions conditions = test::symmetric_supports(2);
   conditions.gravity[1] = -9.81;
   test::ContactSteps run(mesh, AnalysisKind::plane_strain, k_materials, test::interface(), conditions,
                          newton_to(1e-9));

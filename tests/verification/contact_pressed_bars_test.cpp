@@ -16,7 +16,7 @@
 #include "contact/laws/constant_gap.hpp"
 #include "contact/laws/power_contact.hpp"
 #include "contact_bodies.hpp"
-#include "coupling/isothermal.hpp"
+#include "coupling/isothermal_split.hpp"
 #include "csv.hpp"
 
 namespace solidus {
@@ -107,8 +107,8 @@ double surface(const mesh::Mesh& mesh, const char* name, const std::vector<doubl
   return parallel::global_sum(sum) / parallel::global_sum(n);
 }
 
-contact::ContactSpec through(contact::Formulation formulation) {
-  contact::ContactSpec s = test::interface();
+contact::ContactParameters through(contact::Formulation formulation) {
+  contact::ContactParameters s = test::interface();
   s.formulation = formulation;
   if (formulation == contact::Formulation::large_sliding) s.integration = contact::IntegrationRule::gauss;
   s.heat = contact::HeatTransferSpec{};
@@ -128,10 +128,10 @@ Trace simulated(contact::Formulation formulation, double dt,
       {{0.01, k_l1}, {0.01, k_l2}, divisions.lower, divisions.upper, 0.0}, mesh::Shape::quad4));
   const std::vector<material::Material> materials = {test::elastic(70e9, 0.33, 1e-5, k_k1),
                                                      test::elastic(210e9, 0.3, 1e-5, k_k2)};
-  contact::ContactSpec interface = through(formulation);
+  contact::ContactParameters interface = through(formulation);
   interface.normal = normal;
   contact::ContactPair pair(mesh, AnalysisKind::plane_strain, interface, std::vector<double>{70e9, 210e9});
-  mechanics::Conditions conditions = test::symmetric_supports(2);
+  mechanics::MechanicalConditions conditions = test::symmetric_supports(2);
   for (const char* side : {"lower_x_max", "upper_x_max"}) conditions.displacements.push_back({side, 0, 0.0});
   conditions.pressures.push_back({"upper_y_max", load()});
   const std::vector<double> cold(mesh.x.size(), k_cold);
@@ -161,7 +161,7 @@ Trace simulated(contact::Formulation formulation, double dt,
     const coupling::StepEffort effort = scheme.advance(state, next, i * dt, dt);
     state = next;
     const double p = load().value(i * dt);
-    for (const contact::PointState& point : pair.state().points)
+    for (const contact::ContactPointState& point : pair.state().points)
       trace.pressure_error = std::max(trace.pressure_error, std::abs(point.pressure / p - 1));
     stored += effort.energy.stored_heat;
     passed += effort.contacts[0].heat * dt;

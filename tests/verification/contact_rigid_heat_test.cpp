@@ -23,8 +23,8 @@ constexpr double k_width = 0.01, k_height = 0.02;  // [m]
 constexpr double k_tool = 320;                     // Θ_m [K]
 constexpr double k_conductance = 2e4;              // h [W/(m² K)]
 
-contact::ContactSpec on_tool() {
-  contact::ContactSpec s = test::interface();
+contact::ContactParameters on_tool() {
+  contact::ContactParameters s = test::interface();
   s.slave = "lower_y_min";
   s.master = "tool";
   s.formulation = contact::Formulation::large_sliding;
@@ -50,7 +50,7 @@ Coupled block(double start) {
 TEST(RigidTool, CoolsABodyAsAFilmDoes) {
   for (const bool nodal : {true, false}) {
     Coupled c = block(900);
-    c.integration = nodal ? heat::Integration::closed : heat::Integration::open;
+    c.integration = nodal ? heat::HeatIntegration::closed : heat::HeatIntegration::open;
     c.contact = on_tool();
     c.contact->nodal_heat = nodal;
     c.contact->heat->slave_emissivity = 0.6;
@@ -84,7 +84,7 @@ TEST(RigidTool, TakesTheHeatOfFriction) {
     c.form = StructuralForm::energy;
     c.mapping = mapping;
     c.contact = on_tool();
-    c.contact->friction = contact::FrictionSpec{};
+    c.contact->friction = contact::FrictionParameters{};
     c.contact->friction->coefficient.terms = {Table(0.3)};
     double power = 0;
     const auto run =

@@ -28,8 +28,8 @@ inline void map_body(mesh::RawMesh& raw, const std::string& body,
 }
 
 /// The upper block is the slave and slides far.
-inline contact::ContactSpec rubbing(contact::FrictionSpec friction, double penalty) {
-  contact::ContactSpec s;
+inline contact::ContactParameters rubbing(contact::FrictionParameters friction, double penalty) {
+  contact::ContactParameters s;
   s.name = "interface";
   s.slave = "upper_bottom";
   s.master = "lower_top";
@@ -44,7 +44,7 @@ inline contact::ContactSpec rubbing(contact::FrictionSpec friction, double penal
 /// Prescribes where every node of a body goes, at given times: straight from one to the next.
 inline void move_rigidly(mesh::Mesh& mesh, const std::string& body, const std::vector<double>& times,
                          const std::function<mesh::Point(mesh::Point, double time)>& place,
-                         mechanics::Conditions& conditions) {
+                         mechanics::MechanicalConditions& conditions) {
   const std::vector<Index> nodes = mesh.node_sets.at(body);
   for (const Index node : nodes) {
     const std::string name = body + " node " + std::to_string(node);
@@ -59,7 +59,7 @@ inline void move_rigidly(mesh::Mesh& mesh, const std::string& body, const std::v
   }
 }
 
-inline contact::FrictionSpec coulomb(double coefficient) {
+inline contact::FrictionParameters coulomb(double coefficient) {
   return contact::friction_spec({coefficient});
 }
 
@@ -67,7 +67,7 @@ inline contact::FrictionSpec coulomb(double coefficient) {
 class Rubbing {
  public:
   Rubbing(mesh::Mesh m, AnalysisKind analysis, std::vector<material::Material> laws,
-          mechanics::Conditions conditions, contact::ContactSpec spec,
+          mechanics::MechanicalConditions conditions, contact::ContactParameters spec,
           mechanics::MechanicsOptions options = strict_mechanics())
       : mesh(std::move(m)),
         materials(std::move(laws)),
@@ -126,7 +126,7 @@ class Rubbing {
 
   contact::ContactSums sums() const { return contact::sums(pair.view(), {}); }
   /// Of a point field, ∫ f dA over the slave, all processes.
-  double integral(const std::function<double(const contact::PointState&)>& f) const {
+  double integral(const std::function<double(const contact::ContactPointState&)>& f) const {
     double sum = 0;
     for (std::size_t p = 0; p < contact.points.size(); ++p) {
       const auto particle = pair.geometry().kinematics().particle(static_cast<Index>(p));
@@ -145,8 +145,8 @@ class Rubbing {
     return parallel::global_sum(energy);
   }
   /// The average over the slave.
-  double mean(const std::function<double(const contact::PointState&)>& f) const {
-    return integral(f) / integral([](const contact::PointState&) { return 1.0; });
+  double mean(const std::function<double(const contact::ContactPointState&)>& f) const {
+    return integral(f) / integral([](const contact::ContactPointState&) { return 1.0; });
   }
 
   mesh::Mesh mesh;
@@ -156,7 +156,7 @@ class Rubbing {
   std::unique_ptr<mechanics::MechanicalPhase> phase;
   mechanics::MechanicalState state, before;
   contact::ContactState contact, contact_before;
-  mechanics::PhaseReport report;
+  mechanics::MechanicalReport report;
   double time = 0, contact_work = 0;
   int n_steps = 0, n_cuts = 0, most_iterations = 0;
 };

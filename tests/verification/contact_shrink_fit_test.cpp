@@ -61,7 +61,7 @@ struct Fit {
 Fit shrink(Shape shape, int n, bool swapped) {
   const mesh::Mesh mesh = test::distribute_blocks(rings(shape, n));
   const auto kind = mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
-  contact::ContactSpec spec = test::interface();
+  contact::ContactParameters spec = test::interface();
   if (swapped) std::swap(spec.slave, spec.master);
   spec.penalty = 1e13;
   spec.penalty_is_factor = false;
@@ -70,7 +70,7 @@ Fit shrink(Shape shape, int n, bool swapped) {
   contact::ContactPair pair(mesh, kind, spec);
 
   const int up = mesh.dimension - 1;
-  mechanics::Conditions symmetry;
+  mechanics::MechanicalConditions symmetry;
   for (const std::string body : {"lower", "upper"}) {
     symmetry.displacements.push_back({body + "_x_min", 0, 0.0});
     symmetry.displacements.push_back({body + "_x_max", up, 0.0});

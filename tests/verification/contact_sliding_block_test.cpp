@@ -26,7 +26,7 @@ using mesh::Shape;
 
 constexpr double k_pressure = 40e6, k_young = 70e9, k_height = 0.01, k_penalty = 1e13, k_way = 0.1;
 
-test::Rubbing make_block(contact::FrictionSpec friction, Shape shape, contact::IntegrationRule rule) {
+test::Rubbing make_block(contact::FrictionParameters friction, Shape shape, contact::IntegrationRule rule) {
   const bool flat = mesh::dimension(shape) == 2;
   mesh::TwoBlocks blocks{{0.16, 0.01}, {0.03, k_height}, {13, 1}, {2, 1}, 0};
   if (!flat) blocks = {{0.16, 0.03, 0.01}, {0.03, 0.02, k_height}, {13, 2, 1}, {2, 1, 1}, 0};
@@ -36,7 +36,7 @@ test::Rubbing make_block(contact::FrictionSpec friction, Shape shape, contact::I
     if (!flat) x[1] += 0.004;
     return x;
   });
-  mechanics::Conditions c;
+  mechanics::MechanicalConditions c;
   const int last = flat ? 1 : 2;
   const std::string top = flat ? "upper_y_max" : "upper_z_max";
   for (int i = 0; i <= last; ++i) c.displacements.push_back({"lower", i, 0.0});
@@ -44,7 +44,7 @@ test::Rubbing make_block(contact::FrictionSpec friction, Shape shape, contact::I
   c.displacements.push_back({top, 0, Table({0, 1}, {0, k_way})});
   c.plane_faces = {{top}, {"upper_bottom"}};
   c.pressures.push_back({top, k_pressure});
-  contact::ContactSpec spec = test::rubbing(std::move(friction), k_penalty);
+  contact::ContactParameters spec = test::rubbing(std::move(friction), k_penalty);
   spec.integration = rule;
   return {test::distribute_blocks(raw),
           flat ? AnalysisKind::plane_strain : AnalysisKind::solid,
@@ -58,7 +58,7 @@ struct Exact {
 };
 
 /// Runge–Kutta over the slip until the way of the top is used up.
-Exact exact(const contact::FrictionSpec& spec, double way) {
+Exact exact(const contact::FrictionParameters& spec, double way) {
   const contact::FrictionCoefficient law(spec.coefficient);
   const auto mu = [&](double zeta) { return law.value(zeta, 300).value; };
   const auto rate = [&](double zeta) {
@@ -91,7 +91,7 @@ Exact exact(const contact::FrictionSpec& spec, double way) {
   return e;
 }
 
-void compare(const contact::FrictionSpec& spec, Shape shape, int steps, const std::string& name,
+void compare(const contact::FrictionParameters& spec, Shape shape, int steps, const std::string& name,
              contact::IntegrationRule rule = contact::IntegrationRule::gauss) {
   SCOPED_TRACE(name);
   test::Rubbing block = make_block(spec, shape, rule);
@@ -121,8 +121,8 @@ void compare(const contact::FrictionSpec& spec, Shape shape, int steps, const st
                   block.most_iterations));
 }
 
-contact::FrictionSpec curve(InternalVariable variable, double unit) {
-  contact::FrictionSpec spec;
+contact::FrictionParameters curve(InternalVariable variable, double unit) {
+  contact::FrictionParameters spec;
   spec.coefficient.curves = {{300, Table({0, 1, 2, 3}, {0.15, 0.18, 0.16, 0.17})}};
   spec.coefficient.unit = unit;
   spec.internal_variable = variable;
@@ -133,7 +133,7 @@ TEST(SlidingBlock, FollowsItsClosedFormWithEveryInternalVariable) {
   using contact::friction_spec;
   constexpr double k_unit = contact::k_kilonewton_per_mm;
   constexpr int k_steps = 1000;
-  const auto run = [&](const contact::FrictionSpec& spec, const char* name) {
+  const auto run = [&](const contact::FrictionParameters& spec, const char* name) {
     compare(spec, Shape::quad4, k_steps, name);
   };
   run(friction_spec(contact::galvannealed(), k_unit), "normal_work_linear");

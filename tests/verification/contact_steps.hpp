@@ -66,7 +66,7 @@ struct ContactSteps {
 
   /// @param m  one per body
   ContactSteps(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<material::Material> m,
-               contact::ContactSpec spec, mechanics::Conditions conditions,
+               contact::ContactParameters spec, mechanics::MechanicalConditions conditions,
                const mechanics::MechanicsOptions& options = strict_mechanics())
       : materials(std::move(m)),
         pair(mesh, kind, std::move(spec), moduli(materials)),
@@ -87,7 +87,7 @@ struct ContactSteps {
     do {
       pass.start = start;
       term.changes.clear();
-      const mechanics::PhaseReport report = phase.solve(old, state, pass);
+      const mechanics::MechanicalReport report = phase.solve(old, state, pass);
       work = report.work;
       turns.push_back({report.newton.residuals, term.changes});
       pair.update(state.displacement);
@@ -101,7 +101,7 @@ struct ContactSteps {
     for (const Iteration& turn : turns) n += turn.residuals.size() - 1;
     return static_cast<int>(n);
   }
-  const std::vector<contact::PointState>& points() const { return pair.state().points; }
+  const std::vector<contact::ContactPointState>& points() const { return pair.state().points; }
   contact::ContactKinematics::Particle particle(std::size_t point) const {
     return pair.geometry().kinematics().particle(static_cast<Index>(point));
   }

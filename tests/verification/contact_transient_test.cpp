@@ -18,7 +18,7 @@
 #include "contact/laws/spots_contact.hpp"
 #include "contact/laws/tabulated.hpp"
 #include "contact_bodies.hpp"
-#include "coupling/isothermal.hpp"
+#include "coupling/isothermal_split.hpp"
 #include "csv.hpp"
 
 namespace solidus {
@@ -51,8 +51,8 @@ double surface(const mesh::Mesh& mesh, const char* name, const std::vector<doubl
   return parallel::global_sum(sum) / parallel::global_sum(n);
 }
 
-contact::ContactSpec through(const HeatLaw& law) {
-  contact::ContactSpec s = test::interface();
+contact::ContactParameters through(const HeatLaw& law) {
+  contact::ContactParameters s = test::interface();
   s.heat = law;
   return s;
 }
@@ -68,7 +68,7 @@ TEST(TwoHalfSpaces, ThatMeetThroughSpotsAndGasEqualiseAsTheClosedFormSays) {
                                                  2e9});
   law.gap_law = contact::gap_law(contact::GasGap{.conductivity = 0.03, .temperature_jump = 1.3e-9});
   const mesh::Mesh mesh = bars(200, 200, 0);
-  contact::ContactSpec spec = through(law);
+  contact::ContactParameters spec = through(law);
   spec.penalty = 1e12;
   spec.penalty_is_factor = false;
   contact::ContactPair pair(mesh, AnalysisKind::plane_strain, spec);
@@ -202,13 +202,13 @@ Trace simulated(double dt) {
   const std::vector<material::Material> of_bars = materials(k_expansion);
   contact::ContactPair pair(mesh, AnalysisKind::plane_strain, through(table_7_9()),
                             std::vector<double>{70e9, 210e9});
-  mechanics::Conditions supports = test::symmetric_supports(2);
+  mechanics::MechanicalConditions supports = test::symmetric_supports(2);
   for (const char* side : {"lower_x_max", "upper_x_max"}) supports.displacements.push_back({side, 0, 0.0});
   supports.displacements.push_back({"upper_y_max", 1, 0.0});
   const std::vector<double> cold(mesh.x.size(), 300.0);
   mechanics::MechanicalPhase mechanics(mesh, AnalysisKind::plane_strain, of_bars, cold, supports,
                                        test::strict_mechanics(), {&pair.mechanics()});
-  heat::Conditions ends;
+  heat::ThermalConditions ends;
   ends.temperatures.push_back({"hot", "lower_y_min", k_hot_end});
   heat::ThermalPhase heat(mesh, AnalysisKind::plane_strain, of_bars, ends, {}, {pair.heat()});
   coupling::Phases phases;

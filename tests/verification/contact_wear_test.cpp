@@ -37,16 +37,16 @@ test::Rubbing make(mesh::Shape shape, double share, AnalysisKind kind = Analysis
     return x;
   });
   mesh::Mesh mesh = test::distribute_blocks(raw);
-  mechanics::Conditions c;
+  mechanics::MechanicalConditions c;
   const auto up = static_cast<std::size_t>(mesh.dimension - 1);
   for (int i = 0; i < mesh.dimension; ++i) c.displacements.push_back({"lower", i, 0.0});
   c.displacements.push_back({"upper", 0, Table({0, 1}, {0, k_way})});
   if (up == 2) c.displacements.push_back({"upper", 1, 0.0});
   c.displacements.push_back({"upper", static_cast<int>(up), -k_penetration});
-  contact::ContactSpec s = test::rubbing(test::coulomb(0.2), k_penalty);
+  contact::ContactParameters s = test::rubbing(test::coulomb(0.2), k_penalty);
   s.search_distance = 1e-3;
   s.friction->tangential_penalty = 1e18;  // no elastic slip to speak of
-  s.wear = contact::WearSpec{k_archard, k_hardness, share, {}};
+  s.wear = contact::WearParameters{k_archard, k_hardness, share, {}};
   return {std::move(mesh), kind, {test::elastic(2e11, 0.3), test::elastic(2e11, 0.3)}, c, s};
 }
 
@@ -122,7 +122,7 @@ TEST(Wear, OfThePlateStaysWhereItIsWhenThePinIsLiftedOff) {
 
 TEST(Wear, OfARigidMasterIsRefused) {
   test::Rubbing r = make(mesh::Shape::quad4, 1);
-  contact::ContactSpec s = r.pair.spec();
+  contact::ContactParameters s = r.pair.spec();
   s.rigid_master = contact::RigidSurface{};
   EXPECT_THROW(contact::ContactPair(r.mesh, AnalysisKind::plane_strain, s), InputError);
 }

@@ -12,8 +12,8 @@
 #include "coupling/block_iterative.hpp"
 #include "coupling/double_pass.hpp"
 #include "coupling/internal_energy.hpp"
-#include "coupling/isentropic.hpp"
-#include "coupling/isothermal.hpp"
+#include "coupling/isentropic_split.hpp"
+#include "coupling/isothermal_split.hpp"
 #include "coupling/simultaneous.hpp"
 #include "mechanics_bodies.hpp"
 
@@ -25,12 +25,12 @@ struct Coupled {
   AnalysisKind kind = AnalysisKind::plane_strain;
   std::vector<material::Material> materials;  ///< one per body
   std::vector<double> start;                  ///< [K], one per body
-  mechanics::Conditions mechanical;
-  heat::Conditions thermal;
-  std::optional<contact::ContactSpec> contact;
+  mechanics::MechanicalConditions mechanical;
+  heat::ThermalConditions thermal;
+  std::optional<contact::ContactParameters> contact;
   std::optional<mechanics::StructuralForm> form;
   mechanics::Mapping mapping = mechanics::Mapping::isothermal;  ///< which makes the split
-  heat::Integration integration = heat::Integration::closed;
+  heat::HeatIntegration integration = heat::HeatIntegration::closed;
   std::optional<mechanics::DynamicsOptions> dynamics;  ///< absent: no inertia
   double mechanics_tolerance = 1e-11;                  ///< of Newton's method
   mechanics::Simplices simplices = mechanics::Simplices::automatic;
@@ -97,7 +97,7 @@ class Assembly {
       if (pair_->heat() != nullptr) thermal.push_back(pair_->heat());
     }
     std::vector<double> initial(c.mesh.x.size());
-    for (const mesh::Block& block : c.mesh.blocks)
+    for (const mesh::ElementBlock& block : c.mesh.blocks)
       for (const Index node : block.nodes)
         initial[static_cast<std::size_t>(node)] = c.start[static_cast<std::size_t>(block.body)];
 
@@ -112,7 +112,7 @@ class Assembly {
     mechanics_.emplace(c.mesh, c.kind, c.materials, initial, c.mechanical, mechanics_options, mechanical);
     if (c.form)
       thermal.push_back(
-          &structural_.emplace(*mechanics_, *c.form, c.integration == heat::Integration::closed));
+          &structural_.emplace(*mechanics_, *c.form, c.integration == heat::HeatIntegration::closed));
 
     heat::HeatOptions heat_options;
     heat_options.integration = c.integration;

@@ -96,7 +96,7 @@ TEST(DoublePass, TendsToWhatTheIsentropicSplitTendsTo) {
 }
 
 TEST(DoublePass, ClosesTheFirstLawInTheEnergyFormForAnyStep) {
-  for (const auto rule : {heat::Integration::closed, heat::Integration::open})
+  for (const auto rule : {heat::HeatIntegration::closed, heat::HeatIntegration::open})
     for (const bool plastic : {false, true})
       for (const int factor : {1, 6})
         for (const int n : {1, 8}) {

@@ -134,7 +134,7 @@ const Variant k_variants[] = {
 // No sum over the steps enters the energies: what new phases and lines of tables drop would be seen.
 TEST(InternalEnergy, OfTheFieldsAtTheEndLessThatAtTheStartIsHeatAndWork) {
   for (const Variant& variant : k_variants)
-    for (const auto rule : {heat::Integration::closed, heat::Integration::open})
+    for (const auto rule : {heat::HeatIntegration::closed, heat::HeatIntegration::open})
       for (Coupled c : {bar(), bending_casting()}) {
         c.form = StructuralForm::energy;
         c.mapping = variant.mapping;
@@ -144,7 +144,7 @@ TEST(InternalEnergy, OfTheFieldsAtTheEndLessThatAtTheStartIsHeatAndWork) {
         if (variant.iterates) c.iteration.emplace();
         if (variant.two_stages)
           c.simultaneous.integration = coupling::SimultaneousOptions::Integration::sdirk2;
-        if (c.contact) c.contact->nodal_heat = rule == heat::Integration::closed;
+        if (c.contact) c.contact->nodal_heat = rule == heat::HeatIntegration::closed;
         constexpr int k_steps = 8;
         verification::Assembly assembly(c, k_end);
         ASSERT_TRUE(coupling::has_internal_energy(assembly.phases()));
@@ -160,7 +160,7 @@ TEST(InternalEnergy, OfTheFieldsAtTheEndLessThatAtTheStartIsHeatAndWork) {
         sum.internal = coupling::internal_energy(assembly.phases(), state) - first;
         EXPECT_LT(std::abs(sum.state_defect()), k_closed * sum.heat_exchanged)
             << variant.name << (c.contact ? " casting" : " bar")
-            << (rule == heat::Integration::open ? " open" : "");
+            << (rule == heat::HeatIntegration::open ? " open" : "");
         const double solid = assembly.heat().mean_solid_fraction(state.heat);
         EXPECT_TRUE(!c.contact || solid > 0.3) << variant.name << ' ' << solid;
       }
@@ -174,10 +174,10 @@ TEST(InternalEnergy, IsNoFunctionOfTheFieldsWithTheSpecificHeatAtConstantStrain)
 
 TEST(WithoutStructuralHeat, TheBalanceClosesForAnyStepAcrossTheInterfaceToo) {
   for (int n : {1, 2, 8, 64})
-    for (auto rule : {heat::Integration::closed, heat::Integration::open})
+    for (auto rule : {heat::HeatIntegration::closed, heat::HeatIntegration::open})
       for (Coupled c : {bar(), casting(0), casting(5e6)}) {
         c.integration = rule;
-        if (c.contact) c.contact->nodal_heat = rule == heat::Integration::closed;
+        if (c.contact) c.contact->nodal_heat = rule == heat::HeatIntegration::closed;
         const CoupledRun r = run(c, {}, n);
         EXPECT_LT(std::abs(r.defect()), k_closed * r.exchanged()) << n;
       }

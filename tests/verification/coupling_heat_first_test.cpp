@@ -125,7 +125,7 @@ TEST(HeatFirst, StaysWithTheSimultaneousSolutionAtSixTimesExpansion) {
 TEST(HeatFirst, ClosesTheFirstLawOfACastingThatFreezesAndLeavesItsMould) {
   for (const double pressure : {0.0, 2e5})
     for (const Mapping mapping : {Mapping::isentropic, Mapping::isothermal})
-      for (const auto rule : {heat::Integration::closed, heat::Integration::open})
+      for (const auto rule : {heat::HeatIntegration::closed, heat::HeatIntegration::open})
         for (const auto stepping : {ThermalStepping::backward_euler, ThermalStepping::sdirk2}) {
           Coupled c = verification::casting(pressure);
           c.form = StructuralForm::energy;

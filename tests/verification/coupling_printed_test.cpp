@@ -90,7 +90,7 @@ TEST(PrintedForms, OfTheOpenRuleTendToThoseOfTheClosedOne) {
   for (const Printed& p : k_printed) {
     Coupled c = verification::cylinder({false, 1, p.mapping, p.form, p.sensible});
     const CoupledRun closed = verification::march(c, 100, 10);
-    c.integration = heat::Integration::open;
+    c.integration = heat::HeatIntegration::open;
     const CoupledRun open = verification::march(c, 100, 10);
     for (std::size_t i = 0; i < closed.end.heat.temperature.size(); ++i)  // 50 elements: h² is 4e-4
       EXPECT_NEAR(closed.end.heat.temperature[i], open.end.heat.temperature[i], 0.05) << p.scheme;

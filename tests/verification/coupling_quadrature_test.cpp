@@ -35,7 +35,7 @@ Coupled pulled(Shape shape) {
 
 TEST(MixedQuadrature, LosesNoEnergyBetweenTheRules) {
   for (const Shape shape : {Shape::tri3, Shape::quad4, Shape::tri6, Shape::quad8, Shape::tet4, Shape::hex8})
-    for (const auto rule : {heat::Integration::closed, heat::Integration::open})
+    for (const auto rule : {heat::HeatIntegration::closed, heat::HeatIntegration::open})
       for (const auto mapping : {mechanics::Mapping::isothermal, mechanics::Mapping::isentropic}) {
         Coupled c = pulled(shape);
         c.integration = rule;

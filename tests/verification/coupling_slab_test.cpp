@@ -7,8 +7,8 @@
 
 #include "coupling/block_iterative.hpp"
 #include "coupling/double_pass.hpp"
-#include "coupling/isentropic.hpp"
-#include "coupling/isothermal.hpp"
+#include "coupling/isentropic_split.hpp"
+#include "coupling/isothermal_split.hpp"
 #include "coupling/simultaneous.hpp"
 #include "slab.hpp"
 

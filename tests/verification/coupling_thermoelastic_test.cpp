@@ -25,9 +25,9 @@ constexpr double k_capacity = 7800 * 500.0;  // [J/(m³ K)]
 struct Kind {
   Shape shape;
   AnalysisKind kind;
-  heat::Integration integration;
+  heat::HeatIntegration integration;
 };
-constexpr auto k_closed = heat::Integration::closed, k_open = heat::Integration::open;
+constexpr auto k_closed = heat::HeatIntegration::closed, k_open = heat::HeatIntegration::open;
 const std::vector<Kind> k_bodies{{Shape::quad4, AnalysisKind::plane_strain, k_closed},
                                  {Shape::tri3, AnalysisKind::plane_strain, k_closed},
                                  {Shape::tri6, AnalysisKind::plane_strain, k_open},

@@ -26,11 +26,11 @@ constexpr double k_diffusivity = k_sand / k_sand_capacity;
 
 // A strip of metal from 0 to `size` in sand, one layer of cells, nodes common where they touch.
 mesh::Mesh strip(double size, double h, double sand) {
-  mesh::Axis x = mesh::uniform_axis(0, size, static_cast<int>(std::lround(size / h)));
-  const mesh::Axis further = mesh::graded_axis(size, size + sand, h / 2, 10 * h);
+  mesh::GridAxis x = mesh::uniform_axis(0, size, static_cast<int>(std::lround(size / h)));
+  const mesh::GridAxis further = mesh::graded_axis(size, size + sand, h / 2, 10 * h);
   x.insert(x.end(), further.begin() + 1, further.end());
   mesh::RawMesh raw;
-  const mesh::Axis y = {0, h};
+  const mesh::GridAxis y = {0, h};
   const auto surface = [](const mesh::Point&, const mesh::Point&) { return std::string(); };
   mesh::add_grid(raw, {{x, y}, mesh::Shape::quad4, "metal", {}, surface});
   mesh::RawGroup& metal = raw.groups.at("metal");

@@ -50,7 +50,7 @@ Errors run(double range, double superheat, int n, const std::string& file = {}) 
   const double share = 0.1;  // of the freezing range: the default of the criteria
   const Exact exact(s, s.solidus + share * range);
   const mesh::Mesh mesh = verification::strip(mesh::Shape::quad4, k_length, n);
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.temperatures.push_back({"wall", "x_min", Table(s.wall)});
   verification::Fields fields =
       verification::freeze(mesh, AnalysisKind::plane_strain, {verification::light_metal(100, range)},

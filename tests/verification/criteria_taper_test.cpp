@@ -29,7 +29,7 @@ TEST(NiyamaOfATaper, IsTheClosedForm) {
       verification::block(mesh::Shape::quad4, {k_length, 1.0}, {100, 4}, [](const mesh::Point& x) {
         return mesh::Point{x[0], thickness(x[0]) * (x[1] - 0.5), 0};
       });
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   for (const char* side : {"y_min", "y_max"})
     conditions.films.push_back({side, side, {Table(k_film)}, Table(k_ambient)});
   const double capacity = 2500.0 * 1000 + 2500.0 * 4e5 / k_range;  // while freezing [J/(m³ K)]

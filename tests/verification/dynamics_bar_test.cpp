@@ -54,7 +54,7 @@ Impact impact(const Method& m) {
   result.stress.assign(k_elements, 0.0);
   for (int n = 1; n <= 3 * k_steps; ++n) {
     const mechanics::MechanicalState old = state;
-    const mechanics::PhaseReport report = phase->solve(old, state, body.temperature, n * dt, dt);
+    const mechanics::MechanicalReport report = phase->solve(old, state, body.temperature, n * dt, dt);
     double force = 0;
     for (std::size_t i = 0; i < report.reactions.size(); i += 2) force += report.reactions[i];
     result.wall.push_back(parallel::global_sum(force) / k_height / k_stress);
@@ -62,7 +62,7 @@ Impact impact(const Method& m) {
       result.numerical += report.work.numerical / (0.5 * k_density * k_length * k_height * k_speed * k_speed);
     if (2 * n != k_steps) continue;
     const test::ElementFields fields = test::element_fields(*phase).front();
-    const mesh::Block& block = body.mesh.blocks.front();
+    const mesh::ElementBlock& block = body.mesh.blocks.front();
     for (Index e = 0; e < block.n_counted; ++e)
       result.stress[static_cast<std::size_t>(block.input_element[static_cast<std::size_t>(e)] - 1)] =
           -fields.stress[static_cast<std::size_t>(e)][0] / k_stress;

@@ -16,14 +16,15 @@ using Fields = std::map<std::string, std::vector<double>>;
 
 /// Runs until `end` in equal steps, or until everything has frozen.
 inline Fields freeze(const mesh::Mesh& mesh, AnalysisKind kind,
-                     const std::vector<material::Material>& materials, const heat::Conditions& conditions,
-                     const std::vector<double>& start, double end, double dt) {
+                     const std::vector<material::Material>& materials,
+                     const heat::ThermalConditions& conditions, const std::vector<double>& start, double end,
+                     double dt) {
   heat::ThermalPhase phase(mesh, kind, materials, conditions);
   criteria::Freezing freezing(mesh, kind, phase.storage());
   const mechanics::MechanicalState none;
   heat::ThermalState old = phase.initial_state(start), next = old;
   std::vector<double> before = phase.solid_fraction(old), after = before;
-  criteria::Record record = freezing.initial({0, old, none, before});
+  criteria::CriterionRecord record = freezing.initial({0, old, none, before});
   const auto n = static_cast<int>(std::lround(end / dt));
   for (int i = 1; i <= n; ++i) {
     phase.solve(old, next, i * dt, dt);
@@ -35,7 +36,7 @@ inline Fields freeze(const mesh::Mesh& mesh, AnalysisKind kind,
   }
   Fields fields;
   std::vector<std::span<double>> values;
-  for (const criteria::FieldInfo& field : freezing.fields())
+  for (const criteria::CriterionField& field : freezing.fields())
     values.emplace_back(fields[field.name] = std::vector<double>(mesh.x.size()));
   freezing.fill({end, old, none, before}, record, values);
   return fields;

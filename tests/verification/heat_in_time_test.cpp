@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "analytic/stefan.hpp"
-#include "coupling/isothermal.hpp"
+#include "coupling/isothermal_split.hpp"
 #include "coupling/simulation.hpp"
 #include "strip.hpp"
 
@@ -24,7 +24,7 @@ using heat::ThermalStepping;
 struct Problem {
   mesh::Mesh mesh;
   material::Material material;
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   double start, end;  ///< [K], [s]
 };
 
@@ -80,13 +80,13 @@ Problem nafems_t3() {
 struct Diary : coupling::Observer {
   std::vector<State> states;
   std::vector<StepRecord> steps;
-  std::vector<std::pair<coupling::Continuation, State>> checkpoints;
+  std::vector<std::pair<coupling::RestartData, State>> checkpoints;
   void begin(const State& state) override { states.push_back(state); }
   void step(const StepRecord& record, const State& state) override {
     steps.push_back(record);
     states.push_back(state);
   }
-  void checkpoint(const coupling::Continuation& continuation, const State& state) override {
+  void checkpoint(const coupling::RestartData& continuation, const State& state) override {
     checkpoints.emplace_back(continuation, state);
   }
   void stopped(const coupling::Stop&, const State&) override {}
@@ -134,7 +134,7 @@ struct March {
     return states;
   }
   Diary adaptive(const coupling::TimeOptions& options,
-                 const std::pair<coupling::Continuation, State>* from = nullptr) {
+                 const std::pair<coupling::RestartData, State>* from = nullptr) {
     const coupling::Phases all = phases();
     coupling::Simulation simulation(std::make_unique<coupling::IsothermalSplit>(all), options,
                                     coupling::ErrorEstimate(norm, &all));

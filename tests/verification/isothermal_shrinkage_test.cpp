@@ -113,7 +113,7 @@ Result cool(const Coupled& c, bool by_latent_heat) {
 class IsothermalShrinkage : public testing::TestWithParam<Element> {};
 
 TEST_P(IsothermalShrinkage, IsInProportionToTheHeatDrawnWithBothRules) {
-  for (const auto rule : {heat::Integration::closed, heat::Integration::open})
+  for (const auto rule : {heat::HeatIntegration::closed, heat::HeatIntegration::open})
     for (const bool of_the_program : {false, true}) {
       Coupled c = block(GetParam());
       c.integration = rule;
@@ -143,7 +143,7 @@ TEST_P(IsothermalShrinkage, FollowsTheLatentHeatInEverySchemeAndClosesTheFirstLa
                                Scheme{"double pass", Mapping::isentropic, true, false, 2e-3},
                                Scheme{"iterative", Mapping::isothermal, false, true, 1e-7},
                                Scheme{"iterative, isentropic", Mapping::isentropic, false, true, 1e-7}})
-    for (const auto rule : {heat::Integration::closed, heat::Integration::open}) {
+    for (const auto rule : {heat::HeatIntegration::closed, heat::HeatIntegration::open}) {
       Coupled c = block(GetParam());
       c.integration = rule;
       c.form = StructuralForm::energy;

@@ -18,9 +18,9 @@ struct Result {
 };
 
 /// A plate of 60 mm × 1.5 mm cells cools through one side until it is cold.
-Result freeze(const material::Material& m, double start, double dt, heat::Integration rule) {
+Result freeze(const material::Material& m, double start, double dt, heat::HeatIntegration rule) {
   const mesh::Mesh mesh = verification::block(mesh::Shape::quad4, {0.06, 0.0015}, {40, 1});
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.films.push_back({"chill", "x_min", {Table(5000.0), false}, Table(350.0)});
   heat::HeatOptions options;
   options.integration = rule;
@@ -32,7 +32,7 @@ Result freeze(const material::Material& m, double start, double dt, heat::Integr
   int steps = 0;
   while (phase.mean_solid_fraction(state) < 1.0 && steps < 5000) {
     ++steps;
-    const heat::PhaseReport report = phase.solve(state, state, steps * dt, dt);
+    const heat::ThermalReport report = phase.solve(state, state, steps * dt, dt);
     latent -= report.balance.latent;
     stored += report.balance.stored;
     in += report.balance.heat_in();
@@ -61,11 +61,11 @@ material::Material metal(double range) {
 TEST(LatentHeat, IsReleasedToRoundingForEveryStepAndFreezingRange) {
   std::ofstream table = verification::csv(
       "latent_heat", "rule,range[K],dt[s],latent_error[1],balance_error[1],worst_solves,mean_solves");
-  for (const auto rule : {heat::Integration::closed, heat::Integration::open})
+  for (const auto rule : {heat::HeatIntegration::closed, heat::HeatIntegration::open})
     for (const double range : {0.0, 1.0, 40.0})
       for (const double dt : {0.05, 0.5, 5.0, 50.0, 1e3, 1e6}) {
         const Result r = freeze(metal(range), 920, dt, rule);
-        table << (rule == heat::Integration::closed ? "closed," : "open,") << range << ',' << dt << ','
+        table << (rule == heat::HeatIntegration::closed ? "closed," : "open,") << range << ',' << dt << ','
               << r.latent_error << ',' << r.balance_error << ',' << r.worst << ',' << r.mean << '\n';
         EXPECT_LE(r.latent_error, 1e-10) << range << " " << dt;
         // Over 1e6 s one rounding error of the surface's temperature, 1e-13 K, is already 2e-9 of the heat.
@@ -78,7 +78,7 @@ TEST(LatentHeat, OfTheLibrarysAluminiumNeedsFewSolves) {
       material::load_material(std::string(SOLIDUS_SOURCE_DIR) + "/materials/aluminium_99_7.toml");
   std::ofstream table = verification::csv("aluminium_solves", "dt[s],worst_solves,mean_solves");
   for (const double dt : {0.1, 1.0, 10.0}) {
-    const Result r = freeze(aluminium, 943.15, dt, heat::Integration::closed);
+    const Result r = freeze(aluminium, 943.15, dt, heat::HeatIntegration::closed);
     table << dt << ',' << r.worst << ',' << r.mean << '\n';
     EXPECT_LE(r.latent_error, 1e-10);
     EXPECT_LE(r.worst, 12);

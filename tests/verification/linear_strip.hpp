@@ -78,7 +78,7 @@ struct StripFields {
 };
 inline StripFields strip_fields(const Coupled& c, const Assembly& assembly, const coupling::State& state,
                                 const LinearSolid& solid) {
-  const mesh::Block& block = c.mesh.blocks.front();
+  const mesh::ElementBlock& block = c.mesh.blocks.front();
   const auto n = static_cast<std::size_t>(block.n_counted);
   StripFields f{std::vector<double>(n + 1), std::vector<double>(n + 1), std::vector<double>(n)};
   double length = 0;

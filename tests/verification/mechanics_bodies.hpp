@@ -41,7 +41,7 @@ inline double relative_l2_error(const test::Body& body, const std::vector<double
                                 const std::function<mesh::Point(const mesh::Point&)>& exact) {
   const auto components = static_cast<std::size_t>(displacement_components(body.kind));
   double error = 0, size = 0;
-  for (const mesh::Block& block : body.mesh.blocks) {
+  for (const mesh::ElementBlock& block : body.mesh.blocks) {
     const mesh::BlockGeometry g(body.mesh, block, body.kind, mesh::gauss_rule(block.shape, 5));
     for (Index e = 0; e < block.n_counted; ++e)
       for (int q = 0; q < g.n_points; ++q) {

@@ -55,7 +55,7 @@ History march(const Body& body, double dt, int steps) {
   History h;
   for (int n = 1; n <= steps; ++n) {
     const mechanics::MechanicalState old = state;
-    const mechanics::PhaseReport report = phase->solve(old, state, body.temperature, n * dt, dt);
+    const mechanics::MechanicalReport report = phase->solve(old, state, body.temperature, n * dt, dt);
     double sum = 0, count = 0;
     for (const auto& fields : test::element_fields(*phase))
       for (const auto& stress : fields.stress) {

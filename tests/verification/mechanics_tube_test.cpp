@@ -106,7 +106,7 @@ TEST(Tube, StressesThroughTheWallFollowLame) {
   auto out = verification::table("mechanics_tube_stress",
                                  "radius[mm],exact_radial[MPa],exact_hoop[MPa],radial[MPa],hoop[MPa]");
   const auto fields = test::element_fields(*solved.phase);
-  const mesh::Block& block = body.mesh.blocks[0];
+  const mesh::ElementBlock& block = body.mesh.blocks[0];
   for (Index e = 0; e < block.size(); ++e) {
     double r = 0;
     for (int a = 0; a < 4; ++a) r += body.mesh.x[static_cast<std::size_t>(block.element(e)[a])][0] / 4;

@@ -46,7 +46,7 @@ class March {
 
   double time() const { return time_; }
   const mechanics::MechanicalState& state() const { return state_; }
-  const mechanics::PhaseReport& report() const { return report_; }
+  const mechanics::MechanicalReport& report() const { return report_; }
   std::vector<test::ElementFields> fields() const { return test::element_fields(*phase_); }
   double u(Index node, int component) const {
     return state_
@@ -57,12 +57,12 @@ class March {
   const test::Body& body_;
   std::unique_ptr<mechanics::MechanicalPhase> phase_;
   mechanics::MechanicalState state_;
-  mechanics::PhaseReport report_;
+  mechanics::MechanicalReport report_;
   double time_ = 0;
 };
 
 /// The middle of an element.
-inline mesh::Point centre(const mesh::Mesh& mesh, const mesh::Block& block, Index element) {
+inline mesh::Point centre(const mesh::Mesh& mesh, const mesh::ElementBlock& block, Index element) {
   mesh::Point x{};
   const int n = mesh::node_count(block.shape);
   for (int a = 0; a < n; ++a)

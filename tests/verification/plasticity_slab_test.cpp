@@ -2,7 +2,7 @@
 /// of analytic/solidifying_slab.hpp. Deformation does no heat here; coupling_slab_test.cpp has it coupled.
 #include <gtest/gtest.h>
 
-#include "coupling/isothermal.hpp"
+#include "coupling/isothermal_split.hpp"
 #include "slab.hpp"
 
 namespace solidus {

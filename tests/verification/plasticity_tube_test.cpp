@@ -100,7 +100,7 @@ TEST(HillsTube, YieldsFirstAtThePressureOfTheClosedForm) {
 /// through the outermost elements that are plastic as a whole.
 double front(const Body& body, const March& march) {
   const auto fields = march.fields();
-  const mesh::Block& block = body.mesh.blocks[0];
+  const mesh::ElementBlock& block = body.mesh.blocks[0];
   const double h = (k_outer - k_inner) / block.size();
   double outermost = 0;
   const auto plastic = [&](Index e) {
@@ -128,7 +128,7 @@ double front(const Body& body, const March& march) {
 std::array<double, 3> compare_stress(const Body& body, const March& march, const std::string& name) {
   const PlasticTube tube = exact(march.time());
   const auto fields = march.fields();
-  const mesh::Block& block = body.mesh.blocks[0];
+  const mesh::ElementBlock& block = body.mesh.blocks[0];
   auto out = verification::table(name,
                                  "radius[mm],exact_radial[MPa],exact_hoop[MPa],exact_axial[MPa],radial[MPa],"
                                  "hoop[MPa],axial[MPa]");

@@ -22,7 +22,7 @@ TEST(AddedLawAtAPoint, FollowsItsFlowCurveInATensileTest) {
   m.flow->hardening = {40e6, 0.002};
   const History h = run_all(m, {300, 300}, {segment(1, 40, {{0, strain_to(0.05)}})});
   int yielding = 0;
-  for (const Record& r : h.records) {
+  for (const MaterialPointRecord& r : h.records) {
     const double xi = r.strain[0] - r.stress[0] / k_young;
     if (xi < 1e-12) continue;
     ++yielding;
@@ -41,7 +41,7 @@ TEST(AddedLawAtAPoint, RecallsItsBackStressInATensileTest) {
   double coarse = 0, fine = 0;
   for (const int steps : {100, 200}) {
     const History h = run_all(m, {300, 300}, {segment(1, steps, {{0, strain_to(0.04)}})});
-    const Record& last = h.records.back();
+    const MaterialPointRecord& last = h.records.back();
     const double xi = last.strain[0] - last.stress[0] / k_young;
     (steps == 100 ? coarse : fine) = last.stress[0] - material::tensile_stress(*m.flow, xi, 300);
   }

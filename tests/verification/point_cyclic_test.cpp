@@ -40,7 +40,7 @@ TEST(CyclicPoint, FollowsTheClosedFormOfCombinedHardeningForAnyStep) {
     const History h = run_all(combined(), k_cold, cycles(0.01, 3, steps));
     double p_start = 0, xi_start = 0, p = 0, xi = 0, previous = 0, direction = 1;
     auto table = csv("point_cyclic_combined", "strain[%],exact_stress[MPa],stress[MPa]");
-    for (const Record& r : h.records) {
+    for (const MaterialPointRecord& r : h.records) {
       const double strain = r.strain[0];
       if ((strain - previous) * direction < 0) direction = -direction, p_start = p, xi_start = xi;
       previous = strain;
@@ -60,7 +60,7 @@ TEST(CyclicPoint, FollowsTheClosedFormOfCombinedHardeningForAnyStep) {
 
 TEST(CyclicPoint, StoresAndDissipatesTheWorkThatItTakes) {
   const History h = run_all(combined(), k_cold, cycles(0.01, 2, 400));
-  const Record& last = h.records.back();
+  const MaterialPointRecord& last = h.records.back();
   const double elastic = 0.5 * last.stress[0] * last.stress[0] / k_young;
   const double stored = elastic + last.isotropic_energy + last.kinematic_energy;
   // the sum of rates at the ends of steps is of first order
@@ -86,7 +86,7 @@ TEST(CyclicPoint, BackStressOfArmstrongFrederickSaturates) {
   for (const int steps : {100, 200, 400}) {
     const History h = run_all(armstrong_frederick(), k_cold, {segment(1, steps, {{0, strain_to(0.2)}})});
     double worst = 0;
-    for (const Record& r : h.records)
+    for (const MaterialPointRecord& r : h.records)
       worst = std::max(worst, std::abs(1.5 * r.back_stress[0] / k_limit -
                                        (1 - std::exp(-k_recall * r.plastic_strain[0]))));
     errors.push_back(worst);
@@ -102,13 +102,13 @@ TEST(CyclicPoint, StableLoopOfArmstrongFrederickHasTheAmplitudeOfTheClosedForm) 
   for (const int steps : {100, 200}) {
     const History h = run_all(armstrong_frederick(), k_cold, cycles(0.01, 8, steps));
     const std::size_t n = h.records.size(), branch = static_cast<std::size_t>(2 * steps);
-    const Record &up = h.records[n - 1], &down = h.records[n - 1 - branch];
+    const MaterialPointRecord &up = h.records[n - 1], &down = h.records[n - 1 - branch];
     const double range = up.plastic_strain[0] - down.plastic_strain[0];
     const double amplitude = k_limit * std::tanh(0.5 * k_recall * range);
     EXPECT_NEAR(up.stress[0], -down.stress[0], 1e-5 * up.stress[0]);  // closed and symmetric
     errors.push_back(std::abs(up.stress[0] - k_flow_stress - amplitude) / amplitude);
     auto table = csv("point_armstrong_frederick_loop", "strain[%],stress[MPa],back_stress[MPa]");
-    for (const Record& r : h.records)
+    for (const MaterialPointRecord& r : h.records)
       table << 100 * r.strain[0] << "," << 1e-6 * r.stress[0] << "," << 1.5e-6 * r.back_stress[0] << "\n";
   }
   EXPECT_LT(errors[1], 2e-3);

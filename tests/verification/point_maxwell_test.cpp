@@ -42,7 +42,7 @@ TEST(MaxwellPoint, CreepsUnderHeldStressExactly) {
   const History h = run_all(mush(), k_mushy,
                             {segment(k_at_once * k_tau_uniaxial, 1, {{0, stress_to(stress)}}),
                              segment(k_tau_uniaxial, 7, {{0, {{}, Control::stress}}})});
-  for (const Record& r : h.records) {
+  for (const MaterialPointRecord& r : h.records) {
     if (r.time == 0) continue;
     const double exact = stress / k_stiffness + 2.0 / 3 * k_lambda / k_eta * stress * r.time;
     EXPECT_NEAR(r.strain[0], exact, k_accuracy * exact);
@@ -51,7 +51,8 @@ TEST(MaxwellPoint, CreepsUnderHeldStressExactly) {
 }
 
 /// The largest error of uniaxial relaxation over the first stress.
-double relaxation_error(point::Integration integration, int steps, std::vector<double>* curve = nullptr) {
+double relaxation_error(point::PointIntegration integration, int steps,
+                        std::vector<double>* curve = nullptr) {
   const double strain = 1e-4, end = 4 * k_tau_uniaxial;
   MaterialPoint::Options options = k_mushy;
   options.integration = integration;
@@ -71,16 +72,16 @@ TEST(MaxwellPoint, RelaxesUniaxiallyAtOrderOneAndTwo) {
   auto table = csv("point_maxwell_order", "step / relaxation time,backward_Euler,two-step");
   std::vector<double> euler, two_step;
   for (const int steps : {32, 64, 128, 256, 512}) {
-    euler.push_back(relaxation_error(point::Integration::backward_euler, steps));
-    two_step.push_back(relaxation_error(point::Integration::two_step, steps));
+    euler.push_back(relaxation_error(point::PointIntegration::backward_euler, steps));
+    two_step.push_back(relaxation_error(point::PointIntegration::two_step, steps));
     table << 4.0 / steps << "," << euler.back() << "," << two_step.back() << "\n";
   }
   EXPECT_NEAR(observed_order(euler[3], euler[4]), 1, 0.05);
   EXPECT_NEAR(observed_order(two_step[3], two_step[4]), 2, 0.1);
 
   std::vector<double> coarse_euler, coarse_two_step;
-  relaxation_error(point::Integration::backward_euler, 16, &coarse_euler);
-  relaxation_error(point::Integration::two_step, 16, &coarse_two_step);
+  relaxation_error(point::PointIntegration::backward_euler, 16, &coarse_euler);
+  relaxation_error(point::PointIntegration::two_step, 16, &coarse_two_step);
   auto curve = csv("point_maxwell_relaxation",
                    "time / relaxation time,exact_stress / first stress,backward_Euler,two-step");
   for (std::size_t n = 0; n < coarse_euler.size(); ++n)
@@ -94,7 +95,7 @@ TEST(MaxwellPoint, TendsToTheDashpotsStressUnderAStrainRate) {
   const double steady = 1.5 * k_eta / k_lambda * rate;
   // exp(−20) of the exponential is left after twenty relaxation times
   EXPECT_NEAR(h.records.back().stress[0], steady, 1e-7 * steady);
-  for (const Record& r : h.records)
+  for (const MaterialPointRecord& r : h.records)
     EXPECT_NEAR(r.stress[0], steady * (1 - std::exp(-r.time / k_tau_uniaxial)), 0.01 * steady);
   // all work of steady flow is dissipated
   EXPECT_NEAR(h.records.back().viscous_dissipation, steady * rate, 1e-6 * steady * rate);

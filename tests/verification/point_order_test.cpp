@@ -87,7 +87,7 @@ std::vector<double> sizes(int n, bool varied, int halvings) {
 }
 
 /// |σ − reference| at the end.
-double error(point::Integration integration, const std::vector<double>& steps, const Uniaxial& exact) {
+double error(point::PointIntegration integration, const std::vector<double>& steps, const Uniaxial& exact) {
   const material::Material m = sample();
   MaterialPoint p(m, {300, 300, integration});
   point::Target target{};
@@ -114,7 +114,8 @@ TEST(TimeIntegration, IsOfOrderOneAndTwoForEqualAndVaryingSteps) {
   for (int halvings = 0; halvings < 5; ++halvings) {
     errors.emplace_back();
     std::size_t k = 0;
-    for (const auto integration : {point::Integration::backward_euler, point::Integration::two_step})
+    for (const auto integration :
+         {point::PointIntegration::backward_euler, point::PointIntegration::two_step})
       for (const bool varied : {false, true})
         errors.back()[k++] = error(integration, sizes(100, varied, halvings), exact);
     table << 0.01 / (1 << halvings);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "csv.hpp"
-#include "point/run.hpp"
+#include "point/point_history.hpp"
 
 namespace solidus::verification {
 
@@ -16,7 +16,7 @@ using point::ComponentRamp;
 using point::Control;
 using point::History;
 using point::MaterialPoint;
-using point::Record;
+using point::MaterialPointRecord;
 using point::Segment;
 
 inline constexpr double k_young = 70e9, k_poisson = 0.3, k_expansion = 2e-5;

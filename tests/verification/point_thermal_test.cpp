@@ -29,7 +29,7 @@ TEST(HeldBar, FollowsTheYieldStressOfItsTemperature) {
     const History h =
         run_all(m, {300, 300}, {temperature_to(600, 100, steps), temperature_to(300, 100, steps)});
     double plastic = 0;
-    for (const Record& r : h.records) {
+    for (const MaterialPointRecord& r : h.records) {
       const double limit = m.flow->flow_stress.value(r.temperature);
       const double trial = -k_young * (k_expansion * (r.temperature - 300) + plastic);
       const double exact = std::clamp(trial, -limit, limit);
@@ -51,7 +51,7 @@ TEST(PlasticShear, DissipatesRootTwoThirdsOfTheFlowStressTimesGamma) {
   const double rate = 0.01;
   const History h = run_all(m, {300, 300}, {segment(10, 100, {{3, strain_rate(rate)}})});
   for (std::size_t i = 50; i < h.records.size(); ++i) {
-    const Record &r = h.records[i], &before = h.records[i - 1];
+    const MaterialPointRecord &r = h.records[i], &before = h.records[i - 1];
     const double gamma_rate = std::sqrt(2.0) * (r.plastic_strain[3] - before.plastic_strain[3]) / 0.1;
     const double exact = std::sqrt(2.0 / 3) * 100e6 * gamma_rate;  // errata to 2.118: hardening is stored
     EXPECT_NEAR(r.plastic_dissipation, exact, 1e-9 * exact);
@@ -79,14 +79,14 @@ TEST(PlasticShear, HeatsAnAdiabaticPointByWhatItDissipates) {
   // the work is a trapezoidal sum: the step in which the flow begins misses at most half of its heat
   const double first_step = 0.5 * std::sqrt(2.0 / 3) * k_yield * std::sqrt(2.0) * 0.05 * 0.05 / capacity;
   for (std::size_t i = 0; i < free.records.size(); ++i) {
-    const Record &r = at_volume.records[i], &f = free.records[i];
+    const MaterialPointRecord &r = at_volume.records[i], &f = free.records[i];
     const double gamma = std::sqrt(2.0) * r.plastic_strain[3];
     const double exact = std::sqrt(2.0 / 3) * k_yield * gamma / capacity;
     EXPECT_NEAR(r.temperature - 300, exact, first_step);
     const double mean = 0.5 * (300 + f.temperature);
     const double more = 9 * k_expansion * k_expansion * k_bulk * mean / capacity;
     EXPECT_NEAR((f.temperature - 300) * (1 + more), exact, first_step);
-    for (const Record& each : {r, f}) EXPECT_NEAR(each.heat, 0, 1e-6 * (1 + each.work));
+    for (const MaterialPointRecord& each : {r, f}) EXPECT_NEAR(each.heat, 0, 1e-6 * (1 + each.work));
     table << r.strain[3] << "," << exact << "," << r.temperature - 300 << "," << f.temperature - 300 << "\n";
   }
   EXPECT_GT(at_volume.records.back().temperature, 320);

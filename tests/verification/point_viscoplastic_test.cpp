@@ -39,7 +39,7 @@ TEST(PerzynaPoint, FlowsAtTheSteadyStressOfTheRateForThreeExponents) {
       const double strain = (k_flow_stress + 30 * over) / k_young;  // the transient takes about over/E
       const History h =
           run_all(viscoplastic(n, eta), k_solid, {segment(strain / rate, 300, {{0, strain_to(strain)}})});
-      const Record& last = h.records.back();
+      const MaterialPointRecord& last = h.records.back();
       // exp(-30) of the transient and Newton's tolerance are left
       EXPECT_NEAR(last.stress[0], k_flow_stress + over, 1e-8 * over) << "rate " << rate << ", n " << n;
       EXPECT_NEAR(last.plastic_power, last.stress[0] * rate, 1e-7 * last.plastic_power);
@@ -59,7 +59,7 @@ struct Relaxation {
   std::vector<double> times, exact, computed;  ///< overstress over D
 };
 
-Relaxation relax(double n, point::Integration integration, int steps) {
+Relaxation relax(double n, point::PointIntegration integration, int steps) {
   const double eta = 1e11, c = 2.0 / 3 * k_young / eta, x0 = 2, end = 4 / c;
   const double strain = (k_flow_stress + k_drag * x0 / k_root) / k_young;
   MaterialPoint::Options options = k_solid;
@@ -86,7 +86,8 @@ TEST(PerzynaPoint, RelaxesAsTheClosedFormAtOrderOneAndTwo) {
   for (const int steps : {256, 512, 1024, 2048, 4096}) {
     errors.emplace_back();
     std::size_t k = 0;
-    for (const auto integration : {point::Integration::backward_euler, point::Integration::two_step})
+    for (const auto integration :
+         {point::PointIntegration::backward_euler, point::PointIntegration::two_step})
       for (const double n : {1.0, 3.0}) errors.back()[k++] = relax(n, integration, steps).error;
     table << 4.0 / steps;
     for (const double error : errors.back()) table << "," << error;
@@ -96,8 +97,8 @@ TEST(PerzynaPoint, RelaxesAsTheClosedFormAtOrderOneAndTwo) {
     EXPECT_NEAR(observed_order(errors[3][k], errors[4][k]), k < 2 ? 1 : 2, 0.1) << k;
 
   auto curve = csv("point_perzyna_relaxation", "time / (3 eta / 2 E),exact_n=1,n=1,exact_n=3,n=3");
-  const Relaxation one = relax(1, point::Integration::two_step, 40);
-  const Relaxation three = relax(3, point::Integration::two_step, 40);
+  const Relaxation one = relax(1, point::PointIntegration::two_step, 40);
+  const Relaxation three = relax(3, point::PointIntegration::two_step, 40);
   for (std::size_t i = 0; i < one.times.size(); ++i)
     curve << one.times[i] << "," << one.exact[i] << "," << one.computed[i] << "," << three.exact[i] << ","
           << three.computed[i] << "\n";

@@ -42,7 +42,7 @@ struct Cells {
   std::vector<double> volume;
   std::vector<mesh::Point> centre;
 
-  Cells(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind) {
+  Cells(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind) {
     const PackVector<Lane> integrals = mesh::basis_integrals(mesh, block, kind);
     const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
     for (Index e = 0; e < block.size(); ++e) {
@@ -84,7 +84,8 @@ struct Cells {
 /// neighbours across faces, over that of its difference to its mean over the body. Elements at the boundary
 /// do not count. A smooth field has O(h²) on a regular mesh; one that changes its sign from element to
 /// element has 2. On one process.
-inline double roughness(const mesh::Block& block, const Cells& cells, const std::vector<double>& field) {
+inline double roughness(const mesh::ElementBlock& block, const Cells& cells,
+                        const std::vector<double>& field) {
   std::map<std::vector<Index>, std::vector<Index>> faces;
   for (Index e = 0; e < block.size(); ++e)
     for (int f = 0; f < mesh::face_count(block.shape); ++f) {
@@ -114,7 +115,7 @@ inline double roughness(const mesh::Block& block, const Cells& cells, const std:
 
 /// Of the pressure of a solved body.
 inline double roughness(const test::Body& body, const mechanics::MechanicalPhase& phase) {
-  const mesh::Block& block = body.mesh.blocks[0];
+  const mesh::ElementBlock& block = body.mesh.blocks[0];
   return roughness(block, Cells(body.mesh, block, body.kind), test::element_fields(phase)[0].pressure);
 }
 

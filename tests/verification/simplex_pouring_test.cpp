@@ -46,8 +46,8 @@ Pour pour(const Element& element, mechanics::Mapping mapping, const Table& visco
   criteria::StrainCriteria strains(c.mesh, c.kind, c.materials);
   coupling::State state = assembly.start();
   assembly.scheme().synchronise(state);
-  criteria::Record record = strains.initial({0, state.heat, state.mechanics});
-  const mesh::Block& block = c.mesh.blocks[0];
+  criteria::CriterionRecord record = strains.initial({0, state.heat, state.mechanics});
+  const mesh::ElementBlock& block = c.mesh.blocks[0];
   const verification::Cells cells(c.mesh, block, c.kind);
   const std::size_t n_elements = cells.volume.size();
   const auto mean = [&](const std::vector<double>& nodal, std::size_t e) {

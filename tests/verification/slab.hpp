@@ -49,7 +49,7 @@ inline material::Material material_of(const analytic::SolidifyingSlab& slab) {
 struct Strip {
   mesh::Mesh mesh;
   AnalysisKind kind;
-  mechanics::Conditions conditions;
+  mechanics::MechanicalConditions conditions;
   std::size_t depth;     ///< the coordinate away from the wall
   std::size_t in_plane;  ///< the stress component that is compared
 };
@@ -115,7 +115,7 @@ inline SlabResult freeze(const Strip& strip, const SlabRun& run) {
   std::optional<mechanics::StructuralHeat> structural;
   std::vector<linear::Contribution*> stored;
   if (run.form) stored.push_back(&structural.emplace(mechanics, *run.form));
-  heat::Conditions thermal;
+  heat::ThermalConditions thermal;
   thermal.temperatures.push_back({"wall", strip.depth == 0 ? "left" : "bottom", Table(slab.wall)});
   heat::ThermalPhase heat(strip.mesh, strip.kind, materials, thermal, {}, stored);
   coupling::Phases phases;
@@ -130,7 +130,7 @@ inline SlabResult freeze(const Strip& strip, const SlabRun& run) {
   state.mechanics = mechanics.initial_state();
   scheme->synchronise(state);
   SlabResult result{};
-  const mesh::Block& block = strip.mesh.blocks[0];
+  const mesh::ElementBlock& block = strip.mesh.blocks[0];
   const auto compare = [&](double time) {
     auto out = run.table.empty() ? std::ofstream{}
                                  : table(run.table + "_" + std::to_string(std::lround(time)) + "s",

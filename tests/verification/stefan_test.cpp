@@ -36,10 +36,10 @@ struct Result {
   double temperature_error = 0;  ///< L2, over the range of temperatures
 };
 
-Result run(const Stefan& exact, mesh::Shape shape, int n, int steps, heat::Integration rule,
+Result run(const Stefan& exact, mesh::Shape shape, int n, int steps, heat::HeatIntegration rule,
            const std::string& file = {}) {
   const mesh::Mesh mesh = verification::strip(shape, k_length, n);
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.temperatures.push_back({"wall", "x_min", Table(exact.wall)});
   heat::HeatOptions options;
   options.integration = rule;
@@ -80,7 +80,7 @@ TEST_P(StefanProblem, FindsTheFrontWithinOneAndAHalfPerCentAndAtFirstOrder) {
   std::vector<Result> results;
   for (const int n : {50, 100, 200, 400}) {
     // h and Δt fall together: both errors are of first order.
-    results.push_back(run(exact, mesh::Shape::quad4, n, n, heat::Integration::closed,
+    results.push_back(run(exact, mesh::Shape::quad4, n, n, heat::HeatIntegration::closed,
                           n == 200 ? std::string("stefan_front_") + name : ""));
     table << 1e3 * k_length / n << ',' << results.back().front_error << ','
           << results.back().temperature_error << '\n';
@@ -106,14 +106,14 @@ TEST(StefanProblem, IsSolvedByEveryShapeAndBothRules) {
   using mesh::Shape;
   for (const Shape shape : {Shape::tri3, Shape::tri6, Shape::quad4, Shape::quad8, Shape::tet4, Shape::tet10,
                             Shape::hex8, Shape::hex20})
-    for (const auto rule : {heat::Integration::closed, heat::Integration::open}) {
+    for (const auto rule : {heat::HeatIntegration::closed, heat::HeatIntegration::open}) {
       const Result result = run(exact, shape, 100, 100, rule);
       EXPECT_LE(result.front_error, 0.015) << mesh::name(shape);
     }
 }
 
 TEST(StefanProblem, IsSolvedByTheOpenRuleWithTheHeatOfAnIsothermalChangeAtTheNodes) {
-  const Result result = run(problem(0, 60), mesh::Shape::quad4, 100, 100, heat::Integration::open);
+  const Result result = run(problem(0, 60), mesh::Shape::quad4, 100, 100, heat::HeatIntegration::open);
   printf("open isothermal %.3e %.3e\n", result.front_error, result.temperature_error);
   EXPECT_LE(result.front_error, 0.008);
 }

@@ -7,8 +7,8 @@
 #include "csv.hpp"
 #include "heat/thermal_phase.hpp"
 #include "mesh/block_geometry.hpp"
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/shapes.hpp"
 
 namespace solidus::verification {
 
@@ -40,7 +40,7 @@ inline mesh::Mesh strip(mesh::Shape shape, double length, int n) {
 inline double l2_error(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<double>& temperature,
                        const std::function<double(const mesh::Point&)>& exact) {
   double sum = 0, volume = 0;
-  for (const mesh::Block& b : mesh.blocks) {
+  for (const mesh::ElementBlock& b : mesh.blocks) {
     const mesh::BlockGeometry g(mesh, b, kind, mesh::gauss_rule(b.shape, 5));
     for (Index e = 0; e < b.size(); ++e)
       for (int q = 0; q < g.n_points; ++q) {

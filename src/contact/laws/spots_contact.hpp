@@ -25,7 +25,7 @@ struct SpotsContact {
     return {h.value, h.by_pressure, h.by_temperature, h.mixed};
   }
   Separation separation(double pressure) const {
-    const Asperities::Separation y = asperities.separation(pressure / *hardness);
+    const Asperities::PlaneDistance y = asperities.separation(pressure / *hardness);
     return {y.value, y.slope / *hardness};
   }
 

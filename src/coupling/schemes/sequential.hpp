@@ -4,7 +4,7 @@
 
 #include "coupling/add_scheme.hpp"
 #include "coupling/phase_order.hpp"
-#include "coupling/schemes/thermal_flow.hpp"
+#include "coupling/schemes/thermal_flow_key.hpp"
 
 namespace solidus::coupling {
 

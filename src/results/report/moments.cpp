@@ -217,7 +217,7 @@ std::vector<FieldColumn> field_columns(const FieldFile& file, const std::set<std
   return columns;
 }
 
-PackedMoments pack_moments(Bodies& bodies, const std::vector<Moment>& moments,
+PackedMoments pack_moments(Bodies& bodies, const std::vector<ReportMoment>& moments,
                            const std::vector<FieldColumn>& columns,
                            const std::set<std::int64_t>& contact_nodes, std::size_t most, Blocks& blocks) {
   PackedMoments packed;
@@ -226,7 +226,7 @@ PackedMoments pack_moments(Bodies& bodies, const std::vector<Moment>& moments,
   Reading reading(bodies, contact_nodes);
   using OfColumn = std::vector<std::vector<std::vector<float>>>;  // [body][moment][node]
   std::vector<OfColumn> values(columns.size(), OfColumn(n_bodies));
-  const auto read = [&](const Moment& moment, bool last) {
+  const auto read = [&](const ReportMoment& moment, bool last) {
     const FieldFile file(moment.file);
     const std::vector<PieceMap>& maps = bodies.maps(file);
     packed.moments.push_back(moment);

@@ -39,14 +39,14 @@ struct PackedValues {
   double low = 0, high = 0;
 };
 
-struct Moment {
+struct ReportMoment {
   double time = 0;  ///< [s]
   std::filesystem::path file;
 };
 
 /// The packed contents of a run's field files.
 struct PackedMoments {
-  std::vector<Moment> moments;  ///< those that are in the report
+  std::vector<ReportMoment> moments;  ///< those that are in the report
   std::vector<FieldColumn> columns;
   std::vector<std::vector<bool>> present;  ///< [moment][body]
   std::vector<std::vector<PackedValues>>
@@ -62,7 +62,7 @@ std::vector<FieldColumn> field_columns(const FieldFile& file, const std::set<std
 /// Reads one moment after the other. Moments are thinned out evenly where all of them would take more than
 /// `most` bytes of text; the first and the last stay.
 /// @param contact_nodes  numbers of the input
-PackedMoments pack_moments(Bodies& bodies, const std::vector<Moment>& moments,
+PackedMoments pack_moments(Bodies& bodies, const std::vector<ReportMoment>& moments,
                            const std::vector<FieldColumn>& columns,
                            const std::set<std::int64_t>& contact_nodes, std::size_t most, Blocks& blocks);
 

@@ -15,7 +15,7 @@
 #include "results/output_error.hpp"
 #include "results/pvd.hpp"
 #include "results/report/moments.hpp"
-#include "results/report/table.hpp"
+#include "results/report/report_table.hpp"
 #include "system/errors.hpp"
 #include "system/input_file.hpp"
 
@@ -52,7 +52,7 @@ Json points(const std::vector<mesh::Point>& x, Blocks& blocks) {
   return axes;
 }
 
-Json table_data(const Table& table, Blocks& blocks) {
+Json table_data(const ReportTable& table, Blocks& blocks) {
   Json out;
   out.add("rows", table.n_rows).add("rows_in_file", table.n_in_file);
   Json::Array columns;
@@ -107,7 +107,7 @@ std::string checked_summary(const fs::path& file) {
 
 /// The moments of fields.pvd whose files are there, and the files of surfaces at the last of them.
 struct Collection {
-  std::vector<Moment> moments;
+  std::vector<ReportMoment> moments;
   std::vector<fs::path> surfaces;
 };
 
@@ -302,7 +302,7 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
   for (const char* name : {"history", "steps", "pools", "shots"}) {
     const std::string file = std::string(name) + ".csv";
     if (!there(file.c_str())) continue;
-    const Table table = read_table(folder / file, k_most_rows);
+    const ReportTable table = read_table(folder / file, k_most_rows);
     if (table.n_rows < table.n_in_file)
       own.push_back(
           fmt::format("{} has {} rows; the page holds {} of them.", file, table.n_in_file, table.n_rows));

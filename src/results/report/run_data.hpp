@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "results/json.hpp"
+#include "results/json_document.hpp"
 #include "results/report/pack.hpp"
-#include "results/report/report.hpp"
+#include "results/report/report_page.hpp"
 
 namespace solidus::report {
 

@@ -15,8 +15,8 @@
 #include "build/case_file.hpp"
 #include "build/initial_temperature.hpp"
 #include "input/keys.hpp"
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/shapes.hpp"
 #include "results/field_reader.hpp"
 #include "results/vtu.hpp"
 #include "system/log.hpp"
@@ -77,8 +77,9 @@ initial_temperature = { file = "a.vtu", field = "temperature")"
     std::vector<double> values;
     for (const mesh::Point& x : mesh.x) values.push_back(temperature(x));
     results::FieldSet fields;
-    fields.add({"temperature", "K", 1, results::Place::node, values});
-    if (!solid_fraction.empty()) fields.add({"solid_fraction", "1", 1, results::Place::node, solid_fraction});
+    fields.add({"temperature", "K", 1, mesh::FieldPlace::node, values});
+    if (!solid_fraction.empty())
+      fields.add({"solid_fraction", "1", 1, mesh::FieldPlace::node, solid_fraction});
     results::write_vtu(folder_ / "a.vtu", mesh, fields, 0);
     return values;
   }

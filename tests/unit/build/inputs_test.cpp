@@ -84,7 +84,7 @@ TEST(ModelInput, InAxisymmetryTheAxialDisplacementIsTheSecondComponent) {
       "Pa\", { of = \"time\", "
       "argument_unit = \"s\", unit = \"Pa\", points = [[0, 0], [2, 4]] }]\n"
       "[[mechanical_condition]]\nname = \"e\"\ngroup = \"part_top\"\nkind = \"plane\"\n");
-  const mechanics::Conditions c = mechanical_conditions(spec);
+  const mechanics::MechanicalConditions c = mechanical_conditions(spec);
   ASSERT_EQ(c.displacements.size(), 2u);
   EXPECT_EQ(c.displacements[0].component, 1);
   EXPECT_DOUBLE_EQ(c.displacements[0].value.value(0), 1e-3);
@@ -115,12 +115,12 @@ TEST(ModelInput, AFilmTableOfTemperatureIsToldFromOneOfTime) {
 TEST(ModelInput, ContactTakesItsPenaltyAsANumberOrAsAFactor) {
   const std::string pair =
       "[[contact]]\nname = \"c\"\nslave = \"part_surface\"\nmaster = \"mould_surface\"\n";
-  const contact::ContactSpec by_factor = contact_specs(read(pair + "penalty_factor = 20.0\n"))[0];
+  const contact::ContactParameters by_factor = contact_specs(read(pair + "penalty_factor = 20.0\n"))[0];
   EXPECT_TRUE(by_factor.penalty_is_factor);
   EXPECT_DOUBLE_EQ(by_factor.penalty, 20);
   EXPECT_TRUE(by_factor.nodal_heat);
   EXPECT_FALSE(by_factor.heat.has_value());
-  const contact::ContactSpec absolute = contact_specs(
+  const contact::ContactParameters absolute = contact_specs(
       read(pair + "penalty = \"5 N/mm3\"\n[contact.heat]\nconductance = \"2.3 N/mm/s/K\"\ngap_law = \"gas\"\n"
                   "gas_conductivity = \"0.026 W/m/K\"\n[heat]\nintegration = \"open\"\n"))[0];
   EXPECT_FALSE(absolute.penalty_is_factor);

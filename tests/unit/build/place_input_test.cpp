@@ -30,7 +30,7 @@ coefficient = )" + coefficient)
 double value(const std::string& coefficient, const Position& x, double time,
              AnalysisKind kind = AnalysisKind::plane_strain, const StageRun* stage = nullptr) {
   double result = 0;
-  place_function(film(coefficient), stage == nullptr ? Clock::run : Clock::stage, stage, kind)
+  place_function(film(coefficient), stage == nullptr ? TimeOrigin::run : TimeOrigin::stage, stage, kind)
       .values(std::span(&x, 1), time, std::span(&result, 1));
   return result;
 }

@@ -152,7 +152,7 @@ TEST(Bodies, LeaveSomethingBehind) {
   EXPECT_THAT(refusal(s), IsEmpty());  // a die that only conducts waits for its next casting
   s.bodies[1].stages = {"pour"};
   EXPECT_THAT(refusal(s), HasSubstr("nothing is left in the stage 'cool'"));
-  s.bodies[0].physics = BodySpec::Physics::heat;
+  s.bodies[0].physics = BodySpec::ActivePhysics::heat;
   EXPECT_THAT(refusal(s), HasSubstr("no body deforms"));
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-contact::FrictionSpec read(const std::string& keys) {
+contact::FrictionParameters read(const std::string& keys) {
   return friction_spec(friction_keys().read(parse_document(keys, "case.toml")));
 }
 double coefficient(const std::string& keys, double zeta, double theta) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "build/mechanics_input.hpp"
-#include "coupling/schemes/block_iterative.hpp"
+#include "coupling/schemes/block_iterative_keys.hpp"
 #include "small_case.hpp"
 
 namespace solidus::model {

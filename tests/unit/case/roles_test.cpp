@@ -75,8 +75,8 @@ TEST(Roles, NamesTellThem) {
 
 TEST(Roles, SandOnlyConductsWhereNothingElseIsSaid) {
   const CaseSpec spec = read("");
-  EXPECT_EQ(spec.bodies[0].physics, BodySpec::Physics::all);
-  EXPECT_EQ(spec.bodies[1].physics, BodySpec::Physics::heat);
+  EXPECT_EQ(spec.bodies[0].physics, BodySpec::ActivePhysics::all);
+  EXPECT_EQ(spec.bodies[1].physics, BodySpec::ActivePhysics::heat);
   EXPECT_NO_THROW(load_materials(spec));
   CaseSpec asked = read("physics = \"all\"\n");
   EXPECT_THAT(error([&] { load_materials(asked); }), HasSubstr("has no elastic properties"));

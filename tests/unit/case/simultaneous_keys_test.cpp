@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "build/mechanics_input.hpp"
-#include "coupling/schemes/simultaneous.hpp"
+#include "coupling/schemes/simultaneous_keys.hpp"
 #include "mechanics/mechanical_phase.hpp"
 #include "small_case.hpp"
 

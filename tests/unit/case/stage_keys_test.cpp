@@ -158,14 +158,15 @@ TEST(Stages, ConditionsHoldInTheirStagesOnTheirClock) {
            "\"cool\"\n");
   const std::vector<StageRun> runs = stage_runs(s);
   EXPECT_TRUE(mechanical_conditions(s, &runs[0]).displacements.empty());
-  const mechanics::Conditions press = mechanical_conditions(s, &runs[3]);  // the second time, 5.5 s to 6.5 s
+  const mechanics::MechanicalConditions press =
+      mechanical_conditions(s, &runs[3]);  // the second time, 5.5 s to 6.5 s
   ASSERT_EQ(press.displacements.size(), 1u);
   EXPECT_TRUE(press.displacements[0].relative);
   EXPECT_EQ(press.displacements[0].value.value(5.5), 0);
   EXPECT_NEAR(press.displacements[0].value.value(6), -1e-3, 1e-18);
   EXPECT_EQ(press.displacements[0].value.value(6.5), -2e-3);
   EXPECT_TRUE(thermal_conditions(s, &runs[3]).films.empty());
-  const heat::Conditions cool = thermal_conditions(s, &runs[7]);
+  const heat::ThermalConditions cool = thermal_conditions(s, &runs[7]);
   ASSERT_EQ(cool.films.size(), 1u);
   EXPECT_NEAR(cool.films[0].ambient.value(13), 278.15, 1e-9);  // the time of the run
 }

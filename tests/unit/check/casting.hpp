@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "run/run.hpp"
+#include "run/session.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
 

@@ -207,7 +207,7 @@ TEST(AddedCoefficientLaw, SlidesAsItsTableDoes) {
     z.push_back(i / 2000.0);
     mu.push_back(law.coefficient(z.back(), 300.0));
   }
-  FrictionSpec formula, table;
+  FrictionParameters formula, table;
   formula.coefficient.law = coefficient_law(law);
   table.coefficient.curves = {{300, Table(z, mu)}};
   const FrictionInput in{.trial = 5, .pressure = 2, .internal_variable = 0.3, .temperature = 300};

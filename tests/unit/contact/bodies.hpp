@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/shapes.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::test {

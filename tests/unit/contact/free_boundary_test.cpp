@@ -36,7 +36,7 @@ TEST(FreeBoundary, IsLeftLittleByLittle) {
     for (const bool smoothing : {false, true})
       for (const IntegrationRule rule : {IntegrationRule::nodal, IntegrationRule::gauss}) {
         const mesh::Mesh mesh = test::two_blocks(shape);
-        ContactSpec spec;
+        ContactParameters spec;
         spec.name = "edge";
         spec.slave = "upper_bottom";
         spec.master = "lower_top";

@@ -9,9 +9,9 @@
 namespace solidus::contact {
 
 /// Terms μ_0, μ_1, … over the internal variable in a unit [SI].
-inline FrictionSpec friction_spec(std::vector<Table> terms, double unit = 1,
-                                  InternalVariable variable = InternalVariable::normal_work) {
-  FrictionSpec spec;
+inline FrictionParameters friction_spec(std::vector<Table> terms, double unit = 1,
+                                        InternalVariable variable = InternalVariable::normal_work) {
+  FrictionParameters spec;
   spec.coefficient.terms = std::move(terms);
   spec.coefficient.unit = unit;
   spec.internal_variable = variable;

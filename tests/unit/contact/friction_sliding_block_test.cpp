@@ -90,7 +90,7 @@ TEST(SlidingBlock, FollowsTheOdeOfAnyPolynomialAndTableForEveryInternalVariable)
   for (const Case c :
        {Case{normal_work, 1e6}, Case{frictional_work, 1.5e5}, Case{InternalVariable::slip, 0.025}})
     for (const bool table : {false, true}) {
-      FrictionSpec spec = friction_spec(electrogalvanised(), c.unit, c.variable);
+      FrictionParameters spec = friction_spec(electrogalvanised(), c.unit, c.variable);
       if (table) {
         spec.coefficient.terms.clear();
         spec.coefficient.curves = {{0, Table({0, 2, 5, 12}, {0.16, 0.13, 0.2, 0.3})}};

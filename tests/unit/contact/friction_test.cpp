@@ -53,7 +53,7 @@ TEST(FrictionLaw, WithoutPressureItSlidesFreely) {
 
 /// A law and a step drawn at random, softening at most half as fast as the penalty allows.
 struct Draw {
-  FrictionSpec spec;
+  FrictionParameters spec;
   FrictionInput in;
   double capacity;
 };
@@ -182,7 +182,7 @@ TEST(FrictionLaw, IsentropicPhaseKeepsTheEntropyAndHardensMore) {
 
 TEST(FrictionLaw, SaysWhereSofteningIsSteeperThanThePenalty) {
   // μ = 0.5 − 1e4 γ under 100 MPa falls by 1e12 Pa/m; the penalty gives back 1e11.
-  FrictionSpec spec = friction_spec({0.5}, 1, InternalVariable::slip);
+  FrictionParameters spec = friction_spec({0.5}, 1, InternalVariable::slip);
   spec.coefficient.terms.clear();
   spec.coefficient.curves = {{0, Table({0, 4e-5, 1}, {0.5, 0.1, 0.1})}};
   const FrictionInput in{6e7, 1e8, 0, 300};

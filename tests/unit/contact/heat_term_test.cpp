@@ -19,8 +19,8 @@ using mesh::Shape;
 
 constexpr double k_dt = 0.2;
 
-ContactSpec rubbing(bool nodal, double heat_capacity, bool of_temperature) {
-  ContactSpec s;
+ContactParameters rubbing(bool nodal, double heat_capacity, bool of_temperature) {
+  ContactParameters s;
   s.name = "interface";
   s.slave = "lower_top";
   s.master = "upper_bottom";
@@ -36,7 +36,7 @@ ContactSpec rubbing(bool nodal, double heat_capacity, bool of_temperature) {
   } else {
     s.heat->contact_law = contact_law(PowerContact{3000});
   }
-  s.friction = FrictionSpec{};
+  s.friction = FrictionParameters{};
   s.friction->coefficient.terms = {Table(0.2), Table({300, 900}, {0.3, 0.1})};
   s.friction->coefficient.unit = 1e4;
   s.interface_heat_capacity = heat_capacity;
@@ -113,7 +113,7 @@ TEST(LimitedExchange, PassesNoHeatFromColdToHotAndLosesNone) {
   for (const Shape shape : {Shape::quad8, Shape::hex20, Shape::tet10}) {
     const mesh::Mesh mesh = test::two_blocks(shape);
     const auto kind = mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
-    ContactSpec s = rubbing(true, 0, false);
+    ContactParameters s = rubbing(true, 0, false);
     s.friction.reset();
     s.integration = IntegrationRule::gauss;
     ContactPair pair(mesh, kind, s);
@@ -121,7 +121,7 @@ TEST(LimitedExchange, PassesNoHeatFromColdToHotAndLosesNone) {
         mesh, 1, [](const Point&, bool upper) { return std::vector<double>{upper ? 500.0 : 700.0}; });
     // One node of the hot body's surface is hotter still, as those are that the consistent form heats.
     double number = -1;
-    for (const mesh::Block& faces : mesh.surfaces.at("lower_top").faces)
+    for (const mesh::ElementBlock& faces : mesh.surfaces.at("lower_top").faces)
       number = std::max(number,
                         static_cast<double>(mesh.global_node[static_cast<std::size_t>(faces.nodes.front())]));
     number = parallel::global_max(number);
@@ -176,13 +176,13 @@ TEST(FrictionalHeat, ReachesTheBodiesButForWhatTheInterfaceStores) {
 
 TEST(FrictionalHeat, RaisesTheInterfaceAboveBothBodies) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  ContactSpec s = rubbing(true, 0, false);
+  ContactParameters s = rubbing(true, 0, false);
   s.friction->coefficient.terms = {Table(0.2)};
   ContactPair pair(mesh, AnalysisKind::plane_strain, s);
   const std::vector<double> equal(mesh.x.size(), 400.0);
   slide(mesh, pair, equal);
   pair.commit_heat(equal);
-  for (const PointState& point : pair.state().points) {
+  for (const ContactPointState& point : pair.state().points) {
     // (h_1 + h_2) (Θ_c − Θ) = D with h_1 = h_2 = 2 h.
     if (point.status == PointStatus::open) continue;
     EXPECT_NEAR(point.temperature - 400, point.dissipation / k_dt / (4 * 3000.0), 1e-9 * point.temperature);

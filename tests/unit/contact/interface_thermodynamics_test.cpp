@@ -48,7 +48,7 @@ class Random {
 };
 
 /// GA with hardening that depends on temperature and thermal softening.
-FrictionSpec hot_law(InternalVariable variable = normal_work) {
+FrictionParameters hot_law(InternalVariable variable = normal_work) {
   return friction_spec({Table({280, 1200}, {0.2, 0.1}), Table({280, 1200}, {0.05, -0.03})},
                        variable == InternalVariable::slip ? 0.01 : k_kilonewton_per_mm, variable);
 }
@@ -141,8 +141,8 @@ TEST(InterfaceThermodynamics, DissipationsAndEntropyProductionAreNeverNegative) 
   Random random;
   for (int i = 0; i < 300000; ++i) {
     const auto variable = static_cast<InternalVariable>(random.below(3));
-    static const std::array<FrictionSpec, 3> specs{hot_law(normal_work), hot_law(frictional_work),
-                                                   hot_law(InternalVariable::slip)};
+    static const std::array<FrictionParameters, 3> specs{hot_law(normal_work), hot_law(frictional_work),
+                                                         hot_law(InternalVariable::slip)};
     const double capacity = random.below(4) ? random.decades(100, 1e5) : 0;
     const FrictionLaw law(specs[static_cast<std::size_t>(variable)], k_penalty, capacity);
     const double pressure = random.decades(1e5, 1e8), theta = random.between(300, 1000);
@@ -418,7 +418,7 @@ TEST(InterfaceStability, IsentropicMechanicalPhaseDissipatesAtLeastWhatFrictionD
 }
 
 TEST(Wear, GrowsWithPressureAndSlipOverHardness) {
-  const WearSpec wear{1e-4, Table({300, 700}, {2e9, 1e9}), 0, {}};
+  const WearParameters wear{1e-4, Table({300, 700}, {2e9, 1e9}), 0, {}};
   EXPECT_DOUBLE_EQ(wear.depth_increment(4e7, 0.01, 300), 1e-4 * 4e7 * 0.01 / 2e9);
   EXPECT_DOUBLE_EQ(wear.depth_increment(4e7, 0.01, 500), 1e-4 * 4e7 * 0.01 / 1.5e9);
 }

@@ -20,8 +20,8 @@ struct Formulated {
   Shape shape;
 };
 
-ContactSpec spec(Formulation formulation) {
-  ContactSpec s;
+ContactParameters spec(Formulation formulation) {
+  ContactParameters s;
   s.name = "interface";
   s.slave = "lower_top";
   s.master = "upper_bottom";
@@ -89,7 +89,7 @@ double tangent_defect(const mesh::Mesh& mesh, linear::Contribution& term, const 
 }
 
 /// A pair whose points hold tangential tractions, and a second step from there.
-std::unique_ptr<ContactPair> rubbed(const mesh::Mesh& mesh, const ContactSpec& s) {
+std::unique_ptr<ContactPair> rubbed(const mesh::Mesh& mesh, const ContactParameters& s) {
   auto pair = std::make_unique<ContactPair>(mesh, kind_of(mesh), s);
   const std::vector<double> rest(mesh.x.size() * static_cast<std::size_t>(mesh.dimension), 0.0);
   pair->begin({}, {.time = 1, .dt = 1, .displacement = rest});
@@ -148,7 +148,7 @@ TEST_P(FrictionForces, AreTheLawsAndBalanceInSum) {
 
 TEST_P(FrictionForces, HaveASymmetricTangentWhenAskedTo) {
   const mesh::Mesh mesh = test::two_blocks(GetParam().shape);
-  ContactSpec s = spec(GetParam().formulation);
+  ContactParameters s = spec(GetParam().formulation);
   for (const bool symmetric : {true, false}) {
     s.friction->symmetric = symmetric;
     const auto pair = rubbed(mesh, s);

@@ -24,7 +24,7 @@ TEST(InterfaceHeat, HasTheTangentThatFiniteDifferencesShow) {
     for (bool nodal : {true, false}) {
       SCOPED_TRACE(mesh::name(shape));
       const mesh::Mesh mesh = test::two_blocks(shape);
-      ContactSpec s = spec();
+      ContactParameters s = spec();
       s.heat = heat_spec();
       s.nodal_heat = nodal;
       ContactPair pair(mesh, kind_of(mesh), s);
@@ -75,7 +75,7 @@ TEST(InterfaceHeat, FollowsTheGapAsFiniteDifferencesShow) {
     for (Shape shape : {Shape::quad4, Shape::hex8})
       for (bool nodal : {true, false}) {
         const mesh::Mesh mesh = test::two_blocks(shape);
-        ContactSpec s = spec();
+        ContactParameters s = spec();
         s.heat = law;
         s.nodal_heat = nodal;
         ContactPair pair(mesh, kind_of(mesh), s);
@@ -86,7 +86,7 @@ TEST(InterfaceHeat, FollowsTheGapAsFiniteDifferencesShow) {
 
 TEST(InterfaceHeat, ByRadiationHasTheMeanOfBothDerivativesAsItsTangent) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  ContactSpec s = spec();
+  ContactParameters s = spec();
   s.heat = heat_spec();
   s.heat->slave_emissivity = 0.8;
   s.heat->master_emissivity = 0.6;
@@ -109,7 +109,7 @@ TEST(InterfaceHeat, LeavesOneBodyAndEntersTheOtherWithoutLoss) {
     for (Shape shape : {Shape::tri3, Shape::hex8, Shape::hex20}) {
       SCOPED_TRACE(mesh::name(shape));
       const mesh::Mesh mesh = test::two_blocks(shape);
-      ContactSpec s = spec();
+      ContactParameters s = spec();
       s.heat = heat_spec();
       s.heat->slave_emissivity = s.heat->master_emissivity = 0.5;
       s.nodal_heat = nodal;
@@ -135,7 +135,7 @@ TEST(InterfaceHeat, LeavesWhatIsHotterThanAllAroundItWhateverTheShapeAndTheGaps)
   for (Shape shape : {Shape::tri3, Shape::quad4, Shape::tri6, Shape::quad8, Shape::tet4, Shape::hex8,
                       Shape::tet10, Shape::hex20}) {
     const mesh::Mesh mesh = test::two_blocks(shape);
-    ContactSpec s = spec();
+    ContactParameters s = spec();
     s.heat = gas;
     ContactPair pair(mesh, kind_of(mesh), s);
     pair.update(rocking(mesh));
@@ -153,9 +153,9 @@ TEST(InterfaceHeat, LeavesWhatIsHotterThanAllAroundItWhateverTheShapeAndTheGaps)
 
 TEST(NodalFields, ShowTheHeatThatEntersEitherBodyAndWhatOfItIsByFriction) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  ContactSpec s = spec();
+  ContactParameters s = spec();
   s.heat = heat_spec();
-  s.friction = FrictionSpec{};
+  s.friction = FrictionParameters{};
   s.friction->coefficient.terms = {Table(0.25)};
   ContactPair pair(mesh, AnalysisKind::plane_strain, s);
   const auto temperature =
@@ -190,7 +190,7 @@ TEST(InterfaceHeat, InNodalFormKeepsTheMatrixOfNonNegativeTypeForLinearShapes) {
   for (Shape shape : {Shape::tri3, Shape::quad4, Shape::tet4, Shape::hex8}) {
     SCOPED_TRACE(mesh::name(shape));
     const mesh::Mesh mesh = test::two_blocks(shape);
-    ContactSpec s = spec();
+    ContactParameters s = spec();
     s.heat = heat_spec();
     ContactPair pair(mesh, kind_of(mesh), s);
     auto matrix = make_matrix(mesh, 1, *pair.heat());

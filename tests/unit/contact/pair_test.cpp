@@ -98,7 +98,7 @@ TEST(ContactSums, OfAnInclinedApproachAreTheClosedFormOnAnyNumberOfProcesses) {
 TEST(NodalFields, OfAUniformApproachAreUniformOnBothSides) {
   for (Shape shape : {Shape::tri3, Shape::hex20}) {
     const mesh::Mesh mesh = test::two_blocks(shape);
-    ContactSpec s = spec();
+    ContactParameters s = spec();
     s.heat = heat_spec();
     ContactPair pair(mesh, kind_of(mesh), s);
     for (double approach : {1e-5, -3e-5}) {
@@ -120,12 +120,12 @@ TEST(NodalFields, OfAUniformApproachAreUniformOnBothSides) {
 // An iterative scheme begins the same step again and again, from wherever the last iterate has left the pair.
 TEST(Pair, BeginsFromTheStateAtTheStartWhereverItStands) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 0.01);
-  ContactSpec s = spec();
+  ContactParameters s = spec();
   s.formulation = Formulation::large_sliding;
   s.search_distance = 1e-3;
   s.heat = heat_spec();
   s.interface_heat_capacity = 100;
-  s.friction = FrictionSpec{};
+  s.friction = FrictionParameters{};
   s.friction->coefficient.terms = {Table(0.25)};
   const auto temperature =
       test::nodal_field(mesh, 1, [](const Point&, bool upper) { return std::vector{upper ? 450.0 : 500.0}; });
@@ -153,7 +153,7 @@ TEST(Pair, BeginsFromTheStateAtTheStartWhereverItStands) {
 
 TEST(Pair, TakesTheWorkOnARigidMasterFromItsPlaceAtTheStartOfTheStep) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 0.1);
-  ContactSpec s = spec();
+  ContactParameters s = spec();
   s.formulation = Formulation::large_sliding;
   s.search_distance = 0.05;
   s.master = "plane";
@@ -185,7 +185,7 @@ TEST(PenaltyFactor, IsTimesTheMeanStiffnessOfTheElementsAtTheStifferSurface) {
   for (Shape shape : {Shape::tri3, Shape::quad4, Shape::quad8, Shape::hex8, Shape::hex20}) {
     SCOPED_TRACE(mesh::name(shape));
     const mesh::Mesh mesh = test::two_blocks(shape);
-    ContactSpec s = spec();
+    ContactParameters s = spec();
     s.penalty = 20;
     s.penalty_is_factor = true;
     const ContactPair pair(mesh, kind_of(mesh), s, modulus);
@@ -197,7 +197,7 @@ TEST(ContactPair, RefusesSurfacesThatDoNotMeet) {
   const mesh::Mesh far = test::two_blocks(Shape::quad4, 0.5);
   EXPECT_THROW(ContactPair(far, AnalysisKind::plane_strain, spec()), InputError);
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  ContactSpec s = spec();
+  ContactParameters s = spec();
   s.master = s.slave;
   EXPECT_THROW(ContactPair(mesh, AnalysisKind::plane_strain, s), InputError);
   s.master = "nowhere";
@@ -209,7 +209,7 @@ TEST(ContactPair, RefusesSurfacesThatDoNotMeet) {
 
 TEST(ContactPair, MakesTheFinerSurfaceTheSlaveAndOfTwoAlikeTheSofterOne) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);  // 5 faces below, 3 above
-  ContactSpec s = spec();
+  ContactParameters s = spec();
   s.choose_roles = true;
   for (const bool reversed : {false, true}) {
     s.slave = reversed ? "upper_bottom" : "lower_top";
@@ -226,7 +226,7 @@ TEST(ContactPair, MakesTheFinerSurfaceTheSlaveAndOfTwoAlikeTheSofterOne) {
 
 TEST(ContactPair, TakesSmallInitialGapsAsTouchingWhenToldTo) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 1e-5);
-  ContactSpec s = spec();
+  ContactParameters s = spec();
   EXPECT_EQ(sums(ContactPair(mesh, AnalysisKind::plane_strain, s).view(), {}).closed_points, 0);
   s.touching = 2e-5;
   const ContactSums sums = contact::sums(ContactPair(mesh, AnalysisKind::plane_strain, s).view(), {});
@@ -238,7 +238,7 @@ TEST(ContactPair, RefusesASurfaceInContactWithItself) {
       mesh::distribute(test::raw_blocks(test::standard_blocks(Shape::quad4), Shape::quad4),
                        {"lower", "upper"}, {"lower_top", "lower_x_min", "upper_bottom"});
   const auto refusal = [&](const std::string& master) -> std::string {
-    ContactSpec s = spec();
+    ContactParameters s = spec();
     s.master = master;
     try {
       const ContactPair pair(mesh, AnalysisKind::plane_strain, s);

@@ -125,7 +125,7 @@ TEST(SegmentKinematics, RatesAreThoseOfFiniteDifferences) {
       const PointMotion start = k->motion(p, {}, Asked::motion);
       // What the master's end uncovers is in the forces alone.
       if (!start.partnered || start.weight < (1 - 1e-9) * whole) continue;
-      PointState old;
+      ContactPointState old;
       old.anchored = true;
       old.anchor = start.anchor;
       old.anchor[0] += 0.011;
@@ -192,10 +192,10 @@ TEST(SegmentKinematics, ACellThatIsCoveredInPartSlipsAsFarAsItsSlave) {
       });
     };
     k->place(pushed(0.011));
-    std::vector<PointState> old(static_cast<std::size_t>(k->n_points()));
+    std::vector<ContactPointState> old(static_cast<std::size_t>(k->n_points()));
     for (Index p = 0; p < k->n_points(); ++p) {
       const PointMotion m = k->motion(p, {}, Asked::motion);
-      PointState& state = old[static_cast<std::size_t>(p)];
+      ContactPointState& state = old[static_cast<std::size_t>(p)];
       state.anchored = m.partnered;
       state.anchor = m.anchor;
       state.master_normal = m.master_normal;

@@ -10,12 +10,12 @@
 
 namespace solidus::test {
 
+using contact::ContactPointState;
 using contact::MeshMaster;
 using contact::MeshMasterOptions;
 using contact::Partner;
 using contact::Point;
 using contact::PointMotion;
-using contact::PointState;
 using contact::SlidingKinematics;
 using contact::SlidingOptions;
 using contact::Tensor;

@@ -34,7 +34,7 @@ TEST(SlidingMotion, SeesNoRigidMotionOfBothBodiesTogether) {
       turned->place(moved(mesh, u, 1.1));
       int closed = 0;
       for (Index p = 0; p < still->n_points(); ++p) {
-        PointState old;
+        ContactPointState old;
         old.anchored = true;
         old.anchor = {0.1, 0.1, mesh.dimension == 3 ? 0.1 : 0};
         old.master_normal = mesh.dimension == 3 ? Point{0, 0, 1} : Point{0, 1, 0};
@@ -106,7 +106,7 @@ TEST(SlidingMotion, OverAHundredFacesThereAndBackAddsUpToTheWayAndToZero) {
   for (bool smoothing : {false, true}) {
     const Sliding sliding(strip.mesh, smoothing);
     const int steps = 97;
-    std::vector<PointState> states(static_cast<std::size_t>(sliding->n_points()));
+    std::vector<ContactPointState> states(static_cast<std::size_t>(sliding->n_points()));
     std::vector<Point> sum(states.size()), there(states.size());
     for (int i = 0; i <= 2 * steps; ++i) {
       const double way = 0.9 * (steps - std::abs(i - steps)) / steps;
@@ -133,7 +133,7 @@ TEST(SlidingMotion, OnAFlatMasterCrossesFacesWithoutAJump) {
   const Strip strip(10);
   for (bool smoothing : {false, true}) {
     const Sliding sliding(strip.mesh, smoothing);
-    PointState old;
+    ContactPointState old;
     old.anchored = true;
     old.master_normal = {-strip.along[1], strip.along[0], 0};
     old.traction = scale(5, strip.along);
@@ -165,7 +165,7 @@ TEST(SlidingMotion, CrossesEdgesAndVerticesOfAFlatMasterInThreeDimensionsWithout
       SCOPED_TRACE(mesh::name(shape));
       const mesh::Mesh mesh = test::two_blocks(shape);
       const Sliding sliding(mesh, smoothing, {.rule = IntegrationRule::nodal});
-      PointState old;
+      ContactPointState old;
       old.anchored = true;
       old.master_normal = {0, 0, 1};
       old.traction = {3, -4, 0};

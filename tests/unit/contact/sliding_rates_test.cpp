@@ -20,8 +20,8 @@ struct Seen {
 
 constexpr double k_pressure = 3;
 // A history that has a traction in a tilted plane, and a way behind it.
-PointState old_state(const PointMotion& here, std::size_t dim) {
-  PointState old;
+ContactPointState old_state(const PointMotion& here, std::size_t dim) {
+  ContactPointState old;
   old.anchored = true;
   old.anchor = here.anchor;
   old.anchor[0] += 0.011;
@@ -36,7 +36,7 @@ PointState old_state(const PointMotion& here, std::size_t dim) {
   return old;
 }
 
-Seen look(const SlidingKinematics& k, Index p, const PointState& old, const Point& traction) {
+Seen look(const SlidingKinematics& k, Index p, const ContactPointState& old, const Point& traction) {
   const PointMotion m = k.motion(p, old, Asked::motion);
   Seen s{k.partner(p).face, k.partner(p).region, m.penetration, m.slip, m.carried, m.normal, {}};
   const Point f = add_scaled(times(m.push, traction), k_pressure, m.normal);
@@ -57,7 +57,7 @@ Worst compare(SlidingKinematics& k, const std::vector<double>& u, std::size_t di
   for (Index p = 0; p < k.n_points(); p += stride) {
     if (k.partner(p).face < 0 || k.partner(p).penetration < 1e-3 * length) continue;
     if (wedges_only && k.partner(p).region == Partner::Region::face) continue;
-    const PointState old = old_state(k.motion(p, {}, Asked::motion), dim);
+    const ContactPointState old = old_state(k.motion(p, {}, Asked::motion), dim);
     const PointMotion m = k.motion(p, old, Asked::rates);
     Point traction{0.9, -1.3, dim == 2 ? 0 : 0.8};
     traction = add_scaled(traction, -dot(traction, m.master_normal), m.master_normal);

@@ -83,14 +83,14 @@ TEST(RigidSurfaces, ThatTurnUnderABodyAtRestSlipByTheArc) {
   SlidingKinematics k(mesh, AnalysisKind::plane_strain, ContactSurface(mesh, "upper_bottom"),
                       std::make_unique<AnalyticMaster>(2, roll, 0.1), {});
   const std::vector<double> u(mesh.x.size() * 2, 0.0);
-  std::vector<PointState> states(static_cast<std::size_t>(k.n_points()));
+  std::vector<ContactPointState> states(static_cast<std::size_t>(k.n_points()));
   std::vector<double> way(states.size()), arm(states.size());
   const int steps = 200;
   for (int i = 0; i <= steps; ++i) {
     k.set_time(static_cast<double>(i) / steps);
     k.place(u);
     for (Index p = 0; p < k.n_points(); ++p) {
-      PointState& s = states[static_cast<std::size_t>(p)];
+      ContactPointState& s = states[static_cast<std::size_t>(p)];
       if (i == 0) s.traction = {};
       const PointMotion m = k.motion(p, s, Asked::motion);
       ASSERT_TRUE(m.partnered);

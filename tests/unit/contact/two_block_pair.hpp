@@ -12,8 +12,8 @@
 
 namespace solidus::contact::pairs {
 
-inline ContactSpec spec(IntegrationRule rule = IntegrationRule::segments) {
-  ContactSpec s;
+inline ContactParameters spec(IntegrationRule rule = IntegrationRule::segments) {
+  ContactParameters s;
   s.name = "interface";
   s.slave = "lower_top";
   s.master = "upper_bottom";

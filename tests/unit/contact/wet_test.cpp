@@ -17,8 +17,8 @@ using mesh::Shape;
 
 constexpr double k_atmosphere = 1e5, k_penalty = 1e10, k_reach = k_atmosphere / k_penalty;
 
-ContactSpec spec(Formulation formulation = Formulation::small_sliding) {
-  ContactSpec s;
+ContactParameters spec(Formulation formulation = Formulation::small_sliding) {
+  ContactParameters s;
   s.name = "wall";
   s.slave = "lower_top";
   s.master = "upper_bottom";
@@ -55,7 +55,7 @@ struct OneStep {
   ContactPair pair;
   ContactState state;
 
-  OneStep(const mesh::Mesh& m, ContactSpec s) : mesh(m), pair(m, kind_of(m), std::move(s)) {
+  OneStep(const mesh::Mesh& m, ContactParameters s) : mesh(m), pair(m, kind_of(m), std::move(s)) {
     state = pair.history().initial();
   }
   /// A step from the state so far to a displacement.
@@ -154,7 +154,7 @@ TEST_P(Wet, HasTheTangentThatFiniteDifferencesShow) {
 }
 
 TEST_P(Wet, ConductsAsClosedContactWhateverGapOpens) {
-  ContactSpec s = spec(GetParam().formulation);
+  ContactParameters s = spec(GetParam().formulation);
   s.heat = HeatTransferSpec{};
   s.heat->contact_law = contact_law(PowerContact{2000});
   s.heat->gap_law = gap_law(GasGap{.conductivity = 0.03});
@@ -173,7 +173,7 @@ TEST_P(Wet, ConductsAsClosedContactWhateverGapOpens) {
 }
 
 TEST_P(Wet, IsSwitchedOffWithTheAtmosphere) {
-  ContactSpec s = spec(GetParam().formulation);
+  ContactParameters s = spec(GetParam().formulation);
   s.atmosphere = 0;
   OneStep run(mesh_, s);
   EXPECT_EQ(run.step(lifted(mesh_, 0.4 * k_reach), liquid()).force, 0);
@@ -194,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Wet,
 
 TEST(WetContact, AGapThatWasThereHoldsAirUntilItCloses) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 1e-3);
-  ContactSpec s = spec();
+  ContactParameters s = spec();
   s.search_distance = 0.05;
   OneStep run(mesh, s);
   const std::vector<double> melt = coherency(mesh, 0.2, 1);
@@ -205,7 +205,7 @@ TEST(WetContact, AGapThatWasThereHoldsAirUntilItCloses) {
 
 TEST(WetContact, WhatLeavesTheWallWhileLiquidIsCounted) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  ContactSpec s = spec();
+  ContactParameters s = spec();
   s.leaving_gap = 1e-4;
   OneStep run(mesh, s);
   const std::vector<double> melt = coherency(mesh, 0.2, 1);
@@ -223,7 +223,7 @@ TEST(WetContact, MeltThatSlidesAlongACurvedWallHasNotLeftIt) {
   constexpr double k_bend = -0.2, k_width = 0.3, k_way = 0.08;  // y = bend x² [1/m], [m], [m]
   mesh::Mesh mesh = test::two_blocks(Shape::quad4);
   for (Point& x : mesh.x) x[1] += k_bend * x[0] * x[0];
-  ContactSpec s = spec();
+  ContactParameters s = spec();
   s.touching = 5e-3;  // faces of the two sides are chords of different lengths
   s.leaving_gap = 1.2e-3;
   OneStep run(mesh, s);
@@ -237,14 +237,14 @@ TEST(WetContact, MeltThatSlidesAlongACurvedWallHasNotLeftIt) {
   EXPECT_GT(sums.wet_area, 0.25);
   EXPECT_EQ(sums.left_area, 0);
   const auto& points = run.pair.state().points;
-  EXPECT_TRUE(parallel::any_process(
-      std::ranges::any_of(points, [&](const PointState& p) { return -p.penetration > s.leaving_gap; })));
+  EXPECT_TRUE(parallel::any_process(std::ranges::any_of(
+      points, [&](const ContactPointState& p) { return -p.penetration > s.leaving_gap; })));
 }
 
 // A bed of springs that reaches 0.2 mm at the pressure of the atmosphere: up to there melt draws it along.
 TEST(WetContact, AWallThatGivesWayIsDrawnAndNotLeft) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  ContactSpec s = spec();
+  ContactParameters s = spec();
   s.penalty = k_atmosphere / 2e-4;
   s.leaving_gap = 1e-4;
   OneStep run(mesh, s);
@@ -257,7 +257,7 @@ TEST(WetContact, AWallThatGivesWayIsDrawnAndNotLeft) {
 
 TEST(WetContact, WhatAShellTakesAlongHasNotLeftTheWall) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  ContactSpec s = spec();
+  ContactParameters s = spec();
   s.leaving_gap = 1e-4;
   OneStep run(mesh, s);
   // Every second column of nodes of the lower body is coherent, so every face has a coherent node.
@@ -284,8 +284,8 @@ TEST(WetContact, WhatAShellTakesAlongHasNotLeftTheWall) {
 
 TEST(WetContact, TensionMakesNoFriction) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  ContactSpec s = spec();
-  s.friction = FrictionSpec{};
+  ContactParameters s = spec();
+  s.friction = FrictionParameters{};
   s.friction->coefficient.terms = {Table(0.3)};
   OneStep run(mesh, s);
   const std::vector<double> melt = coherency(mesh, 0.2, 1);
@@ -301,8 +301,8 @@ TEST(WetContact, TensionMakesNoFriction) {
 // Melt has no strength to rub with, whatever presses it on its wall; the skin that it becomes has.
 TEST(WetContact, RubsOnlyOnceItIsCoherent) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  ContactSpec s = spec();
-  s.friction = FrictionSpec{};
+  ContactParameters s = spec();
+  s.friction = FrictionParameters{};
   s.friction->coefficient.terms = {Table(0.3)};
   OneStep run(mesh, s);
   const std::vector<double> melt = coherency(mesh, 0.2, 1), skin = coherency(mesh, 1.2, 1);
@@ -325,7 +325,7 @@ TEST(WetContact, RubsOnlyOnceItIsCoherent) {
 // the multipliers go where the metal is coherent.
 TEST(WetContact, MultipliersHoldTensionDownToTheAtmosphere) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  ContactSpec s = spec();
+  ContactParameters s = spec();
   s.normal = NormalKind::augmented_lagrangian;
   OneStep run(mesh, s);
   const std::vector<double> melt = coherency(mesh, 0.2, 1), u = lifted(mesh, 0.3 * k_reach);

@@ -21,10 +21,10 @@
 namespace solidus {
 namespace {
 
-using coupling::Continuation;
 using coupling::ErrorControl;
 using coupling::LocalError;
 using coupling::Outcome;
+using coupling::RestartData;
 using coupling::State;
 using coupling::StepRecord;
 
@@ -85,13 +85,13 @@ class Relaxation : public coupling::CouplingScheme {
 struct Diary : coupling::Observer {
   std::vector<StepRecord> steps;
   std::vector<State> states;
-  std::vector<std::pair<Continuation, State>> checkpoints;
+  std::vector<std::pair<RestartData, State>> checkpoints;
   void begin(const State& state) override { states.push_back(state); }
   void step(const StepRecord& record, const State& state) override {
     steps.push_back(record);
     states.push_back(state);
   }
-  void checkpoint(const Continuation& continuation, const State& state) override {
+  void checkpoint(const RestartData& continuation, const State& state) override {
     checkpoints.emplace_back(continuation, state);
   }
   void stopped(const coupling::Stop&, const State&) override {}

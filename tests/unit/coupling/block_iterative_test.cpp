@@ -52,7 +52,7 @@ struct Block {
     body.initial_temperature.assign(body.mesh.x.size(), k_start);
     mechanics = body.phase();
     structural = std::make_unique<mechanics::StructuralHeat>(*mechanics, mechanics::StructuralForm::energy);
-    heat::Conditions thermal;
+    heat::ThermalConditions thermal;
     if (film_over_capacity > 0)
       for (const char* side : {"left", "right"})
         thermal.films.push_back({side, side, {0.5 * film_over_capacity * k_capacity}, k_start - 0.1});

@@ -8,7 +8,7 @@
 #include "../contact/friction_laws.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
-#include "coupling/isothermal.hpp"
+#include "coupling/isothermal_split.hpp"
 #include "coupling/passes.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
@@ -29,8 +29,8 @@ struct Rubbed {
   coupling::IsothermalSplit scheme;
   coupling::State state;
 
-  Rubbed(const mesh::Mesh& mesh, AnalysisKind kind, const contact::ContactSpec& spec,
-         const mechanics::Conditions& conditions, mechanics::MechanicsOptions options)
+  Rubbed(const mesh::Mesh& mesh, AnalysisKind kind, const contact::ContactParameters& spec,
+         const mechanics::MechanicalConditions& conditions, mechanics::MechanicsOptions options)
       : materials{test::elastic(70e9, 0.3), test::elastic(70e9, 0.3)},
         pair(mesh, kind, spec, std::vector<double>{70e9, 70e9}),
         phase(mesh, kind, materials, std::vector<double>(mesh.x.size(), 300.0), conditions,
@@ -63,8 +63,8 @@ struct Rubbed {
 };
 
 /// The lower block stands; the upper one is pressed by 20 MPa and pulled along at 20 mm/s.
-mechanics::Conditions pulled() {
-  mechanics::Conditions c;
+mechanics::MechanicalConditions pulled() {
+  mechanics::MechanicalConditions c;
   c.displacements.push_back({"lower_y_min", 0, 0.0});
   c.displacements.push_back({"lower_y_min", 1, 0.0});
   c.displacements.push_back({"upper_y_max", 0, Table({0, 10}, {0, 0.2})});
@@ -73,8 +73,8 @@ mechanics::Conditions pulled() {
   return c;
 }
 
-contact::ContactSpec rubbing() {
-  contact::ContactSpec s = test::interface();
+contact::ContactParameters rubbing() {
+  contact::ContactParameters s = test::interface();
   s.formulation = contact::Formulation::large_sliding;
   s.search_distance = 0.02;
   s.penalty = 1e13;
@@ -85,14 +85,14 @@ contact::ContactSpec rubbing() {
 
 TEST(ContactInDynamics, QuotientKeepsTheEnergyOfAnImpactThatThePenaltyDoesNot) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 1e-5);
-  mechanics::Conditions c;
+  mechanics::MechanicalConditions c;
   c.displacements.push_back({"lower_y_min", 0, 0.0});
   c.displacements.push_back({"lower_y_min", 1, 0.0});
   mechanics::MechanicsOptions options = test::strict_mechanics();
   options.dynamics = mechanics::DynamicsOptions{.motion = mechanics::Motion::trapezoidal(),
                                                 .initial_velocity = {{0, 0, 0}, {0, -2, 0}}};
   const auto drift = [&](contact::NormalKind kind) {
-    contact::ContactSpec s = test::interface();
+    contact::ContactParameters s = test::interface();
     s.normal = kind;
     Rubbed run(mesh, AnalysisKind::plane_strain, s, c, options);
     // ½ ρ v² of the upper block, 0.3 m × 0.2 m.
@@ -104,7 +104,7 @@ TEST(ContactInDynamics, QuotientKeepsTheEnergyOfAnImpactThatThePenaltyDoesNot) {
       const mechanics::MechanicalPass pass{
           .time = run.state.time + 2e-6, .dt = 2e-6, .temperature = run.phases.temperature};
       coupling::begin_contacts(run.phases, run.state.contacts, old, pass);
-      const mechanics::PhaseReport report = run.phase.solve(old, run.state.mechanics, pass);
+      const mechanics::MechanicalReport report = run.phase.solve(old, run.state.mechanics, pass);
       run.pair.update(run.state.mechanics.displacement);
       run.state.contacts = coupling::contact_states(run.phases);
       run.state.time = pass.time;
@@ -156,14 +156,14 @@ TEST(ContactWork, IsWhatTheForcesInTheBalanceDoWhereBodiesSlideAcrossFaces) {
 
 TEST(ContactWork, OfARigidPlaneIsItsForceTimesItsWay) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 0.1);
-  contact::ContactSpec s = rubbing();
+  contact::ContactParameters s = rubbing();
   s.master = "plane";
   s.rigid_master.emplace();
   s.rigid_master->point = {0, 0.1, 0};
   s.rigid_master->direction = {0, -1, 0};
   // Down by 0.1 mm, then along by 1 mm.
   s.rigid_master->motion.translation = {Table({1, 2}, {0, 1e-3}), Table({0, 1}, {0, -1e-4}), Table(0.0)};
-  mechanics::Conditions c;
+  mechanics::MechanicalConditions c;
   for (const char* held : {"lower_y_min", "upper"})
     for (int i = 0; i < 2; ++i) c.displacements.push_back({held, i, 0.0});
   Rubbed run(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
@@ -184,14 +184,14 @@ TEST(ContactWork, OfARigidPlaneIsItsForceTimesItsWay) {
 TEST(ContactWork, OfARigidPlaneCountsWhatItMeetsWithinTheStep) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 0.1);
   for (const bool out_of_reach : {true, false}) {
-    contact::ContactSpec s = rubbing();
+    contact::ContactParameters s = rubbing();
     s.master = "plane";
     s.rigid_master.emplace();
     const double way = out_of_reach ? 0.03 : 1e-3;
     s.rigid_master->point = {0, 0.1 + way, 0};
     s.rigid_master->direction = {0, -1, 0};
     s.rigid_master->motion.translation[1] = Table({1, 2}, {0, -way - 1e-4});
-    mechanics::Conditions c;
+    mechanics::MechanicalConditions c;
     for (const char* held : {"lower_y_min", "upper"})
       for (int i = 0; i < 2; ++i) c.displacements.push_back({held, i, 0.0});
     Rubbed run(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
@@ -238,11 +238,11 @@ const mechanics::Motion k_means[] = {mechanics::Motion::trapezoidal(),
 // Penetrations after one solve, which no further one follows, 5 and 20 times as large as allowed.
 TEST(AugmentedLagrangian, AcceptsAfterSixtyTurnsWhatIsTenTimesTooLargeAndSaysSo) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  contact::ContactSpec s = rubbing();
+  contact::ContactParameters s = rubbing();
   s.normal = contact::NormalKind::augmented_lagrangian;
   const auto check = [&](double tolerance, const auto& look) {
     s.penetration_tolerance = tolerance;
-    mechanics::Conditions c;
+    mechanics::MechanicalConditions c;
     for (int i = 0; i < 2; ++i) c.displacements.push_back({"lower_y_min", i, 0.0});
     c.displacements.push_back({"upper_y_max", 0, 0.0});
     c.displacements.push_back({"upper_y_max", 1, -1e-5});
@@ -277,7 +277,7 @@ TEST(AugmentedLagrangian, AcceptsAfterSixtyTurnsWhatIsTenTimesTooLargeAndSaysSo)
 
 TEST(ContactWork, OfTheAugmentedLagrangianHasTheTractionsOfTheStart) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  contact::ContactSpec s = rubbing();
+  contact::ContactParameters s = rubbing();
   s.normal = contact::NormalKind::augmented_lagrangian;
   s.penetration_tolerance = 1e-5;
   for (const mechanics::Motion& motion : k_means) {
@@ -317,9 +317,9 @@ TEST(ContactWork, OfContactThatIsSwitchedOffIsThatOfItsLastForces) {
 TEST(LargeSliding, GivesMatricesNewPlacesInTheMiddleOfARun) {
   const mesh::Mesh mesh =
       test::distribute_blocks(test::raw_blocks({{0.3, 0.1}, {0.3, 0.2}, {20, 2}, {16, 2}, 0}, Shape::quad4));
-  contact::ContactSpec s = rubbing();
+  contact::ContactParameters s = rubbing();
   s.friction = contact::friction_spec({0.2});
-  mechanics::Conditions c = pulled();
+  mechanics::MechanicalConditions c = pulled();
   Rubbed run(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
   run.step(1);
   const int pattern = run.phase.matrix().pattern();
@@ -377,9 +377,9 @@ TEST(ContactHistory, LeavesAStepThatIsTakenAgainTheSameBits) {
 
 TEST(AugmentedLagrangian, LeavesNoPenetrationWhereThePenaltyDoes) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  mechanics::Conditions c = test::symmetric_supports(2);
+  mechanics::MechanicalConditions c = test::symmetric_supports(2);
   c.pressures.push_back({"upper_y_max", 1e8});
-  contact::ContactSpec s = test::interface();
+  contact::ContactParameters s = test::interface();
   s.penalty = 1;  // a soft one: the penetration is as large as the strain of an element
   for (const auto formulation : {contact::Formulation::small_sliding, contact::Formulation::large_sliding}) {
     s.formulation = formulation;
@@ -405,9 +405,9 @@ TEST(AugmentedLagrangian, LeavesNoPenetrationWhereThePenaltyDoes) {
 // equilibrium, or that began anew in every pass, would go round.
 TEST(AugmentedLagrangian, SettlesInPassesOfOneIterationAsInPassesToEquilibrium) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  mechanics::Conditions c = test::symmetric_supports(2);
+  mechanics::MechanicalConditions c = test::symmetric_supports(2);
   c.pressures.push_back({"upper_y_max", 1e8});
-  contact::ContactSpec s = test::interface();
+  contact::ContactParameters s = test::interface();
   s.penalty = 1;
   s.normal = contact::NormalKind::augmented_lagrangian;
   s.penetration_tolerance = 1e-8;

@@ -1,10 +1,10 @@
 /// Requirements of the splits on their phases.
-#include "coupling/isentropic.hpp"
+#include "coupling/isentropic_split.hpp"
 
 #include <gtest/gtest.h>
 
 #include "../mechanics/body.hpp"
-#include "coupling/isothermal.hpp"
+#include "coupling/isothermal_split.hpp"
 
 namespace solidus {
 namespace {

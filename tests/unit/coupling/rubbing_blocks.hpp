@@ -36,8 +36,8 @@ inline std::ostream& operator<<(std::ostream& out, const Rubbing& c) {
   return out << c.name;
 }
 
-inline contact::ContactSpec interface_of(const Rubbing& c) {
-  contact::ContactSpec s;
+inline contact::ContactParameters interface_of(const Rubbing& c) {
+  contact::ContactParameters s;
   s.name = "interface";
   s.slave = "upper_bottom";
   s.master = "lower_top";
@@ -50,7 +50,7 @@ inline contact::ContactSpec interface_of(const Rubbing& c) {
   s.smoothing = c.smoothing;
   s.nodal_heat = c.nodal;
   s.interface_heat_capacity = c.heat_capacity;
-  s.friction = contact::FrictionSpec{};
+  s.friction = contact::FrictionParameters{};
   s.friction->internal_variable = c.variable;
   const bool slip = c.variable == contact::InternalVariable::slip;
   s.friction->coefficient.unit = slip ? 1e-4 : 1e3;
@@ -105,7 +105,7 @@ struct RubbingBlocks {
     mechanics::MechanicsOptions options = strict();
     options.mapping = mechanics::Mapping::simultaneous;
     options.symmetric = false;
-    mechanics::Conditions conditions;
+    mechanics::MechanicalConditions conditions;
     if (!absent.empty()) conditions.absent_bodies = {absent};
     const int up = mesh.dimension - 1;
     const std::string last = mesh.dimension == 2 ? "y" : "z";
@@ -125,7 +125,7 @@ struct RubbingBlocks {
     heat::HeatOptions of_heat;
     of_heat.tolerance = 1e-11;
     of_heat.symmetric = false;
-    heat.emplace(mesh, kind, materials, heat::Conditions{}, of_heat,
+    heat.emplace(mesh, kind, materials, heat::ThermalConditions{}, of_heat,
                  std::vector<linear::Contribution*>{pair->heat(), &*structural});
     phases.heat = &*heat;
     phases.mechanics = mechanics.get();

@@ -44,7 +44,7 @@ struct Model {
   coupling::State state;
 
   Model(Shape shape, AnalysisKind kind, const material::Material& material, StructuralForm form,
-        heat::Integration rule = heat::Integration::closed, heat::Conditions thermal = {},
+        heat::HeatIntegration rule = heat::HeatIntegration::closed, heat::ThermalConditions thermal = {},
         const std::function<void(test::Body&)>& adjust = {}, double distortion = 0.15)
       : body({.shape = shape,
               .cells = {3, 2, 2},
@@ -59,7 +59,7 @@ struct Model {
     std::fill(body.initial_temperature.begin(), body.initial_temperature.end(), k_start);
     if (adjust) adjust(body);
     mechanics = body.phase();
-    structural.emplace(*mechanics, form, rule == heat::Integration::closed);
+    structural.emplace(*mechanics, form, rule == heat::HeatIntegration::closed);
     heat::HeatOptions options;
     options.integration = rule;
     options.tolerance = 1e-11;
@@ -167,7 +167,7 @@ TEST(CoupledTangent, IsTheDerivativeOfMixedElementsWithEverySubscaleAndLaw) {
     for (const auto form : {StructuralForm::energy, StructuralForm::entropy})
       for (const auto stabilisation : {Stabilisation::orthogonal, Stabilisation::algebraic})
         for (std::size_t i = 0; i < std::size(materials); ++i) {
-          Model model(c.shape, c.kind, materials[i], form, heat::Integration::closed, {},
+          Model model(c.shape, c.kind, materials[i], form, heat::HeatIntegration::closed, {},
                       [&](test::Body& body) {
                         body.options.simplices = mechanics::Simplices::mixed;
                         body.options.stabilisation = stabilisation;
@@ -184,7 +184,7 @@ TEST(CoupledTangent, IsTheDerivativeOfMixedElementsWithEverySubscaleAndLaw) {
 TEST(CoupledTangent, IsTheDerivativeWithTheOpenRuleAndWithAMushyZone) {
   const material::Material melt = mushy();
   for (const auto form : {StructuralForm::energy, StructuralForm::entropy})
-    for (const auto rule : {heat::Integration::closed, heat::Integration::open})
+    for (const auto rule : {heat::HeatIntegration::closed, heat::HeatIntegration::open})
       for (const auto& m : {varying(test::plastic_material()), melt}) {
         Model model(Shape::quad4, AnalysisKind::plane_strain, m, form, rule);
         EXPECT_LT(tangent_error(model, 2e-3), 1e-6);
@@ -194,11 +194,11 @@ TEST(CoupledTangent, IsTheDerivativeWithTheOpenRuleAndWithAMushyZone) {
 /// Chilled on one side and pulled. Triangles and tetrahedra are mixed, as their material flows.
 Model pulled(StructuralForm form, double pull = 1e-4, Shape shape = Shape::quad4,
              mechanics::Stabilisation stabilisation = mechanics::Stabilisation::automatic) {
-  heat::Conditions thermal;
+  heat::ThermalConditions thermal;
   thermal.films.push_back({"chill", "top", {20000.0}, 300.0});
   const bool solid = mesh::dimension(shape) == 3;
   return Model(shape, solid ? AnalysisKind::solid : AnalysisKind::plane_strain,
-               varying(test::plastic_material()), form, heat::Integration::closed, thermal,
+               varying(test::plastic_material()), form, heat::HeatIntegration::closed, thermal,
                [pull, solid, stabilisation](test::Body& body) {
                  body.options.stabilisation = stabilisation;
                  for (int i = 0; i < (solid ? 3 : 2); ++i) body.hold("left", i);
@@ -324,12 +324,12 @@ TEST(SimultaneousScheme, KeepsAFacePlaneWithAPressure) {
     for (const auto solver : {linear::CoupledSolverKind::automatic, linear::CoupledSolverKind::field_split}) {
       SCOPED_TRACE(mesh::name(shape));
       const auto kind = shape == Shape::tet4 ? AnalysisKind::solid : AnalysisKind::plane_strain;
-      heat::Conditions thermal;
+      heat::ThermalConditions thermal;
       thermal.films.push_back({"chill", "top", {20000.0}, 300.0});
       // Flat faces: the lattice is not distorted.
       Model m(
-          shape, kind, varying(test::plastic_material()), StructuralForm::energy, heat::Integration::closed,
-          thermal,
+          shape, kind, varying(test::plastic_material()), StructuralForm::energy,
+          heat::HeatIntegration::closed, thermal,
           [&](test::Body& body) {
             for (int i = 0; i < displacement_components(kind); ++i) body.hold("left", i);
             body.conditions.plane_faces.push_back({"right"});

@@ -8,8 +8,8 @@
 
 #include "criteria/criterion.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/shapes.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
@@ -82,7 +82,7 @@ class Casting {
   mesh::Mesh mesh;
   AnalysisKind kind;
   heat::NodalEnthalpy storage;
-  criteria::Record record;
+  criteria::CriterionRecord record;
 
  private:
   struct Snapshot {

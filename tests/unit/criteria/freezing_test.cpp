@@ -161,7 +161,7 @@ TEST(Freezing, NamesTheLastNodeThatFroze) {
   casting.start(freezing, 0, at(0));
   for (int t = 5; t <= 100; t += 5) casting.step(freezing, t, at(t));
   bool found = false;
-  for (const criteria::Finding& finding : freezing.findings(casting.record)) {
+  for (const criteria::CriterionResult& finding : freezing.findings(casting.record)) {
     if (finding.name != "solidified_at_max") continue;
     found = true;
     EXPECT_NEAR(finding.value, 67, k_rounding);

@@ -91,7 +91,7 @@ class Bar {
   double equivalent() const { return kind_ == AnalysisKind::plane_strain ? 2 / std::sqrt(3.0) : 1.0; }
 
   const mesh::Mesh& mesh() const { return mesh_; }
-  const Record& record() const { return record_; }
+  const CriterionRecord& record() const { return record_; }
   const StrainCriteria& criteria() const { return criteria_; }
   std::size_t components() const { return static_cast<std::size_t>(displacement_components(kind_)); }
 
@@ -102,7 +102,7 @@ class Bar {
   StrainCriteria criteria_;
   heat::ThermalState heat_;
   mechanics::MechanicalState mechanics_;
-  Record record_;
+  CriterionRecord record_;
   double time_ = 0;
 };
 
@@ -191,7 +191,7 @@ TEST(BrittleStrain, TakesTheShareOfAStepInWhichTheMetalIsBrittle) {
     const double across = kind.analysis == AnalysisKind::plane_strain ? 1 : 0.5;
     // Two principal values are equal: the closed form loses half of its digits.
     for (const double value : pressed.fields().brittle) EXPECT_NEAR(value, across * sum, 1e-9);
-    const std::vector<Finding> findings = pulled.criteria().findings(pulled.record());
+    const std::vector<CriterionResult> findings = pulled.criteria().findings(pulled.record());
     ASSERT_EQ(findings.size(), 1u);
     EXPECT_NEAR(findings[0].value, sum, 1e-12);
   }

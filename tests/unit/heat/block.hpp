@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "heat/thermal_phase.hpp"
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/shapes.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::test {

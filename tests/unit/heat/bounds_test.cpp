@@ -26,7 +26,7 @@ struct Problem {
   mesh::Mesh mesh;
   std::vector<material::Material> materials;
   std::vector<double> start;  ///< of each body [K]
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   double lowest = 0, highest = 0;  ///< of initial and boundary temperatures [K]
   double dt = 0;
 };
@@ -205,7 +205,7 @@ Excursion run(const Problem& p, bool bounds, int steps, double tolerance = 0) {
   double time = 0, dt = p.dt;
   for (int i = 1; i <= steps;) {
     try {
-      const heat::PhaseReport report = phase.solve(state, state, time + dt, dt);
+      const heat::ThermalReport report = phase.solve(state, state, time + dt, dt);
       time += dt;
       ++i;
       out.iterations = std::max(out.iterations, report.newton.iterations);
@@ -278,7 +278,7 @@ AnalysisKind kind_of(Shape shape) {
 TEST(Bounds, LeaveLinearTemperaturesExact) {
   for (const Shape shape : k_shapes) {
     const mesh::Mesh mesh = bent(shape, mesh::order(shape) == 1 ? 6 : 3, 0.4);
-    heat::Conditions conditions;
+    heat::ThermalConditions conditions;
     conditions.temperatures.push_back({"cold", "x_min", Table(300.0)});
     conditions.temperatures.push_back({"hot", "x_max", Table(500.0)});
     heat::HeatOptions options;

@@ -53,15 +53,15 @@ class EveryShape : public testing::TestWithParam<std::tuple<Shape, bool>> {};
 TEST_P(EveryShape, ReproducesALinearTemperatureOnBentElements) {
   const auto [shape, closed] = GetParam();
   const mesh::Mesh mesh = bent(shape);
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.temperatures.push_back({"cold", "x_min", Table(300.0)});
   conditions.fluxes.push_back({"hot", "x_max", Table(2e4)});  // gradient 200 K/m
   heat::HeatOptions options;
-  options.integration = closed ? heat::Integration::closed : heat::Integration::open;
+  options.integration = closed ? heat::HeatIntegration::closed : heat::HeatIntegration::open;
   options.solver = linear::SolverKind::direct;
   heat::ThermalPhase phase(mesh, kind_of(shape), {conductor(Table(100.0))}, conditions, options);
   heat::ThermalState state = phase.initial_state(std::vector<double>{350.0});
-  const heat::PhaseReport report = phase.solve_steady(state, state, 0.0);
+  const heat::ThermalReport report = phase.solve_steady(state, state, 0.0);
   for (std::size_t i = 0; i < mesh.x.size(); ++i) {
     // Bent quadratic elements keep straight sides only approximately: their mid-nodes follow the map.
     EXPECT_NEAR(state.temperature[i], 300 + 200 * mesh.x[i][0], 1e-8);
@@ -73,7 +73,7 @@ TEST_P(EveryShape, ReproducesALinearTemperatureOnBentElements) {
 TEST_P(EveryShape, HasATangentThatIsTheDerivativeOfItsResidual) {
   const auto [shape, closed] = GetParam();
   const mesh::Mesh mesh = bent(shape, 2);
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.films.push_back({"film", "x_min", {Table({300, 1100}, {500, 2500}), true}, Table(400.0)});
   conditions.radiations.push_back({"glow", "x_max", {Table({300, 1100}, {0.2, 0.9}), true}, Table(300.0)});
   const std::vector<material::Material> materials{conductor(Table({200, 600, 1200}, {300, 150, 60}))};
@@ -99,7 +99,7 @@ TEST_P(EveryShape, HasATangentThatIsTheDerivativeOfItsResidual) {
 TEST_P(EveryShape, AddsUpSourcesAndFluxesExactly) {
   const auto [shape, closed] = GetParam();
   const mesh::Mesh mesh = bent(shape);
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.fluxes.push_back({"flux", "y_max", Table({0, 2}, {0, 60})});
   conditions.sources.push_back({"source", "block", Table(7.0)});
   const std::vector<material::Material> materials{conductor(Table(100.0))};
@@ -153,7 +153,7 @@ TEST(ClosedRule, MakesTheMatrixOfNonNegativeTypeOnRectanglesAndBoxes) {
 TEST(ClosedRule, CarriesAnAxialFluxExactlyAlsoOnTheAxis) {
   for (const Shape shape : {Shape::tri3, Shape::quad4, Shape::tri6, Shape::quad8}) {
     const mesh::Mesh mesh = block_mesh(shape, {0.3, 1.0}, {3, 4});
-    heat::Conditions conditions;
+    heat::ThermalConditions conditions;
     conditions.temperatures.push_back({"cold", "y_min", Table(300.0)});
     conditions.fluxes.push_back({"hot", "y_max", Table(1e4)});
     heat::ThermalPhase phase(mesh, AnalysisKind::axisymmetric, {conductor(Table(100.0))}, conditions);
@@ -166,7 +166,7 @@ TEST(ClosedRule, CarriesAnAxialFluxExactlyAlsoOnTheAxis) {
 
 TEST(SteadyState, IsRejectedWhereNothingHoldsTheTemperature) {
   const mesh::Mesh mesh = block_mesh(Shape::quad4, {1, 1}, {4, 4});
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.fluxes.push_back({"hot", "y_max", Table(1e4)});
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {conductor(Table(100.0))}, conditions);
   heat::ThermalState state = phase.initial_state(std::vector<double>{350.0});
@@ -175,7 +175,7 @@ TEST(SteadyState, IsRejectedWhereNothingHoldsTheTemperature) {
 
 TEST(Conditions, NamesTheGroupThatTheMeshLacks) {
   const mesh::Mesh mesh = block_mesh(Shape::quad4, {1, 1}, {2, 2});
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.films.push_back({"film", "x_mid", {Table(1.0), false}, Table(300.0)});
   try {
     heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {test::metal(1)}, conditions);
@@ -188,7 +188,7 @@ TEST(Conditions, NamesTheGroupThatTheMeshLacks) {
 
 TEST(Conditions, HoldTheLaterOfTwoPrescribedTemperatures) {
   const mesh::Mesh mesh = block_mesh(Shape::quad4, {1, 1}, {4, 4});
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.temperatures.push_back({"all", "block", Table(400.0)});
   conditions.temperatures.push_back({"side", "x_min", Table(300.0)});
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {test::metal(1)}, conditions);

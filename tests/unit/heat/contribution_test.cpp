@@ -57,7 +57,7 @@ TEST(Contributions, BringTwoBodiesToTheTemperatureAtWhichTheirHeatsAddUp) {
   for (int i = 0; i < 40; ++i) {
     const double dt = std::pow(1.3, i);
     time += dt;
-    const heat::PhaseReport report = phase.solve(state, state, time, dt);
+    const heat::ThermalReport report = phase.solve(state, state, time, dt);
     EXPECT_NEAR(report.balance.contributions[0], 0.0, 1e-9 * report.balance.exchanged + 1e-9);
     EXPECT_NEAR(report.balance.stored, 0.0, 1e-8 * report.balance.exchanged + 1e-7);
   }

@@ -21,7 +21,7 @@ struct Freezing {
 
 /// A chill with h = 2000 W/(m² K) at x_min freezes the block from 901 K.
 Freezing freeze(const mesh::Mesh& mesh, const material::Material& material, double dt, int steps) {
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.films.push_back({"chill", "x_min", {Table(2000.0), false}, Table(300.0)});
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {material}, conditions);
   Freezing run;
@@ -30,7 +30,7 @@ Freezing freeze(const mesh::Mesh& mesh, const material::Material& material, doub
   int busy = 0;
   for (int i = 0; i < steps; ++i) {
     time += dt;
-    const heat::PhaseReport report = phase.solve(run.state, run.state, time, dt);
+    const heat::ThermalReport report = phase.solve(run.state, run.state, time, dt);
     run.worst = std::max(run.worst, report.newton.iterations);
     run.solves += report.newton.iterations;
     busy += report.newton.iterations > 0 ? 1 : 0;
@@ -72,7 +72,7 @@ TEST(EnthalpyIteration, HalfTheMatrixGivesTheSameTemperatures) {
     const mesh::Mesh mesh =
         block_mesh(shape, std::vector<double>(solid ? 3 : 2, 0.1), std::vector<int>(solid ? 3 : 2, 8));
     const AnalysisKind kind = solid ? AnalysisKind::solid : AnalysisKind::plane_strain;
-    heat::Conditions conditions;
+    heat::ThermalConditions conditions;
     conditions.films.push_back({"chill", "x_min", {Table(2000.0), false}, Table(300.0)});
     conditions.temperatures.push_back({"hot", "y_max", Table(901.0)});
     for (const double dt : {0.5, 20.0, 1e5}) {
@@ -118,7 +118,7 @@ TEST(EnthalpyIteration, ConvergesFromRandomTemperaturesOnBothSidesOfTheChange) {
       }
       const heat::ThermalState old = phase.initial_state_at_nodes(start);
       heat::ThermalState state;
-      const heat::PhaseReport report = phase.solve(old, state, dt, dt);
+      const heat::ThermalReport report = phase.solve(old, state, dt, dt);
       EXPECT_LE(std::abs(report.balance.defect()), 1e-8 * report.balance.exchanged) << range << " " << dt;
     }
 }
@@ -129,7 +129,7 @@ TEST(EnthalpyIteration, ReleasesTheLatentHeatToRoundingForEveryStep) {
   const double latent = 280 * 2500.0 * 1000.0 * 0.05 * 0.05;  // L rho V
   for (double range : {0.0, 1.0, 40.0})
     for (double dt : {0.1, 7.0, 1e3, 1e5}) {
-      heat::Conditions conditions;
+      heat::ThermalConditions conditions;
       conditions.films.push_back({"chill", "x_min", {Table(5000.0), false}, Table(300.0)});
       heat::HeatOptions options;
       options.tolerance = 1e-12;
@@ -138,7 +138,7 @@ TEST(EnthalpyIteration, ReleasesTheLatentHeatToRoundingForEveryStep) {
       double released = 0, stored = 0, in = 0, time = 0;
       for (int i = 0; phase.mean_solid_fraction(state) < 1.0 && i < 2000; ++i) {
         time += dt;
-        const heat::PhaseReport report = phase.solve(state, state, time, dt);
+        const heat::ThermalReport report = phase.solve(state, state, time, dt);
         released -= report.balance.latent;
         stored += report.balance.stored;
         in += report.balance.heat_in();
@@ -150,13 +150,13 @@ TEST(EnthalpyIteration, ReleasesTheLatentHeatToRoundingForEveryStep) {
 
 TEST(EnthalpyIteration, FollowsATemperatureThatIsPrescribedWithinTheChange) {
   const mesh::Mesh strip = block_mesh(mesh::Shape::quad4, {0.02, 0.001}, {20, 1});
-  heat::Conditions conditions;  // liquid first, then exactly the melting temperature, then cold
+  heat::ThermalConditions conditions;  // liquid first, then exactly the melting temperature, then cold
   conditions.temperatures.push_back({"side", "x_min", Table({0, 10, 20, 30}, {950, 900, 900, 700})});
   heat::ThermalPhase phase(strip, AnalysisKind::plane_strain, {metal(0)}, conditions);
   heat::ThermalState state = phase.initial_state(std::vector<double>{950.0});
   double stored = 0, in = 0;
   for (int i = 1; i <= 30; ++i) {
-    const heat::PhaseReport report = phase.solve(state, state, i, 1.0);
+    const heat::ThermalReport report = phase.solve(state, state, i, 1.0);
     stored += report.balance.stored;
     in += report.balance.heat_in();
     if (i == 15) {
@@ -171,7 +171,7 @@ TEST(EnthalpyIteration, ReportsAStepThatCannotConvergeWithItsPlace) {
   const mesh::Mesh strip = block_mesh(mesh::Shape::quad4, {0.02, 0.001}, {20, 1});
   heat::HeatOptions options;
   options.max_iterations = 1;
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.temperatures.push_back({"side", "x_min", Table(300.0)});
   heat::ThermalPhase phase(strip, AnalysisKind::plane_strain, {metal(0)}, conditions, options);
   const heat::ThermalState old = phase.initial_state(std::vector<double>{950.0});

@@ -20,8 +20,8 @@ material::Material sleeve() {
   return m;
 }
 
-heat::Conditions burning(double ignition, double duration) {
-  heat::Conditions conditions;
+heat::ThermalConditions burning(double ignition, double duration) {
+  heat::ThermalConditions conditions;
   conditions.exothermics.push_back({"burning", "block", k_heat, ignition, duration});
   return conditions;
 }
@@ -48,16 +48,16 @@ TEST(BurningState, IgnitesWhereATemperatureIsPassedWithinTheStep) {
 
 struct Case {
   mesh::Shape shape;
-  heat::Integration integration;
+  heat::HeatIntegration integration;
   heat::ThermalStepping stepping;
 };
 class Burning : public ::testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Rules, Burning,
-                         ::testing::Values(Case{mesh::Shape::quad4, heat::Integration::closed,
+                         ::testing::Values(Case{mesh::Shape::quad4, heat::HeatIntegration::closed,
                                                 heat::ThermalStepping::sdirk2},
-                                           Case{mesh::Shape::tet4, heat::Integration::closed,
+                                           Case{mesh::Shape::tet4, heat::HeatIntegration::closed,
                                                 heat::ThermalStepping::backward_euler},
-                                           Case{mesh::Shape::tri6, heat::Integration::open,
+                                           Case{mesh::Shape::tri6, heat::HeatIntegration::open,
                                                 heat::ThermalStepping::backward_euler}));
 
 /// Temperatures after each of these steps, and the sum of the heat that the balances say.
@@ -74,7 +74,7 @@ Outcome burn_through(heat::ThermalPhase& phase, const Case& p, heat::ThermalStat
   for (const double dt : steps) {
     phase.begin_burning(burnt, time, time + dt);
     const heat::ThermalState before = r.state;
-    const heat::PhaseReport report =
+    const heat::ThermalReport report =
         phase.solve(before, r.state, {.time = time + dt, .dt = dt, .stepping = p.stepping});
     burnt = phase.burnt(burnt, before, r.state, time, time + dt);
     for (const heat::ConditionHeat& c : report.balance.conditions)
@@ -112,6 +112,14 @@ TEST_P(Burning, AnAdiabaticSleeveWarmsByItsHeatOverItsCapacity) {
   }
 }
 
+// A body that rests at its temperature of ignition but for rounding is lit.
+TEST(Burn, LightsWhatIsAtItsIgnitionButForRounding) {
+  const std::vector<double> ignition{500, 500}, at{std::nextafter(500.0, 0.0), 499.9};
+  const heat::BurningState state = heat::burn(heat::unlit(2), ignition, at, at, 1, 2);
+  EXPECT_EQ(state.lit[0], 1);
+  EXPECT_TRUE(std::isinf(state.lit[1]));
+}
+
 // Half of the duration of burning gives half of the heat.
 TEST_P(Burning, HeatComesEvenly) {
   const Case& p = GetParam();
@@ -132,7 +140,7 @@ TEST_P(Burning, PlacesThatStayColdKeepTheirHeat) {
   const double volume = test::is_3d(p.shape) ? 0.03 * 0.02 * 0.02 : 0.03 * 0.02;
   heat::ThermalPhase cold(mesh, AnalysisKind::plane_strain, {sleeve()}, burning(2000, 5), options);
   EXPECT_EQ(burn_through(cold, p, cold.initial_state(std::vector<double>{500.0}), {1, 5, 20}).released, 0);
-  heat::Conditions heated = burning(600, 5);
+  heat::ThermalConditions heated = burning(600, 5);
   heated.fluxes.push_back({"burner", "x_min", 1e6});
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {sleeve()}, heated, options);
   const Outcome first =

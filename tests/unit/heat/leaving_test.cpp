@@ -27,8 +27,8 @@ material::Material mould() {
   return m;
 }
 
-heat::Conditions in_air() {
-  heat::Conditions air;
+heat::ThermalConditions in_air() {
+  heat::ThermalConditions air;
   air.films.push_back({"air", "between", {3000.0}, 300.0});
   return air;
 }
@@ -43,7 +43,7 @@ std::map<GlobalIndex, double> by_number(const mesh::Mesh& mesh, const heat::Ther
 
 struct Case {
   mesh::Shape shape;
-  heat::Integration integration;
+  heat::HeatIntegration integration;
   double range;  ///< of freezing [K]; zero: isothermal
 };
 class Leaving : public ::testing::TestWithParam<Case> {};
@@ -63,7 +63,7 @@ TEST_P(Leaving, ThePartGoesOnAsIfTheMouldHadNeverBeen) {
 
   heat::ThermalState state = phase.initial_state(std::vector<double>{920.0, 300.0});
   for (int i = 1; i <= 5; ++i) phase.solve(state, state, i, 1.0);
-  heat::Conditions air = in_air();
+  heat::ThermalConditions air = in_air();
   air.absent_bodies = {"right"};
   const heat::ThermalState before = state;
   const double carried = phase.set_conditions(air, &state).away;
@@ -79,8 +79,8 @@ TEST_P(Leaving, ThePartGoesOnAsIfTheMouldHadNeverBeen) {
     part.enthalpy[i] = state.enthalpy[place.at(alone.input_node[i])];
 
   for (int i = 1; i <= 20; ++i) {
-    const heat::PhaseReport here = phase.solve(state, state, 5 + i, 1.0);
-    const heat::PhaseReport there = reference.solve(part, part, 5 + i, 1.0);
+    const heat::ThermalReport here = phase.solve(state, state, 5 + i, 1.0);
+    const heat::ThermalReport there = reference.solve(part, part, 5 + i, 1.0);
     EXPECT_NEAR(here.balance.defect(), 0, 1e-8 * here.balance.exchanged);
     EXPECT_NEAR(here.balance.stored, there.balance.stored, 1e-7 * there.balance.exchanged);
     ASSERT_EQ(here.balance.conditions.size(), 1u);
@@ -96,15 +96,15 @@ TEST_P(Leaving, ThePartGoesOnAsIfTheMouldHadNeverBeen) {
 
 using mesh::Shape;
 INSTANTIATE_TEST_SUITE_P(Rules, Leaving,
-                         ::testing::Values(Case{Shape::quad4, heat::Integration::closed, 40},
-                                           Case{Shape::quad4, heat::Integration::closed, 0},
-                                           Case{Shape::tri3, heat::Integration::closed, 0},
-                                           Case{Shape::quad4, heat::Integration::open, 40},
-                                           Case{Shape::tri6, heat::Integration::open, 40}));
+                         ::testing::Values(Case{Shape::quad4, heat::HeatIntegration::closed, 40},
+                                           Case{Shape::quad4, heat::HeatIntegration::closed, 0},
+                                           Case{Shape::tri3, heat::HeatIntegration::closed, 0},
+                                           Case{Shape::quad4, heat::HeatIntegration::open, 40},
+                                           Case{Shape::tri6, heat::HeatIntegration::open, 40}));
 
-class LeavingBodies : public ::testing::TestWithParam<heat::Integration> {};
+class LeavingBodies : public ::testing::TestWithParam<heat::HeatIntegration> {};
 INSTANTIATE_TEST_SUITE_P(Rules, LeavingBodies,
-                         ::testing::Values(heat::Integration::closed, heat::Integration::open));
+                         ::testing::Values(heat::HeatIntegration::closed, heat::HeatIntegration::open));
 
 TEST_P(LeavingBodies, CarryTheHeatThatIsMissingAfterwards) {
   const mesh::Mesh mesh = part_and_mould(Shape::quad4, {"left", "right"});
@@ -114,7 +114,7 @@ TEST_P(LeavingBodies, CarryTheHeatThatIsMissingAfterwards) {
   // A mould at 393.15 K, 100 K above what is counted, of 0.03 × 0.02 × 1 m³ and 2.5e6 J/(m³ K).
   const heat::ThermalState start = phase.initial_state(std::vector<double>{393.15, 393.15});
   heat::ThermalState state = start;  // a copy: with the open rule there is no storage for heat contents
-  heat::Conditions later;
+  heat::ThermalConditions later;
   later.absent_bodies = {"right"};
   const double content = phase.heat_content(state);
   EXPECT_NEAR(phase.set_conditions(later, &state).away, 0.03 * 0.02 * 2.5e6 * 100, 1e-6);
@@ -126,7 +126,7 @@ TEST_P(LeavingBodies, CarryTheHeatThatIsMissingAfterwards) {
 TEST_P(LeavingBodies, DoNotComeBackWithoutTheirHeat) {
   const mesh::Mesh mesh = part_and_mould(Shape::quad4, {"left", "right"});
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {test::metal(40), mould()}, {});
-  heat::Conditions later;
+  heat::ThermalConditions later;
   later.absent_bodies = {"right"};
   phase.set_conditions(later);
   EXPECT_THROW(phase.set_conditions({}), std::invalid_argument);
@@ -143,7 +143,7 @@ TEST_P(LeavingBodies, ComeBackNew) {
   heat::ThermalPhase reference(mesh, AnalysisKind::plane_strain, materials, {}, options);
   heat::ThermalState state = phase.initial_state(std::vector<double>{920.0, 300.0});
   for (int i = 1; i <= 5; ++i) phase.solve(state, state, i, 1.0);
-  heat::Conditions alone;
+  heat::ThermalConditions alone;
   alone.absent_bodies = {"left"};
   phase.set_conditions(alone, &state);
   for (int i = 6; i <= 8; ++i) phase.solve(state, state, i, 1.0);
@@ -169,7 +169,7 @@ TEST_P(LeavingBodies, ComeBackNew) {
 
   heat::ThermalState other = state;
   for (int i = 9; i <= 14; ++i) {
-    const heat::PhaseReport here = phase.solve(state, state, i, 1.0);
+    const heat::ThermalReport here = phase.solve(state, state, i, 1.0);
     reference.solve(other, other, i, 1.0);
     EXPECT_NEAR(here.balance.defect(), 0, 1e-8 * here.balance.exchanged);
   }

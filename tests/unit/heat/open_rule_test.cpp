@@ -12,15 +12,15 @@ class OpenRule : public testing::TestWithParam<std::tuple<double, double>> {};
 TEST_P(OpenRule, ConvergesAndConservesHeat) {
   const auto [range, dt] = GetParam();
   const mesh::Mesh strip = test::block_mesh(mesh::Shape::quad4, {0.1, 0.002}, {50, 1});
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.films.push_back({"chill", "x_min", {Table(2000.0), false}, Table(300.0)});
   heat::HeatOptions options;
-  options.integration = heat::Integration::open;
+  options.integration = heat::HeatIntegration::open;
   heat::ThermalPhase phase(strip, AnalysisKind::plane_strain, {test::metal(range)}, conditions, options);
   heat::ThermalState state = phase.initial_state(std::vector<double>{901.0});
   double moved = 0, stored = 0, in = 0;
   for (int i = 1; i <= (test::processes() == 1 ? 20 : 3); ++i) {
-    const heat::PhaseReport report = phase.solve(state, state, i * dt, dt);
+    const heat::ThermalReport report = phase.solve(state, state, i * dt, dt);
     moved += report.balance.exchanged;
     stored += report.balance.stored;
     in += report.balance.heat_in();
@@ -32,10 +32,10 @@ TEST_P(OpenRule, ConvergesAndConservesHeat) {
 /// Nodes freeze at the very temperature of an isothermal change, whatever the rule.
 TEST(OpenRuleBesides, HoldsAnIsothermalChangeAtItsTemperature) {
   const mesh::Mesh strip = test::block_mesh(mesh::Shape::quad4, {0.1, 0.002}, {50, 1});
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.films.push_back({"chill", "x_min", {Table(2000.0), false}, Table(300.0)});
   heat::HeatOptions options;
-  options.integration = heat::Integration::open;
+  options.integration = heat::HeatIntegration::open;
   heat::ThermalPhase phase(strip, AnalysisKind::plane_strain, {test::metal(0)}, conditions, options);
   heat::ThermalState state = phase.initial_state(std::vector<double>{901.0});
   int freezing = 0;
@@ -64,12 +64,12 @@ TEST(OpenRuleBesides, StoresOtherBodiesAtGaussPointsBesideOneThatFreezesIsotherm
     for (const auto stepping : {heat::ThermalStepping::backward_euler, heat::ThermalStepping::sdirk2}) {
       for (const double dt : {0.2, 2.0, 20.0, 100.0}) {
         const mesh::Mesh mesh = test::two_blocks(shape, 0.01);
-        heat::Conditions conditions;
+        heat::ThermalConditions conditions;
         for (const char* side : {"lower_x_min", "upper_x_min"})
           conditions.films.push_back({side, side, {Table(2000.0), false}, Table(300.0)});
         conditions.sources.push_back({"source", "lower", Table(-1e6)});
         heat::HeatOptions options;
-        options.integration = heat::Integration::open;
+        options.integration = heat::HeatIntegration::open;
         options.tolerance = 1e-12;
         options.solver = linear::SolverKind::direct;
         const AnalysisKind kind = test::is_3d(shape) ? AnalysisKind::solid : AnalysisKind::plane_strain;
@@ -79,12 +79,12 @@ TEST(OpenRuleBesides, StoresOtherBodiesAtGaussPointsBesideOneThatFreezesIsotherm
           heat::ThermalState state = phase.initial_state(std::vector<double>{905.0, 905.0});
           EXPECT_EQ(state.enthalpy.empty(), range > 0);
           for (int i = 1; i <= 5; ++i) {
-            const heat::PhaseReport report =
+            const heat::ThermalReport report =
                 phase.solve(state, state, {.time = dt * i, .dt = dt, .stepping = stepping});
             EXPECT_NEAR(report.balance.stored, report.balance.heat_in(), 1e-10 * report.balance.exchanged);
           }
           std::vector<double>& temperature = lower.emplace_back();
-          for (const mesh::Block& block : mesh.blocks)
+          for (const mesh::ElementBlock& block : mesh.blocks)
             if (block.body == 0)
               for (const Index node : block.nodes)
                 temperature.push_back(state.temperature[static_cast<std::size_t>(node)]);

@@ -46,21 +46,21 @@ class Places : public ::testing::TestWithParam<std::tuple<Shape, bool>> {
   double depth() const { return test::is_3d(shape()) ? 0.1 : 1.0; }
   heat::HeatOptions options() const {
     heat::HeatOptions o;
-    o.integration = std::get<1>(GetParam()) ? heat::Integration::closed : heat::Integration::open;
+    o.integration = std::get<1>(GetParam()) ? heat::HeatIntegration::closed : heat::HeatIntegration::open;
     return o;
   }
 };
 
 TEST_P(Places, ALinearSourceAndALinearFluxGiveTheirIntegral) {
   const mesh::Mesh mesh = this->mesh();
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.sources = {{"source", "block", placed([](const Position& x, double) { return 1e6 * x[0]; })}};
   conditions.fluxes = {
       {"flux", "y_max", placed([](const Position& x, double t) { return 1e5 * x[0] * t; }), 2.0}};
   heat::ThermalPhase phase(mesh, kind(), {solid_metal()}, conditions, options());
   const heat::ThermalState start = phase.initial_state(std::array{400.0});
   heat::ThermalState end;
-  const heat::PhaseReport report = phase.solve(start, end, 3, 0.5);
+  const heat::ThermalReport report = phase.solve(start, end, 3, 0.5);
   ASSERT_EQ(report.balance.conditions.size(), 2U);
   EXPECT_NEAR(report.balance.conditions[0].heat, 2 * 1e5 * 0.02 * depth() * 3 * 0.5, 1e-9);
   EXPECT_NEAR(report.balance.conditions[1].heat, 1e6 * 0.02 * 0.1 * depth() * 0.5, 1e-9);
@@ -70,7 +70,7 @@ TEST_P(Places, ALinearSourceAndALinearFluxGiveTheirIntegral) {
 TEST_P(Places, APrescribedLinearTemperatureIsTheSteadyState) {
   const mesh::Mesh mesh = this->mesh();
   const auto linear = [](const Position& x, double) { return 400 + 1000 * x[0] + 500 * x[1] + 200 * x[2]; };
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   for (const char* face : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"})
     if (test::is_3d(shape()) || face[0] != 'z')
       conditions.temperatures.push_back({face, face, placed(linear)});
@@ -86,7 +86,7 @@ TEST_P(Places, APrescribedLinearTemperatureIsTheSteadyState) {
 TEST_P(Places, AFactorRestrictsAFilmWhoseCoefficientIsATableOfTemperature) {
   const mesh::Mesh mesh = this->mesh();
   const auto heat_in = [&](PlaceFunction factor) {
-    heat::Conditions conditions;
+    heat::ThermalConditions conditions;
     conditions.films = {{"film", "y_max", {Table({300, 500}, {100, 300}), true}, 300.0, std::move(factor)}};
     heat::ThermalPhase phase(mesh, kind(), {solid_metal()}, conditions, options());
     heat::ThermalState end;
@@ -101,7 +101,7 @@ TEST_P(Places, AFactorRestrictsAFilmWhoseCoefficientIsATableOfTemperature) {
 
 TEST_P(Places, WhatOneProcessCannotEvaluateEveryProcessReports) {
   const mesh::Mesh mesh = this->mesh();
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.sources = {{"source", "block", placed([](const Position& x, double) {
                            if (x[0] > 0.17) throw InputError({"case.toml", 3, 0}, "no value");
                            return 1.0;

@@ -9,7 +9,7 @@
 namespace solidus {
 namespace {
 
-using heat::Integration;
+using heat::HeatIntegration;
 using heat::ThermalStepping;
 
 /// A bar of 0.1 m, insulated but for a film on the left whose ambient temperature moves as a sine; it melts
@@ -17,7 +17,7 @@ using heat::ThermalStepping;
 struct Bar {
   mesh::Mesh mesh = test::block_mesh(mesh::Shape::quad4, {0.1, 0.01}, {10, 1});
   std::vector<material::Material> materials{test::metal(10)};
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   double start;
 
   Bar(double from, double to) : start(from) {
@@ -33,7 +33,7 @@ struct Bar {
     heat::ThermalState end;
     double stored = 0, latent = 0, heat_in = 0, exchanged = 0;
   };
-  Run run(Integration rule, ThermalStepping stepping, int n_steps) const {
+  Run run(HeatIntegration rule, ThermalStepping stepping, int n_steps) const {
     heat::HeatOptions options;
     options.integration = rule;
     options.tolerance = 1e-12;
@@ -64,7 +64,7 @@ double difference(const Bar::Run& a, const Bar::Run& b) {
 // the mean, and short steps.
 TEST(ThermalStepping, IsOfTheOrderOfItsMethodWithBothRules) {
   const Bar bar(800, 500);
-  for (const auto rule : {Integration::closed, Integration::open})
+  for (const auto rule : {HeatIntegration::closed, HeatIntegration::open})
     for (const auto stepping : {ThermalStepping::backward_euler, ThermalStepping::sdirk2}) {
       const Bar::Run coarse = bar.run(rule, stepping, 64), middle = bar.run(rule, stepping, 128),
                      fine = bar.run(rule, stepping, 256);
@@ -75,7 +75,7 @@ TEST(ThermalStepping, IsOfTheOrderOfItsMethodWithBothRules) {
 
 TEST(ThermalStepping, Sdirk2ClosesTheBalanceAcrossMeltingWithBothRules) {
   const Bar bar(880, 1200);
-  for (const auto rule : {Integration::closed, Integration::open})
+  for (const auto rule : {HeatIntegration::closed, HeatIntegration::open})
     for (const int n : {2, 20}) {
       const Bar::Run run = bar.run(rule, ThermalStepping::sdirk2, n);
       EXPECT_NEAR(run.stored, run.heat_in, 1e-10 * run.exchanged);
@@ -113,7 +113,7 @@ TEST(ThermalStepping, Sdirk2StaysOfSecondOrderWhereAFluxCoolsBelowAllTemperature
   Bar bar(800, 800);
   bar.conditions.films.clear();
   bar.conditions.fluxes.push_back({"drain", "x_min", Table({0, 100}, {0, -3e5})});
-  const auto end = [&](int n) { return bar.run(Integration::closed, ThermalStepping::sdirk2, n); };
+  const auto end = [&](int n) { return bar.run(HeatIntegration::closed, ThermalStepping::sdirk2, n); };
   const Bar::Run coarse = end(32), middle = end(64), fine = end(128);
   EXPECT_LT(*std::min_element(fine.end.temperature.begin(), fine.end.temperature.end()), 750);
   EXPECT_NEAR(std::log2(difference(coarse, middle) / difference(middle, fine)), 2, 0.2);
@@ -140,7 +140,7 @@ TEST(ThermalStepping, Sdirk2LetsTheLastMetalToFreezeCoolMonotonicallyAndNotBelow
         const mesh::Mesh mesh =
             test::block_mesh(shape, solid ? std::vector{0.015, 0.004, 0.004} : std::vector{0.015, 0.004},
                              solid ? std::vector{15, 4, 4} : std::vector{15, 4});
-        heat::Conditions conditions;
+        heat::ThermalConditions conditions;
         conditions.films.push_back({"film", "x_max", {Table(3000.0)}, Table(k_ambient)});
         heat::ThermalPhase phase(mesh, kind, materials, conditions);
         heat::ThermalState now = phase.initial_state_at_nodes(std::vector<double>(mesh.x.size(), k_pouring));
@@ -180,7 +180,7 @@ TEST(ThermalStepping, TheErrorOfAStepIsTheEstimated) {
           phase.solve(old, old, {.time = i * k_dt, .dt = k_dt, .stepping = stepping}).flows);
     }
     heat::ThermalState now = old, fine = old;
-    const heat::PhaseReport report =
+    const heat::ThermalReport report =
         phase.solve(old, now, {.time = 11 * k_dt, .dt = k_dt, .stepping = stepping});
     const std::vector<double> estimate = phase.time_error(now, report.flows, flow);
     for (int i = 1; i <= 32; ++i)
@@ -198,7 +198,7 @@ TEST(ThermalStepping, TheErrorOfAStepIsTheEstimated) {
 }
 
 TEST(ThermalPhase, RejectsAStepThatEndsBelowZeroWithPlaceAndTemperature) {
-  for (const auto rule : {Integration::closed, Integration::open}) {
+  for (const auto rule : {HeatIntegration::closed, HeatIntegration::open}) {
     Bar bar(300, 300);
     bar.conditions.films.clear();
     bar.conditions.fluxes.push_back({"drain", "x_min", Table(-1e6)});

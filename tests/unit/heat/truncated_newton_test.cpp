@@ -41,7 +41,7 @@ material::Material with_range(double range) {
 Freezing freeze(const material::Material& material, int divisions, double dt, int steps, double tolerance = 0,
                 double start = 973, mesh::Shape shape = mesh::Shape::tet4) {
   const mesh::Mesh mesh = test::block_mesh(shape, {0.1, 0.1, 0.1}, {divisions, divisions, divisions});
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.films.push_back({"chill_x", "x_max", {Table(3000.0), false}, Table(293.0)});
   conditions.films.push_back({"chill_y", "y_max", {Table(3000.0), false}, Table(293.0)});
   heat::HeatOptions options;
@@ -51,7 +51,7 @@ Freezing freeze(const material::Material& material, int divisions, double dt, in
   Freezing run;
   run.state = phase.initial_state(std::vector<double>{start});
   for (int i = 1; i <= steps; ++i) {
-    const heat::PhaseReport report = phase.solve(run.state, run.state, i * dt, dt);
+    const heat::ThermalReport report = phase.solve(run.state, run.state, i * dt, dt);
     run.mean += static_cast<double>(report.newton.iterations) / steps;
     run.worst = std::max(run.worst, report.newton.iterations);
     run.defect = std::max(run.defect, std::abs(report.balance.defect()) / report.balance.exchanged);
@@ -74,7 +74,7 @@ TEST(TruncatedNewton, TakesFiveIterationsAStepForAnAlloyOnEveryMesh) {
 TEST(TruncatedNewton, TakesSixIterationsForTwoStagesOnAFineMesh) {
   if (test::processes() > 1) return;  // the serial run proves it
   const mesh::Mesh layer = test::block_mesh(mesh::Shape::tet4, {0.1, 0.1, 0.1 / 60}, {60, 60, 1});
-  heat::Conditions conditions;
+  heat::ThermalConditions conditions;
   conditions.films.push_back({"chill_x", "x_max", {Table(3000.0), false}, Table(293.0)});
   conditions.films.push_back({"chill_y", "y_max", {Table(3000.0), false}, Table(293.0)});
   heat::HeatOptions options;
@@ -85,7 +85,7 @@ TEST(TruncatedNewton, TakesSixIterationsForTwoStagesOnAFineMesh) {
   double mean = 0;
   constexpr int k_steps = 8;
   for (int i = 1; i <= k_steps; ++i) {
-    const heat::PhaseReport report =
+    const heat::ThermalReport report =
         phase.solve(state, state, {.time = 2.0 * i, .dt = 2, .stepping = options.stepping.value()});
     mean += static_cast<double>(report.newton.iterations) / k_steps;
   }
@@ -126,7 +126,7 @@ TEST(TruncatedNewton, FollowsAFrontThroughHundredsOfCellsInOneStep) {
   const auto follow = [&](double range, double start, double liquid, const char* side) {
     material::Material metal = test::metal(range);
     metal.conductivity = Table({300, 899, 901}, {100, 100, liquid});
-    heat::Conditions conditions;
+    heat::ThermalConditions conditions;
     conditions.temperatures.push_back({"chill", side, Table(300.0)});
     heat::ThermalPhase phase(strip, AnalysisKind::plane_strain, {metal}, conditions);
     heat::ThermalState state = phase.initial_state(std::vector<double>{start});
@@ -155,7 +155,7 @@ TEST(TruncatedNewton, FollowsAFrontThroughManyLayersInTheSolid) {
     const bool solid = test::is_3d(shape);
     const mesh::Mesh mesh = solid ? test::block_mesh(shape, {0.1, 0.1, 0.1}, {16, 16, 16})
                                   : test::block_mesh(shape, {0.1, 0.1}, {80, 80});
-    heat::Conditions conditions;
+    heat::ThermalConditions conditions;
     conditions.temperatures.push_back({"chill", "x_min", Table(300.0)});
     conditions.films.push_back({"chill_y", "y_max", {Table(3e4), false}, Table(293.0)});
     // The default tolerance, and one ten times as large.

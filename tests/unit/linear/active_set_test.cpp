@@ -24,7 +24,7 @@ mesh::Mesh bodies(mesh::Shape shape) {
 /// Faces that some process counts.
 double counted(const mesh::Surface& surface) {
   double n = 0;
-  for (const mesh::Block& faces : surface.faces) n += faces.n_counted;
+  for (const mesh::ElementBlock& faces : surface.faces) n += faces.n_counted;
   return parallel::global_sum(n);
 }
 
@@ -58,7 +58,7 @@ TEST_P(ActiveSet, HoldsAFaceWithAnActiveBodyOnEitherSide) {
     const bool left = gone == std::string("left");
     EXPECT_EQ(counted(active.part(mesh, mesh.surfaces.at("x_min"))),
               left ? 0 : counted(mesh.surfaces.at("x_min")));
-    for (const mesh::Block& faces : between.faces) EXPECT_EQ(active.reversed(faces), left);
+    for (const mesh::ElementBlock& faces : between.faces) EXPECT_EQ(active.reversed(faces), left);
     const double both = counted(mesh.surfaces.at("y_min"));
     EXPECT_EQ(counted(active.part(mesh, mesh.surfaces.at("y_min"))), both / 2) << gone;
   }

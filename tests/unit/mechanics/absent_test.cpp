@@ -59,7 +59,7 @@ TEST_P(Springback, OfAPartThatAMouldHeldIsThatOfBarsInARow) {
   EXPECT_NEAR(at_plane(body, solved), push * mould / (part + mould), 1e-9 * push);
   EXPECT_NEAR(largest_stress(solved), push / (part + mould), 1e-9 * push / (part + mould));
 
-  mechanics::Conditions later = body.conditions;
+  mechanics::MechanicalConditions later = body.conditions;
   later.absent_bodies = {"right"};
   const std::vector<double> before = solved.state.displacement;
   const double seconds = solved.phase->seconds_solver();
@@ -98,7 +98,7 @@ TEST_P(Springback, KeptFieldsStayUntilTheNextOnesAreKept) {
   const auto next = fields();
   EXPECT_TRUE(parallel::any_process(next != committed));
 
-  mechanics::Conditions later = body.conditions;
+  mechanics::MechanicalConditions later = body.conditions;
   later.absent_bodies = {"right"};
   solved.phase->set_conditions(later, solved.state.displacement);
   EXPECT_EQ(fields(), next);
@@ -159,7 +159,7 @@ TEST(AbsentBodies, ComeBackNew) {
   body.hold("x_min", 0, push);
   body.hold("x_max", 0);
   test::Solved solved(body);
-  mechanics::Conditions later = body.conditions;
+  mechanics::MechanicalConditions later = body.conditions;
   later.absent_bodies = {"right"};
   solved.phase->set_conditions(later, solved.state.displacement);
   solved.step(body, 2.0, 1.0);

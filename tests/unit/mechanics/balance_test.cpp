@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "mesh/shapes.hpp"
+#include "mesh/parametric_meshes.hpp"
 #include "parallel/parallel.hpp"
 
 namespace {

@@ -34,7 +34,7 @@ struct Body {
   mesh::Mesh mesh;
   AnalysisKind kind;
   std::vector<material::Material> materials;
-  mechanics::Conditions conditions;
+  mechanics::MechanicalConditions conditions;
   mechanics::MechanicsOptions options = strict();
   std::vector<double> initial_temperature, temperature;
   std::vector<linear::Contribution*> contributions;
@@ -83,7 +83,7 @@ struct Body {
 struct Solved {
   std::unique_ptr<mechanics::MechanicalPhase> phase;
   mechanics::MechanicalState state;
-  mechanics::PhaseReport report;
+  mechanics::MechanicalReport report;
 
   explicit Solved(const Body& body) : phase(body.phase()), state(phase->initial_state()) {
     step(body, 1.0, 1.0);

@@ -33,7 +33,7 @@ struct March {
   March(const Body& body, double end, int n_steps) : phase(body.phase()), state(phase->initial_state()) {
     for (int n = 1; n <= n_steps; ++n) {
       const MechanicalState old = state;
-      mechanics::PhaseReport report =
+      mechanics::MechanicalReport report =
           phase->solve(old, state, body.temperature, end * n / n_steps, end / n_steps);
       steps.push_back(report.work);
       reactions = std::move(report.reactions);
@@ -140,7 +140,7 @@ constexpr double k_end = 5e-4;  // [s], some periods of the lowest mode along th
 /// Strain energy of linear triangles, whose stress is constant, of the last solve.
 double strain_energy(const Body& body, const mechanics::MechanicalPhase& phase) {
   const test::ElementFields fields = test::element_fields(phase).front();
-  const mesh::Block& block = body.mesh.blocks.front();
+  const mesh::ElementBlock& block = body.mesh.blocks.front();
   const mesh::BlockGeometry g(body.mesh, block, body.kind, mesh::stiffness_rule(block.shape));
   double energy = 0;
   for (Index e = 0; e < block.n_counted; ++e) {

@@ -20,7 +20,7 @@ struct ElementFields {
 /// [block]
 inline std::vector<ElementFields> element_fields(const mechanics::MechanicalPhase& phase) {
   using mechanics::ElementField;
-  const std::vector<mesh::Block>& blocks = phase.mesh().blocks;
+  const std::vector<mesh::ElementBlock>& blocks = phase.mesh().blocks;
   std::vector<ElementFields> fields(blocks.size());
   const auto take = [&](ElementField which, auto ElementFields::*member, const auto& copy) {
     const std::vector<double> values = phase.element_field(which);

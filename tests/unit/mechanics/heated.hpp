@@ -11,7 +11,7 @@ struct Heated {
   std::unique_ptr<mechanics::MechanicalPhase> phase;
   mechanics::StructuralHeat announced;
   mechanics::MechanicalState state;
-  mechanics::PhaseReport report;
+  mechanics::MechanicalReport report;
 
   explicit Heated(const Body& body)
       : phase(body.phase()),

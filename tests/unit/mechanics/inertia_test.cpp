@@ -108,7 +108,7 @@ TEST(MassMatrix, AddsToATangentWhatItMultipliesWith) {
     const mesh::Mesh mesh = box(Shape::tri6);
     MassMatrix mass(mesh, AnalysisKind::plane_strain, std::vector{k_density}, kind);
     linear::NodeGraph graph(mesh);
-    for (const mesh::Block& block : mesh.blocks)
+    for (const mesh::ElementBlock& block : mesh.blocks)
       graph.add_cliques(block.nodes, mesh::node_count(block.shape));
     linear::BlockMatrix tangent(mesh, 2, std::move(graph));
     mass.bind(tangent);

@@ -160,7 +160,7 @@ TEST(MixedPhase, ThePressureJumpsBetweenMaterialsThatShareNodes) {
 }
 
 TEST(Simplices, AreMixedWhereTheVolumeIsNearlyKept) {
-  mesh::Block tet, hex, quadratic;
+  mesh::ElementBlock tet, hex, quadratic;
   tet.shape = Shape::tet4;
   hex.shape = Shape::hex8;
   quadratic.shape = Shape::tet10;

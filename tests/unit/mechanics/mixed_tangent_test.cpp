@@ -71,7 +71,7 @@ struct Mixed {
         balance(mesh, linear::ActiveSet(mesh), components) {
     for (Index node = 0; node < mesh.n_nodes(); ++node)
       for (int i = 0; i < components; ++i) x.push_back(1e-3 * std::sin(1.3 * number(node, i)));
-    for (const mesh::Block& block : mesh.blocks)
+    for (const mesh::ElementBlock& block : mesh.blocks)
       blocks.push_back(
           mechanics::make_mixed_kernel(mesh, block, s.kind, materials[0], s.mapping, stabilisation));
     pressure = std::make_unique<mechanics::NodalPressure>(

@@ -24,7 +24,7 @@ mesh::Mesh shared_nodes() {
   mesh.x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.n_owned_nodes = 3;
   for (int body = 0; body < 2; ++body) {
-    mesh::Block block;
+    mesh::ElementBlock block;
     block.shape = mesh::Shape::tri3;
     block.body = body;
     block.nodes = {0, 1, 2};

@@ -46,7 +46,7 @@ struct Casting {
         ghosts(mesh),
         at_rest(3 * mesh.x.size(), 0.0) {
     freeze(frozen, 1.0 / cells);
-    for (const mesh::Block& block : mesh.blocks)
+    for (const mesh::ElementBlock& block : mesh.blocks)
       blocks.push_back(mechanics::make_mixed_kernel(mesh, block, AnalysisKind::solid, materials[0],
                                                     Mapping::isothermal, Stabilisation::algebraic));
     pressure = std::make_unique<mechanics::NodalPressure>(

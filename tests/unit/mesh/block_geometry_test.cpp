@@ -27,7 +27,7 @@ Mesh one_element(Shape shape) {
   Mesh m;
   m.dimension = mesh::dimension(shape);
   m.bodies = {{"body"}};
-  Block block;
+  ElementBlock block;
   block.shape = shape;
   block.body = 0;
   for (const QuadraturePoint& p : nodal_rule(shape)) {
@@ -94,7 +94,7 @@ TEST_P(EveryBodyShape, GradientsOfALinearFieldAreExactOnADistortedMesh) {
   distort(raw, 0.05);
   const Mesh m = distribute(raw, {"block"}, {});
   const Point slope{2, -3, m.dimension == 3 ? 5.0 : 0.0};
-  for (const Block& block : m.blocks) {
+  for (const ElementBlock& block : m.blocks) {
     const BlockGeometry g(m, block, plain_kind(GetParam()), stiffness_rule(block.shape));
     for (Index b = 0; b < g.n_batches; ++b)
       for (int p = 0; p < g.n_points; ++p)
@@ -119,7 +119,7 @@ TEST_P(EveryBodyShape, GradientsAreTheSameInWhateverOrderBatchesAreAskedFor) {
   RawMesh raw = sample_box(GetParam());
   distort(raw, 0.05);
   const Mesh m = distribute(raw, {"block"}, {});
-  for (const Block& block : m.blocks) {
+  for (const ElementBlock& block : m.blocks) {
     const BlockGeometry up(m, block, plain_kind(GetParam()), stiffness_rule(block.shape));
     BlockGeometry down = up;
     if (up.n_batches == 0) continue;
@@ -146,7 +146,7 @@ TEST_P(EveryBodyShape, NodalWeightsArePositiveAndSumToTheVolume) {
     if (kind != AnalysisKind::axisymmetric) distort(raw, 0.05);
     const Mesh m = distribute(raw, {"block"}, {});
     double total = 0;
-    for (const Block& block : m.blocks) {
+    for (const ElementBlock& block : m.blocks) {
       const PackVector<Lane> w = nodal_weights(m, block, kind);
       const int nn = node_count(block.shape);
       for (Index e = 0; e < block.size(); ++e)
@@ -171,7 +171,7 @@ TEST_P(EveryBodyShape, OutwardNormalsSatisfyTheDivergenceTheorem) {
   Point closed{};
   double flux = 0;
   for (const auto& [side, surface] : m.surfaces)
-    for (const Block& faces : surface.faces) {
+    for (const ElementBlock& faces : surface.faces) {
       EXPECT_EQ(faces.body, 0);
       const Rule rule = gauss_rule(faces.shape, 6);
       const FaceGeometry g(m, faces, plain_kind(GetParam()), rule);
@@ -202,7 +202,7 @@ TEST(Axisymmetry, ARectangleTurnsIntoARingOfPappus) {
     double top = 0, outside = 0;
     for (const auto& [side, area] : {std::pair{"y_max", &top}, std::pair{"x_max", &outside}}) {
       if (!m.surfaces.contains(side)) continue;
-      for (const Block& faces : m.surfaces.at(side).faces) {
+      for (const ElementBlock& faces : m.surfaces.at(side).faces) {
         const FaceGeometry g(m, faces, AnalysisKind::axisymmetric, gauss_rule(faces.shape, 3));
         for (Index k = 0; k < g.n_counted * g.n_points; ++k) *area += g.weight[static_cast<std::size_t>(k)];
       }
@@ -225,7 +225,7 @@ TEST(Axisymmetry, TheAluminiumCylinderHasTheVolumesOfItsDrawing) {
 
 TEST(Axisymmetry, InverseRadiusIsOneOverTheRadiusOfThePoint) {
   const Mesh m = distribute(sample_box(Shape::quad4, 0.2), {"block"}, {});
-  for (const Block& block : m.blocks) {
+  for (const ElementBlock& block : m.blocks) {
     const BlockGeometry g(m, block, AnalysisKind::axisymmetric, stiffness_rule(block.shape));
     for (Index b = 0; b < g.n_batches; ++b)
       for (int p = 0; p < g.n_points; ++p)

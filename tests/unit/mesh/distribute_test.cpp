@@ -52,7 +52,7 @@ TEST_P(EveryBodyShapeInParts, EveryElementAndFaceIsCountedOnce) {
   const RawMesh raw = sample_box(GetParam());
   const Mesh m = distribute(raw, {"block"}, {"x_max"});
   double elements = 0, in_raw = 0;
-  for (const Block& b : m.blocks) elements += b.n_counted;
+  for (const ElementBlock& b : m.blocks) elements += b.n_counted;
   for (const RawBlock& b : raw.groups.at("block").blocks)
     in_raw += static_cast<double>(b.nodes.size()) / node_count(b.shape);
   EXPECT_EQ(global_sum(elements), in_raw);
@@ -60,7 +60,7 @@ TEST_P(EveryBodyShapeInParts, EveryElementAndFaceIsCountedOnce) {
     if (group.dimension != raw.dimension - 1) continue;
     double faces = 0, faces_in_raw = 0;
     if (m.surfaces.contains(side))
-      for (const Block& b : m.surfaces.at(side).faces) faces += b.n_counted;
+      for (const ElementBlock& b : m.surfaces.at(side).faces) faces += b.n_counted;
     for (const RawBlock& b : group.blocks)
       faces_in_raw += static_cast<double>(b.nodes.size()) / node_count(b.shape);
     EXPECT_EQ(global_sum(faces), faces_in_raw) << side;
@@ -84,9 +84,9 @@ TEST_P(EveryBodyShapeInParts, EveryElementAndFaceOfAnOwnedNodeIsHere) {
     }
   };
   for (const auto& [group_name, group] : raw.groups) count(group.blocks);
-  for (const Block& b : m.blocks) here += static_cast<std::size_t>(b.size());
+  for (const ElementBlock& b : m.blocks) here += static_cast<std::size_t>(b.size());
   for (const auto& [side, surface] : m.surfaces)
-    for (const Block& b : surface.faces) here += static_cast<std::size_t>(b.size());
+    for (const ElementBlock& b : surface.faces) here += static_cast<std::size_t>(b.size());
   EXPECT_EQ(here, expected);
 }
 
@@ -126,7 +126,7 @@ TEST(Distribute, AReplicatedSurfaceIsWholeOnEveryProcess) {
   EXPECT_FALSE(m.surfaces.contains("part_top") && m.surfaces.at("part_top").replicated);
   std::size_t faces = 0;
   std::set<GlobalIndex> nodes, in_raw;
-  for (const Block& b : s.faces) faces += static_cast<std::size_t>(b.size());
+  for (const ElementBlock& b : s.faces) faces += static_cast<std::size_t>(b.size());
   for (const Index i : s.nodes) nodes.insert(m.input_node[static_cast<std::size_t>(i)]);
   std::size_t faces_in_raw = 0;
   for (const RawBlock& b : raw.groups.at("part_surface").blocks) {
@@ -142,8 +142,8 @@ TEST(Distribute, PartAndMouldHaveNodesOfTheirOwnAtTheInterface) {
   std::set<Index> part(m.surfaces.at("part_surface").nodes.begin(),
                        m.surfaces.at("part_surface").nodes.end());
   for (const Index i : m.surfaces.at("mould_surface").nodes) EXPECT_FALSE(part.contains(i));
-  for (const Block& b : m.surfaces.at("part_surface").faces) EXPECT_EQ(b.body, 0);
-  for (const Block& b : m.surfaces.at("mould_surface").faces) EXPECT_EQ(b.body, 1);
+  for (const ElementBlock& b : m.surfaces.at("part_surface").faces) EXPECT_EQ(b.body, 0);
+  for (const ElementBlock& b : m.surfaces.at("mould_surface").faces) EXPECT_EQ(b.body, 1);
 }
 
 TEST(Distribute, OneBodyAloneDropsTheNodesAndSurfacesOfTheOthers) {
@@ -195,7 +195,7 @@ TEST(Distribute, WorkIsSharedOutAndNotNodes) {
       make_two_blocks({{0.1, 0.1, 0.1}, {0.1, 0.1, 0.1}, {12, 12, 12}, {12, 12, 12}, 0.01}, Shape::hex8);
   const Mesh m = distribute(raw, {"lower", "upper"}, {}, {BodyWork::all, BodyWork::heat});
   std::set<Index> moving;
-  for (const Block& b : m.blocks)
+  for (const ElementBlock& b : m.blocks)
     if (b.body == 0)
       for (const Index i : b.nodes)
         if (i < m.n_owned_nodes) moving.insert(i);

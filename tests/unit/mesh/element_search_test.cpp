@@ -6,8 +6,8 @@
 #include <random>
 
 #include "mesh/distribute.hpp"
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/shapes.hpp"
 
 namespace solidus::mesh {
 namespace {
@@ -29,7 +29,7 @@ Mesh whole_block(Shape shape) {
   mesh.n_owned_nodes = static_cast<Index>(raw.x.size());
   mesh.bodies = {{"block"}};
   for (const RawBlock& block : raw.groups.at("block").blocks) {
-    Block copy{.shape = block.shape, .body = 0, .nodes = block.nodes, .input_element = {}};
+    ElementBlock copy{.shape = block.shape, .body = 0, .nodes = block.nodes, .input_element = {}};
     copy.n_counted = copy.size();
     copy.input_element.resize(static_cast<std::size_t>(copy.size()));
     mesh.blocks.push_back(copy);

@@ -48,7 +48,7 @@ TEST_P(EveryShapeLocated, ALinearFieldIsExactAtAnyPointAndOneProcessAnswers) {
     std::vector<double> v(static_cast<std::size_t>(node_count(GetParam())));
     basis_values(GetParam(), p.xi, v);
     Point back{};
-    const Block& block = m.blocks[static_cast<std::size_t>(p.block)];
+    const ElementBlock& block = m.blocks[static_cast<std::size_t>(p.block)];
     for (std::size_t a = 0; a < v.size(); ++a)
       for (std::size_t i = 0; i < 3; ++i)
         back[i] += v[a] * m.x[static_cast<std::size_t>(block.element(p.element)[a])][i];

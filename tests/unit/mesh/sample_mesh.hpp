@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "mesh/block_geometry.hpp"
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/shapes.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::test {
@@ -36,7 +36,7 @@ constexpr Shape k_body_shapes[] = {Shape::tri3, Shape::tri6,  Shape::quad4, Shap
 
 /// A box of 0.5 × 0.3 (× 0.4) m from `origin` on, of 4 × 3 (× 2) cells.
 inline RawMesh sample_box(Shape shape, double x0 = 0) {
-  Block3 b;
+  OneBlock b;
   b.size = {0.5, 0.3};
   b.divisions = {4, 3};
   b.origin = {x0, 0};
@@ -71,7 +71,7 @@ inline std::vector<std::string> bodies_of(const RawMesh& raw) {
 /// The volume of what all processes count.
 inline double volume(const Mesh& mesh, AnalysisKind kind, int degree = 6) {
   double sum = 0;
-  for (const Block& block : mesh.blocks) {
+  for (const ElementBlock& block : mesh.blocks) {
     const BlockGeometry g(mesh, block, kind, gauss_rule(block.shape, degree));
     for (Index b = 0; b < g.n_batches; ++b)
       for (int p = 0; p < g.n_points; ++p)

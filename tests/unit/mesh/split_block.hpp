@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/shapes.hpp"
 
 namespace solidus::test {
 

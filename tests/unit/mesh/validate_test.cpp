@@ -36,7 +36,7 @@ TEST_P(EveryShapeChecked, AMirroredMeshIsTurnedAroundAndHasItsVolumeAndItsNormal
   EXPECT_NEAR(volume(m, kind), m.dimension == 3 ? 0.06 : 0.15, 1e-14);
   double flux = 0;  // ∮ x·n dA = dim V holds with outward normals only
   for (const auto& [side, surface] : m.surfaces)
-    for (const Block& faces : surface.faces) {
+    for (const ElementBlock& faces : surface.faces) {
       const FaceGeometry g(m, faces, kind, gauss_rule(faces.shape, 4));
       for (Index f = 0; f < g.n_counted; ++f)
         for (int p = 0; p < g.n_points; ++p)

@@ -53,8 +53,8 @@ TEST_F(MeasuredPoints, AreRefusedWithFileAndLine) {
 }
 
 /// σ = 100 MPa per percent, from 0 to 2 %.
-std::vector<Record> line() {
-  std::vector<Record> history(3);
+std::vector<MaterialPointRecord> line() {
+  std::vector<MaterialPointRecord> history(3);
   for (std::size_t i = 0; i < 3; ++i) {
     history[i].time = static_cast<double>(i);
     history[i].strain[0] = 0.01 * static_cast<double>(i);
@@ -73,7 +73,7 @@ TEST_F(MeasuredPoints, DeviateByTheRootMeanSquareOverThePointsWithinTheHistory) 
 }
 
 TEST_F(MeasuredPoints, HaveNoDeviationFromAPathThatTurns) {
-  std::vector<Record> history = line();
+  std::vector<MaterialPointRecord> history = line();
   history[2].strain[0] = 0;
   EXPECT_TRUE(deviations(read("strain_xx[1],stress_xx[MPa]\n0,1\n"), history).empty());
   EXPECT_FALSE(deviations(read("time[min],stress_xx[MPa]\n0,1\n"), history).empty());

@@ -28,7 +28,7 @@ stresses = { zz = "30 MPa" }
 hold_strain = ["yy"]
 )");
   ASSERT_TRUE(h.finished) << h.reason;
-  for (const Record& r : h.records) {
+  for (const MaterialPointRecord& r : h.records) {
     const double part = r.time / 10;
     EXPECT_NEAR(r.strain[0], 0.004 * part, 1e-15);
     EXPECT_NEAR(r.strain[1], 0, 1e-15);
@@ -57,7 +57,7 @@ TEST(PointRun, HoldingTheStrainRelaxesAndHoldingTheStressCreeps) {
       "strain_rate = \"0.1 1/s\"\n[[segment]]\nduration = \"100 s\"\nfirst_step = \"1 ms\"\nhold = ";
   const History relaxed = history_of(start + "\"strain\"\n"), crept = history_of(start + "\"stress\"\n");
   ASSERT_TRUE(relaxed.finished && crept.finished);
-  const Record &a = relaxed.records[50], &b = relaxed.records.back(), &c = crept.records.back();
+  const MaterialPointRecord &a = relaxed.records[50], &b = relaxed.records.back(), &c = crept.records.back();
   EXPECT_LT(b.stress[0], 0.8 * a.stress[0]);
   EXPECT_EQ(b.strain[0], a.strain[0]);
   EXPECT_NEAR(c.stress[0], a.stress[0], 1);
@@ -72,7 +72,7 @@ TEST(PointRun, AFreePointExpandsWithoutStress) {
                  "strain_reference = \"20 degC\"\ntemperature = \"100 degC\"\n[[segment]]\n"
                  "hold = \"stress\"\ntemperature = \"400 degC\"\ntemperature_rate = \"1 K/s\"\n");
   ASSERT_TRUE(h.finished);
-  for (const Record& r : h.records) {
+  for (const MaterialPointRecord& r : h.records) {
     EXPECT_NEAR(r.strain[0], r.thermal_strain, 1e-12);
     EXPECT_NEAR(r.stress[0], 0, 0.1);
   }
@@ -125,7 +125,7 @@ TEST(PointRun, AMeltWithoutAViscosityHasTheModulusOfABodyWithoutGravity) {
                     "\"shear\"\nstrain = 0.01\nsteps = 1\nduration = \"") +
         duration + "\"\n");
     ASSERT_TRUE(h.finished) << h.reason;
-    const Record& last = h.records.back();
+    const MaterialPointRecord& last = h.records.back();
     const double shear = std::abs(last.strain[3]) + std::abs(last.strain[4]) + std::abs(last.strain[5]);
     const double stress = std::abs(last.stress[3]) + std::abs(last.stress[4]) + std::abs(last.stress[5]);
     EXPECT_GT(shear, 0);
@@ -138,14 +138,15 @@ TEST(PointRun, AnAdiabaticPointKeepsTheFirstLaw) {
       "material = \"aluminium_alsi7mg\"\nthermal = \"adiabatic\"\ntemperature = \"300 degC\"\n[[segment]]\n"
       "strain = 0.1\nstrain_rate = \"1 1/s\"\n[[segment]]\nstrain = 0.05\nstrain_rate = \"1 1/s\"\n");
   ASSERT_TRUE(h.finished) << h.reason;
-  for (const Record& r : h.records) EXPECT_NEAR(r.heat, 0, 1e-6 * (1e3 + r.work));
+  for (const MaterialPointRecord& r : h.records) EXPECT_NEAR(r.heat, 0, 1e-6 * (1e3 + r.work));
   EXPECT_GT(h.records.back().work, 1e6);
 }
 
 TEST(PointRun, EveryShownValueIsANumber) {
   const History h = history_of(k_point_file);
-  for (const Column& column : columns())
-    for (const Record& r : h.records) EXPECT_TRUE(std::isfinite(column.shown(r))) << column.header();
+  for (const RecordColumn& column : columns())
+    for (const MaterialPointRecord& r : h.records)
+      EXPECT_TRUE(std::isfinite(column.shown(r))) << column.header();
   EXPECT_EQ(find_column("temperature")->header(), "temperature[degC]");
   EXPECT_NEAR(find_column("temperature")->shown(h.records[0]), 20, 1e-12);
 }

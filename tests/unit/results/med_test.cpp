@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mesh/distribute.hpp"
-#include "mesh/shapes.hpp"
+#include "mesh/parametric_meshes.hpp"
 #include "results/field_output.hpp"
 #include "results/output_error.hpp"
 #include "sample.hpp"
@@ -58,17 +58,17 @@ TEST_P(Med, HoldsTheMeshInItsOwnNumberingAndTheFieldsOfAllTimes) {
   const Shape shape = GetParam();
   const MedCells& cells = k_cells.at(shape);
   const bool solid = cells.type > 300;
-  const mesh::Block3 block =
-      solid ? mesh::Block3{{3, 2, 1}, {}, {3, 2, 2}, "part"} : mesh::Block3{{3, 2}, {}, {3, 2}, "part"};
+  const mesh::OneBlock block =
+      solid ? mesh::OneBlock{{3, 2, 1}, {}, {3, 2, 2}, "part"} : mesh::OneBlock{{3, 2}, {}, {3, 2}, "part"};
   if (processes::count() > 1) GTEST_SKIP() << "one process reads the parts of several as vtkhdf does";
   const mesh::Mesh mesh = mesh::distribute(mesh::make_block(block, shape), {"part"}, {});
   std::vector<double> temperature, number;
   for (const mesh::Point& x : mesh.x) temperature.push_back(300 + 10 * x[0] + x[1]);
-  for (const mesh::Block& b : mesh.blocks)
+  for (const mesh::ElementBlock& b : mesh.blocks)
     for (const GlobalIndex e : b.input_element) number.push_back(static_cast<double>(e));
   FieldSet fields;
-  fields.add({"temperature", "K", 1, Place::node, temperature});
-  fields.add({"number", "1", 1, Place::cell, number});
+  fields.add({"temperature", "K", 1, mesh::FieldPlace::node, temperature});
+  fields.add({"number", "1", 1, mesh::FieldPlace::cell, number});
   const RunFolder run(folder.path, "");
   FieldOutput output(run, mesh);
   output.write(0, fields);

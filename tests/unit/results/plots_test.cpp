@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/shapes.hpp"
 #include "results/csv.hpp"
 #include "results/field_output.hpp"
 #include "results/step_columns.hpp"
@@ -72,8 +72,8 @@ struct Plots : ::testing::Test {
       displacement.insert(displacement.end(), {0.01 * x[0], -0.01 * x[1]});
     }
     FieldSet fields;
-    fields.add({"temperature", "K", 1, Place::node, temperature});
-    fields.add({"displacement", "m", 2, Place::node, displacement});
+    fields.add({"temperature", "K", 1, mesh::FieldPlace::node, temperature});
+    fields.add({"displacement", "m", 2, mesh::FieldPlace::node, displacement});
     FieldOutput output(run, mesh);
     output.write(0, fields);
     output.write(2, fields);

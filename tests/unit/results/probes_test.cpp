@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/shapes.hpp"
 #include "parallel/parallel.hpp"
 #include "results/output_error.hpp"
 #include "system/processes.hpp"
@@ -27,7 +27,7 @@ struct Block : ::testing::Test {
   FieldSet fields;
 
   Block() {
-    mesh::Block3 block;
+    mesh::OneBlock block;
     block.size = {2, 1};
     block.origin = {1, 0};
     block.divisions = {8, 5};
@@ -39,12 +39,12 @@ struct Block : ::testing::Test {
       temperature.push_back(at(x));
       displacement.insert(displacement.end(), {x[0] * x[0], -x[1]});
     }
-    for (const mesh::Block& b : mesh.blocks)
+    for (const mesh::ElementBlock& b : mesh.blocks)
       for (Index e = 0; e < b.size(); ++e)
         first_node.push_back(static_cast<double>(b.input_element[static_cast<std::size_t>(e)]));
-    fields.add({"temperature", "K", 1, Place::node, temperature});
-    fields.add({"displacement", "m", 2, Place::node, displacement});
-    fields.add({"number", "1", 1, Place::cell, first_node});
+    fields.add({"temperature", "K", 1, mesh::FieldPlace::node, temperature});
+    fields.add({"displacement", "m", 2, mesh::FieldPlace::node, displacement});
+    fields.add({"number", "1", 1, mesh::FieldPlace::cell, first_node});
   }
 
   static double at(const Point& x) { return 300 + 20 * x[0] - 7 * x[1]; }
@@ -119,9 +119,9 @@ TEST_F(Block, ExtremesAreThoseOfTheNodesOfTheGroup) {
 
 TEST_F(Block, MeanAndIntegralOfAFieldOfElementsWeighByVolume) {
   FieldSet of_cells;
-  of_cells.add({"x", "m", 1, Place::cell, {}, [&] {
+  of_cells.add({"x", "m", 1, mesh::FieldPlace::cell, {}, [&] {
                   std::vector<double> centres;
-                  for (const mesh::Block& b : mesh.blocks)
+                  for (const mesh::ElementBlock& b : mesh.blocks)
                     for (Index e = 0; e < b.size(); ++e) {
                       double sum = 0;
                       for (int a = 0; a < 3; ++a)
@@ -157,8 +157,8 @@ TEST_F(Block, ComputedFieldIsComputedOnceARow) {
                                     in_cells("high", Statistic::maximum)};
   int computed = 0;
   FieldSet lazy;
-  lazy.add({"temperature", "K", 1, Place::node, temperature});
-  lazy.add({"number", "1", 1, Place::cell, {}, [&] {
+  lazy.add({"temperature", "K", 1, mesh::FieldPlace::node, temperature});
+  lazy.add({"number", "1", 1, mesh::FieldPlace::cell, {}, [&] {
               ++computed;
               return first_node;
             }});
@@ -177,7 +177,7 @@ TEST_F(Block, FieldThatBodiesDifferInIsReadForTheBodyOfTheProbeByAllProcesses) {
   lazy.add({"temperature",
             "K",
             1,
-            Place::node,
+            mesh::FieldPlace::node,
             {},
             [&] {
               parallel::global_sum(1.0);

@@ -1,9 +1,9 @@
-#include "results/profile.hpp"
+#include "results/profile_table.hpp"
 
 #include <gtest/gtest.h>
 
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/shapes.hpp"
 #include "sample.hpp"
 #include "system/processes.hpp"
 #include "vtu_reader.hpp"
@@ -27,10 +27,10 @@ struct Profiles : ::testing::Test {
       temperature.push_back(300 + 10 * x[0]);
       displacement.insert(displacement.end(), {0.75 * x[0], x[0]});
     }
-    cells.assign(value_count(mesh, Place::cell, 1), 0.0);
-    fields.add({"temperature", "K", 1, Place::node, temperature});
-    fields.add({"displacement", "m", 2, Place::node, displacement});
-    fields.add({"von_mises", "Pa", 1, Place::cell, cells});
+    cells.assign(value_count(mesh, mesh::FieldPlace::cell, 1), 0.0);
+    fields.add({"temperature", "K", 1, mesh::FieldPlace::node, temperature});
+    fields.add({"displacement", "m", 2, mesh::FieldPlace::node, displacement});
+    fields.add({"von_mises", "Pa", 1, mesh::FieldPlace::cell, cells});
   }
   Profile profile(const std::string& group, const std::string& field = "temperature",
                   const std::string& unit = "K") const {

@@ -9,8 +9,8 @@
 #include <span>
 #include <string>
 
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/shapes.hpp"
 #include "results/heat_flux.hpp"
 #include "system/processes.hpp"
 
@@ -49,7 +49,7 @@ double linear(const Point& x, std::size_t k) {
 template <class F>
 std::vector<double> at_cells(const mesh::Mesh& mesh, F f) {
   std::vector<double> values;
-  for (const mesh::Block& b : mesh.blocks)
+  for (const mesh::ElementBlock& b : mesh.blocks)
     for (Index e = 0; e < b.size(); ++e) {
       const int corners = corner_count(b.shape);
       Point centre{};

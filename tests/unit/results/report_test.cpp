@@ -8,16 +8,16 @@
 #include <fstream>
 #include <limits>
 
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/shapes.hpp"
 #include "results/csv.hpp"
 #include "results/field_output.hpp"
 #include "results/pvd.hpp"
 #include "results/report/body_mesh.hpp"
 #include "results/report/moments.hpp"
 #include "results/report/pack.hpp"
-#include "results/report/report.hpp"
-#include "results/report/table.hpp"
+#include "results/report/report_page.hpp"
+#include "results/report/report_table.hpp"
 #include "results/run_folder.hpp"
 #include "results/vtu.hpp"
 #include "sample.hpp"
@@ -190,7 +190,7 @@ TEST(ReportTables, ReadTextsInQuotesAndLeaveOutARowThatWasNotFinished) {
   const test::TemporaryFolder folder;
   const fs::path file = folder.path / "steps.csv";
   std::ofstream(file) << "time[s],reason\n1,\"a, \"\"b\"\"\"\n2,plain\n3,cut of";
-  const Table table = read_table(file, 100);
+  const ReportTable table = read_table(file, 100);
   ASSERT_EQ(table.n_rows, 2U);
   EXPECT_EQ(table.columns[0].numbers, (std::vector<double>{1, 2}));
   EXPECT_EQ(table.columns[1].texts, (std::vector<std::string>{"a, \"b\"", "plain"}));
@@ -202,7 +202,7 @@ TEST(ReportTables, ThinOutLongOnesAndKeepTheLastRow) {
   std::string text = "time[s]\n";
   for (int i = 0; i < 1000; ++i) text += fmt::format("{}\n", i);
   std::ofstream(file) << text;
-  const Table table = read_table(file, 100);
+  const ReportTable table = read_table(file, 100);
   EXPECT_EQ(table.n_in_file, 1000U);
   EXPECT_LE(table.n_rows, 101U);
   EXPECT_EQ(table.columns[0].numbers.back(), 999);
@@ -234,8 +234,8 @@ struct Report : ::testing::Test {
       const std::vector<double> temperature = {300, 400, 500, 600, 700.0 - moment, 800},
                                 stress = {1e6, 2e6, 4e6};
       results::FieldSet fields;
-      fields.add({"temperature", "K", 1, results::Place::node, temperature});
-      fields.add({"von_mises", "Pa", 1, results::Place::cell, stress});
+      fields.add({"temperature", "K", 1, mesh::FieldPlace::node, temperature});
+      fields.add({"von_mises", "Pa", 1, mesh::FieldPlace::cell, stress});
       const std::string file = fmt::format("fields/fields_{:05}.vtu", moment);
       results::write_vtu(folder.path / file, mesh, fields, moment);
       collection.add(moment, file);

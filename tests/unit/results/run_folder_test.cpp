@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/shapes.hpp"
 #include "results/csv.hpp"
 #include "results/field_output.hpp"
 #include "results/hdf5_file.hpp"
@@ -154,10 +154,10 @@ struct Distributed : ::testing::Test {
     if (rank == 0) raw = mesh::make_block({{3, 2}, {}, {6, 4}, "part"}, mesh::Shape::quad8);
     mesh = mesh::distribute(raw, {"part"}, {"x_max"});
     for (const mesh::Point& x : mesh.x) temperature.push_back(300 + 10 * x[0] + x[1]);
-    for (const mesh::Block& b : mesh.blocks)
+    for (const mesh::ElementBlock& b : mesh.blocks)
       for (const GlobalIndex e : b.input_element) number.push_back(static_cast<double>(e));
-    fields.add({"temperature", "K", 1, Place::node, temperature});
-    fields.add({"number", "1", 1, Place::cell, number});
+    fields.add({"temperature", "K", 1, mesh::FieldPlace::node, temperature});
+    fields.add({"number", "1", 1, mesh::FieldPlace::cell, number});
   }
   std::string file(const std::string& name) const { return name + (size == 1 ? ".vtu" : ".pvtu"); }
 };
@@ -167,7 +167,7 @@ TEST_F(Distributed, FieldsAreNumberedAndCollected) {
   FieldOutput output(run, mesh);
   output.write(0, fields);
   FieldSet surface;
-  surface.add({"temperature", "K", 1, Place::node, temperature});
+  surface.add({"temperature", "K", 1, mesh::FieldPlace::node, temperature});
   output.write(1.5, fields, {{"x_max", surface}});
   output.write(1.5, fields);
   EXPECT_EQ(output.written(), 2) << "a moment is written once";

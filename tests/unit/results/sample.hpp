@@ -60,7 +60,8 @@ class SharedFolder {
 };
 
 /// Nodes and one block per shape; `nodes` of each block are local numbers.
-inline mesh::Mesh make_mesh(int dimension, std::vector<mesh::Point> x, std::vector<mesh::Block> blocks) {
+inline mesh::Mesh make_mesh(int dimension, std::vector<mesh::Point> x,
+                            std::vector<mesh::ElementBlock> blocks) {
   mesh::Mesh mesh;
   mesh.dimension = dimension;
   mesh.x = std::move(x);
@@ -71,7 +72,7 @@ inline mesh::Mesh make_mesh(int dimension, std::vector<mesh::Point> x, std::vect
     mesh.input_node.push_back(100 + node);
   }
   GlobalIndex element = 1;
-  for (mesh::Block& block : blocks) {
+  for (mesh::ElementBlock& block : blocks) {
     block.n_counted = block.size();
     for (Index e = 0; e < block.size(); ++e) block.input_element.push_back(element++);
   }
@@ -82,7 +83,7 @@ inline mesh::Mesh make_mesh(int dimension, std::vector<mesh::Point> x, std::vect
 
 /// Two triangles of body 0 and a quad of body 1 on [0, 2] × [0, 1], joined at x = 1.
 inline mesh::Mesh triangles_and_quad() {
-  mesh::Block triangles, quads;
+  mesh::ElementBlock triangles, quads;
   triangles.shape = mesh::Shape::tri3;
   triangles.body = 0;
   triangles.nodes = {0, 1, 4, 0, 4, 3};

@@ -82,7 +82,7 @@ struct Sample {
                      .force = std::vector<double>(mesh.x.size() * components, 0.0)};
     if (deformed) d.displacement = displacement;
     d.force[held() * components + 1] = 5;
-    for (const mesh::Block& block : mesh.blocks) {
+    for (const mesh::ElementBlock& block : mesh.blocks) {
       const auto n = static_cast<std::size_t>(block.size());
       const std::size_t points = mesh::stiffness_rule(block.shape).size();
       auto& stress = d.stress.emplace_back(n);

@@ -5,10 +5,10 @@
 #include <map>
 #include <regex>
 
-#include "mesh/shapes.hpp"
-#include "results/balance.hpp"
+#include "mesh/parametric_meshes.hpp"
 #include "results/csv.hpp"
-#include "results/json.hpp"
+#include "results/json_document.hpp"
+#include "results/load_balance.hpp"
 #include "results/pvd.hpp"
 #include "results/step_columns.hpp"
 #include "results/summary.hpp"
@@ -19,9 +19,9 @@
 namespace solidus::results {
 namespace {
 
-const std::vector<Column> k_columns = {{"time", "s"}, {"T_center", "degC"}};
+const std::vector<CsvColumn> k_columns = {{"time", "s"}, {"T_center", "degC"}};
 
-std::vector<Cell> row(double time, double value) {
+std::vector<CsvCell> row(double time, double value) {
   return {time, value};
 }
 
@@ -233,7 +233,7 @@ TEST(StepColumns, LeaveTheFirstLawOutWhereHeatIsNotFollowed) {
   EXPECT_EQ(columns.size(), step_columns().size() - 5);
   GlobalHistory history({.heat = false});
   for (const auto& shown : {columns, history.columns()})
-    for (const Column& column : shown)
+    for (const CsvColumn& column : shown)
       for (const char* name : {"energy_defect[J]", "stored_heat[J]", "heat_in[J]", "structural_energy[J]"})
         EXPECT_NE(column.header(), name);
 }
@@ -358,7 +358,7 @@ TEST(GlobalHistory, LeavesOutWhatAProbeGivesUnderTheSameHeader) {
 TEST(GlobalHistory, HasNoColumnsOfPhysicsThatIsNotThere) {
   const GlobalHistory history({false, false, false});
   EXPECT_EQ(history.columns().size(), history.values().size());
-  for (const Column& column : history.columns()) {
+  for (const CsvColumn& column : history.columns()) {
     EXPECT_EQ(column.name.find("contact"), std::string::npos);
     EXPECT_NE(column.name, "work");
     EXPECT_NE(column.name, "solid_fraction");

@@ -34,9 +34,9 @@ TEST_F(VtuField, OfOurOwnIsReadBitByBit) {
   std::vector<double> temperature;
   for (std::size_t i = 0; i < mesh.x.size(); ++i) temperature.push_back(300 + 0.1 * static_cast<double>(i));
   FieldSet fields;
-  fields.add({"temperature", "K", 1, Place::node, temperature});
+  fields.add({"temperature", "K", 1, mesh::FieldPlace::node, temperature});
   const std::vector<double> rest(2 * mesh.x.size(), 0.0);
-  fields.add({"displacement", "m", 2, Place::node, rest});
+  fields.add({"displacement", "m", 2, mesh::FieldPlace::node, rest});
   write_vtu(folder.path / "a.vtu", mesh, fields, 1);
   const ReadField read = read_vtu(folder.path / "a.vtu", "temperature", -1, 1, k_where);
   EXPECT_EQ(read.values, temperature);
@@ -63,7 +63,7 @@ TEST_F(VtuField, PartsOfAParallelRunAreReadTogether) {
   const mesh::Mesh mesh = test::triangles_and_quad();
   FieldSet fields;
   const std::vector<double> sevens(mesh.x.size(), 7.0);
-  fields.add({"temperature", "K", 1, Place::node, sevens});
+  fields.add({"temperature", "K", 1, mesh::FieldPlace::node, sevens});
   write_vtu(folder.path / "a.vtu", mesh, fields, 1);
   write_vtu(folder.path / "b.vtu", mesh, fields, 1);
   write_pvtu(folder.path / "all.pvtu", {"a.vtu", "b.vtu"}, fields, false);

@@ -34,9 +34,9 @@ struct Vtu : Test {
 TEST_F(Vtu, HoldsPointsCellsAndFieldsBitByBit) {
   const auto temperature = count_up(6, 0.1), displacement = count_up(12, 1e-7), stress = count_up(18, 1.7e6);
   FieldSet fields;
-  fields.add({"temperature", "K", 1, Place::node, temperature});
-  fields.add({"displacement", "m", 2, Place::node, displacement});
-  fields.add({"stress", "Pa", 6, Place::cell, stress});
+  fields.add({"temperature", "K", 1, mesh::FieldPlace::node, temperature});
+  fields.add({"displacement", "m", 2, mesh::FieldPlace::node, displacement});
+  fields.add({"stress", "Pa", 6, mesh::FieldPlace::cell, stress});
   write_vtu(folder.path / "a.vtu", mesh, fields, 12.5);
 
   const test::VtuFile file(folder.path / "a.vtu");
@@ -67,8 +67,8 @@ TEST_F(Vtu, HoldsOnlyCountedElementsAndTheirNodes) {
   mesh.blocks[0].n_counted = 0;
   const auto temperature = count_up(6), pressure = count_up(3);
   FieldSet fields;
-  fields.add({"temperature", "K", 1, Place::node, temperature});
-  fields.add({"pressure", "Pa", 1, Place::cell, pressure});
+  fields.add({"temperature", "K", 1, mesh::FieldPlace::node, temperature});
+  fields.add({"pressure", "Pa", 1, mesh::FieldPlace::cell, pressure});
   write_vtu(folder.path / "a.vtu", mesh, fields, 0);
   const test::VtuFile file(folder.path / "a.vtu");
   EXPECT_EQ(file.array<double>("temperature"), (std::vector<double>{1, 2, 4, 5}));
@@ -80,16 +80,17 @@ TEST_F(Vtu, OfComputedFieldsIsTheSameFileWithoutHoldingThem) {
   const auto pressure = count_up(3, 0.3), stress = count_up(18, 1.7e6), speed = count_up(12, 0.1);
   FieldSet stored, computed;
   int calls = 0;
-  const auto add = [&](const char* name, int components, Place place, const std::vector<double>& values) {
+  const auto add = [&](const char* name, int components, mesh::FieldPlace place,
+                       const std::vector<double>& values) {
     stored.add({name, "1", components, place, values});
     computed.add({name, "1", components, place, {}, [&calls, values] {
                     ++calls;
                     return values;
                   }});
   };
-  add("speed", 2, Place::node, speed);
-  add("pressure", 1, Place::cell, pressure);
-  add("stress", 6, Place::cell, stress);
+  add("speed", 2, mesh::FieldPlace::node, speed);
+  add("pressure", 1, mesh::FieldPlace::cell, pressure);
+  add("stress", 6, mesh::FieldPlace::cell, stress);
   write_vtu(folder.path / "stored.vtu", mesh, stored, 3);
   write_vtu(folder.path / "computed.vtu", mesh, computed.select({}), 3);
   EXPECT_EQ(test::read_text(folder.path / "computed.vtu"), test::read_text(folder.path / "stored.vtu"));
@@ -121,7 +122,7 @@ TEST_F(Vtu, HidesTheCellsOfBodiesThatHaveLeft) {
   const linear::ActiveSet active(mesh, std::vector<std::string>{mesh.bodies[1].name});
   const auto pressure = count_up(3);
   FieldSet fields;
-  fields.add({"pressure", "Pa", 1, Place::cell, pressure});
+  fields.add({"pressure", "Pa", 1, mesh::FieldPlace::cell, pressure});
   fields.set_active(&active);
   write_vtu(folder.path / "a.vtu", mesh, fields.select({"pressure"}), 0);
   const test::VtuFile file(folder.path / "a.vtu");
@@ -130,14 +131,14 @@ TEST_F(Vtu, HidesTheCellsOfBodiesThatHaveLeft) {
 
 TEST_F(Vtu, OfSeveralCompressionBlocksReadsBack) {
   // 100 000 nodes are 800 kB, some six blocks of 128 kB and a shorter one.
-  mesh::Block points;
+  mesh::ElementBlock points;
   points.shape = Shape::point1;
   points.nodes.resize(100000);
   std::iota(points.nodes.begin(), points.nodes.end(), 0);
   const Mesh many = test::make_mesh(3, std::vector<Point>(100000, Point{1, 2, 3}), {points});
   const auto values = count_up(100000, 1.0 / 3.0);
   FieldSet fields;
-  fields.add({"v", "1", 1, Place::node, values});
+  fields.add({"v", "1", 1, mesh::FieldPlace::node, values});
   write_vtu(folder.path / "a.vtu", many, fields, 0);
   EXPECT_EQ(test::VtuFile(folder.path / "a.vtu").array<double>("v"), values);
 }
@@ -174,7 +175,7 @@ class QuadraticVtu : public ::testing::TestWithParam<Shape> {};
 
 TEST_P(QuadraticVtu, MidNodesLieBetweenTheCornersVtkExpects) {
   const Shape shape = GetParam();
-  mesh::Block block;
+  mesh::ElementBlock block;
   block.shape = shape;
   block.body = 0;
   block.nodes.resize(static_cast<std::size_t>(mesh::node_count(shape)));
@@ -204,7 +205,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, QuadraticVtu,
 
 TEST_F(Vtu, OfASurfaceHoldsItsFacesAndNodalFieldsOnly) {
   mesh::Surface& surface = mesh.surfaces["wall"];
-  mesh::Block lines;
+  mesh::ElementBlock lines;
   lines.shape = Shape::line2;
   lines.nodes = {2, 5};
   lines.input_element = {77};
@@ -214,8 +215,8 @@ TEST_F(Vtu, OfASurfaceHoldsItsFacesAndNodalFieldsOnly) {
   gap[0] = std::numeric_limits<double>::quiet_NaN();  // not on the surface: nobody computed it
   const auto pressure = count_up(3);
   FieldSet fields;
-  fields.add({"gap", "m", 1, Place::node, gap});
-  fields.add({"pressure", "Pa", 1, Place::cell, pressure});
+  fields.add({"gap", "m", 1, mesh::FieldPlace::node, gap});
+  fields.add({"pressure", "Pa", 1, mesh::FieldPlace::cell, pressure});
   write_surface_vtu(folder.path / "a.vtu", mesh, surface, fields, 0);
   const test::VtuFile file(folder.path / "a.vtu");
   EXPECT_EQ(file.array<std::uint8_t>("types"), (std::vector<std::uint8_t>{3}));
@@ -227,7 +228,7 @@ TEST_F(Vtu, IsNotWrittenWithAValueThatIsNotANumber) {
   auto temperature = count_up(6);
   temperature[4] = std::numeric_limits<double>::quiet_NaN();
   FieldSet fields;
-  fields.add({"temperature", "K", 1, Place::node, temperature});
+  fields.add({"temperature", "K", 1, mesh::FieldPlace::node, temperature});
   try {
     write_vtu(folder.path / "a.vtu", mesh, fields, 0);
     FAIL() << "must throw";
@@ -242,7 +243,7 @@ TEST_F(Vtu, IsNotWrittenWithAValueThatIsNotANumber) {
 TEST_F(Vtu, NamesTheElementWhoseValueIsInfinite) {
   const std::vector<double> pressure = {0, 1, std::numeric_limits<double>::infinity()};
   FieldSet fields;
-  fields.add({"pressure", "Pa", 1, Place::cell, pressure});
+  fields.add({"pressure", "Pa", 1, mesh::FieldPlace::cell, pressure});
   try {
     write_vtu(folder.path / "a.vtu", mesh, fields, 0);
     FAIL() << "must throw";
@@ -282,8 +283,8 @@ TEST_F(Vtu, KeepsTheOldFileWhenAComputedFieldIsNotFinite) {
   write_vtu(folder.path / "a.vtu", mesh, {}, 0);
   const std::string before = test::read_text(folder.path / "a.vtu");
   FieldSet fields;
-  fields.add({"number", "1", 1, Place::node, {}, [] { return count_up(6); }});
-  fields.add({"pressure", "Pa", 1, Place::cell, {}, [] {
+  fields.add({"number", "1", 1, mesh::FieldPlace::node, {}, [] { return count_up(6); }});
+  fields.add({"pressure", "Pa", 1, mesh::FieldPlace::cell, {}, [] {
                 return std::vector<double>{0, 1, std::numeric_limits<double>::quiet_NaN()};
               }});
   EXPECT_THROW(write_vtu(folder.path / "a.vtu", mesh, fields, 0), NotFiniteError);
@@ -324,8 +325,8 @@ TEST(SpoolFile, HasNoNameAndGivesBackWhatWasWritten) {
 TEST_F(Vtu, ListsTheArraysAndPartsOfAllProcesses) {
   const auto temperature = count_up(6), displacement = count_up(12);
   FieldSet fields;
-  fields.add({"temperature", "K", 1, Place::node, temperature});
-  fields.add({"displacement", "m", 2, Place::node, displacement});
+  fields.add({"temperature", "K", 1, mesh::FieldPlace::node, temperature});
+  fields.add({"displacement", "m", 2, mesh::FieldPlace::node, displacement});
   write_pvtu(folder.path / "a.pvtu", {"a_p0.vtu", "a_p1.vtu"}, fields, false);
   const std::string text = test::read_text(folder.path / "a.pvtu");
   for (const char* piece :
@@ -338,20 +339,20 @@ TEST_F(Vtu, ListsTheArraysAndPartsOfAllProcesses) {
 TEST(FieldSet, KnowsItsFieldsByName) {
   const std::vector<double> none;
   FieldSet fields;
-  fields.add({"a", "1", 1, Place::node, none});
-  fields.add({"b", "1", 1, Place::node, none});
+  fields.add({"a", "1", 1, mesh::FieldPlace::node, none});
+  fields.add({"b", "1", 1, mesh::FieldPlace::node, none});
   EXPECT_EQ(fields.find("b")->name, "b");
   EXPECT_EQ(fields.find("c"), nullptr);
   EXPECT_EQ(fields.select({"b"}).all().size(), 1U);
   EXPECT_EQ(fields.select({}).all().size(), 2U);
   EXPECT_THROW(fields.select({"c"}), InputError);
-  EXPECT_THROW(fields.add({"a", "1", 1, Place::node, none}), std::invalid_argument);
+  EXPECT_THROW(fields.add({"a", "1", 1, mesh::FieldPlace::node, none}), std::invalid_argument);
 }
 
 TEST_F(Vtu, RefusesAFieldThatDoesNotFitTheMesh) {
   const auto values = count_up(5);
   FieldSet fields;
-  fields.add({"temperature", "K", 1, Place::node, values});
+  fields.add({"temperature", "K", 1, mesh::FieldPlace::node, values});
   EXPECT_THROW(write_vtu(folder.path / "a.vtu", mesh, fields, 0), std::invalid_argument);
 }
 

@@ -1,0 +1,195 @@
+#include "check/case_overview.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "build/body_input.hpp"
+#include "build/mechanics_input.hpp"
+#include "build/scheme_input.hpp"
+#include "case/interface_library.hpp"
+#include "check/coupling_estimate.hpp"
+#include "contact/heat_transfer.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+results::BodyOverview body_overview(const BodySpec& spec, const BodyMeasures& m,
+                                    const InitialTemperatureRange& start, double density) {
+  results::BodyOverview body;
+  body.name = spec.name;
+  body.material = std::filesystem::path(spec.material).stem().string();
+  body.low = m.low;
+  body.high = m.high;
+  body.volume = m.volume;
+  body.mass = density * m.volume;
+  body.skin = m.skin;
+  body.start_low = start.low;
+  body.start_high = start.high;
+  body.shortest_edge = m.shortest_edge;
+  body.longest_edge = m.longest_edge;
+  body.nodes = m.nodes;
+  body.elements = m.elements;
+  body.only_conducts = only_conducts(spec);
+  body.stages = spec.stages;
+  return body;
+}
+
+std::string name_of(const CaseSpec& spec, int body) {
+  return body >= 0                  ? spec.bodies[static_cast<std::size_t>(body)].name
+         : body == k_several_bodies ? "several"
+                                    : "";
+}
+
+/// "1000 W/m2/K", "50 to 80 W/m2/K".
+std::string values(const Function& f, const char* unit, double factor = 1, double offset = 0) {
+  if (f.place != nullptr) return fmt::format("by place [{}]", unit);
+  const double low = f.table.min_value() * factor + offset, high = f.table.max_value() * factor + offset;
+  return low == high ? fmt::format("{:.4g} {}", low, unit)
+                     : fmt::format("{:.4g} to {:.4g} {}", low, high, unit);
+}
+
+std::string celsius(const Function& f) {
+  return values(f, "degC", 1, -k_zero_celsius);
+}
+
+/// The name of a card of the library, with the range that its conductance has in practice.
+std::string card_text(const std::string& law) {
+  for (const InterfaceCard& card : interface_cards())
+    if (card.name == law && !card.range.empty()) return fmt::format("{}: {}", law, card.range);
+  return law;
+}
+
+std::string law_text(const ContactSpec& contact, const ContactMeasures& m, double temperature) {
+  if (!contact.heat) return "no heat";
+  const contact::HeatTransferLaw law(*contact.heat);
+  const double pressure = contact.wet ? contact.atmosphere : 0.0;
+  // Gaps that count as touching are none to begin with.
+  const double start = m.largest_gap > contact.touching.value_or(0) ? m.largest_gap : 0.0;
+  const double closed = law.at(0, pressure, temperature).value, gap = std::max(start, 1e-4);
+  std::string text = fmt::format("{:.4g} W/m2/K closed", closed);
+  const double open = law.at(-gap, 0, temperature).value;
+  if (std::abs(open - closed) > 0.01 * closed)
+    text += fmt::format(", {:.3g} over a gap of {:.2g} mm", open, 1e3 * gap);
+  if (law.radiation_factor() > 0) text += ", radiation";
+  if (!contact.law.empty()) text += fmt::format(" ({})", card_text(contact.law));
+  return text;
+}
+
+/// "air", "air [shake_out]".
+std::string with_stages(const std::string& name, const std::vector<std::string>& stages) {
+  return stages.empty() ? name : fmt::format("{} [{}]", name, fmt::join(stages, ", "));
+}
+
+results::SkinOverview contact_overview(const CaseSpec& spec, const Assembly& a, const ContactSpec& contact,
+                                       const ContactMeasures& m) {
+  results::SkinOverview skin;
+  skin.name = with_stages(contact.name, contact.stages);
+  skin.surface = m.slave;
+  skin.body = name_of(spec, m.slave_body);
+  skin.faces =
+      "on " + m.master + (m.master_body == -1 ? " (tool)" : " (" + name_of(spec, m.master_body) + ")");
+  skin.area = m.area;
+  skin.paired = m.paired;
+  if (m.paired > 0) {
+    skin.least_gap = m.least_gap;
+    skin.largest_gap = m.largest_gap;
+    skin.touching = contact.touching.value_or(0);
+  }
+  double hot = 0, cold = 1e300;
+  for (const InitialTemperatureRange& r : a.start) hot = std::max(hot, r.high), cold = std::min(cold, r.low);
+  skin.law = spec.has_heat() ? law_text(contact, m, (hot + cold) / 2) : "";
+  return skin;
+}
+
+results::SkinOverview condition_overview(const CaseSpec& spec, const ThermalConditionSpec& c,
+                                         const SurfaceMeasures& m) {
+  using Kind = ThermalConditionSpec::Kind;
+  results::SkinOverview skin;
+  skin.name = with_stages(c.name, c.stages);
+  skin.surface = c.group;
+  skin.body = name_of(spec, m.body);
+  skin.area = skin.paired = m.area;
+  switch (c.kind) {
+    case Kind::film:
+      skin.faces = "in " + celsius(c.ambient);
+      skin.law = values(c.coefficient, "W/m2/K");
+      break;
+    case Kind::radiation:
+      skin.faces = "in " + celsius(c.ambient);
+      skin.law = "emissivity " + values(c.emissivity, "");
+      break;
+    case Kind::flux:
+      skin.faces = "heat";
+      skin.law = values(c.flux, "W/m2");
+      break;
+    case Kind::temperature:
+      skin.faces = "held";
+      skin.law = celsius(c.temperature);
+      break;
+    case Kind::source:
+      skin.faces = "source";
+      skin.law = values(c.power, "W/m3");
+      break;
+    case Kind::exothermic:
+      skin.faces = "burns";
+      skin.law = fmt::format("{:.4g} J/m3 in {:.4g} s from {:.0f} degC", c.heat, c.duration,
+                             units::to_display(c.ignition, "K", "degC"));
+      break;
+  }
+  return skin;
+}
+
+results::PourOverview pour_overview(const CaseSpec& spec, const Assembly& a, const Pour& pour,
+                                    const BodyMeasures& body) {
+  results::PourOverview p;
+  const material::Material& metal = a.materials[pour.body];
+  p.body = spec.bodies[pour.body].name;
+  p.pouring = a.start[pour.body].high;
+  p.liquidus = metal.solidification()->fraction.liquidus();
+  p.solidus = metal.solidification()->fraction.solidus();
+  p.no_estimate = pour.no_estimate;
+  if (!p.no_estimate.empty()) return p;
+  p.modulus = body.volume / pour.cooled_area;
+  p.depth = pour.depth;
+  p.elements_across = pour.depth / body.mean_edge;
+  const double k = metal.conductivity.value(p.solidus);
+  p.biot = pour.conductance * p.modulus / k;
+  p.fourier = k / (metal.density * metal.specific_heat.value(p.solidus)) * spec.time.end.value_or(0) /
+              (p.modulus * p.modulus);
+  p.freezing_time = pour.freezing.time;
+  p.governed_by = pour.freezing.governed_by;
+  p.mould_reach = pour.freezing.mould_reach;
+  return p;
+}
+
+}  // namespace
+
+results::Overview overview(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+  results::Overview o;
+  o.kind = spec.analysis.kind;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+    o.bodies.push_back(body_overview(spec.bodies[b], m.bodies[b], a.start[b], a.materials[b].density));
+  for (std::size_t c = 0; c < spec.contacts.size(); ++c)
+    o.skins.push_back(contact_overview(spec, a, spec.contacts[c], m.contacts[c]));
+  for (std::size_t c = 0; c < spec.thermal_conditions.size(); ++c)
+    o.skins.push_back(condition_overview(spec, spec.thermal_conditions[c], m.surfaces[c]));
+  if (spec.has_mechanics() && spec.analysis.gravity != 0) o.gravity = gravity(spec.analysis);
+  for (const Pour& pour : m.pours) o.pours.push_back(pour_overview(spec, a, pour, m.bodies[pour.body]));
+  o.effort = {m.effort.steps, m.effort.steps_known, m.effort.seconds, m.effort.bytes};
+  if (lags_a_step(spec, a.phases.coherency != nullptr)) {
+    o.lag = spec.time.adaptive ? 0.0 : spec.time.step.value_or(0);
+    o.end = spec.time.end.value_or(0);
+  }
+  if (spec.exchanges_heat())
+    o.heat_lag =
+        heat_lag(spec, coupling_estimates(spec, a.materials, a.mesh, a.start), a.phases.coherency != nullptr);
+  return o;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,120 @@
+#include "contact/contact_report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "contact/rotation.hpp"
+#include "contact/wall_distance.hpp"
+#include "parallel/parallel.hpp"
+#include "system/processes.hpp"
+
+namespace solidus::contact {
+
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Whether liquid metal seems to have left its wall at a point: a void has opened there. A wall that is soft
+/// by the penalty that it was given is drawn along before that. A face with a coherent node goes with the
+/// shell, and takes the points between along.
+bool seems_left(const ContactView& pair, Index point) {
+  const ContactPointState& state = pair.end.state.points[at(point)];
+  return state.suction > 0 && state.status == PointStatus::open && !pair.step.liquid.empty() &&
+         pair.step.liquid[at(point)] != 0 && -state.penetration > pair.spec.leaving_gap;
+}
+
+/// The area that has left its wall and the largest gap, where the surfaces really are: melt that has slid
+/// along a wall of flat faces has not. Collective.
+void measure_left(const ContactView& pair, const ContactKinematics& kinematics, ContactSums& sums) {
+  std::optional<WallDistance> wall;
+  if (!pair.spec.rigid_master)
+    wall.emplace(ContactSurface(pair.geometry.mesh(), pair.spec.master), pair.end.displacement,
+                 pair.geometry.components());
+  double points = 0, area = 0, gap = 0;
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    const ContactKinematics::Particle particle = kinematics.particle(p);
+    if (!particle.counted || !seems_left(pair, p)) continue;
+    const double along = -pair.end.state.points[at(p)].penetration,
+                 opened =
+                     wall ? std::min(wall->opened(particle, along + pair.geometry.touching()), along) : along;
+    if (!(opened > pair.spec.leaving_gap)) continue;
+    points += 1;
+    area += particle.weight;
+    gap = std::max(gap, opened);
+  }
+  sums.left_points = std::llround(parallel::global_sum(points));
+  sums.left_area = parallel::global_sum(area);
+  sums.left_gap = parallel::global_max(gap);
+}
+
+}  // namespace
+
+ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
+  const ContactKinematics& kinematics =
+      pair.geometry.at(pair.end.time, pair.end.displacement, ContactKinematics::Points::own);
+  std::array<double, 20> s{};
+  const auto n = static_cast<std::size_t>(pair.geometry.components());
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    const ContactKinematics::Particle particle = kinematics.particle(p);
+    if (!particle.counted) continue;
+    const ContactPointState& state = pair.end.state.points[at(p)];
+    const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
+    const double w = particle.weight;
+    s[0] += 1;
+    s[1] += w * (pair.active ? pair.law.stored(state) : 0.0);
+    s[2] += w * state.work;
+    s[3] += w * state.dissipation;
+    if (state.suction > 0) {
+      s[18] += w;
+      s[19] += seems_left(pair, p) ? 1 : 0;
+    }
+    const bool open = state.status == PointStatus::open;
+    if (open && state.pressure == 0) continue;
+    s[4] += open ? 0 : 1;
+    s[5] += state.status == PointStatus::sticks ? 1 : 0;
+    s[6] += open ? 0.0 : w;
+    s[7] += w * state.pressure;
+    s[8] += w * norm(state.traction);
+    Point x = particle.position;
+    for (std::size_t b = 0; b < particle.nodes.size(); ++b)
+      for (std::size_t i = 0; i < n; ++i)
+        x[i] += particle.share[b] * pair.end.displacement[at(particle.nodes[b]) * n + i];
+    const Point force = scale(w, force_on_master(motion, state, state.pressure));
+    const Point moment = cross(x, force);
+    for (std::size_t i = 0; i < 3; ++i) {
+      s[9 + i] += force[i];
+      s[12 + i] += moment[i];
+    }
+  }
+  if (pair.heat != nullptr && !temperature.empty()) {
+    const InterfaceHeatFlux heat = pair.heat->term().counted_heat(temperature);
+    s[15] = heat.total[1] - heat.by_friction[1];
+    s[16] = heat.total[0];
+    s[17] = heat.total[1];
+  }
+  processes::sum(s);
+  ContactSums sums;
+  sums.points = std::llround(s[0]);
+  sums.energy = s[1];
+  sums.work = s[2];
+  sums.dissipation = s[3];
+  sums.closed_points = std::llround(s[4]);
+  sums.sticking_points = std::llround(s[5]);
+  sums.closed_area = s[6];
+  sums.force = s[7];
+  sums.friction = s[8];
+  sums.resultant = {s[9], s[10], s[11]};
+  sums.moment = {s[12], s[13], s[14]};
+  sums.heat = s[15];
+  sums.heat_to_slave = s[16];
+  sums.heat_to_master = s[17];
+  sums.wet_area = s[18];
+  if (s[19] > 0) measure_left(pair, kinematics, sums);
+  return sums;
+}
+
+}  // namespace solidus::contact

@@ -1,0 +1,18 @@
+#include "criteria/criteria_state.hpp"
+
+#include <utility>
+
+namespace solidus::criteria {
+
+CriterionColumn make_column(const mesh::Mesh& mesh, std::string name, mesh::FieldPlace place, int components,
+                            double value) {
+  std::size_t n = 0;
+  if (place == mesh::FieldPlace::node)
+    n = mesh.x.size();
+  else
+    for (const mesh::ElementBlock& block : mesh.blocks) n += static_cast<std::size_t>(block.size());
+  return {std::move(name), place, components,
+          std::vector<double>(n * static_cast<std::size_t>(components), value)};
+}
+
+}  // namespace solidus::criteria

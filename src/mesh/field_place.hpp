@@ -1,0 +1,8 @@
+/// Where the values of a field of numbers stand.
+#pragma once
+
+namespace solidus::mesh {
+
+enum class FieldPlace { node, cell };
+
+}  // namespace solidus::mesh

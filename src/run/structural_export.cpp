@@ -1,0 +1,268 @@
+#include "run/structural_export.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "build/assembly.hpp"
+#include "build/fingerprint.hpp"
+#include "build/mesh_input.hpp"
+#include "case/case_materials.hpp"
+#include "coupling/contact_states.hpp"
+#include "coupling/passes.hpp"
+#include "mesh/block_geometry.hpp"
+#include "results/checkpoint.hpp"
+#include "results/deck_supports.hpp"
+#include "results/output_file.hpp"
+#include "results/temperature_history.hpp"
+#include "system/processes.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// A step so short, as a share of the run, that nothing flows in it.
+constexpr double k_short = 1e-9;
+
+void check_exportable(const CaseSpec& spec) {
+  if (processes::count() > 1) throw InputError({}, "the export works on one process", "without mpirun");
+  if (!spec.has_mechanics())
+    throw InputError(spec.analysis.where, "there is no stress to export", "a case with mechanics");
+  if (spec.dynamics)
+    throw InputError(spec.dynamics->where, "the stress of bodies in motion is in no equilibrium",
+                     "a quasi-static case");
+}
+
+/// Number of the volumetric modes of B-bar in a shape (mechanics/law_block.hpp); simplices have none.
+int volumetric_modes(mesh::Shape shape) {
+  switch (shape) {
+    case mesh::Shape::quad4:
+    case mesh::Shape::hex8:
+      return 1;
+    case mesh::Shape::quad8:
+      return 3;
+    case mesh::Shape::hex20:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+using PointValues = std::vector<double>;  ///< of the points of an element
+
+/// The projection of a function on some modes in the mean square with the weights of the points
+/// (Gram and Schmidt).
+PointValues projection(std::vector<PointValues> modes, const PointValues& weight, const PointValues& values) {
+  const auto product = [&](const PointValues& a, const PointValues& b) {
+    double sum = 0;
+    for (std::size_t q = 0; q < weight.size(); ++q) sum += weight[q] * a[q] * b[q];
+    return sum;
+  };
+  const auto add = [](double factor, const PointValues& a, PointValues& to) {
+    for (std::size_t q = 0; q < a.size(); ++q) to[q] += factor * a[q];
+  };
+  PointValues result(values.size(), 0.0);
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    for (std::size_t l = 0; l < k; ++l)
+      add(-product(modes[l], modes[k]) / product(modes[l], modes[l]), modes[l], modes[k]);
+    add(product(modes[k], values) / product(modes[k], modes[k]), modes[k], result);
+  }
+  return result;
+}
+
+/// The stresses at the points, their pressure replaced by its projection on the volumetric modes where there
+/// are some: the nodal forces of both are the same, ∫ B̄ᵀ σ dV = ∫ Bᵀ (dev σ + tr σ̄/3 1) dV.
+std::vector<std::vector<std::array<double, 6>>> point_stress(const mesh::Mesh& mesh,
+                                                             const mesh::ElementBlock& block,
+                                                             AnalysisKind kind,
+                                                             const mechanics::BlockHistory& history,
+                                                             int n_modes) {
+  const mesh::Rule rule = mesh::stiffness_rule(block.shape);
+  const mesh::BlockGeometry geometry(mesh, block, kind, rule);
+  std::vector<PointValues> modes;
+  for (int k = 0; k < n_modes; ++k) {
+    modes.emplace_back();
+    for (const mesh::QuadraturePoint& point : rule)
+      modes.back().push_back(k == 0 ? 1.0 : point.xi[static_cast<std::size_t>(k - 1)]);
+  }
+  std::vector<std::vector<std::array<double, 6>>> stress(static_cast<std::size_t>(block.size()));
+  for (std::size_t e = 0; e < stress.size(); ++e) {
+    const std::size_t batch = e / k_lanes;
+    const int lane = static_cast<int>(e % k_lanes);
+    PointValues weight, pressure;
+    for (std::size_t q = 0; q < rule.size(); ++q) {
+      std::array<double, 6>& s = stress[e].emplace_back();
+      const std::size_t point = batch * rule.size() + q;
+      for (std::size_t i = 0; i < 6; ++i) s[i] = history.values[point * 6 + i][lane];
+      weight.push_back(geometry.weight[point][lane]);
+      pressure.push_back((s[0] + s[1] + s[2]) / 3);
+    }
+    if (modes.empty()) continue;
+    const PointValues projected = projection(modes, weight, pressure);
+    for (std::size_t q = 0; q < rule.size(); ++q)
+      for (std::size_t i = 0; i < 3; ++i) stress[e][q][i] += projected[q] - pressure[q];
+  }
+  return stress;
+}
+
+/// Mixed triangles around an axis take the hoop work of their pressure at the nodes exactly, and so have
+/// other nodal forces than the stress at their one point. Around them the loads are what that stress
+/// balances, ∫ Bᵀ σ dV.
+void balance_triangles(results::StructuralDeck& deck) {
+  std::vector<char> around(deck.mesh.x.size(), 0);
+  std::vector<double> force(deck.force.size(), 0.0);
+  for (std::size_t b = 0; b < deck.mesh.blocks.size(); ++b) {
+    const mesh::ElementBlock& block = deck.mesh.blocks[b];
+    if (!deck.active.body(block.body)) continue;
+    const mesh::BlockGeometry geometry(deck.mesh, block, deck.kind, mesh::stiffness_rule(block.shape));
+    const auto n = static_cast<std::size_t>(geometry.n_nodes);
+    for (Index e = 0; e < block.size(); ++e) {
+      const Index batch = e / k_lanes;
+      const int lane = static_cast<int>(e % k_lanes);
+      for (int q = 0; q < geometry.n_points; ++q) {
+        const std::array<double, 6>& s =
+            deck.stress[b][static_cast<std::size_t>(e)][static_cast<std::size_t>(q)];
+        const double w = geometry.weight_at(batch, q)[lane];
+        const double hoop =
+            geometry.inverse_radius[static_cast<std::size_t>(batch * geometry.n_points + q)][lane] * s[2];
+        const Lane* const gradients = geometry.gradients_at(batch, q);
+        for (std::size_t a = 0; a < n; ++a) {
+          const auto node = static_cast<std::size_t>(block.element(e)[a]);
+          const double gr = gradients[2 * a][lane], gz = gradients[2 * a + 1][lane];
+          const double value = geometry.values[static_cast<std::size_t>(q) * n + a];
+          force[2 * node] += w * (gr * s[0] + gz * s[3] + value * hoop);
+          force[2 * node + 1] += w * (gz * s[1] + gr * s[3]);
+          if (block.shape == mesh::Shape::tri3) around[node] = 1;
+        }
+      }
+    }
+  }
+  for (std::size_t node = 0; node < around.size(); ++node)
+    for (std::size_t i = 0; i < 2 && around[node] != 0; ++i) deck.force[2 * node + i] = force[2 * node + i];
+}
+
+std::vector<std::vector<Index>> tied_entries(const linear::MultiPointConstraints& constraints,
+                                             std::size_t n_entries) {
+  std::map<GlobalIndex, std::vector<Index>> groups;
+  for (std::size_t i = 0; i < n_entries && !constraints.empty(); ++i)
+    groups[constraints.unknown(static_cast<Index>(i))].push_back(static_cast<Index>(i));
+  std::vector<std::vector<Index>> tied;
+  for (auto& [leader, entries] : groups)
+    if (entries.size() > 1) tied.push_back(std::move(entries));
+  return tied;
+}
+
+}  // namespace
+
+namespace {
+
+ExportReport export_history(const CaseSpec& spec, const Assembly& a, const ExportOptions& options) {
+  if (options.deformed)
+    throw InputError({}, "a temperature history is that of the undeformed casting", "no --deformed");
+  if (spec.stages.size() > 1)
+    throw InputError(spec.analysis.where,
+                     "a temperature history is of one stage: bodies come and go in stages",
+                     "the end of the run, without --temperature-history");
+  const linear::ActiveSet& active = a.mechanics->active();
+  results::StructuralDeck deck{
+      .title = spec.title.empty() ? "Solidus" : spec.title,
+      .kind = spec.analysis.kind,
+      .mesh = a.mesh,
+      .active = active,
+      .materials = a.materials,
+      .displacement = {},
+      .temperature = {},
+      .stress = {},
+      .plastic_strain = {},
+      .fixed = a.mechanics->fixed(),
+      .constraints = tied_entries(a.mechanics->constraints(), a.mechanics->fixed().size()),
+      .force = {},
+      .history = results::read_temperature_history(options.folder / "fields.pvd", a.mesh, active)};
+  for (const BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
+  deck.supports = results::missing_supports(a.mesh, active, spec.analysis.kind, deck.fixed, deck.constraints);
+  ExportReport report{deck.history.back().time, 0, 0, deck.history.size(), deck.supports.size()};
+  for (const mesh::ElementBlock& block : a.mesh.blocks)
+    if (active.body(block.body)) report.elements += static_cast<std::size_t>(block.size());
+  results::write_file(options.file, results::structural_deck(deck, options.dialect));
+  return report;
+}
+
+}  // namespace
+
+ExportReport export_state(const Case& c, const ExportOptions& options) {
+  CaseSpec spec = c.spec;  // with the contacts that its interfaces make
+  check_exportable(spec);
+  Assembly a;
+  a.materials = load_materials(spec);
+  a.mesh = load_mesh(spec);
+  build(spec, a);
+  if (options.temperature_history) return export_history(spec, a, options);
+  results::Checkpoint from =
+      results::CheckpointFolder(options.folder)
+          .read(a.mesh, fingerprint(spec, a.mesh, a.materials, a.initial.heat.temperature), a.initial);
+  const coupling::StageStart& stage = from.continuation.stage;
+  check_stage_of_checkpoint(spec, stage, from.state.time);
+  if (stage.number > 0)
+    apply(spec, static_cast<std::size_t>(stage.number - 1), stage.displacement, nullptr, a);
+
+  coupling::State& state = from.state;
+  state.mechanics.dt_before = 0;  // by backward Euler
+  const std::vector<double>& temperature = a.heat ? state.heat.temperature : a.phases.temperature;
+  const double dt = k_short * std::max(state.time, 1e-3);
+  coupling::restore_contacts(a.phases, state);
+  coupling::State still = state;
+  coupling::StepEffort effort;
+  const std::vector<double> share = coupling::plateau_share(a.phases, state.heat);
+  const mechanics::MechanicalReport solved = coupling::mechanical_pass(a.phases, state, still,
+                                                                       {.time = state.time,
+                                                                        .dt = dt,
+                                                                        .temperature = temperature,
+                                                                        .plateau_share = share,
+                                                                        .iterate_temperature = temperature,
+                                                                        .stores_stress = true},
+                                                                       effort);
+
+  ExportReport report{state.time, 0, 0, 0, 0};
+  for (std::size_t i = 0; i < state.mechanics.displacement.size(); ++i)
+    report.adjusted = std::max(report.adjusted,
+                               std::abs(still.mechanics.displacement[i] - state.mechanics.displacement[i]));
+
+  const linear::ActiveSet& active = a.mechanics->active();
+  results::StructuralDeck deck{
+      .title = spec.title.empty() ? "Solidus" : spec.title,
+      .kind = spec.analysis.kind,
+      .mesh = a.mesh,
+      .active = active,
+      .materials = a.materials,
+      .displacement = {},
+      .temperature = temperature,
+      .stress = {},
+      .plastic_strain = {},
+      .fixed = a.mechanics->fixed(),
+      .constraints = tied_entries(a.mechanics->constraints(), still.mechanics.displacement.size()),
+      .force = solved.applied};
+  for (const BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
+  deck.supports = results::missing_supports(a.mesh, active, spec.analysis.kind, deck.fixed, deck.constraints);
+  report.supports = deck.supports.size();
+  if (options.deformed) deck.displacement = still.mechanics.displacement;
+  const std::vector<double> plastic_strain =
+      a.mechanics->element_field(mechanics::ElementField::equivalent_plastic_strain);
+  auto of_block = plastic_strain.begin();
+  for (std::size_t b = 0; b < a.mesh.blocks.size(); ++b) {
+    const mesh::ElementBlock& block = a.mesh.blocks[b];
+    deck.stress.emplace_back();
+    deck.plastic_strain.emplace_back(of_block, of_block + block.size());
+    of_block += block.size();
+    if (!active.body(block.body)) continue;
+    const int n_modes = spec.mechanics.b_bar ? volumetric_modes(block.shape) : 0;
+    deck.stress[b] = point_stress(a.mesh, block, spec.analysis.kind, still.mechanics.stress[b], n_modes);
+    report.elements += deck.stress[b].size();
+  }
+  if (spec.analysis.kind == AnalysisKind::axisymmetric) balance_triangles(deck);
+  results::write_file(options.file, results::structural_deck(deck, options.dialect));
+  return report;
+}
+
+}  // namespace solidus::model
