@@ -147,8 +147,8 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
   if (stage.carried != 0 && pass.iterate == nullptr)
     start_from(stage_start(old, before, {stage.dt, 0.5 * (1 + stage.carried)}).enthalpy, next);
   const TemperatureRange range = limit_conduction(before, old);
-  report.newton = truncated_newton_->solve(from, stage.dt, next.temperature, next.enthalpy, range,
-                                           pass.newton_steps);
+  report.newton =
+      truncated_newton_->solve(from, stage.dt, next.temperature, next.enthalpy, range, pass.newton_steps);
   report.hardest = report.newton.iterations;
   require_positive(next.temperature);
   if (!may_end(report.newton, pass.newton_steps))

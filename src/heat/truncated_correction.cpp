@@ -15,7 +15,7 @@ namespace {
 constexpr double k_plateau_stiffness =
     1e13;                          ///< times the diagonal: δ = 0 to rounding, without a change of structure
 constexpr int k_chord_rounds = 8;  ///< linear solves for one such step
-constexpr double k_chord_change = 0.1;   ///< change of the heats by a round, over the heats, that ends them
+constexpr double k_chord_change = 0.1;    ///< change of the heats by a round, over the heats, that ends them
 constexpr double k_chord_forcing = 0.01;  ///< of these linear solves, where the step is not worth less
 constexpr double k_chord_differs = 1.5;  ///< a chord that is not so much steeper than the tangent is not used
 constexpr double k_chord_holds = 1e8;    ///< times the diagonal: no chord is steeper

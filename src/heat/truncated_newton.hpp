@@ -120,10 +120,10 @@ class TruncatedNewton {
   std::span<double> heat_, temperature_;
   std::vector<double> r_;  ///< F, during sweeps that of the linear A, [owned node]
   // The others are empty between solves.
-  std::vector<double> slope_;     ///< c = dv/dΘ where A was assembled, [local node]
-  std::vector<double> diagonal_;  ///< of A, with the magnitudes of the couplings to other processes' nodes
-  std::vector<double> step_;      ///< change of v, [local node]
-  std::vector<double> product_;   ///< A times it; before that the right-hand side, [owned node]
+  std::vector<double> slope_;        ///< c = dv/dΘ where A was assembled, [local node]
+  std::vector<double> diagonal_;     ///< of A, with the magnitudes of the couplings to other processes' nodes
+  std::vector<double> step_;         ///< change of v, [local node]
+  std::vector<double> product_;      ///< A times it; before that the right-hand side, [owned node]
   std::vector<double> potential_;    ///< v of the heats, but for the trials of a search, [owned node]
   std::vector<double> curve_slope_;  ///< dv/dH there, zero on a plateau
   std::vector<double> from_heat_;    ///< H where the search begins
