@@ -124,7 +124,7 @@ TEST(IncompleteCholesky, TheNextMatrixGetsNewFactorsAndTheSameOneKeepsThem) {
   EXPECT_LT(strong.iterations, first.iterations);
 }
 
-// Without fill on the diagonals they grow with the side of the mesh: 27 and 52.
+// 38 and 39; without fill on the diagonals 60 and 100.
 TEST(IncompleteCholesky, IterationsGrowWithTheRootOfTheSideOfTheMesh) {
   if (parallel::any_process(Grid(4, 4).mesh.n_owned_nodes != 16)) return;  // factors of a process's own rows
   const auto iterations = [](int n) {
@@ -135,7 +135,7 @@ TEST(IncompleteCholesky, IterationsGrowWithTheRootOfTheSideOfTheMesh) {
   const int coarse = iterations(60), fine = iterations(120);
   RecordProperty("coarse", coarse);
   RecordProperty("fine", fine);
-  EXPECT_LE(fine, 1.6 * coarse);
+  EXPECT_LE(fine, std::sqrt(2.0) * coarse);
 }
 
 }  // namespace
