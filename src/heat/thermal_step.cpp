@@ -142,19 +142,20 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
     report.balance = balance(old, next, residual, temperature_system_->moved(), stage.dt);
     return report;
   }
-  const ThermalState from = stage_start(old, before, stage);
+  std::vector<double> from = stage_start(old, before, stage).enthalpy;
   // H* itself lies so far ahead at a front that the iteration begins half way to it.
   if (stage.carried != 0 && pass.iterate == nullptr)
     start_from(stage_start(old, before, {stage.dt, 0.5 * (1 + stage.carried)}).enthalpy, next);
   const TemperatureRange range = limit_conduction(before, old);
-  report.newton = truncated_newton_->solve(from.enthalpy, stage.dt, next.temperature, next.enthalpy, range,
-                                           pass.newton_steps);
+  report.newton =
+      truncated_newton_->solve(from, stage.dt, next.temperature, next.enthalpy, range, pass.newton_steps);
   report.hardest = report.newton.iterations;
   require_positive(next.temperature);
   if (!may_end(report.newton, pass.newton_steps))
     require(report.newton, truncated_newton_->residual(), next.temperature);
   book(truncated_newton_->residual(), stage.dt, next.enthalpy);
-  report.balance = balance(from, next, truncated_newton_->residual(), truncated_newton_->moved(), stage.dt);
+  report.balance = balance({old.temperature, std::move(from)}, next, truncated_newton_->residual(),
+                           truncated_newton_->moved(), stage.dt);
   return report;
 }
 
