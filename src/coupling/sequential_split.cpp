@@ -7,6 +7,7 @@
 #include "coupling/contact_work.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
+#include "system/errors.hpp"
 #include "system/profile.hpp"
 
 namespace solidus::coupling {
@@ -100,6 +101,23 @@ StepEffort SequentialSplit::mechanics_first(const State& old, State& trial, doub
 
 std::optional<StepEffort> SequentialSplit::heat_first(const State& old, State& trial, double time, double dt,
                                                       const HeatJudge& stop) {
+  int turns = 0;
+  try {
+    return conducted_first(old, trial, time, dt, stop, k_gap_turns, turns);
+  } catch (const StepRejected&) {
+    if (turns < 2) throw;
+  }
+  // The step itself went through, with the gaps of its start; only its repetition did not.
+  restore_contacts(phases_, old);
+  return conducted_first(old, trial, time, dt, {}, 1, turns);
+}
+
+/// @param most   turns
+/// @param turns  those that were begun
+std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, State& trial, double time,
+                                                           double dt, const HeatJudge& stop, int most,
+                                                           int& turns) {
+  turns = 1;
   State warm;
   StepEffort effort = heat_at_rest(old, warm, time, dt, {});
   if (stop && stop(warm, effort.fields.flows)) return {};
@@ -107,12 +125,13 @@ std::optional<StepEffort> SequentialSplit::heat_first(const State& old, State& t
   StepEffort deformed;
   mechanical_phase(old, warm, trial, time, dt, extrapolated(old, dt), deformed);
   Gaps used = start;
-  for (int turn = 1;; ++turn) {
+  while (true) {
     Gaps right = start;
     const Gaps end = gaps();
     for (std::size_t i = 0; i < right.size(); ++i) right[i] = contact::middle(start[i], end[i]);
     deformed.gap_heat = gap_heat(used, right, warm);
-    if (!misplaces_much(deformed.gap_heat, dt, effort) || turn == k_gap_turns) break;
+    if (!misplaces_much(deformed.gap_heat, dt, effort) || turns == most) break;
+    ++turns;
     const PhaseEffort heat = effort.heat, mechanics = deformed.mechanics;
     restore_contacts(phases_, old);
     effort = heat_at_rest(old, warm, time, dt, right);
@@ -121,7 +140,7 @@ std::optional<StepEffort> SequentialSplit::heat_first(const State& old, State& t
     mechanical_phase(old, warm, trial, time, dt, before, deformed);
     add_effort(heat, effort.heat);
     add_effort(mechanics, deformed.mechanics);
-    deformed.coupling_iterations = turn + 1;
+    deformed.coupling_iterations = turns;
     used = std::move(right);
   }
   const contact::InterfaceSums conducted = effort.energy.interface;

@@ -51,6 +51,8 @@ class SequentialSplit : public CouplingScheme {
   StepEffort mechanics_first(const State& old, State& trial, double time, double dt);
   std::optional<StepEffort> heat_first(const State& old, State& trial, double time, double dt,
                                        const HeatJudge& stop);
+  std::optional<StepEffort> conducted_first(const State& old, State& trial, double time, double dt,
+                                            const HeatJudge& stop, int most, int& turns);
   /// Gaps that heat passes through, [contact][point].
   using Gaps = std::vector<std::vector<contact::HeatGap>>;
   Gaps gaps() const;

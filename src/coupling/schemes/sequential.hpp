@@ -32,7 +32,7 @@ struct SequentialScheme {
     if (order == PhaseOrder::heat_first && c.printed_form())
       return Objection{"printed forms of structural heat count from a mechanical phase that comes first",
                        "order = \"mechanics_first\", or structural_heating \"energy\" or \"entropy\""};
-    if (gap_tolerance && (order == PhaseOrder::mechanics_first || c.inertia || c.printed_form()))
+    if (gap_tolerance && order_in(c) == PhaseOrder::mechanics_first)
       return Objection{"gap_tolerance belongs to steps that conduct heat before they solve deformation",
                        "order = \"heat_first\", or no gap_tolerance"};
     return std::nullopt;
