@@ -97,7 +97,9 @@ def history_rows(one, other):
 
 
 def _cell(value):
-    return "-" if value is None else value if isinstance(value, str) else f"{value:.5g}"
+    if isinstance(value, str):
+        return value.replace("K0.5 s0.5", "sqrt(K s)")  # as the program prints the unit of Niyama's criterion
+    return "-" if value is None else f"{value:.5g}"
 
 
 def as_text(header, rows):

@@ -76,9 +76,12 @@ def _give_height(axes):
 
 
 def unit_groups(history, folder):
-    """Every column of history.csv, one picture per unit."""
+    """Every column of history.csv, one picture per unit; none of a unit of which nothing ever happens, as of the
+    forces of contact where heat alone is computed."""
     files, clock = [], Clock(history["time[s]"])
     for unit, headers in history.by_unit().items():
+        if not any(history[header].any() for header in headers):
+            continue
         quantity = style.QUANTITY.get(unit, "Value")
         panels = _panels(history, headers)
         figure, axes = plt.subplots(len(panels), 1, figsize=(5.6, 1.2 + 2.4 * len(panels)), sharex=True,

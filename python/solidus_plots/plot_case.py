@@ -88,12 +88,22 @@ def draw_fields(spec, wishes, results, summary, history, folder, problems):
     files = []
     if not tasks:
         return files
-    with ProcessPoolExecutor(min(len(tasks), len(os.sched_getaffinity(0))), initializer=_begin,
-                             initargs=(run, case, folder)) as pool:
-        for drawn, missing in pool.map(_draw_field, tasks):
-            files += drawn
-            problems += [problem for problem in missing if problem not in problems]
+    for drawn, missing in _draw_all(tasks, run, case, folder):
+        files += drawn
+        problems += [problem for problem in missing if problem not in problems]
     return files
+
+
+def _draw_all(tasks, *what):
+    """The result of each task: on all cores, or one after the other where the system has no semaphores, as in a
+    container without /dev/shm."""
+    try:
+        pool = ProcessPoolExecutor(min(len(tasks), len(os.sched_getaffinity(0))), initializer=_begin, initargs=what)
+    except OSError:
+        _begin(*what)
+        return [_draw_field(task) for task in tasks]
+    with pool:
+        return list(pool.map(_draw_field, tasks))
 
 
 def _begin(run, case, folder):

@@ -152,7 +152,8 @@ ExitCode parse_and_run(int argc, char** argv) {
   add_case_arguments(*run_verb, arguments);
   run_verb->add_option("-o,--output", arguments.output, "Folder of the results; default results/CASE/VARIANT")
       ->type_name("FOLDER");
-  run_verb->add_flag("!--no-progress", arguments.progress_bar, "Print plain lines, also on a terminal");
+  run_verb->add_flag_callback(
+      "--no-progress", [&] { arguments.progress_bar = false; }, "Print plain lines, also on a terminal");
   run_verb->add_flag("--restart", arguments.restart,
                      "Continue a run that was stopped, from its checkpoint in the folder of the results");
   run_verb->add_flag("--profile", arguments.profile,

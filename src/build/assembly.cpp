@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "build/admissible.hpp"
+#include "build/bare_melt.hpp"
 #include "build/body_input.hpp"
 #include "build/contact_input.hpp"
 #include "build/criteria_input.hpp"
@@ -55,9 +56,12 @@ void check_separate(const mesh::Mesh& mesh, const contact::ContactParameters& pa
                      "bodies with nodes of their own: no mesh.conforming, no common faces in the geometry");
 }
 
-/// Warns of slave surfaces that contacts cover in part; several may share one.
-void check_coverage(const Assembly& a) {
-  for (const auto& pair : a.contacts) {
+/// Warns of slave surfaces that contacts cover in part; several may share one. Surfaces that the program has
+/// found are made of all faces that another body covers in part, at whose rim a part has no partner.
+void check_coverage(const CaseSpec& spec, const Assembly& a) {
+  constexpr double k_given = 0.98, k_found = 0.5;
+  for (std::size_t c = 0; c < a.contacts.size(); ++c) {
+    const auto& pair = a.contacts[c];
     double covered = 0;
     bool slides = false;
     for (const auto& other : a.contacts) {
@@ -65,7 +69,7 @@ void check_coverage(const Assembly& a) {
       covered += other->geometry().kinematics().coverage();
       slides = slides || other->spec().formulation == contact::Formulation::large_sliding;
     }
-    if (!slides && covered < 0.999)
+    if (!slides && covered < (spec.contacts[c].surfaces.empty() ? k_given : k_found))
       logging::warn("contact '{}': only {:.1f} % of the slave surface '{}' faces the master",
                     pair->spec().name, 100 * pair->geometry().kinematics().coverage(), pair->spec().slave);
   }
@@ -84,7 +88,7 @@ void build_contacts(const CaseSpec& spec, Assembly& a) {
         std::make_unique<contact::ContactPair>(a.mesh, spec.analysis.kind, std::move(pair), moduli));
     a.phases.contacts.push_back(a.contacts.back().get());
   }
-  check_coverage(a);
+  check_coverage(spec, a);
 }
 
 void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_temperature, Assembly& a) {
@@ -192,6 +196,7 @@ double Assembly::coldest_start() const {
 coupling::BodyHeat apply(const CaseSpec& spec, std::size_t number, const std::vector<double>& displacement,
                          coupling::State* begins, Assembly& a) {
   const StageRun& stage = a.stages[number];
+  if (begins != nullptr) check_no_bare_melt(spec, a, number, *begins);
   const std::vector<std::string> idle = without_body(spec, a.mesh, &stage);
   const std::vector<char> fresh = new_bodies(spec, a.stages, number);
   const bool comes =

@@ -10,6 +10,7 @@
 #include "case/physics_switch.hpp"
 #include "case/roles.hpp"
 #include "case/stage_input.hpp"
+#include "input/keys.hpp"
 #include "mesh/file_format.hpp"
 #include "system/log.hpp"
 #include "system/version.hpp"
@@ -106,9 +107,25 @@ void resolve_paths(Value& document) {
   }
 }
 
+/// What may have been meant by a path that is not there: cases beside it with nearly its name.
+std::string near_case(const fs::path& path) {
+  std::error_code error;
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(path.has_parent_path() ? path.parent_path() : fs::path("."), error))
+    if (entry.path().extension() == ".toml" || fs::exists(entry.path() / "case.toml", error))
+      names.push_back(entry.path().filename().string());
+  std::ranges::sort(names);
+  const std::string near = nearest_name(path.filename().string(), names);
+  return near.empty() ? "a case file, or a folder that holds a case.toml"
+                      : fmt::format("did you mean '{}'?", (path.parent_path() / near).string());
+}
+
 /// The file of a case that is asked for by its name, or by that of its folder.
 fs::path case_file_of(const fs::path& path) {
   std::error_code error;
+  if (!fs::exists(path, error))
+    throw InputError({path.string()}, "there is no such file or folder", near_case(path));
   if (mesh::is_mesh_name(path.string()) && fs::is_regular_file(path, error))
     throw InputError({path.string()}, "this is a geometry or a mesh, not a case",
                      "a case file; `solidus new` makes one from a geometry");

@@ -5,10 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <span>
-#include <tuple>
 
+#include "check/boundary_faces.hpp"
 #include "mesh/block_geometry.hpp"
 #include "mesh/quadrature.hpp"
 #include "parallel/parallel.hpp"
@@ -32,17 +31,6 @@ const mesh::Point& at(const mesh::Mesh& mesh, Index node) {
   return mesh.x[static_cast<std::size_t>(node)];
 }
 
-/// A face of an element, by its vertices in rising order of their numbers over all processes.
-struct BoundaryFace {
-  std::array<GlobalIndex, 4> key{-1, -1, -1, -1};
-  int body = 0;
-  std::array<Index, 4> nodes{};  ///< its vertices in the order of the element
-  int n_vertices = 0;
-  bool operator<(const BoundaryFace& other) const {
-    return std::tie(key, body) < std::tie(other.key, other.body);
-  }
-};
-
 /// Length or area by the vertices, per metre of thickness or over the revolution.
 double area_of(const mesh::Mesh& mesh, std::span<const Index> vertices, AnalysisKind kind) {
   const mesh::Point& a = at(mesh, vertices[0]);
@@ -59,103 +47,15 @@ double area_of(const mesh::Mesh& mesh, std::span<const Index> vertices, Analysis
   return area;
 }
 
-/// The place of a face in the mesh.
-struct FacePlace {
-  Index element = 0;
-  int block = 0, face = 0;
-};
-
-/// Calls visit(place, lowest) for every face; `lowest` is the vertex whose number over all processes is the
-/// lowest.
-template <class Visit>
-void each_face(const mesh::Mesh& mesh, Visit&& visit) {
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    const mesh::ElementBlock& block = mesh.blocks[b];
-    const auto n_vertices = static_cast<std::size_t>(mesh::vertex_count(mesh::face_shape(block.shape)));
-    for (Index e = 0; e < block.size(); ++e)
-      for (int f = 0; f < mesh::face_count(block.shape); ++f) {
-        const std::span<const int> local = mesh::face_nodes(block.shape, f).first(n_vertices);
-        const auto number = [&](int vertex) {
-          return mesh.global_node[static_cast<std::size_t>(block.element(e)[vertex])];
-        };
-        visit(FacePlace{e, static_cast<int>(b), f}, block.element(e)[std::ranges::min(local, {}, number)]);
-      }
-  }
-}
-
-/// Faces sorted by their lowest vertex, of the vertices from `first` to before `last`. Where these are owned
-/// here, all elements that have the face are held here.
-struct FacesOfNodes {
-  std::vector<std::size_t> start;  ///< of each vertex in `places`; one more at the end
-  std::vector<FacePlace> places;
-};
-
-FacesOfNodes faces_of_nodes(const mesh::Mesh& mesh, Index first, Index last) {
-  const auto slot = [&](Index node) { return static_cast<std::size_t>(node - first); };
-  const auto among = [&](Index node) { return node >= first && node < last; };
-  FacesOfNodes faces;
-  faces.start.assign(slot(last) + 1, 0);
-  each_face(mesh, [&](const FacePlace&, Index lowest) {
-    if (among(lowest)) ++faces.start[slot(lowest) + 1];
-  });
-  std::partial_sum(faces.start.begin(), faces.start.end(), faces.start.begin());
-  faces.places.resize(faces.start.back());
-  std::vector<std::size_t> next(faces.start.begin(), faces.start.end() - 1);
-  each_face(mesh, [&](const FacePlace& place, Index lowest) {
-    if (among(lowest)) faces.places[next[slot(lowest)]++] = place;
-  });
-  return faces;
-}
-
-BoundaryFace face_at(const mesh::Mesh& mesh, const FacePlace& place) {
-  const mesh::ElementBlock& block = mesh.blocks[static_cast<std::size_t>(place.block)];
-  const std::span<const int> local = mesh::face_nodes(block.shape, place.face);
-  BoundaryFace face;
-  face.body = block.body;
-  face.n_vertices = mesh::vertex_count(mesh::face_shape(block.shape));
-  for (std::size_t i = 0; i < static_cast<std::size_t>(face.n_vertices); ++i) {
-    face.nodes[i] = block.element(place.element)[local[i]];
-    face.key[i] = mesh.global_node[static_cast<std::size_t>(face.nodes[i])];
-  }
-  std::sort(face.key.begin(), face.key.begin() + face.n_vertices);
-  return face;
-}
-
-/// Adds the areas of the faces that one element alone of a body has, of faces with the same lowest vertex.
-void measure_alone(const mesh::Mesh& mesh, AnalysisKind kind, std::span<const BoundaryFace> faces,
-                   std::vector<BodyMeasures>& bodies) {
-  for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
-    while (end < faces.size() && faces[end].key == faces[i].key) ++end;
-    const std::span<const BoundaryFace> same = faces.subspan(i, end - i);
-    for (const BoundaryFace& face : same) {
-      const auto inside = std::ranges::count(same, face.body, &BoundaryFace::body);
-      if (inside > 1) continue;
-      const double area =
-          area_of(mesh, std::span(face.nodes).first(static_cast<std::size_t>(face.n_vertices)), kind);
-      BodyMeasures& body = bodies[static_cast<std::size_t>(face.body)];
-      body.skin += area;
-      for (const BoundaryFace& other : same)
-        if (other.body != face.body) body.shared[static_cast<std::size_t>(other.body)] += area;
-    }
-  }
-}
-
-/// Adds the skins, and the areas that bodies share. A face is counted by the owner of its lowest vertex. The
-/// vertices are taken in few portions: each costs a pass through the mesh and holds its faces.
+/// Adds the skins, and the areas that bodies share.
 void measure_skins(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<BodyMeasures>& bodies) {
-  constexpr Index k_portion = 4'000'000;
-  std::vector<BoundaryFace> of_node;
-  for (Index first = 0; first < mesh.n_owned_nodes; first += k_portion) {
-    const Index last = std::min(mesh.n_owned_nodes, first + k_portion);
-    const FacesOfNodes faces = faces_of_nodes(mesh, first, last);
-    for (std::size_t n = 0; n + 1 < faces.start.size(); ++n) {
-      of_node.clear();
-      for (std::size_t k = faces.start[n]; k < faces.start[n + 1]; ++k)
-        of_node.push_back(face_at(mesh, faces.places[k]));
-      std::sort(of_node.begin(), of_node.end());
-      measure_alone(mesh, kind, of_node, bodies);
-    }
-  }
+  each_boundary_face(mesh, [&](const BoundaryFace& face, std::span<const BoundaryFace> same) {
+    const double area = area_of(mesh, face.vertices(), kind);
+    BodyMeasures& body = bodies[static_cast<std::size_t>(face.body)];
+    body.skin += area;
+    for (const BoundaryFace& other : same)
+      if (other.body != face.body) body.shared[static_cast<std::size_t>(other.body)] += area;
+  });
 }
 
 /// Volume of an element [m³].

@@ -47,6 +47,11 @@ void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasure
 /// Bodies that can move as a whole at the start, in a direction in which neither a support nor a contact
 /// holds them: whole groups of bodies, and single ones that fall. Translations alone. Collective.
 void find_loose_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Bodies that supports keep from moving, but not from turning. Collective.
+void find_turning_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Parts of the skin of a casting that lie on another body where neither a contact nor a common face passes
+/// heat on. Collective.
+void find_bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Castings that shrink in elements without pores and feeding. Collective.
 void find_in_elements(const CaseSpec& spec, const Assembly& a, Findings& findings);
 /// Supports and loads. Collective.

@@ -155,6 +155,12 @@ void conductances(const CaseSpec& spec, Findings& findings) {
                           fmt::format("the interface of '{}' stores {:g} J/m2/K", contact.name, capacity),
                           "1000 J/m2/K is a skin of 0.3 mm of steel"});
     if (!contact.heat) continue;
+    const bool of_slave = contact.heat->slave_emissivity > 0, of_master = contact.heat->master_emissivity > 0;
+    if (of_slave != of_master)
+      findings.push_back({false, contact.where,
+                          fmt::format("'{}' has an emissivity of its {} alone: nothing radiates across it",
+                                      contact.name, of_slave ? "slave" : "master"),
+                          "slave_emissivity and master_emissivity, or neither"});
     for (const contact::ConductanceLaw* law : std::initializer_list<const contact::ConductanceLaw*>{
              contact.heat->contact_law.get(), contact.heat->gap_law.get()})
       for (const contact::Remark& remark : law->remarks(contact.name))

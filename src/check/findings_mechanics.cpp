@@ -127,23 +127,14 @@ void useless_inertia(const CaseSpec& spec, Findings& findings) {
                       "no [dynamics]: castings freeze in equilibrium; inertia is for shocks and vibrations"});
 }
 
-/// Springs of contacts, and gaps that count as closed.
-void contact_numbers(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
-    const ContactSpec& contact = spec.contacts[c];
+/// Springs of contacts.
+void contact_numbers(const CaseSpec& spec, Findings& findings) {
+  for (const ContactSpec& contact : spec.contacts)
     if (const double penalty = contact.penalty.value_or(1e12); penalty < 1e6 || penalty > 1e17)
       findings.push_back(
           {false, contact.where,
            fmt::format("the contact '{}' has a penalty of {:g} N/m3", contact.name, penalty),
            "1e8 N/m3 (sand that gives way) to 1e15 N/m3 (steel); without it the program chooses"});
-    if (m.contacts[c].slave_body < 0 || !contact.touching) continue;
-    const double size = std::cbrt(m.bodies[static_cast<std::size_t>(m.contacts[c].slave_body)].volume);
-    if (*contact.touching > 0.2 * size)
-      findings.push_back({false, contact.where,
-                          fmt::format("the contact '{}' takes gaps of up to {:g} mm as closed", contact.name,
-                                      1e3 * *contact.touching),
-                          "tenths of a millimetre between faceted surfaces"});
-  }
 }
 
 /// Melt gives way to a pressure wherever its skin has neither a mould nor a support. Collective.
@@ -192,6 +183,25 @@ void friction_numbers(const CaseSpec& spec, Findings& findings) {
   }
 }
 
+/// Depths of wear that no surface loses.
+void wear_numbers(const CaseSpec& spec, Findings& findings) {
+  constexpr double k_least = 1e-10, k_most = 0.02, k_soft = 1e6, k_hard = 1e11;  // [1], [Pa]
+  for (const ContactSpec& contact : spec.contacts) {
+    if (!contact.wear) continue;
+    if (const double k = contact.wear->archard; k < k_least || k > k_most)
+      findings.push_back({false, contact.where,
+                          fmt::format("the coefficient of wear of '{}' is {:g}", contact.name, k),
+                          "1e-8 (lubricated) to 1e-3 (dry), without a unit"});
+    const Function& hardness = contact.wear->hardness;
+    const double hard = hardness.table.max_value();
+    if (hardness.place == nullptr && (hard < k_soft || hard > k_hard))
+      findings.push_back(
+          {false, contact.where,
+           fmt::format("the surface that '{}' wears has a hardness of {:g} MPa", contact.name, 1e-6 * hard),
+           "100 MPa of soft to 10 GPa of hard metals; 100 HB are 981 MPa"});
+  }
+}
+
 void loads(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   double largest = 0;
   for (const BodyMeasures& body : m.bodies)
@@ -213,6 +223,14 @@ void loads(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
           p > 1e10)
         findings.push_back({false, c.where, fmt::format("the pressure '{}' is {:g} GPa", c.name, 1e-9 * p),
                             "usual are 0.1 bar of melt to 1 GPa of forging"});
+    constexpr double k_nothing = 100;  // [Pa]: 4 mm of molten aluminium
+    if (c.kind == Kind::pressure && c.pressure.place == nullptr)
+      if (const double p =
+              std::max(std::abs(c.pressure.table.min_value()), std::abs(c.pressure.table.max_value()));
+          p > 0 && p < k_nothing)
+        findings.push_back(
+            {false, c.where, fmt::format("the pressure '{}' is {:g} Pa at most", c.name, p),
+             "is it in MPa? Usual are 0.1 bar of melt (1e4 Pa) to 100 MPa of a die casting's piston"});
   }
 }
 
@@ -222,11 +240,13 @@ void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasur
   if (!spec.has_mechanics()) return;
   supports(spec, a, m, findings);
   held_skins(spec, a, m, findings);
-  contact_numbers(spec, m, findings);
+  contact_numbers(spec, findings);
   loads(spec, m, findings);
   pressed_melts(spec, a, m, findings);
   friction_numbers(spec, findings);
+  wear_numbers(spec, findings);
   find_loose_bodies(spec, a, m, findings);
+  find_turning_bodies(spec, a, m, findings);
   if (spec.has_heat()) films_on_planes_of_symmetry(spec, m, findings);
   useless_inertia(spec, findings);
 }

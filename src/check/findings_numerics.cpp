@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "check/findings.hpp"
 
@@ -52,6 +53,24 @@ void search_distances(const CaseSpec& spec, const CaseMeasures& m, Findings& fin
   }
 }
 
+/// Gaps that count as closed.
+void touching_gaps(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_much = 0.2;  // of the shortest side of the slave's body
+  for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
+    const ContactSpec& contact = spec.contacts[c];
+    if (m.contacts[c].slave_body < 0 || !contact.touching) continue;
+    const BodyMeasures& body = m.bodies[static_cast<std::size_t>(m.contacts[c].slave_body)];
+    double size = std::numeric_limits<double>::max();
+    for (std::size_t d = 0; d < 3; ++d)
+      if (const double side = body.high[d] - body.low[d]; side > 0) size = std::min(size, side);
+    if (*contact.touching > k_much * size)
+      findings.push_back({false, contact.where,
+                          fmt::format("the contact '{}' takes gaps of up to {:g} mm as closed", contact.name,
+                                      1e3 * *contact.touching),
+                          "tenths of a millimetre between faceted surfaces"});
+  }
+}
+
 /// The pressure that holds melt on its wall.
 void atmospheres(const CaseSpec& spec, Findings& findings) {
   constexpr double k_least = 100, k_most = 2e8;  // [Pa]: of vacuum furnaces, of die casting
@@ -93,6 +112,7 @@ void coarse_slaves(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
 void find_in_numerics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   iterations(spec, findings);
   search_distances(spec, m, findings);
+  touching_gaps(spec, m, findings);
   if (!spec.has_mechanics()) return;
   atmospheres(spec, findings);
   coarse_slaves(spec, a, m, findings);

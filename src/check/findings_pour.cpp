@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 
 #include "check/findings.hpp"
 #include "input/units.hpp"
@@ -25,10 +26,34 @@ int hottest(const Assembly& a) {
   return static_cast<int>(hot - a.start.begin());
 }
 
+/// Bodies that are to be cast, of what does not freeze, where nothing else is poured.
+void castings_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  for (const material::Material& material : a.materials)
+    if (material.solidification() != nullptr) return;
+  constexpr double k_hot = 573.15;  // [K]: hot for a mould
+  constexpr double k_conducts = 5;  // [W/m/K]: more than sand, ceramics and insulation do
+  const auto hot = static_cast<std::size_t>(std::max(hottest(a), 0));
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const BodySpec& body = spec.bodies[b];
+    const bool told = body.role ? *body.role == Role::casting || *body.role == Role::riser : false;
+    const bool of_sand = hottest(a) >= 0 && b == hot && !body.role && a.start[b].high > k_hot &&
+                         a.materials[b].conductivity.value(a.start[b].high) < k_conducts;
+    if (!told && !of_sand) continue;
+    findings.push_back(
+        {false, body.where,
+         fmt::format(
+             "{} '{}', which starts at {:.0f} degC, is of '{}', which does not freeze: nothing is poured",
+             told ? "the " + std::string(name(*body.role)) : "the hottest body,", body.name,
+             celsius(a.start[b].high), body.material),
+         "a material with a [[phase_change]] that is its solidification"});
+  }
+}
+
 }  // namespace
 
 void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings) {
-  constexpr double k_most_superheat = 400;  // [K]
+  if (spec.has_heat() && spec.criteria.follow) castings_that_do_not_freeze(spec, a, findings);
+  constexpr double k_most_superheat = 270;  // [K]: less than what kelvins read as degrees Celsius add
   // A case that switches the criteria of castings off states that nothing freezes in it.
   if (!spec.has_heat() || !spec.criteria.follow || hottest(a) < 0) return;
   const auto poured = static_cast<std::size_t>(hottest(a));
@@ -60,7 +85,7 @@ void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings) {
       findings.push_back({false, body.where,
                           fmt::format("body '{}' starts {:.0f} K above the liquidus of '{}'", body.name,
                                       start - liquidus, body.material),
-                          "castings are poured 20 to 150 K above the liquidus"});
+                          "castings are poured 20 to 150 K above the liquidus; is the number in K?"});
     return;
   }
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)

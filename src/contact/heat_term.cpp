@@ -90,10 +90,15 @@ void HeatTerm::share_out() {
 
 Conductance HeatTerm::conductance(Index point, double temperature) const {
   const HeatPoint& p = points_[at(point)];
-  if (curvature_.empty() || !(p.penetration < 0)) return law_.at(p.penetration, p.pressure, temperature);
+  return conductance(point, p.penetration, p.pressure, temperature);
+}
+
+Conductance HeatTerm::conductance(Index point, double penetration, double pressure,
+                                  double temperature) const {
+  if (curvature_.empty() || !(penetration < 0)) return law_.at(penetration, pressure, temperature);
   const SurfaceCurvature& curvature = curvature_[at(point)];
-  const double width = -p.penetration;
-  Conductance h = law_.at(-curvature.plane_gap(width), p.pressure, temperature);
+  const double width = -penetration;
+  Conductance h = law_.at(-curvature.plane_gap(width), pressure, temperature);
   h.by_penetration *= curvature.plane_gap_slope(width);
   return h;
 }

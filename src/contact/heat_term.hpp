@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/graph.hpp"
+#include "contact/heat_gap.hpp"
 #include "contact/heat_transfer.hpp"
 #include "contact/interface_thermodynamics.hpp"
 #include "contact/partners.hpp"
@@ -138,6 +139,14 @@ class HeatTerm : public linear::Contribution {
   InterfaceHeatFlux counted_heat(std::span<const double> temperature) const;
   /// h [W/(m² K)] of every point at these temperatures; without any, at room temperature.
   std::vector<double> conductances(std::span<const double> temperature) const;
+  /// The gaps of the points, as they are placed: [point].
+  std::vector<HeatGap> gaps() const;
+  /// Conducts through other gaps until the next place(), wherever a point has a partner in both, [point].
+  void set_gaps(std::span<const HeatGap> gaps);
+  /// The heat that passes at these temperatures through the gaps `used` instead of the right ones, over the
+  /// points that this process counts.
+  GapHeat gap_heat(std::span<const HeatGap> used, std::span<const HeatGap> right,
+                   std::span<const double> temperature) const;
   /// Θ_c of every point at these temperatures [K]; where friction does not act, as it was at t_n.
   std::vector<double> interface_temperatures(std::span<const double> temperature) const;
   /// Slip at these temperatures of every point where this phase finds it anew (HeatPoint::friction); its
@@ -202,6 +211,7 @@ class HeatTerm : public linear::Contribution {
   InterfaceStep balance_step(Index point) const;
   /// h at the plane gap that resists as that of the point does, and its slope in the gap itself.
   Conductance conductance(Index point, double temperature) const;
+  Conductance conductance(Index point, double penetration, double pressure, double temperature) const;
 
   Index n_owned_;
   int dimension_;

@@ -1,5 +1,6 @@
-/// Measures of the heat term at given temperatures: fluxes, conductances, the interface.
+/// Measures of the heat term at given temperatures: fluxes, conductances, gaps, the interface.
 #include <algorithm>
+#include <cmath>
 
 #include "contact/heat_term.hpp"
 
@@ -55,6 +56,51 @@ std::vector<double> HeatTerm::conductances(std::span<const double> temperature) 
       h[at(p)] = see(p, temperature).h.value;
   }
   return h;
+}
+
+std::vector<HeatGap> HeatTerm::gaps() const {
+  std::vector<HeatGap> gaps(points_.size());
+  for (std::size_t p = 0; p < gaps.size(); ++p)
+    gaps[p] = {points_[p].penetration, points_[p].pressure, partners_.partnered[p] != 0};
+  return gaps;
+}
+
+void HeatTerm::set_gaps(std::span<const HeatGap> gaps) {
+  std::vector<HeatPoint> points = points_;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    if (!gaps[p].partnered) continue;
+    points[p].penetration = gaps[p].penetration;
+    points[p].pressure = gaps[p].pressure;
+  }
+  place(std::move(points));
+}
+
+GapHeat HeatTerm::gap_heat(std::span<const HeatGap> used, std::span<const HeatGap> right,
+                           std::span<const double> temperature) const {
+  GapHeat heat;
+  if (!active_) return heat;
+  for (Index p = 0; p < partners_.n_points(); ++p) {
+    if (partners_.counted[at(p)] == 0 || !used[at(p)].partnered || !right[at(p)].partnered) continue;
+    const AtPoint s = see(p, temperature);
+    const auto conductance_of = [&](const HeatGap& gap) {
+      return conductance(p, gap.penetration, gap.pressure, 0.5 * (s.slave + s.master)).value;
+    };
+    const double was = conductance_of(used[at(p)]), is = conductance_of(right[at(p)]),
+                 flow = partners_.weight[at(p)] * std::abs(s.slave - s.master);
+    heat.passed += flow * std::max(was, is);
+    heat.misplaced += flow * std::abs(is - was);
+  }
+  return heat;
+}
+
+std::vector<HeatGap> middle(const std::vector<HeatGap>& start, const std::vector<HeatGap>& end) {
+  std::vector<HeatGap> mean = start;
+  for (std::size_t p = 0; p < mean.size() && p < end.size(); ++p) {
+    if (!start[p].partnered || !end[p].partnered) continue;
+    mean[p].penetration = 0.5 * (start[p].penetration + end[p].penetration);
+    mean[p].pressure = mean[p].penetration < 0 ? 0.0 : 0.5 * (start[p].pressure + end[p].pressure);
+  }
+  return mean;
 }
 
 std::vector<double> HeatTerm::interface_temperatures(std::span<const double> temperature) const {

@@ -1,6 +1,9 @@
 #include "contact/pair.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include "system/processes.hpp"
 
 namespace solidus::contact {
 
@@ -145,6 +148,23 @@ void ContactPair::hold_deformation() {
   step_.from = end_.state.points;
   step_.dt = 0;
   heat_->hold(step_, end_.state.points);
+}
+
+std::vector<HeatGap> ContactPair::heat_gaps() const {
+  return heat_ ? heat_->term().gaps() : std::vector<HeatGap>{};
+}
+
+void ContactPair::conduct_through(std::span<const HeatGap> gaps) {
+  if (heat_) heat_->term().set_gaps(gaps);
+}
+
+GapHeat ContactPair::gap_heat(std::span<const HeatGap> used, std::span<const HeatGap> right,
+                              std::span<const double> temperature) const {
+  if (!heat_) return {};
+  const GapHeat heat = heat_->term().gap_heat(used, right, temperature);
+  std::array<double, 2> sums = {heat.passed, heat.misplaced};
+  processes::sum(sums);
+  return {sums[0], sums[1]};
 }
 
 void ContactPair::predict_heat() {

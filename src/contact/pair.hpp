@@ -117,6 +117,16 @@ class ContactPair {
   /// Holds the present deformation: the heat of friction of the last update() is dropped, so that a thermal
   /// phase that follows has none.
   void hold_deformation();
+  /// The gaps that heat passes through, at the last update() or restore(), or those of conduct_through():
+  /// [point]; empty without a heat law. Local.
+  std::vector<HeatGap> heat_gaps() const;
+  /// Conducts through these gaps until the next update() or restore(), wherever a point has a partner in
+  /// both. Local.
+  void conduct_through(std::span<const HeatGap> gaps);
+  /// The heat that passes at these temperatures [local node] through the gaps `used` instead of the right
+  /// ones. Collective.
+  GapHeat gap_heat(std::span<const HeatGap> used, std::span<const HeatGap> right,
+                   std::span<const double> temperature) const;
   /// Predicts the heat of the second of two equal mechanical passes of a step by that of the first. The
   /// thermal phase between them takes heat and entropy of the slip of the first pass twice, and the same
   /// amount is subtracted from those of the second pass.

@@ -53,6 +53,7 @@ struct BlockIterative::Iterate {
   /// Θ⁽ⁱ⁾ that the mechanical pass sees, and Θ⁽ⁱ⁻¹⁾ [K], [local node].
   std::vector<double> temperature, before;
   bool solved = false;  ///< both passes reached the tolerances of their phases
+  int turns = 0;        ///< of the augmented Lagrangian, in all mechanical passes
   StepEffort effort;
 };
 
@@ -131,7 +132,7 @@ bool BlockIterative::mechanical(const State& old, Iterate& it, int newton_steps)
     pass.iterate = &it.now.mechanics;
   }
   const std::vector<contact::ContactState> before = it.number > 1 ? it.now.contacts : old.contacts;
-  return mechanical_pass(phases_, old, it.now, pass, it.effort, before).newton.converged;
+  return mechanical_pass(phases_, old, it.now, pass, it.effort, before, &it.turns).newton.converged;
 }
 
 bool BlockIterative::thermal(const State& old, Iterate& it, int newton_steps) const {

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int k_most_augmentations = 400;
 // If points at the edge of contact open and close from turn to turn, the penetrations do not converge: after
-// k_enough_augmentations turns they may be k_tolerable times as large as allowed, with a warning.
+// k_enough_augmentations turns they may be k_tolerable times as large as allowed, with a warning. The passes
+// of a step that is iterated set out from the multipliers of the one before, and share these turns.
 constexpr int k_enough_augmentations = 60;
 constexpr double k_tolerable = 10;
 // Turns that nobody asked for (ContactSpec::pressure_tolerance) end here: what is left is less than the
@@ -104,7 +105,7 @@ std::vector<contact::ContactState> second_start(const Phases& phases,
   return start;
 }
 
-bool penetrations_small(const Phases& phases, int turn) {
+bool penetrations_small(const Phases& phases, int turn, int earlier) {
   double excess = 0;
   const contact::ContactPair* worst = nullptr;
   for (const contact::ContactPair* pair : phases.contacts) {
@@ -115,7 +116,7 @@ bool penetrations_small(const Phases& phases, int turn) {
     }
   }
   if (excess <= 1) return true;
-  if (turn >= k_enough_augmentations && excess <= k_tolerable) {
+  if (turn + earlier >= k_enough_augmentations && excess <= k_tolerable) {
     logging::warn(
         "contact '{}': in some steps points open and close from one turn of the augmented Lagrangian to the "
         "next, and penetrations stay above penetration_tolerance, by less than {:g} times; normal = "

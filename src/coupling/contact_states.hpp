@@ -27,7 +27,9 @@ std::vector<contact::ContactState> second_start(const Phases& phases,
 /// After equilibrium: true when the penetrations that are left are as small as the augmented Lagrangian wants
 /// them; else the multipliers follow the pressures and the phase must be solved again. Throws StepRejected
 /// after too many turns. Collective.
-bool penetrations_small(const Phases& phases, int turn);
+/// @param turn     of this pass
+/// @param earlier  turns that passes before this one have taken in the same step
+bool penetrations_small(const Phases& phases, int turn, int earlier = 0);
 /// Throws the same error with the failure_text() of the pairs appended. Collective.
 [[noreturn]] void reject_with_contacts(const Phases& phases, const StepRejected& rejected);
 

@@ -67,7 +67,8 @@ mechanics::ForcesAtWork DoublePass::mechanical_half(const State& start, State& e
                                                     mechanics::MechanicalPass pass,
                                                     const std::function<void(State& led)>& answer,
                                                     StepEffort& effort) const {
-  mechanics::ForcesAtWork at_work = mechanical_pass(phases_, start, end, pass, effort).at_work;
+  int turns = 0;
+  mechanics::ForcesAtWork at_work = mechanical_pass(phases_, start, end, pass, effort, {}, &turns).at_work;
   if (!repeats()) return at_work;
   std::vector<double> held(pass.iterate_temperature.begin(), pass.iterate_temperature.end());
   if (held.empty()) held.assign(pass.temperature.begin(), pass.temperature.end());
@@ -82,7 +83,7 @@ mechanics::ForcesAtWork DoublePass::mechanical_half(const State& start, State& e
     pass.iterate_temperature = held;
     pass.iterate = &end.mechanics;
     const std::vector<contact::ContactState> contacts = end.contacts;
-    at_work = mechanical_pass(phases_, start, end, pass, effort, contacts).at_work;
+    at_work = mechanical_pass(phases_, start, end, pass, effort, contacts, &turns).at_work;
   }
   if (change <= k_falls * first) return at_work;
   throw StepRejected(fmt::format("coupling: isothermal passes do not settle: the change of temperature went "

@@ -22,12 +22,11 @@ class IsentropicSplit final : public SequentialSplit {
   /// The phases must outlive the scheme. Where deformation exchanges no heat, entropy is a function of the
   /// temperature alone: the mechanical phase is the isothermal one then. Throws std::invalid_argument unless
   /// both phases are there.
-  explicit IsentropicSplit(const Phases& phases, PhaseOrder order = PhaseOrder::mechanics_first,
-                           ThermalFlow flow = ThermalFlow::kept)
+  explicit IsentropicSplit(const Phases& phases, const SequentialOptions& options = {})
       : SequentialSplit(
             phases,
             phases.structural != nullptr ? mechanics::Mapping::isentropic : mechanics::Mapping::isothermal,
-            order, flow) {
+            options) {
     if (phases.heat == nullptr || phases.mechanics == nullptr)
       throw std::invalid_argument("the isentropic split needs both phases");
   }

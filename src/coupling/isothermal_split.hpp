@@ -14,9 +14,8 @@ namespace solidus::coupling {
 class IsothermalSplit final : public SequentialSplit {
  public:
   /// The phases must outlive the scheme.
-  explicit IsothermalSplit(Phases phases, PhaseOrder order = PhaseOrder::mechanics_first,
-                           ThermalFlow flow = ThermalFlow::kept)
-      : SequentialSplit(std::move(phases), mechanics::Mapping::isothermal, order, flow) {}
+  explicit IsothermalSplit(Phases phases, const SequentialOptions& options = {})
+      : SequentialSplit(std::move(phases), mechanics::Mapping::isothermal, options) {}
 };
 
 }  // namespace solidus::coupling

@@ -34,7 +34,7 @@ constexpr double k_flow_settled = heat::k_nodal_tolerance;
 
 mechanics::MechanicalReport mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
                                             const mechanics::MechanicalPass& pass, StepEffort& effort,
-                                            const std::vector<contact::ContactState>& contacts) {
+                                            const std::vector<contact::ContactState>& contacts, int* turns) {
   const profile::Part part("mechanics");
   const double start = processes::wall_time();
   const std::vector<double> coherency =
@@ -46,7 +46,9 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
   // Most of a state is its history: the storage of the one that is overwritten serves again.
   if (pass.iterate != &trial.mechanics && &old.mechanics != &trial.mechanics)
     next.history = std::move(trial.mechanics.history);
+  const int earlier = turns != nullptr ? *turns : 0;
   for (int n_turns = 1;; ++n_turns) {
+    if (turns != nullptr) *turns = earlier + n_turns;
     try {
       report = phases.mechanics->solve(old.mechanics, next, turn);
       add(report.newton, report.newton.iterations, 0, effort.mechanics);
@@ -59,7 +61,7 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
     }
     // Penetrations of an iterate that is not in equilibrium say nothing of the multipliers; those of one that
     // is are brought down in equilibrium too.
-    if (!report.newton.converged || penetrations_small(phases, n_turns)) break;
+    if (!report.newton.converged || penetrations_small(phases, n_turns, earlier)) break;
     turn.start = next.displacement;
     turn.newton_steps = 0;
   }

@@ -24,9 +24,12 @@ struct MechanicalStart {
 /// the report of the phase: Newton's iteration may miss its tolerance only where the pass limits its steps.
 /// @param pass      its iterate may be `trial`
 /// @param contacts  states of the pairs after the pass before, of a scheme that iterates within the step
+/// @param turns     of the augmented Lagrangian in the passes of this step so far; updated. Null: this is the
+///                  only pass
 mechanics::MechanicalReport mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
                                             const mechanics::MechanicalPass& pass, StepEffort& effort,
-                                            const std::vector<contact::ContactState>& contacts = {});
+                                            const std::vector<contact::ContactState>& contacts = {},
+                                            int* turns = nullptr);
 /// Enters the work and the support forces of a solved mechanical phase in the report of the step.
 void book_work(const mechanics::MechanicalReport& report, StepEffort& effort);
 

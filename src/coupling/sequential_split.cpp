@@ -1,11 +1,13 @@
 #include "coupling/sequential_split.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
+#include "system/errors.hpp"
 #include "system/profile.hpp"
 
 namespace solidus::coupling {
@@ -23,6 +25,17 @@ std::vector<double> rate(const std::vector<double>& from, const std::vector<doub
   std::vector<double> result(to.size());
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = (to[i] - from[i]) / dt;
   return result;
+}
+
+/// Times that heat and equilibrium of a step are solved at most until the gaps agree.
+constexpr int k_gap_turns = 4;
+
+/// Adds the effort of a turn that was repeated; how hard the phase is, the harder turn says.
+void add_effort(const PhaseEffort& before, PhaseEffort& effort) {
+  effort.iterations += before.iterations;
+  effort.linear_iterations += before.linear_iterations;
+  effort.seconds += before.seconds;
+  effort.hardest = std::max(effort.hardest, before.hardest);
 }
 
 /// The interfaces that have a temperature begin with the one at rest between the bodies at t_n: in the first
@@ -43,12 +56,11 @@ void find_interface_temperatures(const Phases& phases, const State& old, double 
 
 }  // namespace
 
-SequentialSplit::SequentialSplit(Phases phases, mechanics::Mapping mapping, PhaseOrder order,
-                                 ThermalFlow flow)
-    : phases_(std::move(phases)), order_(order), flow_(flow) {
+SequentialSplit::SequentialSplit(Phases phases, mechanics::Mapping mapping, const SequentialOptions& options)
+    : phases_(std::move(phases)), options_(options) {
   if (phases_.mechanics != nullptr && phases_.mechanics->mapping() != mapping)
     throw std::invalid_argument("the mechanical phase was built for another split");
-  if (phases_.mechanics == nullptr || phases_.heat == nullptr) order_ = PhaseOrder::mechanics_first;
+  if (phases_.mechanics == nullptr || phases_.heat == nullptr) options_.order = PhaseOrder::mechanics_first;
 }
 
 void SequentialSplit::synchronise(const State& state) {
@@ -68,15 +80,17 @@ StepEffort SequentialSplit::advance(const State& old, State& trial, double time,
 
 std::optional<StepEffort> SequentialSplit::advance_unless(const State& old, State& trial, double time,
                                                           double dt, const HeatJudge& stop) {
-  std::optional<StepEffort> effort = order_ == PhaseOrder::heat_first ? heat_first(old, trial, time, dt, stop)
-                                                                      : mechanics_first(old, trial, time, dt);
+  std::optional<StepEffort> effort = options_.order == PhaseOrder::heat_first
+                                         ? heat_first(old, trial, time, dt, stop)
+                                         : mechanics_first(old, trial, time, dt);
   if (effort) summarise(phases_, trial, *effort);
   return effort;
 }
 
 StepEffort SequentialSplit::mechanics_first(const State& old, State& trial, double time, double dt) {
   StepEffort effort;
-  if (phases_.mechanics != nullptr) mechanical_phase(old, old, trial, time, dt, effort);
+  if (phases_.mechanics != nullptr)
+    mechanical_phase(old, old, trial, time, dt, extrapolated(old, dt), effort);
   if (phases_.heat != nullptr)
     thermal_phase(old, old, trial, {.time = time, .dt = dt, .stepping = phases_.heat->stepping()}, effort);
   book_interface(effort.energy, phases_.structural != nullptr);
@@ -87,12 +101,49 @@ StepEffort SequentialSplit::mechanics_first(const State& old, State& trial, doub
 
 std::optional<StepEffort> SequentialSplit::heat_first(const State& old, State& trial, double time, double dt,
                                                       const HeatJudge& stop) {
+  int turns = 0;
+  try {
+    return conducted_first(old, trial, time, dt, stop, k_gap_turns, turns);
+  } catch (const StepRejected&) {
+    if (turns < 2) throw;
+  }
+  // The step itself went through, with the gaps of its start; only its repetition did not.
+  restore_contacts(phases_, old);
+  return conducted_first(old, trial, time, dt, {}, 1, turns);
+}
+
+/// @param most   turns
+/// @param turns  those that were begun
+std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, State& trial, double time,
+                                                           double dt, const HeatJudge& stop, int most,
+                                                           int& turns) {
+  turns = 1;
   State warm;
-  StepEffort effort = heat_at_rest(old, warm, time, dt);
+  StepEffort effort = heat_at_rest(old, warm, time, dt, {});
   if (stop && stop(warm, effort.fields.flows)) return {};
-  const contact::InterfaceSums conducted = effort.energy.interface;
+  const Gaps start = gaps();
   StepEffort deformed;
-  mechanical_phase(old, warm, trial, time, dt, deformed);
+  mechanical_phase(old, warm, trial, time, dt, extrapolated(old, dt), deformed);
+  Gaps used = start;
+  while (true) {
+    Gaps right = start;
+    const Gaps end = gaps();
+    for (std::size_t i = 0; i < right.size(); ++i) right[i] = contact::middle(start[i], end[i]);
+    deformed.gap_heat = gap_heat(used, right, warm);
+    if (!misplaces_much(deformed.gap_heat, dt, effort) || turns == most) break;
+    ++turns;
+    const PhaseEffort heat = effort.heat, mechanics = deformed.mechanics;
+    restore_contacts(phases_, old);
+    effort = heat_at_rest(old, warm, time, dt, right);
+    const Start before{trial.mechanics.displacement, trial.mechanics.pressure};
+    deformed = {};
+    mechanical_phase(old, warm, trial, time, dt, before, deformed);
+    add_effort(heat, effort.heat);
+    add_effort(mechanics, deformed.mechanics);
+    deformed.coupling_iterations = turns;
+    used = std::move(right);
+  }
+  const contact::InterfaceSums conducted = effort.energy.interface;
   thermal_phase(old, warm, trial, {.time = time, .dt = dt, .adiabatic = true}, deformed);
   book_interface(deformed.energy, phases_.structural != nullptr);
   deformed.stability = stability_audit(phases_, warm, trial, deformed);
@@ -101,12 +152,45 @@ std::optional<StepEffort> SequentialSplit::heat_first(const State& old, State& t
   return effort;
 }
 
-StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double time, double dt) {
+SequentialSplit::Gaps SequentialSplit::gaps() const {
+  Gaps gaps;
+  for (const contact::ContactPair* pair : phases_.contacts) gaps.push_back(pair->heat_gaps());
+  return gaps;
+}
+
+std::vector<contact::GapHeat> SequentialSplit::gap_heat(const Gaps& used, const Gaps& right,
+                                                        const State& warm) const {
+  std::vector<contact::GapHeat> heat;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    heat.push_back(phases_.contacts[i]->gap_heat(used[i], right[i], warm.heat.temperature));
+  return heat;
+}
+
+bool SequentialSplit::misplaces_much(const std::vector<contact::GapHeat>& heat, double dt,
+                                     const StepEffort& conducted) const {
+  constexpr double k_much_heat = 0.01;  // of what moved in the step: interfaces that pass less matter little
+  contact::GapHeat sum;
+  for (const contact::GapHeat& pair : heat) {
+    sum.passed += pair.passed;
+    sum.misplaced += pair.misplaced;
+  }
+  return sum.misplaced > options_.gap_tolerance * sum.passed &&
+         dt * sum.passed > k_much_heat * conducted.energy.heat_exchanged;
+}
+
+StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double time, double dt,
+                                         const Gaps& through) {
   StepEffort effort;
   phases_.mechanics->hold_deformation(old.mechanics, old.heat.temperature, plateau_share(phases_, old.heat));
   find_interface_temperatures(phases_, old, time - dt);
   for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
-  thermal_pass(phases_, old, warm, {.time = time, .dt = dt, .stepping = phases_.heat->stepping()}, effort);
+  for (std::size_t i = 0; i < through.size(); ++i) phases_.contacts[i]->conduct_through(through[i]);
+  thermal_pass(phases_, old, warm,
+               {.time = time,
+                .dt = dt,
+                .iterate = through.empty() ? nullptr : &warm.heat,
+                .stepping = phases_.heat->stepping()},
+               effort);
   book_interface(effort.energy, phases_.structural != nullptr);
   effort.stability = stability_audit(phases_, old, warm, effort);
   return effort;
@@ -114,7 +198,7 @@ StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double t
 
 void SequentialSplit::thermal_phase(const State& old, const State& warm, State& trial,
                                     const heat::ThermalPass& pass, StepEffort& effort) {
-  if (flow_ == ThermalFlow::kept || phases_.mechanics == nullptr) {
+  if (options_.flow == ThermalFlow::kept || phases_.mechanics == nullptr) {
     thermal_pass(phases_, warm, trial, pass, effort);
     return;
   }
@@ -125,22 +209,25 @@ void SequentialSplit::thermal_phase(const State& old, const State& warm, State& 
       effort);
 }
 
+SequentialSplit::Start SequentialSplit::extrapolated(const State& old, double dt) {
+  return {coupling::extrapolated(old.mechanics.displacement, old.displacement_rate, dt),
+          coupling::extrapolated(old.mechanics.pressure, old.pressure_rate, dt)};
+}
+
 // From the temperature of t_n (4.40, 4.46), or from the one that conduction has left.
 void SequentialSplit::mechanical_phase(const State& old, const State& warm, State& trial, double time,
-                                       double dt, StepEffort& effort) {
+                                       double dt, const Start& start, StepEffort& effort) {
   ContactWork contact(phases_);
   const std::vector<double>& temperature =
       phases_.heat != nullptr ? warm.heat.temperature : phases_.temperature;
-  const std::vector<double> guess = extrapolated(old.mechanics.displacement, old.displacement_rate, dt),
-                            pressure = extrapolated(old.mechanics.pressure, old.pressure_rate, dt);
   const std::vector<double> share = plateau_share(phases_, warm.heat);
   mechanical_pass(phases_, {old.mechanics, warm.contacts, warm.heat}, trial,
                   {.time = time,
                    .dt = dt,
                    .temperature = temperature,
                    .plateau_share = share,
-                   .guess = guess,
-                   .guessed_pressure = pressure},
+                   .guess = start.displacement,
+                   .guessed_pressure = start.pressure},
                   effort);
   trial.displacement_rate = rate(old.mechanics.displacement, trial.mechanics.displacement, dt);
   trial.pressure_rate = rate(old.mechanics.pressure, trial.mechanics.pressure, dt);

@@ -6,8 +6,14 @@
 ///                                 of t_{n+1} belong to the temperatures of t_n.
 ///   heat_first       heat at the configuration of t_n, Θ_n to Θ*; equilibrium at t_{n+1} from Θ*; then what
 ///                    the deformation has taken up or released, with nothing that flows: Θ* to Θ_{n+1}. What
-///                    the step ends with is in equilibrium with its own temperatures; gaps and structural
-///                    heat act on the conduction of the next step.
+///                    the step ends with is in equilibrium with its own temperatures; structural heat acts on
+///                    the conduction of the next step.
+///
+/// With heat first the gaps of a step are known when its heat has passed. Where their change within the step
+/// has misplaced more than a given share of what the interfaces passed, heat and equilibrium are solved again
+/// from t_n, heat through the mean of the gaps at both ends of the step, until they agree. Any conductance
+/// that is not negative dissipates, so that the statements of stability and of the first law stay as they
+/// are.
 ///
 /// Both are products of the same two dissipative operators (docs/theory/coupling_stability.md, section 3).
 #pragma once
@@ -18,6 +24,14 @@
 #include "coupling/thermal_flow.hpp"
 
 namespace solidus::coupling {
+
+struct SequentialOptions {
+  PhaseOrder order = PhaseOrder::mechanics_first;
+  ThermalFlow flow = ThermalFlow::kept;  ///< of metal in the thermal phase that follows the mechanical one
+  /// The share of the heat that interfaces pass which may be misplaced by gaps that change within a step,
+  /// with heat first; one: any.
+  double gap_tolerance = 1;
+};
 
 class SequentialSplit : public CouplingScheme {
  public:
@@ -30,26 +44,41 @@ class SequentialSplit : public CouplingScheme {
  protected:
   /// The phases must outlive the scheme; the order means nothing where one of them is missing. Throws
   /// std::invalid_argument when the mechanical phase was built for another mapping.
-  /// @param flow  of metal in the thermal phase that follows the mechanical one
-  SequentialSplit(Phases phases, mechanics::Mapping mapping, PhaseOrder order, ThermalFlow flow);
+  SequentialSplit(Phases phases, mechanics::Mapping mapping, const SequentialOptions& options);
   const Phases& phases() const { return phases_; }
 
  private:
   StepEffort mechanics_first(const State& old, State& trial, double time, double dt);
   std::optional<StepEffort> heat_first(const State& old, State& trial, double time, double dt,
                                        const HeatJudge& stop);
+  std::optional<StepEffort> conducted_first(const State& old, State& trial, double time, double dt,
+                                            const HeatJudge& stop, int most, int& turns);
+  /// Gaps that heat passes through, [contact][point].
+  using Gaps = std::vector<std::vector<contact::HeatGap>>;
+  Gaps gaps() const;
   /// Heat at the configuration of t_n.
-  StepEffort heat_at_rest(const State& old, State& warm, double time, double dt);
+  /// @param through  the gaps; empty: those of t_n. Otherwise Newton's iteration starts from `warm`.
+  StepEffort heat_at_rest(const State& old, State& warm, double time, double dt, const Gaps& through);
+  /// The heat that passed through the gaps `used` at the temperatures found, [contact].
+  std::vector<contact::GapHeat> gap_heat(const Gaps& used, const Gaps& right, const State& warm) const;
+  /// Whether that is to be mended: more than the tolerance allows, and not little beside all heat of the
+  /// step.
+  bool misplaces_much(const std::vector<contact::GapHeat>& heat, double dt,
+                      const StepEffort& conducted) const;
+  /// Newton's start of a mechanical phase.
+  struct Start {
+    std::vector<double> displacement, pressure;
+  };
+  static Start extrapolated(const State& old, double dt);
   /// Equilibrium at t_{n+1}, and the works of contact.
   void mechanical_phase(const State& old, const State& warm, State& trial, double time, double dt,
-                        StepEffort& effort);
+                        const Start& start, StepEffort& effort);
   /// Heat at the configuration found, from `warm`, with the flow of the mechanical phase or a new one.
   void thermal_phase(const State& old, const State& warm, State& trial, const heat::ThermalPass& pass,
                      StepEffort& effort);
 
   Phases phases_;
-  PhaseOrder order_;
-  ThermalFlow flow_;
+  SequentialOptions options_;
 };
 
 }  // namespace solidus::coupling

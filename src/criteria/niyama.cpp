@@ -14,13 +14,6 @@ double antiderivative(double g) {
   return g - 2 * std::log(g) - 1 / g;
 }
 
-// Of a piece from `g` up to its hot end.
-double resistance_of(double low, double high, double width, double g) {
-  if (width == 0) return 0;
-  if (high == low) return material::k_blake_kozeny * width * (1 - high) * (1 - high) / (high * high);
-  return material::k_blake_kozeny * width / (high - low) * (antiderivative(high) - antiderivative(g));
-}
-
 }  // namespace
 
 double niyama(double gradient, double cooling_rate) {
@@ -41,17 +34,49 @@ std::optional<FeedingLaw> FeedingLaw::of(const material::Material& material) {
   const double beta = law.shrinkage_ / (1 - law.shrinkage_);
   law.factor_ = std::sqrt(casting.critical_pressure_drop / (*casting.melt_viscosity * beta * range));
   const auto& points = change->fraction.points();
-  for (std::size_t i = points.size() - 1; i > 0; --i)
-    law.pieces_.push_back(
-        {1 - points[i - 1].second, 1 - points[i].second, (points[i].first - points[i - 1].first) / range});
+  double above = 0;
+  for (std::size_t i = points.size() - 1; i > 0; --i) {
+    const Piece piece{1 - points[i - 1].second, 1 - points[i].second,
+                      (points[i].first - points[i - 1].first) / range, above};
+    above += piece.whole();
+    law.pieces_.push_back(piece);
+  }
   return law;
+}
+
+double FeedingLaw::Piece::resistance(double g) const {
+  if (width == 0) return 0;
+  if (high == low) return material::k_blake_kozeny * width * (1 - high) * (1 - high) / (high * high);
+  return material::k_blake_kozeny * width / (high - low) * (antiderivative(high) - antiderivative(g));
+}
+
+double FeedingLaw::Piece::whole() const {
+  if (low == 0 && width > 0) return HUGE_VAL;  // the resistance grows beyond all bounds
+  return resistance(low);
+}
+
+/// The liquid fraction of this piece at which I has a value, which is not above its end: Newton's method,
+/// within a bracket. I falls with g, ever more slowly.
+double FeedingLaw::Piece::fraction_at(double resistance_sought) const {
+  constexpr int k_trials = 60;
+  constexpr double k_rounding = 1e-14;
+  double from = low, to = high, g = 0.5 * (low + high);
+  for (int trial = 0; trial < k_trials && to > from; ++trial) {
+    const double defect = above + resistance(g) - resistance_sought;
+    (defect > 0 ? from : to) = g;
+    const double slope = -material::k_blake_kozeny * width / (high - low) * (1 - g) * (1 - g) / (g * g);
+    double next = g - defect / slope;
+    if (!(next > from && next < to)) next = 0.5 * (from + to);
+    if (std::abs(next - g) <= k_rounding * g) return next;
+    g = next;
+  }
+  return to;
 }
 
 double FeedingLaw::resistance(double liquid_fraction) const {
   double sum = 0;
   for (const Piece& piece : pieces_) {
-    sum +=
-        resistance_of(piece.low, piece.high, piece.width, std::clamp(liquid_fraction, piece.low, piece.high));
+    sum += piece.resistance(std::clamp(liquid_fraction, piece.low, piece.high));
     if (liquid_fraction >= piece.low) break;
   }
   return sum;
@@ -59,23 +84,12 @@ double FeedingLaw::resistance(double liquid_fraction) const {
 
 double FeedingLaw::pore_fraction(double number) const {
   const double target = number * number;
-  double sum = 0;
-  for (const Piece& piece : pieces_) {
-    const bool to_the_end = piece.low == 0 && piece.width > 0;  // the resistance grows beyond all bounds
-    const double whole = to_the_end ? 0 : resistance_of(piece.low, piece.high, piece.width, piece.low);
-    if (!to_the_end && sum + whole < target) {
-      sum += whole;
-      continue;
-    }
-    // Bisection: the resistance falls with g. Below the smallest double share of g nothing is left to find.
-    double low = piece.low, high = piece.high;
-    for (int i = 0; i < 60; ++i) {
-      const double middle = 0.5 * (low + high);
-      (sum + resistance_of(piece.low, piece.high, piece.width, middle) > target ? low : high) = middle;
-    }
-    return shrinkage_ * high;
-  }
-  return 0;  // what is left freezes at once: the pressure never drops so far
+  if (target <= 0) return shrinkage_;  // pores open in the first mush
+  const auto behind = std::partition_point(pieces_.begin(), pieces_.end(),
+                                           [&](const Piece& piece) { return piece.above < target; });
+  const Piece& piece = *(behind - 1);
+  if (piece.above + piece.whole() < target) return 0;  // what is left freezes at once
+  return shrinkage_ * piece.fraction_at(target);
 }
 
 }  // namespace solidus::criteria

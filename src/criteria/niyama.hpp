@@ -45,6 +45,11 @@ class FeedingLaw {
   /// A straight piece of g(θ): g from `low` to `high` over `width` in θ.
   struct Piece {
     double low, high, width;
+    double above;  ///< I at `high`: what the pieces before this one resist
+
+    double resistance(double g) const;  ///< the part of I between g and `high`
+    double whole() const;               ///< the same of the whole piece
+    double fraction_at(double resistance_sought) const;
   };
   double factor_ = 0;          ///< √ΔP_cr / √(μ β ΔT_f) [1/(m Ny)]
   double shrinkage_ = 0;       ///< β′

@@ -5,6 +5,14 @@
 
 namespace solidus::heat {
 
+namespace {
+
+/// What rounding may leave of a temperature: a body that rests at its temperature of ignition is lit, by
+/// whatever processor.
+constexpr double k_rounding = 1e-12;
+
+}  // namespace
+
 BurningState unlit(std::size_t n_nodes) {
   return {std::vector<double>(n_nodes, HUGE_VAL), std::vector<double>(n_nodes, 0.0)};
 }
@@ -24,7 +32,7 @@ BurningState burn(const BurningState& state, const std::vector<double>& ignition
       next.released[i] = end;
       continue;
     }
-    if (!(after[i] >= ignition[i])) continue;
+    if (!(after[i] >= (1 - k_rounding) * ignition[i])) continue;
     const double rise = after[i] - before[i];
     const double share = rise > 0 ? std::clamp((ignition[i] - before[i]) / rise, 0.0, 1.0) : 0.0;
     next.lit[i] = next.released[i] = begin + share * (end - begin);

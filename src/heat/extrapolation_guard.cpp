@@ -12,9 +12,6 @@ namespace {
 
 using material::k_sdirk_carried;
 
-/// Share of the range of temperatures by which the end of a step may leave it: what the iteration leaves in
-/// the heats of nodes far from all that happens is no overshoot.
-constexpr double k_overshoot = 1e-6;
 /// Share of the range by which Θ(H*) may leave it for the second stage to be tried at all.
 constexpr double k_too_far = 1.0;
 /// Share of the range of temperatures below which two nodes are equally warm.
@@ -117,8 +114,9 @@ bool ExtrapolationGuard::extrapolates_too_far(const TemperatureRange& surroundin
   return leaves_range(ahead_, surroundings, k_too_far);
 }
 
-bool ExtrapolationGuard::overshoots(const ThermalState& next, const TemperatureRange& surroundings) const {
-  return leaves_range(next.temperature, surroundings, k_overshoot);
+bool ExtrapolationGuard::overshoots(const ThermalState& next, const TemperatureRange& surroundings,
+                                    double share) const {
+  return leaves_range(next.temperature, surroundings, share);
 }
 
 // From a node on it goes to its coldest neighbour in the first stage, and so on: the hottest node that is

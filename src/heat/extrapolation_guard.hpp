@@ -24,6 +24,10 @@
 
 namespace solidus::heat {
 
+/// Share of the range of temperatures by which the end of a step may leave it: what the iteration leaves in
+/// the heats of nodes far from all that happens is no overshoot.
+inline constexpr double k_no_overshoot = 1e-6;
+
 /// Judges the extrapolation of one step. All calls are collective.
 class ExtrapolationGuard {
  public:
@@ -37,9 +41,11 @@ class ExtrapolationGuard {
   /// where a flux or a source cools or heats, nothing bounds it.
   /// @param surroundings  the temperatures around the bodies during the step
   bool extrapolates_too_far(const TemperatureRange& surroundings) const;
-  /// Whether the end of the step has left that range, by more than a millionth of it.
+  /// Whether the end of the step has left that range.
   /// @param next  the state at the end of the second stage
-  bool overshoots(const ThermalState& next, const TemperatureRange& surroundings) const;
+  /// @param share  of the range by which temperatures may leave it
+  bool overshoots(const ThermalState& next, const TemperatureRange& surroundings,
+                  double share = k_no_overshoot) const;
   /// Whether metal has sunk below its way out: by more than three ten-thousandths of the range of
   /// temperatures, root mean square over the volume of what can melt, of the nodes that have passed a kink of
   /// their curve. The way out leads from each node to its coldest neighbour in the first stage. Nodes that

@@ -224,7 +224,7 @@ class HeatSystem {
   bool exchange_ = true;
   bool contributions_heat_ = false;  ///< whether they bring or take heat, as far as find_limits() has seen
   std::unique_ptr<linear::BlockMatrix> matrix_;
-  std::vector<double> local_, roots_;  ///< work, [local node]
+  std::vector<double> local_;     ///< work, [local node]
   std::vector<double> supplied_;  ///< by surfaces and sources at the last residual, sign of r, [local node]
   std::vector<double> contributed_;  ///< work, [owned node]
   std::vector<double> storing_;      ///< its part taken up by storing contributions, last residual

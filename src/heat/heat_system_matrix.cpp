@@ -97,14 +97,13 @@ void HeatSystem::scale_by_slopes(std::span<const double> slopes) {
   const std::span<const std::int64_t> start = matrix_->row_start();
   const std::span<const Index> columns = matrix_->columns();
   double* values = matrix_->block(0);
-  roots_.resize(slopes.size());
-  for (std::size_t i = 0; i < slopes.size(); ++i) roots_[i] = 1.0 / std::sqrt(slopes[i]);
+  const auto root = [&](Index i) { return 1.0 / std::sqrt(slopes[static_cast<std::size_t>(i)]); };
   for (std::size_t row = 0; row + 1 < start.size(); ++row)
     for (std::int64_t s = start[row]; s < start[row + 1]; ++s) {
       double& value = values[s];
       if (value == 0) continue;
       const Index column = columns[static_cast<std::size_t>(s)];
-      const double by_row = roots_[row], by_column = roots_[static_cast<std::size_t>(column)], of_t = value;
+      const double by_row = root(static_cast<Index>(row)), by_column = root(column), of_t = value;
       value *= by_row * by_column;
       if (column != static_cast<Index>(row))
         note_unsymmetric(static_cast<Index>(row), column, value, of_t * by_column * by_column,

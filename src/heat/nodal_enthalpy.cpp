@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "mesh/block_geometry.hpp"
 
@@ -154,8 +155,8 @@ double NodalEnthalpy::slope(Index node, double heat) const {
 
 NodalEnthalpy::Point NodalEnthalpy::point(Index node, double heat) const {
   const auto list = shares(node);
+  if (list.empty()) return {std::numeric_limits<double>::quiet_NaN(), 0.0};  // it stores nothing
   if (list.size() != 1) {
-    assert(!list.empty());
     bool plateau = false;
     const double t = mixed_temperature(list, heat, plateau);
     return {t, plateau ? 0.0 : 1.0 / capacity(node, t)};

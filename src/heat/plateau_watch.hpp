@@ -7,6 +7,7 @@
 #include "heat/nodal_enthalpy.hpp"
 #include "linear/block_matrix.hpp"
 #include "mesh/mesh.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::heat {
 
@@ -14,7 +15,8 @@ class PlateauWatch {
  public:
   /// All must outlive this object.
   /// @param matrix  its pattern tells the neighbours
-  PlateauWatch(const mesh::Mesh& mesh, const NodalEnthalpy& storage, const linear::BlockMatrix& matrix);
+  PlateauWatch(const mesh::Mesh& mesh, const NodalEnthalpy& storage, const linear::BlockMatrix& matrix,
+               const parallel::GhostExchange& ghosts);
 
   /// Whether some node has come onto a plateau, has left one or has passed one since the last call, and all
   /// its neighbours too. False at the first call, which keeps where the nodes are. Collective.
@@ -25,6 +27,7 @@ class PlateauWatch {
   const mesh::Mesh& mesh_;
   const NodalEnthalpy& storage_;
   const linear::BlockMatrix& matrix_;
+  const parallel::GhostExchange& ghosts_;
   std::vector<int> branch_;  ///< NodalEnthalpy::branch() at the last call, [owned node]
 };
 

@@ -24,6 +24,10 @@ namespace solidus::heat {
 
 namespace {
 
+/// Share of the range of temperatures by which the end of a step may leave it where the caller takes part of
+/// that back: deformation of the whole step acts before both stages (coupling/double_pass.hpp).
+constexpr double k_far_overshoot = 0.01;
+
 using material::k_sdirk_carried;
 using material::k_sdirk_share;
 
@@ -83,17 +87,21 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   std::optional<ExtrapolationGuard> guard;
   TemperatureRange around;
   bool second_order = true;
-  if (flows && pass.within_range && options_.integration == HeatIntegration::closed) {
+  if (flows && options_.integration == HeatIntegration::closed) {
     around = system_->surroundings();
     system_->set_time(pass.time);
     const TemperatureRange at_end = system_->surroundings();
     around = {std::min(around.lowest, at_end.lowest), std::max(around.highest, at_end.highest)};
     guard.emplace(*system_, *storage_, old, middle);
-    second_order = !guard->extrapolates_too_far(around);
+    second_order = !pass.within_range || !guard->extrapolates_too_far(around);
   }
   const ThermalPass to_end{pass.time, pass.dt, pass.iterate, pass.newton_steps};
   ThermalReport last = solve_stage(old, middle, second_order ? extrapolated : rest, to_end, next);
-  if (second_order && guard && (guard->overshoots(next, around) || guard->turns_back(next, ghosts_))) {
+  const auto overshoots = [&] {
+    if (!pass.within_range) return guard->overshoots(next, around, k_far_overshoot);
+    return guard->overshoots(next, around) || guard->turns_back(next, ghosts_);
+  };
+  if (second_order && guard && overshoots()) {
     second_order = false;
     begin_stage(first, old.temperature);
     ThermalReport again = solve_stage(old, middle, rest, to_end, next);
@@ -134,19 +142,20 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
     report.balance = balance(old, next, residual, temperature_system_->moved(), stage.dt);
     return report;
   }
-  const ThermalState from = stage_start(old, before, stage);
+  std::vector<double> from = stage_start(old, before, stage).enthalpy;
   // H* itself lies so far ahead at a front that the iteration begins half way to it.
   if (stage.carried != 0 && pass.iterate == nullptr)
     start_from(stage_start(old, before, {stage.dt, 0.5 * (1 + stage.carried)}).enthalpy, next);
   const TemperatureRange range = limit_conduction(before, old);
-  report.newton = truncated_newton_->solve(from.enthalpy, stage.dt, next.temperature, next.enthalpy, range,
-                                           pass.newton_steps);
+  report.newton =
+      truncated_newton_->solve(from, stage.dt, next.temperature, next.enthalpy, range, pass.newton_steps);
   report.hardest = report.newton.iterations;
   require_positive(next.temperature);
   if (!may_end(report.newton, pass.newton_steps))
     require(report.newton, truncated_newton_->residual(), next.temperature);
   book(truncated_newton_->residual(), stage.dt, next.enthalpy);
-  report.balance = balance(from, next, truncated_newton_->residual(), truncated_newton_->moved(), stage.dt);
+  report.balance = balance({old.temperature, std::move(from)}, next, truncated_newton_->residual(),
+                           truncated_newton_->moved(), stage.dt);
   return report;
 }
 

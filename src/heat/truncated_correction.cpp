@@ -15,8 +15,8 @@ namespace {
 constexpr double k_plateau_stiffness =
     1e13;                          ///< times the diagonal: δ = 0 to rounding, without a change of structure
 constexpr int k_chord_rounds = 8;  ///< linear solves for one such step
-constexpr double k_chord_change = 0.1;   ///< change of the heats by a round, over the heats, that ends them
-constexpr double k_chord_forcing = 0.1;  ///< of these linear solves, where the step is not worth less
+constexpr double k_chord_change = 0.1;    ///< change of the heats by a round, over the heats, that ends them
+constexpr double k_chord_forcing = 0.01;  ///< of these linear solves, where the step is not worth less
 constexpr double k_chord_differs = 1.5;  ///< a chord that is not so much steeper than the tangent is not used
 constexpr double k_chord_holds = 1e8;    ///< times the diagonal: no chord is steeper
 constexpr int k_refinements = 8;         ///< directions at most
@@ -40,10 +40,7 @@ linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const do
       double& diagonal = *a.diagonal_block(node);
       of_a[i] = diagonal;
       double stiffness = chords.empty() ? 0.0 : chords[i];
-      if (stiffness == 0) {
-        const double slope = curves_.at_heat(node, heat_[i]).slope;
-        stiffness = slope == 0.0 ? HUGE_VAL : 1.0 / (dt_ * slope);
-      }
+      if (stiffness == 0) stiffness = curve_slope_[i] == 0.0 ? HUGE_VAL : 1.0 / (dt_ * curve_slope_[i]);
       held[i] = std::isinf(stiffness) || system_.fixed()[i] ? 1 : 0;
       if (std::isinf(stiffness))
         diagonal = k_plateau_stiffness *

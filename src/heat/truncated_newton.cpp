@@ -38,13 +38,13 @@ TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, con
 }
 
 void TruncatedNewton::allocate() {
-  for (auto* v : {&diagonal_, &product_, &from_heat_, &from_temperature_, &from_}) v->resize(r_.size());
+  for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_, &from_heat_}) v->resize(r_.size());
   step_.resize(mesh_.x.size());
   slope_.assign(mesh_.x.size(), 1.0);
 }
 
 void TruncatedNewton::release() {
-  for (auto* v : {&diagonal_, &product_, &from_heat_, &from_temperature_, &from_, &step_, &slope_})
+  for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_, &from_heat_, &step_, &slope_})
     std::vector<double>().swap(*v);
   solver_.release();
 }
@@ -118,7 +118,7 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
   revisions_ = idle_ = 0;
   linear_ = true;
   allocate();
-  PlateauWatch watch(mesh_, storage_, system_.matrix());
+  PlateauWatch watch(mesh_, storage_, system_.matrix(), ghosts_);
   watch.passed_in_depth(heat_, temperature_);
   bool by_chords = false;
   double norm_before = 0;

@@ -87,6 +87,7 @@ class TruncatedNewton {
   bool converged() const { return norm_ <= options_.tolerance * moved_ || norm_ <= round_off_; }
   void assemble();
   void relax_nodes(bool all);
+  void look_up();
   double relax_locally();
   void sweep();
   void follow_other_processes();
@@ -119,12 +120,13 @@ class TruncatedNewton {
   std::span<double> heat_, temperature_;
   std::vector<double> r_;  ///< F, during sweeps that of the linear A, [owned node]
   // The others are empty between solves.
-  std::vector<double> slope_;     ///< c = dv/dΘ where A was assembled, [local node]
-  std::vector<double> diagonal_;  ///< of A, with the magnitudes of the couplings to other processes' nodes
-  std::vector<double> step_;      ///< change of v, [local node]
-  std::vector<double> product_;   ///< A times it; before that the right-hand side, [owned node]
-  std::vector<double> from_heat_, from_temperature_,
-      from_;  ///< H, Θ and v where the search begins, [owned node]
+  std::vector<double> slope_;        ///< c = dv/dΘ where A was assembled, [local node]
+  std::vector<double> diagonal_;     ///< of A, with the magnitudes of the couplings to other processes' nodes
+  std::vector<double> step_;         ///< change of v, [local node]
+  std::vector<double> product_;      ///< A times it; before that the right-hand side, [owned node]
+  std::vector<double> potential_;    ///< v of the heats, but for the trials of a search, [owned node]
+  std::vector<double> curve_slope_;  ///< dv/dH there, zero on a plateau
+  std::vector<double> from_heat_;    ///< H where the search begins
   double norm_ = 0, moved_ = 0, round_off_ = 0, conductance_ = 0;
   bool linear_ = true;     ///< whether sweeps with A have brought F down, in this solve
   int idle_ = 0;           ///< revisions that have found nothing new

@@ -22,7 +22,7 @@ void TruncatedNewton::move(double alpha) {
   for (std::size_t i = 0; i < r_.size(); ++i) {
     if (step_[i] == 0) continue;
     const StorageCurve::AtPotential at =
-        curves_.at_potential(static_cast<Index>(i), from_[i] + alpha * step_[i], from_temperature_[i]);
+        curves_.at_potential(static_cast<Index>(i), potential_[i] + alpha * step_[i], temperature_[i]);
     temperature_[i] = at.temperature;
     heat_[i] = step_[i] < 0 ? at.upper : at.lower;
   }
@@ -56,18 +56,14 @@ double TruncatedNewton::slope_along_step() const {
 /// @return whether the step was taken
 bool TruncatedNewton::search(bool short_too) {
   const profile::Part part("line search");
-  const NodalPotential& potential = system_.potential();
-  for (std::size_t i = 0; i < r_.size(); ++i) {
-    from_heat_[i] = heat_[i];
-    from_temperature_[i] = temperature_[i];
-    from_[i] = potential.value(static_cast<Index>(i), temperature_[i]);
-  }
+  std::copy_n(heat_.begin(), r_.size(), from_heat_.begin());
   const double start = slope_along_step();
   const double alpha = minimise(start, 1.0, &TruncatedNewton::linear_slope);
   if (alpha < k_short && !short_too) {
     for (std::size_t i = 0; i < r_.size(); ++i) {
+      if (step_[i] == 0) continue;
       heat_[i] = from_heat_[i];
-      temperature_[i] = from_temperature_[i];
+      temperature_[i] = curves_.at_heat(static_cast<Index>(i), heat_[i]).temperature;
     }
     return false;
   }

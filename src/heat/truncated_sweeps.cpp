@@ -24,9 +24,8 @@ double TruncatedNewton::relax(std::size_t i, double residual) {
   if (std::abs(residual) <= negligible_ || system_.fixed()[i] || (!relaxed_.empty() && relaxed_[i] == 0))
     return 0;
   const auto node = static_cast<Index>(i);
-  const double a = std::max(diagonal_[i], 0.0), h0 = heat_[i];
-  StorageCurve::AtHeat at = curves_.at_heat(node, h0);
-  const double v0 = at.potential;
+  const double a = std::max(diagonal_[i], 0.0), h0 = heat_[i], v0 = potential_[i];
+  StorageCurve::AtHeat at{temperature_[i], v0, curve_slope_[i]};
   double low = -HUGE_VAL, high = HUGE_VAL, h = h0, defect = residual;
   for (int trial = 0; trial < k_relaxations; ++trial) {
     (defect > 0 ? high : low) = h;
@@ -40,6 +39,8 @@ double TruncatedNewton::relax(std::size_t i, double residual) {
   }
   heat_[i] = h;
   temperature_[i] = at.temperature;
+  potential_[i] = at.potential;
+  curve_slope_[i] = at.slope;
   return at.potential - v0;
 }
 
@@ -93,6 +94,15 @@ void TruncatedNewton::follow_other_processes() {
         r_[i] += values[s] * step_[j] - std::abs(values[s]) * step_[i];
 }
 
+/// Finds v and dv/dH of all nodes, which the sweeps and the step that follows them start from.
+void TruncatedNewton::look_up() {
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    const StorageCurve::AtHeat at = curves_.at_heat(static_cast<Index>(i), heat_[i]);
+    potential_[i] = at.potential;
+    curve_slope_[i] = at.slope;
+  }
+}
+
 /// The sweeps, with A at the temperatures of now, and F there. What A holds by derivatives only (films and
 /// radiation where conductivities vary, nodes of several materials) has bent under the sweeps: a step that
 /// starts from the residuals of the linear A points elsewhere, and no length of it brings F down.
@@ -103,6 +113,7 @@ void TruncatedNewton::relax_nodes(bool all) {
     const profile::Part part("sweeps");
     negligible_ =
         all ? 0 : k_negligible * options_.tolerance * moved_ / static_cast<double>(mesh_.n_global_nodes);
+    look_up();
     sweep();
   }
   const double swept = linear_ ? relax_locally() : HUGE_VAL;
@@ -115,7 +126,7 @@ void TruncatedNewton::relax_nodes(bool all) {
 /// larger afterwards, A tells too little of it: such sweeps are then left out for the rest of the step.
 double TruncatedNewton::relax_locally() {
   const profile::Part part("sweeps");
-  LocalSweeps local(system_.matrix(), r_, system_.fixed());
+  LocalSweeps local(system_.matrix(), r_, system_.fixed(), ghosts_);
   negligible_ = 0;
   local.run([this](std::size_t i, double residual) {
     const double heat = heat_[i], change = relax(i, residual);

@@ -9,6 +9,8 @@ namespace {
 
 /// A pivot below this share of the diagonal it came from has lost its digits.
 constexpr float k_least_pivot = 1e-4F;
+/// Fill without a place that a row bears before the rest goes to its diagonal, over the sum of the row.
+constexpr float k_borne_fill = 0.3F;
 
 std::size_t at(std::int64_t i) {
   return static_cast<std::size_t>(i);
@@ -35,20 +37,39 @@ void IncompleteCholesky::set_up(BlockMatrix& a) {
 void IncompleteCholesky::factorise(const double* values) {
   std::transform(values, values + column_.size(), factor_.begin(),
                  [](double v) { return static_cast<float>(v); });
+  std::vector<float>& bears = work_;
+  find_borne_fill(values, bears);
   for (std::size_t row = 0; row < work_.size(); ++row) {
     const std::int64_t diagonal = start_[row], end = end_of_owned(row);
     const auto original = static_cast<float>(values[diagonal]);
     float& pivot = factor_[at(diagonal)];
+    if (bears[row] < 0.0F) pivot += bears[row];
     if (!(pivot > k_least_pivot * original)) pivot = original;
-    eliminate(static_cast<Index>(row), end);
+    eliminate(static_cast<Index>(row), end, bears);
     const float inverse = pivot != 0.0F ? 1.0F / pivot : 1.0F;
     for (std::int64_t s = diagonal + 1; s < end; ++s) factor_[at(s)] *= inverse;
     pivot = inverse;
   }
 }
 
-/// Takes the row out of those below it that it couples with, where they have a place.
-void IncompleteCholesky::eliminate(Index row, std::int64_t end) {
+/// The fill that each row bears, from the sums of the rows of the process's part.
+void IncompleteCholesky::find_borne_fill(const double* values, std::span<float> bears) const {
+  std::vector<double> sums(bears.size());
+  for (std::size_t row = 0; row < sums.size(); ++row) {
+    const std::int64_t diagonal = start_[row], end = end_of_owned(row);
+    sums[row] += values[diagonal];
+    for (std::int64_t s = diagonal + 1; s < end; ++s) {
+      sums[row] += values[s];
+      sums[at(column_[at(s)])] += values[s];
+    }
+  }
+  std::transform(sums.begin(), sums.end(), bears.begin(),
+                 [](double sum) { return k_borne_fill * static_cast<float>(sum); });
+}
+
+/// Takes the row out of those below it that it couples with. Fill that has no place in the pattern is taken
+/// from what its row and its column still bear.
+void IncompleteCholesky::eliminate(Index row, std::int64_t end, std::span<float> bears) {
   const std::int64_t diagonal = start_[at(row)];
   const float pivot = factor_[at(diagonal)];
   if (pivot == 0.0F) return;
@@ -60,8 +81,13 @@ void IncompleteCholesky::eliminate(Index row, std::int64_t end) {
     for (std::int64_t t = s; t < end; ++t) {
       const Index column = column_[at(t)];
       while (to < last && column_[at(to)] < column) ++to;
-      if (to == last) break;
-      if (column_[at(to)] == column) factor_[at(to)] -= share * factor_[at(t)];
+      const float change = share * factor_[at(t)];
+      if (to < last && column_[at(to)] == column) {
+        factor_[at(to)] -= change;
+      } else {
+        bears[below] -= change;
+        bears[at(column)] -= change;
+      }
     }
   }
 }

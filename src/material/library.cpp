@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -179,6 +180,31 @@ PropertyNote note_of(std::string property, const Function& f) {
   return {std::move(property), f.source, f.valid ? (*f.valid)[0] : 0, f.valid ? (*f.valid)[1] : 0};
 }
 
+Table mean_expansion(const Table& instantaneous, double reference) {
+  if (instantaneous.constant()) return instantaneous;
+  constexpr double k_close = 5, k_far = 4000;  // [K]
+  const std::span<const double> given = instantaneous.x();
+  std::vector<double> x{given.begin(), given.end()};
+  for (std::size_t i = 1; i < given.size(); ++i) {
+    const double width = given[i] - given[i - 1];
+    const int n = static_cast<int>(std::ceil(width / k_close));
+    for (int k = 1; k < n; ++k) x.push_back(given[i - 1] + width * k / n);
+  }
+  // A mean goes on changing where the coefficient itself stays what it is.
+  if (instantaneous.extrapolation() != Extrapolation::error)
+    for (double beyond = k_close; beyond < k_far; beyond *= 1.3) {
+      x.push_back(given.back() + beyond);
+      if (given.front() - beyond > 0) x.push_back(given.front() - beyond);
+    }
+  std::sort(x.begin(), x.end());
+  std::vector<double> y;
+  for (const double t : x)
+    y.push_back(std::abs(t - reference) < 1e-6 * k_close
+                    ? instantaneous.value(t)
+                    : instantaneous.integral(reference, t) / (t - reference));
+  return Table(std::move(x), std::move(y), instantaneous.extrapolation());
+}
+
 Material make_material(std::string name, const MaterialData& data) {
   Material m;
   m.name = std::move(name);
@@ -206,6 +232,8 @@ Material make_material(std::string name, const MaterialData& data) {
     m.young_modulus = note("young_modulus", *data.young_modulus);
     m.poisson_ratio = note("poisson_ratio", *data.poisson_ratio);
     m.expansion = note("expansion", *data.expansion);
+    if (data.expansion_as == ExpansionAs::instantaneous)
+      m.expansion = mean_expansion(m.expansion, m.expansion_reference);
   }
   if (data.twice_shear_viscosity)
     m.liquid_viscosity = note("twice_shear_viscosity", *data.twice_shear_viscosity);

@@ -35,6 +35,12 @@ struct PhaseChangeData {
   SourceLocation where;
 };
 
+/// What the values of `expansion` are in a material file. Material::expansion is always the mean.
+enum class ExpansionAs {
+  mean,          ///< e(Θ)/(Θ − Θ_ref), the secant of the curve of thermal strain
+  instantaneous  ///< de/dΘ, its tangent
+};
+
 /// The keys of a material file, as read and in SI.
 struct MaterialData {
   std::string title, like;
@@ -42,6 +48,7 @@ struct MaterialData {
   SpecificHeatAt specific_heat_at = SpecificHeatAt::constant_pressure;
   std::vector<PhaseChangeData> phase_changes;
   std::optional<Function> young_modulus, poisson_ratio, expansion, twice_shear_viscosity;
+  ExpansionAs expansion_as = ExpansionAs::mean;
   double expansion_reference = 0;  ///< [K]
   LiquidModel liquid_model = LiquidModel::maxwell;
   std::map<std::string, Function> liquid_numbers;  ///< the parameters of the models of the liquid
@@ -56,6 +63,10 @@ const Section<MaterialData>& material_section();
 
 /// Checks the values that depend on several keys and builds the material. Throws InputError with the place.
 Material make_material(std::string name, const MaterialData& data);
+
+/// The mean coefficients of expansion from a reference temperature that instantaneous ones lead to:
+/// ∫_Θref^Θ α dΘ/(Θ − Θ_ref), at points so close that lines between them do.
+Table mean_expansion(const Table& instantaneous, double reference);
 
 /// Returns the note on a property for the report of a run.
 PropertyNote note_of(std::string property, const Function& function);

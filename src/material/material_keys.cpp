@@ -147,7 +147,16 @@ Section<MaterialData> material_keys() {
   s.function("expansion", &MaterialData::expansion, "1/K")
       .range(-1e-3, 1e-3)
       .of(temperature)
-      .doc("Mean coefficient of linear thermal expansion from expansion_reference to the temperature.");
+      .doc("Coefficient of linear thermal expansion, of the kind that expansion_as says.");
+  s.choice("expansion_as", &MaterialData::expansion_as,
+           {{"mean", ExpansionAs::mean,
+             "the secant: change of length from expansion_reference to the temperature over the difference "
+             "of the two, as handbooks and dilatometers have it"},
+            {"instantaneous", ExpansionAs::instantaneous,
+             "the tangent: change of length per kelvin at the temperature, as physical theory and some "
+             "codes have it; the program integrates it"}})
+      .initially("mean")
+      .doc("What the values of expansion are; of a number without a table both are the same.");
   s.quantity("expansion_reference", &MaterialData::expansion_reference, "K")
       .initially("20 degC")
       .positive()

@@ -46,7 +46,9 @@ std::string complaint_of(const InputError& error, const std::string& path) {
 }
 
 /// @param kept  knows the way that was best for nearly the same mesh, which then comes first; may be null
-RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double enough, KeptMesh* kept) {
+/// @param same  the mesh of this request that this way gave before; may be null
+RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double enough, KeptMesh* kept,
+                     const RawMesh* same) {
   const bool solids = is_cad(file_format(source.path));
   const int n_attempts = solids ? n_meshing_attempts() : n_faceted_attempts();
   const auto attempt_text = [&](int attempt) {
@@ -54,7 +56,7 @@ RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double 
   };
   std::optional<RawMesh> best;
   double best_quality = 0;
-  int best_way = 0, tried = 0;
+  int best_way = 0, tried = same != nullptr ? 1 : 0;
   std::vector<std::string> complaints;
   const auto attempt = [&](int way) {
     geometry.attempt = way;
@@ -63,7 +65,9 @@ RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double 
       RawMesh mesh = read_in_one_way(source, &geometry);
       if (enough > 0 && source.element_order == 1) smooth_poor_tetrahedra(mesh);
       const double quality = least_quality(mesh);
-      if (quality > best_quality) {
+      // Later ways have more elements, which a quality that is hardly better is not worth.
+      constexpr double k_better = 1.1;
+      if (quality >= enough || quality > k_better * best_quality) {
         best = std::move(mesh);
         best_quality = quality;
         best_way = way;
@@ -85,17 +89,23 @@ RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double 
       before && !first) {
     // Where no way was good enough none will be now: then about as good as the best is all that one can have.
     constexpr double k_about = 0.7;
-    sufficient = std::min(enough, k_about * before->quality);
+    if (before->best_of_all) sufficient = std::min(enough, k_about * before->quality);
     first = before->number;
   }
-  if (first) attempt(*first);
+  if (same != nullptr) {
+    best = *same;
+    best_quality = kept->way()->quality;
+    best_way = kept->way()->number;
+  } else if (first) {
+    attempt(*first);
+  }
   const bool decided = geometry.only_way && best;
   const int n_cheap = solids ? n_cheap_meshing_attempts() : n_attempts;
   for (int way = 0; way < n_attempts && !decided && !(best && best_quality >= sufficient); ++way) {
     if (way >= n_cheap && best_quality >= k_usable_quality) break;
     if (way != first) attempt(way);
   }
-  if (best && kept != nullptr) kept->keep_way({best_way, best_quality});
+  if (best && kept != nullptr) kept->keep_way({best_way, best_quality, best_quality < enough});
   if (!best) {
     std::string all;
     for (const std::string& complaint : complaints) all += "\n    " + complaint;
@@ -129,23 +139,13 @@ KeptMesh* KeptMesh::living() {
   return g_living;
 }
 
-const RawMesh* KeptMesh::find(const std::string& request) const {
-  return !request_.empty() && request == request_ ? &mesh_ : nullptr;
-}
-
-void KeptMesh::keep(std::string request, const RawMesh& mesh) {
-  request_ = std::move(request);
-  mesh_ = mesh;
-}
-
-std::string meshing_request(const MeshSource& source, const CastingGeometry& geometry, double enough) {
+std::string meshing_request(const MeshSource& source, const CastingGeometry& geometry) {
   std::string bytes;
   const PutBytes put = [&](const void* data, std::size_t n) {
     bytes.append(static_cast<const char*>(data), n);
   };
   put_source(source, put);
   put_casting(geometry, put);
-  put(&enough, sizeof enough);
   return bytes;
 }
 
@@ -153,10 +153,12 @@ RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double 
   require_gmsh(source.path);
   check_readable(source.path);
   KeptMesh* kept = KeptMesh::living();
-  if (kept == nullptr) return mesh_in_turn(source, std::move(geometry), enough, nullptr);
-  std::string request = meshing_request(source, geometry, enough);
-  if (const RawMesh* mesh = kept->find(request)) return *mesh;
-  RawMesh mesh = mesh_in_turn(source, std::move(geometry), enough, kept);
+  if (kept == nullptr) return mesh_in_turn(source, std::move(geometry), enough, nullptr, nullptr);
+  enough = std::min(enough, kept->most_wanted());
+  std::string request = meshing_request(source, geometry);
+  const RawMesh* same = kept->find(request);
+  if (same != nullptr && (kept->way()->best_of_all || kept->way()->quality >= enough)) return *same;
+  RawMesh mesh = mesh_in_turn(source, std::move(geometry), enough, kept, same);
   kept->keep(std::move(request), mesh);
   return mesh;
 }

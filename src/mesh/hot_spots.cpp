@@ -43,15 +43,16 @@ double depth(const std::vector<SkinFace>& skin, const std::vector<double>& reach
 }
 
 /// Uphill from a point that lies inside, in steps along the axes that become smaller; the depth grows with
-/// each, so that no step can leave the body.
-InscribedSphere climb(const std::vector<SkinFace>& skin, const std::vector<double>& reach, Point p,
-                      double r) {
+/// each, so that no step can leave the body. On a plane no step goes along its normal.
+InscribedSphere climb(const std::vector<SkinFace>& skin, const std::vector<double>& reach, Point p, double r,
+                      const std::optional<HalfSpace>& on) {
   for (double step = r / 2; step > 0.02 * r; step /= 2) {
     bool higher = true;
     for (int turn = 0; higher && turn < 20; ++turn) {
       higher = false;
       for (std::size_t i = 0; i < 3; ++i)
         for (const double sign : {-1.0, 1.0}) {
+          if (on && static_cast<std::size_t>(on->axis) == i) continue;
           Point next = p;
           next[i] += sign * std::min(step, r / 2);
           if (const double there = depth(skin, reach, next); there > r * (1 + 1e-9)) {
@@ -63,6 +64,33 @@ InscribedSphere climb(const std::vector<SkinFace>& skin, const std::vector<doubl
     }
   }
   return {p, r};
+}
+
+/// The mean of an element's vertices, and of a plane the mean of the points in which it cuts the lines
+/// between them, which lies in the element too; none where it cuts none.
+std::optional<Point> point_inside(const std::vector<Point>& vertices, const std::optional<HalfSpace>& on) {
+  Point mean{};
+  double n = 0;
+  const auto add = [&](const Point& p) {
+    for (std::size_t i = 0; i < 3; ++i) mean[i] += p[i];
+    ++n;
+  };
+  for (const Point& a : vertices) {
+    if (!on) {
+      add(a);
+      continue;
+    }
+    const auto axis = static_cast<std::size_t>(on->axis);
+    for (const Point& b : vertices) {
+      if (!(a[axis] <= on->at && b[axis] > on->at)) continue;
+      const double share = (on->at - a[axis]) / (b[axis] - a[axis]);
+      add({a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])});
+    }
+  }
+  if (n == 0) return {};
+  for (double& c : mean) c /= n;
+  if (on) mean[static_cast<std::size_t>(on->axis)] = on->at;
+  return mean;
 }
 
 std::array<Point, 3> outward(const SkinFace& face, std::size_t second) {
@@ -85,7 +113,7 @@ std::vector<std::array<Point, 3>> triangles(const std::vector<SkinFace>& skin) {
 }  // namespace
 
 std::vector<InscribedSphere> inscribed_spheres(const RawMesh& mesh, const std::vector<std::string>& bodies,
-                                               std::size_t most) {
+                                               std::size_t most, std::optional<HalfSpace> on) {
   const std::vector<SkinFace> skin = common_skin(mesh, bodies);
   std::vector<double> reach;
   for (const SkinFace& face : skin) {
@@ -99,14 +127,13 @@ std::vector<InscribedSphere> inscribed_spheres(const RawMesh& mesh, const std::v
       const auto nn = static_cast<std::size_t>(node_count(block.shape));
       const int vertices = vertex_count(block.shape);
       constexpr std::size_t k_seeds = 1500;
-      const std::size_t stride = nn * (1 + block.nodes.size() / nn / k_seeds);
+      const std::size_t stride = nn * (on ? 1 : 1 + block.nodes.size() / nn / k_seeds);
+      std::vector<Point> x(static_cast<std::size_t>(vertices));
       for (std::size_t e = 0; e < block.nodes.size(); e += stride) {
-        Point centre{};
-        for (int a = 0; a < vertices; ++a)
-          for (std::size_t i = 0; i < 3; ++i)
-            centre[i] +=
-                mesh.x[static_cast<std::size_t>(block.nodes[e + static_cast<std::size_t>(a)])][i] / vertices;
-        seeds.push_back({centre, depth(skin, reach, centre)});
+        for (std::size_t a = 0; a < x.size(); ++a)
+          x[a] = mesh.x[static_cast<std::size_t>(block.nodes[e + a])];
+        if (const std::optional<Point> centre = point_inside(x, on))
+          seeds.push_back({*centre, depth(skin, reach, *centre)});
       }
     }
   std::sort(seeds.begin(), seeds.end(), [](const auto& a, const auto& b) { return a.radius > b.radius; });
@@ -118,7 +145,7 @@ std::vector<InscribedSphere> inscribed_spheres(const RawMesh& mesh, const std::v
     const auto covers = [&](const InscribedSphere& s) { return distance(s.centre, seed.centre) < s.radius; };
     if (std::any_of(found.begin(), found.end(), covers)) continue;
     ++climbs;
-    const InscribedSphere top = climb(skin, reach, seed.centre, seed.radius);
+    const InscribedSphere top = climb(skin, reach, seed.centre, seed.radius, on);
     const auto inside = [&](const InscribedSphere& s) { return distance(s.centre, top.centre) < s.radius; };
     if (std::none_of(found.begin(), found.end(), inside)) found.push_back(top);
   }

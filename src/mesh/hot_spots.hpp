@@ -1,9 +1,11 @@
 /// Finds the thickest places of a body: the largest spheres that lie in it. Rank 0 only.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "mesh/casting_geometry.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::mesh {
@@ -17,8 +19,9 @@ struct InscribedSphere {
 /// local maximum of the distance to their common skin, and lies in none of the spheres before it. Faces that
 /// the bodies share are no skin.
 /// @param most  at most so many, none below half of the largest radius
+/// @param on    where given, only spheres whose centres lie on this plane, the largest there
 std::vector<InscribedSphere> inscribed_spheres(const RawMesh& mesh, const std::vector<std::string>& bodies,
-                                               std::size_t most);
+                                               std::size_t most, std::optional<HalfSpace> on = {});
 
 /// The thickness of walls of a body, from the smallest to the largest, each standing for the same share of
 /// the area of its skin [m]; empty where no ray finds a wall.

@@ -4,13 +4,15 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "mesh/casting_geometry.hpp"
 
 namespace solidus::mesh {
 
 /// While an object of this class lives, mesh_casting() returns the mesh that it made last once more where
-/// file and request are the same. The file must not change meanwhile. One object at a time.
+/// file and request are the same and its quality is enough, or no way gives a better one. The file must not
+/// change meanwhile. One object at a time.
 class KeptMesh {
  public:
   KeptMesh();
@@ -20,26 +22,41 @@ class KeptMesh {
 
   /// The object that lives; null where there is none.
   static KeptMesh* living();
-  /// The mesh that was kept for this request; null where it is another one.
-  const RawMesh* find(const std::string& request) const;
-  void keep(std::string request, const RawMesh& mesh);
 
-  /// One of the ways to mesh, and the least quality of elements that it gave.
+  /// Quality of elements that is enough from now on, where a case asks for a better one: while its sizes
+  /// are still sought, no way of meshing is tried for the quality alone.
+  void be_content_with(double quality) { most_wanted_ = quality; }
+  double most_wanted() const { return most_wanted_; }
+
+  /// One of the ways to mesh, the least quality of elements that it gave, and whether all ways have been
+  /// tried for a better one.
   struct Way {
     int number = 0;
     double quality = 0;
+    bool best_of_all = false;
   };
   /// The way of the last mesh, which had nearly the same sizes; none before the first.
   std::optional<Way> way() const { return way_; }
   void keep_way(Way way) { way_ = way; }
 
+  /// The mesh that way() gave for this request; null where it was another request.
+  const RawMesh* find(const std::string& request) const {
+    return !request_.empty() && request == request_ ? &mesh_ : nullptr;
+  }
+  void keep(std::string request, const RawMesh& mesh) {
+    request_ = std::move(request);
+    mesh_ = mesh;
+  }
+
  private:
+  double most_wanted_ = 1;
   std::optional<Way> way_;
   std::string request_;
   RawMesh mesh_;
 };
 
-/// Everything that a mesh of a casting depends on, but for what is in the file, as bytes.
-std::string meshing_request(const MeshSource& source, const CastingGeometry& geometry, double enough);
+/// Everything that a mesh of a casting depends on, but for what is in the file and for the quality that is
+/// enough, as bytes.
+std::string meshing_request(const MeshSource& source, const CastingGeometry& geometry);
 
 }  // namespace solidus::mesh

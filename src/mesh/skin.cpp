@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesh/faces.hpp"
 #include "system/errors.hpp"
@@ -77,6 +78,13 @@ void measure(SkinFace& face) {
 }
 
 }  // namespace
+
+SkinFace face_through(std::vector<Point> corners) {
+  SkinFace face;
+  face.corners = std::move(corners);
+  measure(face);
+  return face;
+}
 
 std::vector<SkinFace> skin_of(const RawMesh& mesh, const std::string& body) {
   const RawGroup& group = mesh.groups.at(body);

@@ -21,6 +21,9 @@ struct SkinFace {
   double area = 0;           ///< [m²]; of a line its length [m]
 };
 
+/// A face with its measures, of which only the places of its corners are known.
+SkinFace face_through(std::vector<Point> corners);
+
 /// The skin of a group of full dimension, in the order of its elements.
 std::vector<SkinFace> skin_of(const RawMesh& mesh, const std::string& body);
 

@@ -37,7 +37,7 @@ class Choice {
     if (options_.riser) {
       if (part_.has_riser())
         throw InputError({"--riser"}, "the geometry has a riser already", "no --riser auto");
-      draft_.riser = choose_riser(part_, std::abs(alloy_.solidification()->volume_change));
+      draft_.riser = choose_riser(part_, std::abs(alloy_.solidification()->volume_change), draft_.symmetry);
       thickest_ = std::max(thickest_, draft_.riser->diameter);
     }
     choose_bodies();

@@ -29,18 +29,26 @@ class Refinement {
       : draft_(draft), process_(process), fineness_(fineness) {}
 
   DraftEstimate refine() {
-    const mesh::KeptMesh kept;  // the case is built again and again, often with the same elements
+    mesh::KeptMesh kept;  // the case is built again and again, often with the same elements
     const logging::Level level = logging::level();
     logging::set_level(std::max(level, logging::Level::silent));
     try {
-      constexpr int k_turns = 4;
+      // The best way of meshing is looked for when the sizes are found, not for each that is tried.
+      kept.be_content_with(mesh::k_usable_quality);
+      bool of_sizes = true;
+      constexpr int k_turns = 5;
       for (int turn = 0; turn < k_turns; ++turn) {
         if (turn == 0) find_skins();  // sizes do not change which skins there are
         write_draft(draft_);
         const Case c = load_case(draft_.folder / "case.toml", {}, Physics::heat);
-        const bool good = adapt(check_run(c)) || turn + 1 == k_turns;
+        const bool good = adapt(check_run(c));
         write_draft(draft_);
-        if (good) break;
+        const bool sound = !kept.way() || kept.way()->quality >= mesh::k_sound_quality;
+        if (good && (sound || !of_sizes)) break;
+        if (good || turn + 2 == k_turns) {
+          of_sizes = false;
+          kept.be_content_with(mesh::k_sound_quality);
+        }
       }
       // Every run would try the same ways again.
       if (const auto way = kept.way(); way && (way->number > 0 || way->quality < mesh::k_sound_quality)) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "case/case_materials.hpp"
 #include "case/roles.hpp"
@@ -22,6 +23,9 @@ namespace {
 /// The alloy of the options, which are checked as far as no geometry is needed for it. Throws InputError.
 material::Material alloy_of(const NewCaseOptions& options, const CastingProcess& process) {
   if (processes::count() > 1) throw InputError({}, "`solidus new` works on one process", "no mpirun");
+  if (std::error_code error; !std::filesystem::exists(options.geometry, error))
+    throw InputError({options.geometry.string()}, "there is no such file",
+                     "the geometry of a casting: STEP, IGES, BREP, STL or a mesh");
   if (options.alloy.empty())
     throw InputError({"--alloy"}, "what is cast?", "--alloy NAME, of those that `solidus materials` lists");
   material::Material alloy = material::find_material(options.alloy, material_folders(), {"--alloy"});
@@ -31,6 +35,9 @@ material::Material alloy_of(const NewCaseOptions& options, const CastingProcess&
   if (!options.symmetry.empty() && options.symmetry != "x" && options.symmetry != "y" &&
       options.symmetry != "z")
     throw InputError({"--symmetry"}, fmt::format("'{}' is no axis", options.symmetry), "x, y or z");
+  if (options.riser && options.symmetry == "z")
+    throw InputError({"--symmetry"}, "with a riser on top nothing is symmetric in z",
+                     "x or y, or no --riser auto");
   if (options.shots > 0 && process.mould != Role::die)
     throw InputError({"--shots"},
                      fmt::format("the mould of the process '{}' is lost with its casting", process.name),
@@ -88,16 +95,19 @@ std::string unknown_bodies_text(const Draft& draft, const std::vector<std::strin
       unknown, last);
 }
 
+/// Distance of the riser from the plane of symmetry [m]; none where one of them is not there.
+std::optional<double> riser_beside_plane(const Draft& draft) {
+  if (!draft.riser || !draft.symmetry) return {};
+  return draft.symmetry->at - draft.riser->foot[static_cast<std::size_t>(draft.symmetry->axis)];
+}
+
 /// A note where half of the part has a riser beside the plane: the whole part then has two. Empty where not.
 std::string twin_riser_text(const Draft& draft) {
-  if (!draft.riser || !draft.symmetry) return "";
-  const double beside =
-      draft.symmetry->at - draft.riser->foot[static_cast<std::size_t>(draft.symmetry->axis)];
-  if (beside < 0.05 * draft.riser->diameter) return "";
+  const double beside = riser_beside_plane(draft).value_or(0);
+  if (beside == 0) return "";
   return fmt::format(
-      "\n  note        the riser stands {:.3g} mm beside the plane of symmetry: with its mirror image there "
-      "are "
-      "two; for one set its `foot` onto the plane",
+      "\n  note        the part is thickest {:.3g} mm beside the plane of symmetry: there is a riser on each "
+      "half, with metal for that half",
       1e3 * beside);
 }
 
@@ -118,13 +128,15 @@ std::string report(const Draft& draft, const PartMeasures& part, const DraftEsti
     out += fmt::format("\n  hot spot    a sphere of {:.3g} mm at ({:.4g}, {:.4g}, {:.4g}) mm", 2e3 * s.radius,
                        1e3 * s.centre[0], 1e3 * s.centre[1], 1e3 * s.centre[2]);
   if (draft.riser)
-    out += fmt::format("\n  riser       {:.3g} mm wide, {:.3g} mm high", 1e3 * draft.riser->diameter,
-                       1e3 * draft.riser->height);
+    out += fmt::format(
+        "\n  riser       {:.3g} mm wide, {:.3g} mm high{}", 1e3 * draft.riser->diameter,
+        1e3 * draft.riser->height,
+        riser_beside_plane(draft) == 0.0 ? ", halved by the plane of symmetry on which it stands" : "");
   if (draft.symmetry)
     out += fmt::format("\n  symmetry    the half below {} = {:.4g} mm is computed",
                        "xyz"[draft.symmetry->axis], 1e3 * draft.symmetry->at);
   if (draft.mould)
-    out += fmt::format("\n  mould       walls of {:.3g} mm{}",
+    out += fmt::format("\n  {:<10}  walls of {:.3g} mm{}", draft.mould->name,
                        1e3 * *std::ranges::max_element(draft.mould->walls),
                        draft.mould->walls[5] == 0 ? ", open at the top, where the riser ends" : "");
   out += fmt::format(

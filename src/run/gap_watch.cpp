@@ -2,40 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
-#include "contact/contact_report.hpp"
 #include "coupling/state.hpp"
-#include "parallel/parallel.hpp"
 #include "system/log.hpp"
 
 namespace solidus::model {
 
-void GapWatch::begin(const coupling::State& state) {
-  for (std::size_t i = 0; i < pairs_.size(); ++i)
-    if (contacts_[i]->heat() != nullptr)
-      pairs_[i].conductance = contact::nodal_fields(contacts_[i]->view(), state.heat.temperature).conductance;
-}
-
-void GapWatch::step(const coupling::StepRecord& record, const coupling::State& state) {
+void GapWatch::step(const coupling::StepRecord& record, const coupling::State& /*state*/) {
   exchanged_ += record.energy.heat_exchanged;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (contacts_[i]->heat() == nullptr) continue;
+  for (std::size_t i = 0; i < record.gap_heat.size(); ++i) {
     Pair& pair = pairs_[i];
-    const contact::ContactNodalFields now =
-        contact::nodal_fields(contacts_[i]->view(), state.heat.temperature);
-    double late = 0, all = 0;
-    for (std::size_t a = 0; a < now.conductance.size(); ++a) {
-      const double area = now.paired_area[a], before = pair.conductance[a], h = now.conductance[a];
-      if (!(area > 0) || !(h > 0) || !(before >= 0)) continue;  // no partner now, or none before
-      const double flow = std::abs(now.heat_flux[a] - now.frictional_heat_flux[a]) * area;
-      all += flow / h * before;
-      late += flow / h * std::abs(h - before);
-    }
-    pair.conductance = now.conductance;
-    // Both surfaces count: half of the sums is the heat that passed.
-    late = 0.5 * record.dt * parallel::global_sum(late);
-    pair.all += 0.5 * record.dt * parallel::global_sum(all);
+    const double late = record.dt * record.gap_heat[i].misplaced;
+    pair.all += record.dt * record.gap_heat[i].passed;
     pair.late += late;
     if (late > pair.worst) {
       pair.worst = late;
@@ -52,10 +29,9 @@ void GapWatch::report() const {
     const Pair& pair = pairs_[i];
     if (!(pair.late > k_worth_saying * pair.all && pair.all > k_much_heat * exchanged_)) continue;
     const std::string text = fmt::format(
-        "contact '{}': heat passes through the gaps of a step's start; what they changed within the steps is "
-        "{:.2g} % of the heat that passed, most in the step of {:g} s to t = {:g} s, {:.3g} of {:.3g} J in "
-        "all; "
-        "shorter steps there, or coupling.scheme = \"block_iterative\"",
+        "contact '{}': gaps changed within steps after their heat had passed; that misplaced {:.2g} % of it, "
+        "most in the step of {:g} s to t = {:g} s, {:.3g} of {:.3g} J in all; shorter steps there, a smaller "
+        "coupling.gap_tolerance, or coupling.scheme = \"block_iterative\"",
         contacts_[i]->spec().name, 100 * pair.late / pair.all, pair.worst_step, pair.worst_time, pair.worst,
         pair.all);
     if (pair.late > k_worth_a_warning * pair.all)

@@ -1,5 +1,5 @@
-/// An observer of runs that conduct heat through the gaps of a step's start (PhaseOrder::heat_first): what
-/// the change of the conductances within the steps misplaces.
+/// An observer of runs that conduct heat before they solve deformation (PhaseOrder::heat_first): what the
+/// change of the gaps within the steps misplaces.
 #pragma once
 
 #include <vector>
@@ -9,27 +9,20 @@
 
 namespace solidus::model {
 
-/// Reports at the end of a run the heat that interfaces passed by conductances that were no longer true at
-/// the end of the step:
-///
-///   late = Σ_steps Δt Σ_a A_a |q_a/h_a,n+1| |h_a,n+1 − h_a,n|,   all = Σ_steps Δt Σ_a A_a |q_a/h_a,n+1|
-///   h_a,n
-///
-/// a nodes of a surface, q_a [W/m²] flux at the end of the step without the heat of friction, A_a [m²] the
-/// area around the node, h_a,n and h_a,n+1 [W/(m² K)] conductance at both ends of the step.
+/// Reports at the end of a run the heat that interfaces passed through other gaps than the mean ones of the
+/// steps (StepEffort::gap_heat), added up over the steps.
 class GapWatch : public coupling::Observer {
  public:
   /// @param contacts  kept by reference
   explicit GapWatch(const std::vector<contact::ContactPair*>& contacts)
       : contacts_(contacts), pairs_(contacts.size()) {}
-  void begin(const coupling::State& state) override;
+  void begin(const coupling::State&) override {}
   void step(const coupling::StepRecord& record, const coupling::State& state) override;
   void stopped(const coupling::Stop&, const coupling::State&) override { report(); }
   void end(const coupling::State&) override { report(); }
 
  private:
   struct Pair {
-    std::vector<double> conductance;                   ///< at the last time, [owned node of the pair]
     double late = 0, all = 0;                          ///< [J], all processes
     double worst = 0, worst_time = 0, worst_step = 0;  ///< the step that misplaced most [J], [s]
   };

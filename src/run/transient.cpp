@@ -46,13 +46,6 @@ coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
   return coupling::Simulation(coupling_scheme(spec, a.phases), std::move(times), std::move(estimate));
 }
 
-/// Whether heat is conducted once a step, with the gaps of its start.
-bool conducts_once_at_start(const CaseSpec& spec, bool melts) {
-  if (!spec.coupled() || lags_a_step(spec, melts)) return false;
-  const coupling::SchemeTraits traits = spec.coupling.scheme->traits();
-  return !traits.iterates && !traits.second_order && traits.mapping != mechanics::Mapping::simultaneous;
-}
-
 }  // namespace
 
 Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& a,
@@ -70,7 +63,7 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
   if (a.heat) simulation_.add(bounds_.emplace(spec, *a.heat));
   if (a.phases.coherency != nullptr) simulation_.add(walls_);
   if (lags_a_step(spec, a.phases.coherency != nullptr)) simulation_.add(lag_);
-  if (conducts_once_at_start(spec, a.phases.coherency != nullptr)) simulation_.add(gaps_);
+  simulation_.add(gaps_);
   simulation_.add(dissipation_);
   if (a.phases.audits_stability()) simulation_.add(stability_);
   if (spec.has_heat()) simulation_.add(first_law_);

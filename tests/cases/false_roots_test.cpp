@@ -255,4 +255,26 @@ TEST(ChilledMelt, StaysAboveItsChillInTwoStagesOfALongStep) {
   EXPECT_LT(*std::ranges::max_element(run.history.at("T_max[degC]")), 901);
 }
 
+/// The thermal pass of the double pass is of second order too: in steps 25 times as long as the casting takes
+/// to freeze it ended 242 K below the air that cools it.
+TEST(ChilledMelt, StaysAboveItsSurroundingsInTheDoublePass) {
+  const std::string film = R"([[thermal_condition]]
+name = "air"
+group = "y_max"
+kind = "film"
+coefficient = "300 W/m2/K"
+ambient = "20 degC"
+)";
+  std::string text = k_long_steps;
+  const std::size_t first = text.find("[[thermal_condition]]"), last = text.find("[[mechanical_condition]]");
+  text.replace(first, last - first, film);
+  const auto run = k_here.run("double_pass_long_steps", text,
+                              {"coupling.scheme=\"double_pass\"", "coupling.integration=\"backward_euler\"",
+                               "time.step=\"550 s\"", "time.end=\"1650 s\""});
+  ASSERT_TRUE(run.finished) << run.reason;
+  EXPECT_GT(*std::ranges::min_element(run.history.at("T_min[degC]")), 15);
+  EXPECT_LT(*std::ranges::max_element(run.history.at("T_max[degC]")), 901);
+  EXPECT_LT(run.history.at("T_max[degC]").back(), 60) << "and it cools down";
+}
+
 }  // namespace

@@ -144,4 +144,60 @@ TEST(LeavingBodies, ThatAreMeltHaveNotFrozen) {
   EXPECT_LT(pools.at("time[s]").back(), 0.6);
 }
 
+/// Melt on a mould that is taken away while it is liquid.
+std::string melt_on_a_mould(const std::string& physics) {
+  return R"(title = "A mould that leaves too soon"
+stage = [
+  { name = "pour", duration = "0.4 s", step = "0.1 s" },
+  { name = "open", duration = "0.2 s", step = "0.1 s" },
+]
+[analysis]
+kind = "plane_strain"
+physics = ")" +
+         physics + R"("
+[mesh]
+shape = "two_blocks"
+element = "tri3"
+[mesh.two_blocks]
+lower = ["40 mm", "20 mm"]
+upper = ["40 mm", "20 mm"]
+lower_divisions = [4, 4]
+upper_divisions = [4, 4]
+gap = "0 mm"
+[time]
+[[body]]
+name = "lower"
+material = "steel_mould"
+initial_temperature = "200 degC"
+stages = "pour"
+[[body]]
+name = "upper"
+material = "aluminium_alsi7mg"
+initial_temperature = "700 degC"
+[[contact]]
+name = "interface"
+slave = "upper_bottom"
+master = "lower_top"
+[contact.heat]
+conductance = "1000 W/m2/K"
+gap_law = "constant"
+)";
+}
+
+TEST(LeavingBodies, MayNotLeaveMeltWithoutItsMould) {
+  EXPECT_THAT(
+      k_here.refusal("too_soon", melt_on_a_mould("thermomechanical")),
+      HasSubstr("the stage 'open' frees body 'upper' of its contact 'interface' at t = 0.4 s, while 100 % of "
+                "that skin is below coherency"));
+  // Heat alone does not care where melt goes to.
+  const CaseRun r = k_here.run("too_soon_heat", melt_on_a_mould("heat"));
+  ASSERT_TRUE(r.finished) << r.reason;
+  EXPECT_THAT(solidus::logging::warnings(), ::testing::Contains(HasSubstr("the metal would run out")));
+  std::string later = melt_on_a_mould("heat");
+  later.replace(later.find("0.4 s"), 5, "200 s");
+  later.replace(later.find("0.1 s"), 5, "5 s");
+  ASSERT_TRUE(k_here.run("late_enough", later).finished);
+  EXPECT_THAT(solidus::logging::warnings(), ::testing::Not(::testing::Contains(HasSubstr("would run out"))));
+}
+
 }  // namespace

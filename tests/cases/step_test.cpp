@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include "case_run.hpp"
 #include "mesh/kept_mesh.hpp"
@@ -153,15 +154,57 @@ TEST(NewCase, OfAHollowPartHasAMouldACoreARiserAndRunsBothWays) {
   }
   const solidus::model::CheckedRun checked =
       solidus::model::check_run(solidus::model::load_case(report.file, {}, Physics::heat));
-  double metal = 0;
+  double metal = 0, riser = 0;
   for (const auto& body : checked.overview.bodies) {
     if (body.name == "core") {
       EXPECT_NEAR(body.volume, 4e-6, 1e-10);  // half of the cavity
     }
     if (body.name == "casting") metal = body.volume;
+    if (body.name == "riser") riser = body.volume;
   }
   EXPECT_NEAR(metal, (96e-6 - 8e-6) / 2, 1e-10);
+  // It stands on the plane of symmetry. Its foot is sunk into the part by 0.05 diameters.
+  const auto cylinder = *solidus::model::load_case(report.file, {}, Physics::heat).spec.mesh.riser;
+  EXPECT_EQ(cylinder.foot[1], 0.02);
+  const double half = std::numbers::pi / 8 * cylinder.diameter * cylinder.diameter * cylinder.height;
+  EXPECT_GT(riser, 0.85 * half);
+  EXPECT_LT(riser, half);
   EXPECT_THROW(solidus::model::make_new_case(options), solidus::InputError);  // there is a case already
+}
+
+/// Two balls of 40 mm on a thin bar, 120 mm apart along y.
+std::filesystem::path dumbbell() {
+  fs::create_directories(root());
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::model::add("dumbbell");
+  namespace occ = gmsh::model::occ;
+  const int left = occ::addSphere(0, -60, 0, 20), right = occ::addSphere(0, 60, 0, 20),
+            bar = occ::addCylinder(0, -60, 0, 0, 120, 0, 8);
+  gmsh::vectorpair all;
+  std::vector<gmsh::vectorpair> map;
+  occ::fuse({{3, left}}, {{3, right}, {3, bar}}, all, map);
+  occ::synchronize();
+  gmsh::write((root() / "dumbbell.step").string());
+  gmsh::finalize();
+  return root() / "dumbbell.step";
+}
+
+TEST(NewCase, WhereAPartIsThickestBesideThePlaneOfSymmetryEachHalfHasARiser) {
+  solidus::model::NewCaseOptions options;
+  options.geometry = dumbbell();
+  options.alloy = "aluminium_alsi7mg";
+  options.riser = true;
+  options.symmetry = "y";
+  options.fineness = 0.6;
+  options.folder = root() / "dumbbell";
+  fs::remove_all(options.folder);
+  const solidus::model::NewCaseReport report = solidus::model::make_new_case(options);
+  EXPECT_THAT(report.text, HasSubstr("60 mm beside the plane of symmetry: there is a riser on each half"));
+  const solidus::model::Case c = solidus::model::load_case(report.file, {}, solidus::model::Physics::heat);
+  const solidus::model::RiserBlockSpec& riser = *c.spec.mesh.riser;
+  EXPECT_NEAR(riser.foot[1], -0.06, 1e-3);
+  EXPECT_GT(std::abs(riser.foot[1]), 0.5 * riser.diameter);
 }
 
 TEST(NewCase, MeshesNearlyTheSameInTheWayThatWasBestBefore) {
@@ -172,13 +215,34 @@ TEST(NewCase, MeshesNearlyTheSameInTheWayThatWasBestBefore) {
   ASSERT_TRUE(kept.way());
   EXPECT_EQ(kept.way()->number, 0);
   EXPECT_GT(kept.way()->quality, 0.15);
-  kept.keep_way({2, 0.3});
-  mesh::mesh_casting(source, {}, 0.14);
+  mesh::CastingGeometry finer;
+  finer.sizes = {{"body_1", 8e-3, 4e-3}};
+  kept.keep_way({2, 0.3, false});
+  mesh::mesh_casting(source, finer, 0.14);
   EXPECT_EQ(kept.way()->number, 2);
   // A quality that no way gave before is not looked for in all of them again.
-  kept.keep_way({1, 0.1});
+  kept.keep_way({1, 0.1, true});
   mesh::mesh_casting(source, {}, 1);
   EXPECT_EQ(kept.way()->number, 1);
+}
+
+TEST(NewCase, LooksForTheBestWayWhenWhatWasEnoughIsNotEnoughAnyMore) {
+  namespace mesh = solidus::mesh;
+  const mesh::MeshSource source{hollow_box().string(), 1e-3};
+  mesh::KeptMesh kept;
+  kept.be_content_with(0.01);
+  const std::size_t nodes = mesh::mesh_casting(source, {}, 1).x.size();
+  EXPECT_EQ(kept.way()->number, 0);
+  EXPECT_FALSE(kept.way()->best_of_all);
+  const double first = kept.way()->quality;
+  kept.be_content_with(1);
+  mesh::mesh_casting(source, {}, 1);
+  EXPECT_TRUE(kept.way()->best_of_all);
+  EXPECT_TRUE(kept.way()->number == 0 ? kept.way()->quality == first : kept.way()->quality > 1.1 * first);
+  kept.be_content_with(0.01);
+  if (kept.way()->number == 0) {
+    EXPECT_EQ(mesh::mesh_casting(source, {}, 1).x.size(), nodes);
+  }
 }
 
 TEST(NewCase, TheWayOfMeshingThatACaseNamesIsTheOnlyOne) {

@@ -7,7 +7,7 @@ namespace solidus::coupling {
 
 class HalvedSplit final : public CouplingScheme {
  public:
-  explicit HalvedSplit(const Phases& phases) : split_(phases, PhaseOrder::heat_first) {}
+  explicit HalvedSplit(const Phases& phases) : split_(phases, {.order = PhaseOrder::heat_first}) {}
   void synchronise(const State& state) override { split_.synchronise(state); }
   void forget() override { split_.forget(); }
   StepEffort advance(const State& old, State& trial, double time, double dt) override {

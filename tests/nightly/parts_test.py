@@ -1,4 +1,4 @@
-"""`solidus new` on every part of tests/parts and the bracket: cases that answer without editing, by heat alone in less than a
+"""`solidus new` on every part of tests/parts, the bracket and the plate: cases that answer without editing, by heat alone in less than a
 minute of processor time and coupled in less than ten."""
 
 import json
@@ -14,14 +14,18 @@ MOST = {"--heat-only": 60, "--coupled": 600}  # seconds of one core
 # File, alloy, process, and what `new` is told besides.
 PARTS = [
     ("cases/bracket_from_step/bracket.step", "aluminium_alsi7mg", "sand"),
+    ("cases/stepped_plate/plate.step", "aluminium_alsi7mg", "sand"),
     ("tests/parts/bearing_block.step", "tin_bronze", "sand"),
     ("tests/parts/elbow.step", "low_carbon_steel", "shell"),
     ("tests/parts/flange.step", "nodular_iron", "sand"),
     ("tests/parts/gear_case.step", "aluminium_alsi9cu3", "high_pressure"),
     ("tests/parts/handwheel.step", "grey_iron", "sand"),
     ("tests/parts/hook.step", "low_carbon_steel", "sand"),
+    ("tests/parts/impeller.step", "tin_bronze", "sand", "--riser", "auto"),
+    ("tests/parts/manifold.step", "grey_iron", "sand", "--as", "body_1=core"),
     ("tests/parts/pillow_block.step", "nodular_iron", "sand"),
     ("tests/parts/pump_housing.step", "grey_iron", "sand", "--as", "body_1=core"),
+    ("tests/parts/ribbed_box.step", "aluminium_alsi9cu3", "high_pressure"),
     ("tests/parts/ribbed_cover.step", "aluminium_alsi9cu3", "high_pressure"),
     ("tests/parts/stepped_plate.step", "aluminium_alsi7mg", "sand", "--riser", "auto"),
     ("tests/parts/tee_flange.step", "aluminium_alsi7mg", "sand", "--symmetry", "y", "--riser", "auto"),

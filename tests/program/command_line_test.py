@@ -64,6 +64,7 @@ class CommandLine(ProgramTest):
         everything = self.done("help")
         for verb in VERBS:
             self.assertRegex(everything, rf"(?m)^  {verb} ")
+            self.assertNotIn("{", self.done("help", verb))  # no marks of the library that reads the command line
         self.assertEqual(self.done("help", "run"), self.done("run", "--help").replace(PROGRAM, "solidus"))
         wrong = solidus("help", "rum")
         self.assertEqual(wrong.returncode, 1)
@@ -71,6 +72,7 @@ class CommandLine(ProgramTest):
 
     def test_what_is_missing_is_said_with_where_to_look(self):
         self.write("part.step", "ISO-10303-21;")
+        self.write("plate/case.toml", "")
         for arguments, *said in (
                 (["new", "part.step"], "what is cast?", "those that `solidus materials` lists"),
                 (["new"], "PART is required", "`solidus help new` shows its options"),
@@ -78,6 +80,9 @@ class CommandLine(ProgramTest):
                 ([], "which verb?", "`solidus --help` shows all of them"),
                 (["run", "part.step"], "part.step: this is a geometry or a mesh, not a case", "`solidus new` makes one"),
                 (["check", "."], ".: the folder has no case.toml"),
+                (["check", "bracket"], "bracket: there is no such file or folder", "a case file, or a folder"),
+                (["check", "plat"], "plat: there is no such file or folder", "did you mean 'plate'?"),
+                (["new", "nothing.step", "--alloy", "brass"], "nothing.step: there is no such file"),
                 (["plot", "."], ".: the folder has no results", "names at its end"),
                 (["plot", "nothing"], "nothing: there is no such folder", "names at its end")):
             result = solidus(*arguments, cwd=self.folder)

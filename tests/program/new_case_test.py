@@ -1,6 +1,7 @@
 """`solidus new` from skins of triangles and from meshes. (From solids: tests/cases/step_test.cpp.)"""
 
 import itertools
+import math
 import re
 import tomllib
 import unittest
@@ -96,11 +97,30 @@ class NewCase(ProgramTest):
         # The interface of all bodies has nothing left beside that of casting and die: no reason to warn.
         self.assertNotIn("no two bodies face each other", checked.stderr)
 
-    def test_a_riser_beside_the_plane_of_symmetry_is_said_to_have_a_mirror_image(self):
-        text = self.done("new", str(SOURCES / "tests/parts/tee_flange.step"), *ALLOY, "--symmetry", "y", "--riser", "auto",
-                         "--fineness", "0.6", "-o", "case")
+    def riser(self, case):
+        """Foot, diameter and height of the riser [mm]."""
+        mm = lambda text: float(text.split()[0])
+        riser = case["mesh"]["riser"]
+        return [mm(x) for x in riser["foot"]], mm(riser["diameter"]), mm(riser["height"])
+
+    def volumes(self):
+        self.done("run", "case", "--heat-only", "--set", "time.until=end", "--set", 'time.end="1 s"', "--set",
+                  'time.step="1 s"', "-o", "out", "--no-progress")
+        return {body["name"]: body["volume[m3]"] for body in self.summary(self.folder / "out")["understood"]["bodies"]}
+
+    def test_a_riser_stands_on_the_plane_of_symmetry_which_halves_it(self):
+        text, case = self.new(str(SOURCES / "tests/parts/tee_flange.step"), "--symmetry", "y", "--riser", "auto",
+                              "--fineness", "0.6")
         self.assertIn("symmetry    the half below y = 0 mm is computed", text)
-        self.assertRegex(text, r"the riser stands \d+\.\d mm beside the plane of symmetry: with its mirror image there are two")
+        self.assertIn("high, halved by the plane of symmetry on which it stands", text)
+        foot, diameter, height = self.riser(case)
+        self.assertEqual(foot[1], 0)
+        # Half a cylinder, but for its foot in the part and the sides of the polygon that elements make of it.
+        half = 1e-9 * math.pi / 8 * diameter**2 * height
+        self.assertTrue(0.85 * half < self.volumes()["riser"] < half)
+        result = solidus("new", str(SOURCES / "tests/parts/tee_flange.step"), *ALLOY, "--symmetry", "z", "--riser", "auto",
+                         "-o", "refused", cwd=self.folder)
+        self.assertIn("with a riser on top nothing is symmetric in z", result.stderr)
 
     def test_a_riser_is_cooled_by_the_mould_whose_surface_it_shares_with_its_casting(self):
         self.new(str(SOURCES / "cases/bracket_from_step/bracket.step"), "--riser", "auto", "--fineness", "0.7")
@@ -139,7 +159,7 @@ class NewCase(ProgramTest):
         self.write("part.stl", stl("part", closed))
         self.assertIn("a riser can be joined to solids of a CAD program only", self.refusal("part.stl", "--riser", "auto"))
         self.assertIn("only solids of a CAD program can be cut", self.refusal("part.stl", "--symmetry", "y"))
-        self.assertIn("the mesh file does not exist", self.refusal("absent.stl"))
+        self.assertIn("there is no such file", self.refusal("absent.stl"))
 
     def test_of_a_mesh_with_its_mould_takes_the_elements_as_they_are(self):
         inside = lambda i, j, k: all(2 <= n < 4 for n in (i, j, k))

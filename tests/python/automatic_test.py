@@ -10,7 +10,7 @@ import numpy as np
 
 from solidus_plots import automatic, hot_spots, overview, style
 from solidus_plots.cells import HEX
-from solidus_plots.curves import _give_height, _panels
+from solidus_plots.curves import _give_height, _panels, unit_groups
 from solidus_plots.history import Table
 from solidus_plots.moments import Moments
 from solidus_plots.vtu import Grid
@@ -146,6 +146,13 @@ class Curves(unittest.TestCase):
         axes.plot([20, 21])
         _give_height(axes)
         self.assertTrue(19.5 < axes.get_ylim()[0] < 20)
+
+    def test_a_unit_of_which_all_stays_zero_gets_no_picture(self):
+        history = Table({"time[s]": np.array([0.0, 1.0]), "T_max[degC]": np.array([700.0, 690.0]),
+                         "contact_force[N]": np.zeros(2)})
+        with tempfile.TemporaryDirectory() as folder:
+            unit_groups(history, Path(folder))
+            self.assertEqual(sorted(file.name for file in Path(folder).glob("*.png")), ["history_degC.png"])
 
 
 if __name__ == "__main__":

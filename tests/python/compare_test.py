@@ -8,6 +8,7 @@ from blocks import box, everything
 import numpy as np
 
 from solidus_plots.cells import HEX, TET, TET_2
+from solidus_plots.compare import as_text
 from solidus_plots.mapping import Mapper, same_mesh
 from solidus_plots.study_file import read_study
 from solidus_plots.study_plots import rank_correlation
@@ -56,6 +57,12 @@ class Mapping(unittest.TestCase):
             np.testing.assert_array_equal(read.point_data["temperature"], grid.point_data["temperature"])
             np.testing.assert_array_equal(read.connectivity, grid.connectivity)
             self.assertEqual((read.time, read.units["temperature"]), (12.5, "K"))
+
+
+class Tables(unittest.TestCase):
+    def test_the_unit_of_niyama_is_printed_as_a_run_prints_it(self):
+        text = as_text(["answer", "A"], [["least Niyama[K0.5 s0.5/mm]", 0.5], ["steps[1]", None]])
+        self.assertEqual(text.splitlines()[1:], ["  least Niyama[sqrt(K s)/mm]  0.5", "  steps[1]                      -"])
 
 
 class Studies(unittest.TestCase):

@@ -4,8 +4,10 @@ import json
 from pathlib import Path
 import tempfile
 import unittest
+import unittest.mock
 
 from field_files import write
+from solidus_plots import plot_case
 from solidus_plots.plot_case import draw
 
 
@@ -46,6 +48,12 @@ class Folders(unittest.TestCase):
         self.assertNotIn("section.png", names)
         for text in ("no fields were written at 20 s", "does not meet the bodies", "T_b[degC]"):
             self.assertTrue(any(text in problem for problem in problems), (text, problems))
+
+    def test_without_semaphores_pictures_are_drawn_one_after_the_other(self):
+        with unittest.mock.patch.object(plot_case, "ProcessPoolExecutor", side_effect=PermissionError(13, "Permission denied")):
+            names, problems = self.drawn('[[maps]]\nfile = "map"\nfield = "temperature"\ntimes = [12.5]\n')
+        self.assertIn("map.png", names)
+        self.assertEqual(problems, [])
 
     def test_a_mistake_in_plots_toml_costs_the_picture_that_has_it(self):
         names, problems = self.drawn('''

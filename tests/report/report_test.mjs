@@ -211,6 +211,21 @@ try {
   check("the slider goes to its moment", (await page.run("document.querySelector('#clock').textContent")) === "t = 3 min 20 s", await page.run("document.querySelector('#clock').textContent"));
   const final = JSON.parse(readFileSync(join(folder, "block/summary.json"))).final;
   const hottest = await page.run(`Math.max(...${view}.field.values(0, 5)) - 273.15`);
+  const pointed = () => page.run("document.querySelector('.tip').hidden ? '' : document.querySelector('.tip b').textContent");
+  await page.mouse("mouseMoved", box.x + middle[0], box.y + middle[1]);
+  await page.settle();
+  const cold = await pointed();
+  await page.run(`${bench}.goTo(40)`);
+  await page.settle();
+  await page.settle();
+  const warm = await pointed();
+  check("what is pointed at has its value there, of each moment that comes", parseFloat(warm) > parseFloat(cold) + 10, [cold, warm]);
+  // Nothing happens before the first step: the scale of that moment is not that of rounding.
+  await page.run(`(() => { ${bench}.fixedRange = false; ${bench}.setField('temperature'); ${bench}.goTo(0); })()`);
+  const span = await page.run(`${bench}.choice.high - ${bench}.choice.low`);
+  const rounding = await page.run(`(([l, u]) => (u - l) / 16383)(${view}.field.range([0]))`);
+  check("equal values have a scale that is wider than their rounding", span > 30 * rounding && span < 100 * rounding, [span, rounding]);
+  await page.run(`${bench}.goTo(200)`);
   check("and the temperatures are those of the summary", Math.abs(hottest - final["T_max[degC]"]) < 0.05, [hottest, final["T_max[degC]"]]);
   await page.run("document.querySelector('.stage').focus()");
   await page.key("ArrowLeft");

@@ -40,6 +40,7 @@ struct Coupled {
   coupling::SimultaneousOptions simultaneous;     ///< with Mapping::simultaneous
   bool double_pass = false;                       ///< with either mapping of a split
   coupling::PhaseOrder order = coupling::PhaseOrder::mechanics_first;  ///< of the sequential splits
+  double gap_tolerance = 1;                                            ///< of them with heat first
   /// Of them and of the double pass.
   coupling::ThermalFlow thermal_flow = coupling::ThermalFlow::kept;
   /// Present: passes of `mapping` in turn until they agree.
@@ -134,11 +135,15 @@ class Assembly {
     else if (c.double_pass)
       scheme_ = std::make_unique<coupling::DoublePass>(phases, c.thermal_flow);
     else if (c.mapping == mechanics::Mapping::isentropic)
-      scheme_ = std::make_unique<coupling::IsentropicSplit>(phases, c.order, c.thermal_flow);
+      scheme_ = std::make_unique<coupling::IsentropicSplit>(
+          phases, coupling::SequentialOptions{
+                      .order = c.order, .flow = c.thermal_flow, .gap_tolerance = c.gap_tolerance});
     else if (c.mapping == mechanics::Mapping::simultaneous)
       scheme_ = std::make_unique<coupling::SimultaneousScheme>(phases, c.simultaneous);
     else
-      scheme_ = std::make_unique<coupling::IsothermalSplit>(phases, c.order, c.thermal_flow);
+      scheme_ = std::make_unique<coupling::IsothermalSplit>(
+          phases, coupling::SequentialOptions{
+                      .order = c.order, .flow = c.thermal_flow, .gap_tolerance = c.gap_tolerance});
 
     start_.heat = heat_->initial_state(c.start);
     start_.mechanics = mechanics_->initial_state();

@@ -15,7 +15,7 @@ struct IsentropicScheme : SequentialScheme {
 
   SchemeTraits traits() const { return {.mapping = mechanics::Mapping::isentropic, .leaves_stepping = true}; }
   std::unique_ptr<CouplingScheme> make(const Phases& phases, const SchemeContext& c) const {
-    return std::make_unique<IsentropicSplit>(phases, order_in(c), flow);
+    return std::make_unique<IsentropicSplit>(phases, options_in(c));
   }
 };
 

@@ -18,7 +18,7 @@ struct IsothermalScheme : SequentialScheme {
             .needs_weak_coupling = true};
   }
   std::unique_ptr<CouplingScheme> make(const Phases& phases, const SchemeContext& c) const {
-    return std::make_unique<IsothermalSplit>(phases, order_in(c), flow);
+    return std::make_unique<IsothermalSplit>(phases, options_in(c));
   }
 };
 

@@ -3,14 +3,17 @@
 #pragma once
 
 #include "coupling/add_scheme.hpp"
-#include "coupling/phase_order.hpp"
 #include "coupling/schemes/thermal_flow_key.hpp"
+#include "coupling/sequential_split.hpp"
 
 namespace solidus::coupling {
 
 struct SequentialScheme {
   std::optional<PhaseOrder> order;  ///< absent: order_in() chooses
   ThermalFlow flow = ThermalFlow::kept;
+  std::optional<double> gap_tolerance;  ///< absent: k_gap_tolerance
+
+  static constexpr double k_gap_tolerance = 0.02;
 
   /// As the case says, or heat first unless friction between bodies that do not melt, inertia or a printed
   /// form of structural heat forbids it.
@@ -19,6 +22,9 @@ struct SequentialScheme {
     return (c.rubs && !c.melts) || c.as_printed || c.printed_form() || c.inertia ? PhaseOrder::mechanics_first
                                                                                  : PhaseOrder::heat_first;
   }
+  SequentialOptions options_in(const SchemeContext& c) const {
+    return {.order = order_in(c), .flow = flow, .gap_tolerance = gap_tolerance.value_or(k_gap_tolerance)};
+  }
   bool lags_a_step(const SchemeContext& c) const {
     return !c.inertia && order_in(c) == PhaseOrder::mechanics_first;
   }
@@ -26,6 +32,9 @@ struct SequentialScheme {
     if (order == PhaseOrder::heat_first && c.printed_form())
       return Objection{"printed forms of structural heat count from a mechanical phase that comes first",
                        "order = \"mechanics_first\", or structural_heating \"energy\" or \"entropy\""};
+    if (gap_tolerance && order_in(c) == PhaseOrder::mechanics_first)
+      return Objection{"gap_tolerance belongs to steps that conduct heat before they solve deformation",
+                       "order = \"heat_first\", or no gap_tolerance"};
     return std::nullopt;
   }
 
@@ -46,6 +55,12 @@ struct SequentialScheme {
         .initially("automatic")
         .doc("Which phase of the isentropic and of the isothermal split comes first in a step.");
     declare_thermal_flow(s, &SequentialScheme::flow);
+    s.key("gap_tolerance", static_cast<std::optional<double> Scheme::*>(&SequentialScheme::gap_tolerance))
+        .range(0.0, 1.0)
+        .doc(
+            "With heat first: share of the heat through interfaces that gaps which change within a step may "
+            "misplace. Where it is more, the step is solved again, heat through the mean of the gaps at both "
+            "of its ends, until it is not, three times at most. 0.02 where it is not given; one: never.");
   }
 };
 

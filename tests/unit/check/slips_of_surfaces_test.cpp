@@ -177,6 +177,9 @@ TEST_F(FindingsTest, RatiosThatNoMetalHasAreNamed) {
   const std::vector<Slip> slips = {
       {"poisson_ratio = 0.33", "poisson_ratio = 0.033", "poisson_ratio of 0.033"},
       {"\"1 GPa\"", "\"50 GPa\"", "hardening_modulus of 50 GPa beside a young_modulus of 70 GPa"},
+      {"2.2e-5 1/K", "6.6e-5 1/K", "is it that of the volume, three times as large?"},
+      {"389 kJ/kg", "10.7 kJ/kg", "latent heat of 10700 J/kg"},
+      {"\"150 W/m/K\"", "\"700 W/m/K\"", "conductivity of 700 W/m/K"},
       {"-0.05", "0.05", "'freezing' makes the volume larger by 5 %"},
       {"[550, 1100], [613", "[550, 1100], [580, 12000], [613", "the specific heat rises to 1.2e+04 J/kg/K"},
       {"solidification = true\n", "", "'freezing' releases 389 kJ/kg and is no solidification"},

@@ -104,6 +104,36 @@ TEST(InterfaceHeat, ByRadiationHasTheMeanOfBothDerivativesAsItsTangent) {
   EXPECT_NEAR(contact::sums(pair.view(), hot_and_cold).heat, expected, 1e-12 * expected);
 }
 
+// A gap that opens from 40 to 120 µm has 80 in the middle.
+TEST(InterfaceHeat, PassesThroughTheGapsThatItIsTold) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  ContactParameters s = spec();
+  s.heat = heat_spec();
+  s.heat->gap_law = gap_law(GasGap{.conductivity = 0.06, .open_conductance = 2300});
+  ContactPair pair(mesh, AnalysisKind::plane_strain, s);
+  const auto lifted = [&](double gap) {
+    return test::nodal_field(mesh, 2, [&](const Point&, bool upper) {
+      return std::vector<double>{0, upper ? gap : 0};
+    });
+  };
+  const auto temperature = test::nodal_field(
+      mesh, 1, [](const Point&, bool upper) { return std::vector{upper ? 400.0 : 1000.0}; });
+  const auto heat = [&] { return std::abs(contact::sums(pair.view(), temperature).heat); };
+  pair.update(lifted(80e-6));
+  const double of_the_middle = heat();
+  pair.update(lifted(40e-6));
+  const std::vector<HeatGap> start = pair.heat_gaps();
+  const double of_the_start = heat();
+  pair.update(lifted(120e-6));
+  const std::vector<HeatGap> mean = middle(start, pair.heat_gaps());
+  pair.conduct_through(mean);
+  EXPECT_NEAR(heat(), of_the_middle, 1e-12 * of_the_middle);
+  const GapHeat misplaced = pair.gap_heat(start, mean, temperature);
+  EXPECT_NEAR(misplaced.passed, of_the_start, 1e-12 * of_the_start);
+  EXPECT_NEAR(misplaced.misplaced, of_the_start - of_the_middle, 1e-12 * of_the_start);
+  EXPECT_EQ(pair.gap_heat(mean, mean, temperature).misplaced, 0);
+}
+
 TEST(InterfaceHeat, LeavesOneBodyAndEntersTheOtherWithoutLoss) {
   for (bool nodal : {true, false})
     for (Shape shape : {Shape::tri3, Shape::hex8, Shape::hex20}) {

@@ -33,6 +33,8 @@ TEST(FeedingLaw, OfMetalWhoseLastMeltFreezesAtOnceHasAnEndToItsResistance) {
   EXPECT_DOUBLE_EQ(law.resistance(0.5 * eutectic), law.resistance(eutectic));
   EXPECT_EQ(law.pore_fraction(1.01 * std::sqrt(law.resistance(eutectic))), 0);
   EXPECT_NEAR(law.pore_fraction(0.99 * std::sqrt(law.resistance(eutectic))), 0.05 * eutectic, 0.002);
+  for (const double g : {0.6, 0.7, 0.9})  // on different pieces of the curve
+    EXPECT_NEAR(law.pore_fraction(std::sqrt(law.resistance(g))), 0.05 * g, 1e-9) << g;
 }
 
 TEST(FeedingLaw, IsNotThereForWhatDoesNotShrinkOrHasNoRangeOrNoArms) {

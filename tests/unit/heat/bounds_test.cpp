@@ -242,11 +242,10 @@ TEST(Bounds, HoldInRandomProblemsWithEveryElement) {
                   kept.iterations, kept.rejected, free.kelvins, free.iterations);
   }
   // Half of the problems have two materials that share nodes: with a symmetric matrix alone 13 take up to 37.
-  const bool serial = test::processes() == 1;  // sweeps go over the nodes of one process
-  EXPECT_LE(sum_coarse, 300 * (serial ? 2.4 : 2.8));
-  EXPECT_LE(hard_coarse, serial ? 0 : 2);
-  EXPECT_LE(sum, 300 * (serial ? 2.6 : 3.0));
-  EXPECT_LE(hard, serial ? 0 : 2);
+  EXPECT_LE(sum_coarse, 300 * 2.4);
+  EXPECT_LE(hard_coarse, 0);
+  EXPECT_LE(sum, 300 * 2.6);
+  EXPECT_LE(hard, 0);
   EXPECT_GT(worst_without, 10.0);  // kelvins: the problems are hard enough
 }
 

@@ -112,6 +112,14 @@ TEST_P(Burning, AnAdiabaticSleeveWarmsByItsHeatOverItsCapacity) {
   }
 }
 
+// A body that rests at its temperature of ignition but for rounding is lit.
+TEST(Burn, LightsWhatIsAtItsIgnitionButForRounding) {
+  const std::vector<double> ignition{500, 500}, at{std::nextafter(500.0, 0.0), 499.9};
+  const heat::BurningState state = heat::burn(heat::unlit(2), ignition, at, at, 1, 2);
+  EXPECT_EQ(state.lit[0], 1);
+  EXPECT_TRUE(std::isinf(state.lit[1]));
+}
+
 // Half of the duration of burning gives half of the heat.
 TEST_P(Burning, HeatComesEvenly) {
   const Case& p = GetParam();

@@ -6,6 +6,7 @@
 
 #include "linear/linear_solver.hpp"
 #include "multigrid/aggregation.hpp"
+#include "multigrid/compact_rows.hpp"
 #include "parallel/parallel.hpp"
 #include "springs.hpp"
 #include "system/log.hpp"
@@ -68,6 +69,73 @@ TEST(BlockMultigrid, NodesWithoutUnknownsHaveNoPlaceOnCoarseLevels) {
     EXPECT_LE(report.iterations, 15);
     for (std::size_t i = 0; i < x.size(); ++i) EXPECT_TRUE(!springs.matrix.fixed()[i] || x[i] == 0) << i;
   }
+}
+
+// In a casting in its mould most nodes have no unknown of mechanics: cycles passed over them all the same.
+TEST(BlockMultigrid, RowsWithoutUnknownsAreLeftOut) {
+  Springs springs(30, [](int i, int) { return i < 12; });
+  const parallel::GhostExchange ghosts(springs.grid.mesh);
+  const auto n_owned = static_cast<std::size_t>(springs.grid.mesh.n_owned_nodes);
+  springs.matrix.constrained([&] {
+    const multigrid::MatrixView whole{2, springs.matrix.row_start(), springs.matrix.columns(),
+                                      springs.matrix.block(0), nullptr};
+    multigrid::Numbering numbering{springs.grid.mesh.n_owned_nodes, springs.grid.mesh.first_owned, {}};
+    numbering.ghosts.assign(springs.grid.mesh.global_node.begin() + numbering.n_owned,
+                            springs.grid.mesh.global_node.end());
+    const auto fixed = std::span(springs.matrix.fixed()).first(2 * n_owned);
+    ASSERT_TRUE(multigrid::worth_compacting(2, fixed));
+    const multigrid::CompactRows left = multigrid::compact(whole, numbering, fixed);
+    EXPECT_EQ(parallel::global_sum(static_cast<double>(left.rows.size())),
+              11 * 30);  // the first column is held
+
+    // The same product with a vector that both number in their own way.
+    const auto value = [](GlobalIndex row, int c) {
+      return std::sin(0.3 * static_cast<double>(2 * row + c));
+    };
+    std::vector<double> x(2 * springs.grid.mesh.x.size(), 0.0);
+    for (std::size_t i = 0; i < left.rows.size(); ++i)
+      for (int c = 0; c < 2; ++c)
+        x[static_cast<std::size_t>(2 * left.rows[i] + c)] =
+            value(left.numbering.first + static_cast<GlobalIndex>(i), c);
+    ghosts.update(x, 2);
+    std::vector<double> y(2 * n_owned);
+    springs.matrix.multiply(x, y);
+    const multigrid::MatrixView view{2, left.start, left.column, left.value.data(), nullptr};
+    for (std::size_t i = 0; i < left.rows.size(); ++i) {
+      double sum[2] = {0, 0};
+      view.each(static_cast<Index>(i), [&](Index column, std::int64_t slot, bool) {
+        const GlobalIndex row =
+            column < left.numbering.n_owned
+                ? left.numbering.first + column
+                : left.numbering.ghosts[static_cast<std::size_t>(column - left.numbering.n_owned)];
+        for (int r = 0; r < 2; ++r)
+          for (int c = 0; c < 2; ++c) sum[r] += view.block(slot)[2 * r + c] * value(row, c);
+      });
+      for (int r = 0; r < 2; ++r)
+        EXPECT_NEAR(sum[r], y[static_cast<std::size_t>(2 * left.rows[i] + r)], 1e-12);
+    }
+  });
+
+  // Rows that were left out are those of a diagonal matrix: nothing of them reaches the others.
+  BlockMultigrid multigrid(springs.grid.mesh, 2, rigid_body_modes, true);
+  multigrid.set_up(springs.matrix);
+  std::vector<double> b = springs.pattern(0.7), z(b.size()), other(b.size());
+  multigrid.apply(b, z);
+  double diagonal = 1;
+  for (std::size_t i = 0; i < b.size(); ++i)
+    if (springs.matrix.fixed()[i]) {
+      EXPECT_EQ(z[i], 0);
+      b[i] = 2;
+    }
+  multigrid.apply(b, other);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (springs.matrix.fixed()[i]) {
+      diagonal = 2 / other[i];
+    } else {
+      EXPECT_EQ(z[i], other[i]);
+    }
+  }
+  EXPECT_TRUE(std::isfinite(diagonal) && diagonal > 0) << diagonal;
 }
 
 // Small bodies of their own, held at one end, which have become one aggregate each where the large one still

@@ -124,5 +124,19 @@ TEST(IncompleteCholesky, TheNextMatrixGetsNewFactorsAndTheSameOneKeepsThem) {
   EXPECT_LT(strong.iterations, first.iterations);
 }
 
+// 38 and 39; without fill on the diagonals 60 and 100.
+TEST(IncompleteCholesky, IterationsGrowWithTheRootOfTheSideOfTheMesh) {
+  if (parallel::any_process(Grid(4, 4).mesh.n_owned_nodes != 16)) return;  // factors of a process's own rows
+  const auto iterations = [](int n) {
+    Heat heat(n, 1e-3);
+    std::vector<double> x(heat.right().size());
+    return solved(heat, x).iterations;
+  };
+  const int coarse = iterations(60), fine = iterations(120);
+  RecordProperty("coarse", coarse);
+  RecordProperty("fine", fine);
+  EXPECT_LE(fine, std::sqrt(2.0) * coarse);
+}
+
 }  // namespace
 }  // namespace solidus::linear

@@ -64,7 +64,7 @@ void check_tangents(LiquidModel liquid) {
               for (int a = 0; a < 6; ++a)
                 for (int b = 0; b < 6; ++b) {
                   const auto j = static_cast<std::size_t>(b);
-                  const double ad = exact.stress[a].derivatives()[b] * (b < 3 ? 1.0 : 0.5);
+                  const double ad = exact.stress[a].derivatives()[j] * (b < 3 ? 1.0 : 0.5);
                   error = std::max(error, std::abs(c[a][j] - ad));
                   asymmetry = std::max(asymmetry, std::abs(c[a][j] - c[b][static_cast<std::size_t>(a)]));
                   size_c = std::max(size_c, std::abs(ad));

@@ -300,6 +300,29 @@ expansion = "1.2e-4 1/K"
   EXPECT_EQ(load_material(folder_ / "held.toml").specific_heat_at, SpecificHeatAt::constant_strain);
 }
 
+// The length that instantaneous coefficients add up to, inside of their table and beyond its ends.
+TEST_F(MaterialOnDisk, IntegratesInstantaneousCoefficientsOfExpansion) {
+  const std::string card = R"(
+density = "7800 kg/m3"
+conductivity = "40 W/m/K"
+specific_heat = "500 J/kg/K"
+young_modulus = "200 GPa"
+poisson_ratio = 0.3
+expansion_as = "instantaneous"
+expansion_reference = "20 degC"
+expansion = { of = "temperature", argument_unit = "degC", unit = "1/K", points = [[0, 1.1e-5], [400, 1.5e-5], [700, 1.3e-5]] }
+)";
+  write("tangent.toml", card);
+  const Material m = load_material(folder_ / "tangent.toml");
+  const Table tangent({273.15, 673.15, 973.15}, {1.1e-5, 1.5e-5, 1.3e-5});
+  for (double celsius = -100; celsius <= 1200; celsius += 7) {
+    const double t = 273.15 + celsius, exact = tangent.integral(293.15, t);
+    EXPECT_NEAR(m.expansion.value(t) * (t - 293.15), exact, 1e-4 * std::abs(exact) + 1e-12) << celsius;
+  }
+  write("secant.toml", std::string(card).replace(card.find("instantaneous"), 13, "mean"));
+  EXPECT_EQ(load_material(folder_ / "secant.toml").expansion.value(673.15), 1.5e-5);
+}
+
 const std::string k_plastic_child = "like = \"aluminium_99_7_plastic\"\n[plasticity]\n";
 
 TEST_F(MaterialOnDisk, TakesPlasticityKeyByKey) {

@@ -45,8 +45,9 @@ TEST(Viscoelastic, TangentIsTheDerivativeOfTheStressFromMeltToSolid) {
                       1e-9 * p.bulk * 1e-2 + 1e-14 * std::abs(r.stress[a]));
           for (int b = 0; b < 6; ++b) {
             // AD differentiates by tensor components; a shear component is half the engineering strain
-            const double exact = r_ad.stress[a].derivatives()[b] * (b < 3 ? 1.0 : 0.5);
-            ASSERT_NEAR(tangent[a][static_cast<std::size_t>(b)], exact, 1e-9 * (r.bulk + r.twice_shear))
+            const auto j = static_cast<std::size_t>(b);
+            const double exact = r_ad.stress[a].derivatives()[j] * (b < 3 ? 1.0 : 0.5);
+            ASSERT_NEAR(tangent[a][j], exact, 1e-9 * (r.bulk + r.twice_shear))
                 << "f " << f << " eta " << eta << " dt " << dt << " entry " << a << b;
           }
         }

@@ -34,7 +34,7 @@ double tangent_error(const Viscoplastic& law, double temperature, const Viscopla
   for (int a = 0; a < 6; ++a)
     for (int b = 0; b < 6; ++b) {
       // AD differentiates by tensor components; a shear component is half the engineering strain
-      const double exact = r_ad.stress[a].derivatives()[b] * (b < 3 ? 1.0 : 0.5);
+      const double exact = r_ad.stress[a].derivatives()[static_cast<std::size_t>(b)] * (b < 3 ? 1.0 : 0.5);
       error = std::max(error, std::abs(c[a][static_cast<std::size_t>(b)] - exact));
     }
   return stiffness > 0 ? error / stiffness : error;

@@ -180,6 +180,22 @@ TEST(HotSpots, ABlockHoldsASphereOfItsLeastSideAndItsWallsAreAsThickAsItsSides) 
   EXPECT_NEAR(top_above(mesh, {"block"}, {1.5, 1, 0.2}), 1, 1e-12);
 }
 
+TEST(HotSpots, OnAPlaneTheCentreLiesThereThoughTheBodyIsThickerBesideIt) {
+  const RawMesh mesh = make_block({{3, 2, 1}, {}, {9, 6, 3}}, Shape::tet4);
+  // 0.2 from the side x = 0, which is nearer than top and bottom are from the middle.
+  const std::vector<InscribedSphere> spheres = inscribed_spheres(mesh, {"block"}, 3, HalfSpace{0, 0.2});
+  ASSERT_FALSE(spheres.empty());
+  for (const InscribedSphere& sphere : spheres) {
+    EXPECT_EQ(sphere.centre[0], 0.2);
+    EXPECT_NEAR(sphere.radius, 0.2, 1e-9);
+  }
+  const std::vector<InscribedSphere> middle = inscribed_spheres(mesh, {"block"}, 3, HalfSpace{1, 1});
+  ASSERT_FALSE(middle.empty());
+  EXPECT_EQ(middle.front().centre[1], 1);
+  EXPECT_NEAR(middle.front().radius, 0.5, 0.01);
+  EXPECT_TRUE(inscribed_spheres(mesh, {"block"}, 3, HalfSpace{2, 5}).empty());
+}
+
 TEST(SizeField, GrowsWithTheDistanceFromSmallElements) {
   const std::array<Point, 3> corner = {Point{0, 0, 0}, Point{0, 0, 0}, Point{0, 0, 0}};
   const SizeField field({0, 0, 0}, {10, 10, 10}, {{corner, 0.1}}, 0.5, 50);

@@ -51,7 +51,7 @@ export function doubles(block: number): Float64Array {
   return new Float64Array(bytes.buffer);
 }
 
-const STEPS = 16383;
+export const STEPS = 16383;
 
 /** [block, low, high, mask block], [-1, value] for one value everywhere, [-2] for none. */
 export type PackedValues = number[];

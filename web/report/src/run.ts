@@ -1,5 +1,5 @@
 /** A run as the page holds it: meshes, fields over the written moments, tables. */
-import { blockJson, doubles, PackedValues, risingNumbers, smallNumbers, Values } from "./blocks";
+import { blockJson, doubles, PackedValues, risingNumbers, smallNumbers, STEPS, Values } from "./blocks";
 import { groupOf, labelOf, Unit, unitOf } from "./quantities";
 
 interface BodyMeta {
@@ -183,10 +183,18 @@ export class Field {
     }
     return low <= high ? [low, high] : [0, 1];
   }
+  /** The step in which numbers were rounded. */
+  private rounding(bodies: number[]): number {
+    const steps = bodies.filter((b) => this.has(b)).flatMap((b) => this.columns.map((c) => (c[b].high - c[b].low) / STEPS));
+    return Math.max(0, ...steps);
+  }
   rangeAt(bodies: number[], moment: number): [number, number] {
     let low = Infinity, high = -Infinity;
     for (const b of bodies) if (this.has(b)) [low, high] = widen(this.values(b, moment), low, high);
-    return low <= high ? [low, high] : [0, 1];
+    if (!(low <= high)) return [0, 1];
+    // Numbers were rounded: a scale of nearly equal ones would show nothing but that.
+    const room = 20 * this.rounding(bodies);
+    return high - low < 2 * room ? [(low + high) / 2 - room, (low + high) / 2 + room] : [low, high];
   }
   /** The least and largest element of a body; nothing for fields at nodes. */
   extremes(moment: number): Extreme[] {

@@ -55,7 +55,7 @@ export class Stage {
       down.set(e.pointerId, where(e));
       moved = 0;
       spread = 0;
-      this.tip.hidden = true;
+      this.leave();
       this.events.activated(this.index);
     });
     canvas.addEventListener("pointermove", (e) => {
@@ -88,7 +88,7 @@ export class Stage {
     };
     canvas.addEventListener("pointerup", up);
     canvas.addEventListener("pointercancel", up);
-    canvas.addEventListener("pointerleave", () => (this.tip.hidden = true));
+    canvas.addEventListener("pointerleave", () => this.leave());
     canvas.addEventListener("wheel", (e) => {
       // Without Ctrl a wheel over the picture zooms once it is in use; else the page scrolls on.
       if (!e.ctrlKey && document.activeElement !== this.root) return;
@@ -101,7 +101,16 @@ export class Stage {
   }
 
   private hovering = 0;
+  private pointer?: [number, number];
+  private leave(): void {
+    cancelAnimationFrame(this.hovering);
+    this.pointer = undefined;
+    this.tip.hidden = true;
+  }
+
+  /** Says what the pointer points at, and goes on to say it while the picture changes under it. */
   private hover(at: [number, number]): void {
+    this.pointer = at;
     cancelAnimationFrame(this.hovering);
     this.hovering = requestAnimationFrame(() => {
       const hit = this.view.pick(...at), field = this.view.field;
@@ -143,6 +152,7 @@ export class Stage {
     );
     this.drawAxes();
     this.drawRule();
+    if (this.pointer) this.hover(this.pointer);
   }
 
   private drawAxes(): void {

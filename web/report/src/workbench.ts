@@ -583,7 +583,8 @@ export class Workbench {
       slider.value = String(Math.round((400 * (c.at - low)) / (high - low)));
       buttons.forEach((b, i) => b.classList.toggle("on", c.on && normals[i][0] === chosen));
       const sign = Math.sign(c.normal.reduce((a, b) => a + b, 0)) || 1;
-      output.textContent = `${short(chosen === "screen" ? c.at * 1e3 : sign * c.at * 1e3)} mm`;
+      const at = Math.abs(c.at) < 1e-5 * (high - low) ? 0 : chosen === "screen" ? c.at : sign * c.at;
+      output.textContent = `${short(1e3 * at)} mm`;
     }, h("div", { class: "row" }, h("label", {}, on, " on"), h("div", { class: "choice" }, ...buttons), flip), h("div", { class: "row" }, slider, output));
   }
   private moveCut: (by: number) => void = () => {};

@@ -1,0 +1,35 @@
+/// The faces of a mesh that one element alone of a body has: the skins of the bodies, face by face, over all
+/// processes.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+
+#include "mesh/mesh.hpp"
+#include "numbers/types.hpp"
+
+namespace solidus::model {
+
+/// A face of an element, by its vertices in rising order of their numbers over all processes.
+struct BoundaryFace {
+  std::array<GlobalIndex, 4> key{-1, -1, -1, -1};
+  int body = 0;
+  std::array<Index, 4> nodes{};  ///< its vertices in the order of the element, outward
+  int n_vertices = 0;
+  std::span<const Index> vertices() const {
+    return std::span(nodes).first(static_cast<std::size_t>(n_vertices));
+  }
+};
+
+/// The key of a face with these vertices.
+std::array<GlobalIndex, 4> face_key(const mesh::Mesh& mesh, std::span<const Index> vertices);
+
+/// Calls visit(face, same) for each face that one element alone of its body has; `same` are the faces with
+/// the same vertices, those of other bodies included. A face is visited by the process that owns its lowest
+/// vertex. In bounded memory: faces are looked at a part at a time.
+void each_boundary_face(
+    const mesh::Mesh& mesh,
+    const std::function<void(const BoundaryFace& face, std::span<const BoundaryFace> same)>& visit);
+
+}  // namespace solidus::model
