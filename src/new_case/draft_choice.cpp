@@ -43,7 +43,10 @@ class Choice {
     choose_bodies();
     if (!part_.has_mould) choose_mould();
     for (const mesh::InscribedSphere& sphere : part_.spheres) draft_.hot_spots.push_back(sphere);
-    for (mesh::InscribedSphere& sphere : draft_.hot_spots) fold(sphere.centre);
+    for (mesh::InscribedSphere& sphere : draft_.hot_spots) {
+      fold(sphere.centre);
+      for (double& x : sphere.centre) x = to_micrometre(x);
+    }
     if (draft_.riser) fold(draft_.riser->foot, 0);
     draft_.film = process_.film;
     draft_.film_source = process_.film_source;

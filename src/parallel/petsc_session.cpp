@@ -2,9 +2,51 @@
 
 #include <petscsys.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <iterator>
+
 #include "system/processes.hpp"
 
 namespace solidus::petsc {
+
+namespace {
+
+/// A variable of the environment for as long as this lives; one that is there already stays as it is.
+class PassingVariable {
+ public:
+  PassingVariable(const char* name, const char* value) : name_(name), ours_(std::getenv(name) == nullptr) {
+    if (ours_) setenv(name, value, 0);
+  }
+  ~PassingVariable() {
+    if (ours_) unsetenv(name_);
+  }
+  PassingVariable(const PassingVariable&) = delete;
+  PassingVariable& operator=(const PassingVariable&) = delete;
+
+ private:
+  const char* name_;
+  bool ours_;
+};
+
+/// Whether mpirun or another launcher has started this process, before MPI can tell.
+bool launched() {
+  constexpr const char* k_ranks[] = {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"};
+  return std::any_of(std::begin(k_ranks), std::end(k_ranks), [](const char* r) { return std::getenv(r); });
+}
+
+bool initialize(int* n, char*** list) {
+  if (launched()) return PetscInitialize(n, list, nullptr, nullptr) == 0;
+  // One process alone needs little of Open MPI: no daemon (orted) that could start further ones, no search
+  // for InfiniPath, OpenCL and graphics devices. That search takes longer than all the rest of the start.
+  const PassingVariable no_daemon("OMPI_MCA_ess_singleton_isolated", "1");
+  const PassingVariable no_network("OMPI_MCA_pml", "ob1"), itself("OMPI_MCA_btl", "self");
+  const PassingVariable no_devices("HWLOC_PLUGINS_BLACKLIST",
+                                   "hwloc_opencl.so,hwloc_gl.so,hwloc_cuda.so,hwloc_nvml.so,hwloc_rsmi.so");
+  return PetscInitialize(n, list, nullptr, nullptr) == 0;
+}
+
+}  // namespace
 
 bool start(const std::vector<std::string>& options) {
   if (running()) {  // another part of the program has started it
@@ -18,7 +60,7 @@ bool start(const std::vector<std::string>& options) {
   pointers.push_back(nullptr);
   int n = static_cast<int>(words.size());
   char** list = pointers.data();
-  return PetscInitialize(&n, &list, nullptr, nullptr) == 0;
+  return initialize(&n, &list);
 }
 
 void use_communicator(int fortran_number) {

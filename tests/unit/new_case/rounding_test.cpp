@@ -23,4 +23,10 @@ TEST(Rounding, WallsHaveWholeMillimetresAndSizesTwoDigits) {
 }
 
 }  // namespace
+TEST(Rounding, AHotSpotOnThePlaneOfSymmetryStandsThereWithoutTheNoiseOfItsSearch) {
+  EXPECT_EQ(to_micrometre(-1.02723e-9), 0);
+  EXPECT_FALSE(std::signbit(to_micrometre(-1.02723e-9)));
+  EXPECT_DOUBLE_EQ(to_micrometre(0.1378168), 0.137817);
+}
+
 }  // namespace solidus::model
