@@ -54,6 +54,15 @@ TEST_F(FindingsTest, AMouldWithinItsCastingIsNamed) {
   EXPECT_THAT(said_of(inside), Contains(HasSubstr("the mould 'lower' lies within the casting 'upper'")));
 }
 
+TEST_F(FindingsTest, ABodyThatWasForgottenIsNamed) {
+  std::string alone = k_casting;
+  const std::size_t body = alone.find("[[body]]\nname = \"lower\""),
+                    air = alone.find("[[thermal_condition]]");
+  alone.erase(body, air - body);
+  alone = changed(alone.substr(0, alone.find("[[contact]]")), "lower_y_min", "upper_y_max");
+  EXPECT_THAT(said_of(alone), Contains(HasSubstr("the mesh has a group 'lower' that lies on no body")));
+}
+
 TEST_F(FindingsTest, WaterOnSandAndFilmsThatDoNothingAreNamed) {
   const std::string sand = changed(changed(k_casting, "\"steel_mould\"\ninitial_temperature = \"200 degC\"",
                                            "\"green_sand\"\ninitial_temperature = \"20 degC\""),
