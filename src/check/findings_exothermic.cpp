@@ -35,6 +35,9 @@ void amounts(const Burning& burning) {
                  "sleeves burn for half a minute to some minutes");
 }
 
+/// Above it nothing ignites: what stands there was switched off [K].
+constexpr double k_switched_off = 3000;
+
 }  // namespace
 
 void find_in_burning(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
@@ -53,7 +56,7 @@ void find_in_burning(const CaseSpec& spec, const Assembly& a, const CaseMeasures
       if (poured)
         burning.warn(fmt::format("burns in '{}', which is poured", body.name),
                      "the group of the sleeve, or of the cover, that burns");
-      if (c.ignition > hottest)
+      if (c.ignition > hottest && c.ignition < k_switched_off)
         burning.warn(fmt::format("ignites at {:.0f} degC, but nothing starts hotter than {:.0f} degC: it "
                                  "does not burn",
                                  celsius(c.ignition), celsius(hottest)),
