@@ -156,6 +156,11 @@ std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh&
   std::optional<mesh::HalfSpace> cut;
   if (spec.mesh.symmetry) cut = {spec.mesh.symmetry->axis[0] - 'x', spec.mesh.symmetry->at};
   const std::vector<mesh::Facing> facings = mesh::find_facing(mesh, groups, names, wishes, cut, source);
+  // Round an axis faces are lines in the section: lengths, not areas.
+  const auto size = [&](double area) {
+    const bool lines = spec.analysis.kind == AnalysisKind::axisymmetric;
+    return lines ? fmt::format("{:.4g} mm", 1e3 * area) : fmt::format("{:.4g} cm2", 1e4 * area);
+  };
   std::vector<FoundInterface> found;
   for (const mesh::Facing& f : facings) {
     std::size_t section = 0;
@@ -166,16 +171,16 @@ std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh&
     // Faces that touch are apart by the rounding of their coordinates.
     const auto gap_in_mm = [&](double gap) { return gap < 1e-6 * f.distance ? 0.0 : 1e3 * gap; };
     logging::info(
-        "interface {} / {}: {:.4g} of {:.4g} cm2 and {:.4g} of {:.4g} cm2 face each other, gap {:.2g} mm in "
-        "the mean, {:.2g} mm at most (looked within {:.2g} mm)",
+        "interface {} / {}: {} of {} and {} of {} face each other, gap {:.2g} mm in the mean, {:.2g} mm at "
+        "most (looked within {:.2g} mm)",
         names[static_cast<std::size_t>(f.bodies.first)], names[static_cast<std::size_t>(f.bodies.second)],
-        1e4 * f.covered_a, 1e4 * f.area_a, 1e4 * f.covered_b, 1e4 * f.area_b, gap_in_mm(f.mean_gap),
+        size(f.covered_a), size(f.area_a), size(f.covered_b), size(f.area_b), gap_in_mm(f.mean_gap),
         gap_in_mm(f.largest_gap), 1e3 * f.distance);
   }
   std::vector<std::string> free;
   for (const std::string& body : names)
     if (const double area = mesh::area_of(mesh, body + "_free"); area > 0)
-      free.push_back(fmt::format("{0} {1:.4g} cm2 ({0}_free)", body, 1e4 * area));
+      free.push_back(fmt::format("{0} {1} ({0}_free)", body, size(area)));
   if (!free.empty()) logging::info("skins that face no other body: {}", fmt::join(free, ", "));
   for (std::size_t i = 0; i < spec.interfaces.size(); ++i) {
     const BodyInterfaceSpec& section = spec.interfaces[i];

@@ -82,13 +82,38 @@ void check_rigid_names(const CaseSpec& spec, const RawMesh& mesh) {
   }
 }
 
-/// Faces that belong to no element of a body, such as those of surfaces that a geometry program has replaced,
-/// take no part: a film or a contact would be smaller than its group without a word.
-void warn_of_loose_faces(const CaseSpec& spec, const RawMesh& mesh) {
+/// [raw node]: whether it lies on a body of the case.
+std::vector<char> nodes_of_bodies(const CaseSpec& spec, const RawMesh& mesh) {
   std::vector<char> carried(mesh.x.size(), 0);
   for (const BodySpec& body : spec.bodies)
     for (const mesh::RawBlock& block : mesh.groups.at(body.mesh_group()).blocks)
       for (const Index node : block.nodes) carried[static_cast<std::size_t>(node)] = 1;
+  return carried;
+}
+
+/// A group of full dimension with nodes that lie on no body: a [[body]] was forgotten, and what would face it
+/// is insulated.
+void warn_of_forgotten_bodies(const CaseSpec& spec, const RawMesh& mesh) {
+  const std::vector<char> carried = nodes_of_bodies(spec, mesh);
+  for (const auto& [name, group] : mesh.groups) {
+    if (group.dimension != mesh.dimension) continue;
+    const bool left_out =
+        std::any_of(group.blocks.begin(), group.blocks.end(), [&](const mesh::RawBlock& block) {
+          return std::any_of(block.nodes.begin(), block.nodes.end(),
+                             [&](Index node) { return carried[static_cast<std::size_t>(node)] == 0; });
+        });
+    if (left_out)
+      logging::warn(
+          "{}: the mesh has a group '{}' that lies on no body of the case: it is left out, and what touches "
+          "it is insulated there; a [[body]] for it, if it is there",
+          spec.mesh.where.text(), name);
+  }
+}
+
+/// Faces that belong to no element of a body, such as those of surfaces that a geometry program has replaced,
+/// take no part: a film or a contact would be smaller than its group without a word.
+void warn_of_loose_faces(const CaseSpec& spec, const RawMesh& mesh) {
+  const std::vector<char> carried = nodes_of_bodies(spec, mesh);
   std::set<std::string> used;
   for (const auto& c : spec.thermal_conditions) used.insert(c.group);
   for (const auto& c : spec.mechanical_conditions) used.insert(c.group);
@@ -157,6 +182,7 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
   for (const auto& p : spec.probes)
     if (!p.group.empty()) require(mesh, p.group, -1, p.where, "probe '" + p.name + "'");
   warn_of_loose_faces(spec, mesh);
+  warn_of_forgotten_bodies(spec, mesh);
 }
 
 }  // namespace solidus::model

@@ -164,7 +164,7 @@ Section<ContactSpec> contact_keys() {
           "penalty is then at most that with "
           "which the `atmosphere` moves a liquid skin by 0.1 % of the body's free contraction.");
   s.key("stabilisation", &C::stabilisation)
-      .initially(1e-10)
+      .initially(1e-8)
       .range(0, 1)
       .doc(
           "Share of the penalty that the matrix, not the forces, always holds: for bodies that lose their "

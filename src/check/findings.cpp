@@ -18,6 +18,9 @@ Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   find_in_mechanics(spec, a, m, found);
   find_on_surfaces(spec, a, m, found);
   find_in_numerics(spec, a, m, found);
+  find_in_roles(spec, a, m, found);
+  find_in_burning(spec, a, m, found);
+  find_in_probes(spec, a, m, found);
   find_in_coupling(spec, a, m, found);
   find_in_effort(spec, m, found);
   return found;

@@ -61,6 +61,12 @@ void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasur
 void find_on_surfaces(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Iterations, cuts of the step, the search of contacts and the sizes of their faces.
 void find_in_numerics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Chills, moulds, risers and criteria that do not fit what they are to the foundry.
+void find_in_roles(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Sleeves that burn: what, where and when.
+void find_in_burning(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Probes that measure nothing, or the other of two bodies. Collective.
+void find_in_probes(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Schemes whose temperatures lag where deformation takes up much of the heat. Collective.
 void find_in_coupling(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Runs that do not fit into the machine or the year, and outputs without number.

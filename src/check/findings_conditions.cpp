@@ -35,6 +35,12 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
                             fmt::format("'{}' has surroundings of {:.0f} degC ({:.0f} K)", t.name,
                                         units::to_display(ambient, "K", "degC"), ambient),
                             "room temperature is 20 degC, 293 K"});
+    if (t.kind == Kind::temperature && is_number(t.temperature))
+      if (const double held = t.temperature.table.value(0); held < k_coldest)
+        findings.push_back({false, t.where,
+                            fmt::format("'{}' holds '{}' at {:.0f} degC ({:.0f} K)", t.name, t.group,
+                                        units::to_display(held, "K", "degC"), held),
+                            "room temperature is 20 degC, 293 K"});
     if (t.kind == Kind::source && is_number(t.power) && std::abs(t.power.table.value(0)) > 1e11)
       findings.push_back({false, t.where,
                           fmt::format("the source '{}' has {:g} W/m3", t.name, t.power.table.value(0)),

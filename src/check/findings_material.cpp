@@ -110,8 +110,9 @@ void compare_strength(const BodySpec& body, const material::Material& m, Finding
   if (m.flow && m.solidification() != nullptr && m.flow->flow_stress.max_value() < 1e6)
     say(fmt::format("flow_stress of {:g} Pa at most", m.flow->flow_stress.max_value()),
         "cold metals have 10 to 2000 MPa");
+  // Graphite and ceramics may stiffen.
   const Table& young = m.young_modulus;
-  if (!young.constant() && young.y().back() > 1.2 * young.y().front())
+  if (m.solidification() != nullptr && !young.constant() && young.y().back() > 1.2 * young.y().front())
     say(fmt::format("young_modulus rises with temperature, from {:.3g} to {:.3g} GPa",
                     1e-9 * young.y().front(), 1e-9 * young.y().back()),
         "metals soften as they warm; are the columns of the table in their places?");

@@ -26,6 +26,9 @@ constexpr double k_loosest = 1e-3;
 /// A residual so far below the goal ends the iteration whatever the size of its steps: what moves under such
 /// forces has no place of its own.
 constexpr double k_no_force = 1e-3;
+/// Where forces are so many times what counts as rounding, a start out of balance is not taken as it is: the
+/// rounding of a stiff body may be more than the tolerance allows, and a step would leave far less.
+constexpr double k_forces = 1e3;
 
 double dot(std::span<const double> a, std::span<const double> b) {
   double s = 0;
@@ -88,10 +91,13 @@ class Iteration {
   const std::vector<char>* fixed_ = nullptr;
   const MultiPointConstraints* constraints_ = nullptr;
   double norm_ = 0, reference_ = 0;
+  bool stepped_ = false;  ///< a step has been taken
   double next_step_ = std::numeric_limits<double>::infinity();  ///< its estimated relative size
 };
 
 bool Iteration::converged() const {
+  const bool forced = reference_ > k_forces * options_.absolute_tolerance;
+  if (!stepped_ && forced && norm_ > options_.tolerance * reference_) return false;
   if (options_.step_tolerance <= 0 || norm_ <= options_.absolute_tolerance) return balanced();
   if (!std::isfinite(next_step_)) return false;  // no step has been taken
   return balanced() && (next_step_ <= options_.step_tolerance || norm_ <= k_no_force * goal());
@@ -241,6 +247,7 @@ NewtonReport Iteration::run() {
       system_.accept(x_, local_step_, 1.0);
       evaluate();
     }
+    stepped_ = true;
     measure_next_step(alpha, norm_before);
     chord = options_.chords && !chord && alpha == 1.0 && chord_converges(norm_before);
   }

@@ -13,7 +13,7 @@ namespace solidus::linear {
 struct NewtonOptions {
   double tolerance =
       1e-3;  ///< ‖r‖ <= tolerance × reference (the monograph's 0.1 % is the default, chapter 7)
-  double absolute_tolerance = 0;  ///< or ‖r‖ <= this, in the units of the residual
+  double absolute_tolerance = 0;  ///< or ‖r‖ <= this; at the start only where forces are hardly more
   /// And what NonlinearSystem::relative_step makes of the next step is at most this. A residual that meets
   /// the tolerance says nothing of an error along which the system has next to no stiffness. Zero: the
   /// residual alone ends the iteration.
@@ -64,7 +64,7 @@ class NonlinearSystem {
 /// If the previous step has reduced the residual so much that the same tangent suffices for the rest, the
 /// tangent is used once more: a chord step, without assembly and set-up of the solver.
 /// With a step_tolerance the next step is taken to be as much smaller than the last one as the residual has
-/// become; there is at least one step, unless the residual at the start is within the absolute tolerance.
+/// become; there is at least one step, unless ‖r‖ and the reference are both rounding at the start.
 /// A NaN in the residual at x ends the iteration as not converged; in a trial of the line search it shortens
 /// the step. x: [local node][component] of each field, ghosts updated on return.
 /// @param components  of each field

@@ -42,10 +42,10 @@ void add_borders(const BlockMatrix& pattern, const double* border, bool half, An
     const std::int64_t first = start[static_cast<std::size_t>(row)],
                        end = start[static_cast<std::size_t>(row) + 1];
     if (first == end) continue;
-    std::array<double, most_components> sum_u{}, u_row{};
-    std::array<double, most_fields> sum_p{}, p_row{};
-    if constexpr (of_divergence) std::copy_n(u + row * of_u, dim, u_row.begin());
-    if constexpr (of_gradient) std::copy_n(p + row * of_p, fields, p_row.begin());
+    double sum_u[most_components] = {}, u_row[most_components] = {};
+    double sum_p[most_fields] = {}, p_row[most_fields] = {};
+    if constexpr (of_divergence) std::copy_n(u + row * of_u, dim, u_row);
+    if constexpr (of_gradient) std::copy_n(p + row * of_p, fields, p_row);
     const double* e = border + first * size;
     for (std::int64_t s = first; s < end; ++s, e += size) {
       const Index column = columns[s];

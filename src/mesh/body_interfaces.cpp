@@ -207,8 +207,11 @@ std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& b
   }
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     std::vector<const SkinFace*> free, symmetric;
+    // A face that is one with another body's is no free skin: the joint of a casting and its riser, which
+    // share nodes, lies within the metal.
     for (std::size_t f = 0; f < skins[b].size(); ++f)
-      if (faces_somebody[b][f] == 0) (lies_in(cut, skins[b][f]) ? symmetric : free).push_back(&skins[b][f]);
+      if (faces_somebody[b][f] == 0 && partner_of[b][f] < 0)
+        (lies_in(cut, skins[b][f]) ? symmetric : free).push_back(&skins[b][f]);
     if (!symmetric.empty()) add_surface(mesh, names[b] + "_symmetry", symmetric, source);
     if (!free.empty()) add_surface(mesh, names[b] + "_free", free, source);
   }

@@ -48,7 +48,7 @@ struct Facing {
 
 /// Finds the faces of the pairs that face each other: normals opposed, no farther apart than the distance.
 /// Makes the surface groups A_to_B and B_to_A of each pair that has some, and A_free of what of each body
-/// faces none, where there is some.
+/// faces none, where there is some; faces where bodies share their nodes are no free skin.
 /// @param cut     the plane at which the geometry was cut: what of a skin lies in it is A_symmetry, not
 /// A_free
 /// @param bodies  groups of full dimension

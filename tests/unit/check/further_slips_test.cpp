@@ -12,6 +12,7 @@ using namespace solidus::model::test;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 TEST_F(FindingsTest, BodiesThatNothingHoldsInADirectionAreNamed) {
   const std::string condition = deforming().substr(deforming().find("[[mechanical_condition]]"));
@@ -126,6 +127,9 @@ flow_stress = { argument_unit = "degC", unit = "MPa", points = [[20, 150], [400,
   EXPECT_THAT(said_of_card("\"70 GPa\"",
                            "{ argument_unit = \"degC\", unit = \"GPa\", points = [[20, 50], [700, 70]] }"),
               Contains(HasSubstr("young_modulus rises with temperature")));
+  EXPECT_THAT(said_of(changed(deforming(), "\"steel_mould\"", "\"graphite_mould\"")),
+              Not(Contains(HasSubstr("young_modulus rises"))))
+      << "as graphite's does";
   std::ofstream(folder_ / "die.toml") << "title = \"A die\"\ndensity = \"7800 kg/m3\"\n"
                                          "conductivity = \"30 W/m/K\"\nspecific_heat = \"500 J/kg/K\"\n"
                                          "poisson_ratio = 0.3\nyoung_modulus = \"210 MPa\"\n"

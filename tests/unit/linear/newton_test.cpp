@@ -149,6 +149,21 @@ TEST(Newton, ForcesInBalanceDoNotEndItWhereTheDisplacementIsFarOff) {
   EXPECT_EQ(solve(1e-2, 1e-3).second, 0);  // rounding is no reason for a step
 }
 
+TEST(Newton, AStartOutOfBalanceByLessThanRoundingIsLeftWhereForcesAreMuchMore) {
+  const Grid grid(5, 6);
+  const auto iterations = [&](double absolute) {
+    SoftSprings system(grid);
+    std::vector<double> x(static_cast<std::size_t>(grid.mesh.n_nodes()), 0.0);
+    const NewtonReport report =
+        run(grid, system, x, {.tolerance = 1e-9, .absolute_tolerance = absolute, .step_tolerance = 1e-2});
+    EXPECT_TRUE(report.converged) << report.reason;
+    return report.iterations;
+  };
+  // The load on 30 nodes is 5.5, the residual at the start 5.5e-6.
+  EXPECT_EQ(iterations(1e-4), 1);
+  EXPECT_EQ(iterations(1e-2), 0);
+}
+
 TEST(Newton, FixedValuesStayAndGhostsAreUpToDate) {
   const Grid grid(5, 6);
   SpringGrid system = cubic(grid);

@@ -69,6 +69,14 @@ TEST(BodyInterfaces, BodiesThatShareNodesAreSplitAndTheGroupsOfTheirFacesStayWit
   }
 }
 
+// A casting and its riser share nodes and stay one: no film is meant for the joint within the metal.
+TEST(BodyInterfaces, TheJointOfBodiesThatStayOneIsNoFreeSkin) {
+  RawMesh mesh = test::split_block(Shape::hex8, {3, 2, 1}, {3, 2, 1}, 1);
+  EXPECT_TRUE(find_facing(mesh, {"left", "right"}, {"a", "b"}, {}, {}, "block").empty());
+  EXPECT_NEAR(area(mesh, "a_free"), 2 + 2 * (2 + 1), 1e-12);
+  EXPECT_NEAR(area(mesh, "b_free"), 2 + 2 * 2 * (2 + 1), 1e-12);
+}
+
 // Three slabs in a row, the middle one thinner than the distance that is looked within: the outer ones do not
 // face each other through it, for each of their faces is one with a face of the middle.
 TEST(BodyInterfaces, AFaceThatIsOneWithAnothersFacesNoThirdBody) {

@@ -67,7 +67,7 @@ std::vector<std::vector<double>> unpacked(const Packed16& p, std::size_t n) {
     std::uint16_t beside = 0;
     for (std::size_t i = 0; i < n; ++i, ++at) {
       const unsigned word =
-          static_cast<unsigned char>(p.words[at]) | (static_cast<unsigned char>(p.words[total + at]) << 8U);
+          static_cast<unsigned char>(p.words[at]) + 256U * static_cast<unsigned char>(p.words[total + at]);
       const int r = static_cast<int>(word >> 1U) ^ -static_cast<int>(word & 1U);
       now[i] = static_cast<std::uint16_t>(last[i] + beside + r);
       beside = static_cast<std::uint16_t>(now[i] - last[i]);
@@ -108,7 +108,7 @@ TEST(ReportPacking, TellsOneValueEverywhereFromNone) {
 }
 
 TEST(ReportPacking, BytesComeBackWhateverTheyAreLike) {
-  for (const std::size_t n : {0, 1, 2, 3, 100000}) {
+  for (const std::size_t n : {0UL, 1UL, 2UL, 3UL, 100000UL}) {
     std::string bytes;
     for (std::size_t i = 0; i < n; ++i) bytes += static_cast<char>((i * i * 31) >> 3U);
     for (const Bytes like : {Bytes::mixed, Bytes::noise, Bytes::mask})

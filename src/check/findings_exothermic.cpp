@@ -1,0 +1,74 @@
+// Findings on what burns: sleeves and powders that never ignite, that burn too much or in the wrong body.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "check/findings.hpp"
+#include "input/units.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+double celsius(double kelvin) {
+  return units::to_display(kelvin, "K", "degC");
+}
+
+struct Burning {
+  const ThermalConditionSpec& condition;
+  Findings& findings;
+  void warn(const std::string& what, const char* usual) const {
+    findings.push_back({false, condition.where, fmt::format("'{}' {}", condition.name, what), usual});
+  }
+};
+
+/// Heat and duration of sleeves and of covers on risers.
+void amounts(const Burning& burning) {
+  const ThermalConditionSpec& c = burning.condition;
+  constexpr double k_least_heat = 1e7, k_most_heat = 2e10;  // [J/m³]
+  constexpr double k_shortest = 1, k_longest = 3600;        // [s]
+  if (c.heat < k_least_heat || c.heat > k_most_heat)
+    burning.warn(fmt::format("releases {:g} J/m3", c.heat),
+                 "exothermic sleeves release 2e8 to 3e9 J/m3: heat per mass times density, per volume");
+  if (c.duration < k_shortest || c.duration > k_longest)
+    burning.warn(fmt::format("burns for {:g} s at each place", c.duration),
+                 "sleeves burn for half a minute to some minutes");
+}
+
+/// Above it nothing ignites: what stands there was switched off [K].
+constexpr double k_switched_off = 3000;
+
+}  // namespace
+
+void find_in_burning(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  if (!spec.has_heat()) return;
+  double hottest = 0;
+  for (const auto& start : a.start) hottest = std::max(hottest, start.high);
+  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
+    if (c.kind != ThermalConditionSpec::Kind::exothermic) continue;
+    const Burning burning{c, findings};
+    amounts(burning);
+    for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+      const BodySpec& body = spec.bodies[b];
+      if (body.mesh_group() != c.group) continue;
+      const bool poured =
+          std::any_of(m.pours.begin(), m.pours.end(), [&](const Pour& p) { return p.body == b; });
+      if (poured)
+        burning.warn(fmt::format("burns in '{}', which is poured", body.name),
+                     "the group of the sleeve, or of the cover, that burns");
+      if (c.ignition > hottest && c.ignition < k_switched_off)
+        burning.warn(fmt::format("ignites at {:.0f} degC, but nothing starts hotter than {:.0f} degC: it "
+                                 "does not burn",
+                                 celsius(c.ignition), celsius(hottest)),
+                     "sleeves ignite at 200 to 900 degC");
+      else if (!poured && c.ignition <= a.start[b].high)
+        burning.warn(
+            fmt::format("ignites at {:.0f} degC, and '{}' starts at {:.0f} degC: all of it burns from "
+                        "the start",
+                        celsius(c.ignition), body.name, celsius(a.start[b].high)),
+            "sleeves ignite at 200 to 900 degC");
+    }
+  }
+}
+
+}  // namespace solidus::model

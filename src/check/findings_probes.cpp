@@ -1,0 +1,93 @@
+// Findings on probes that measure nothing: fields that their body does not have, points where bodies touch.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "case/roles.hpp"
+#include "check/findings.hpp"
+#include "mesh/locate.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+bool deforms(std::string_view field) {
+  constexpr std::array k_of_mechanics = {
+      "displacement",  "velocity",     "acceleration",   "stress",
+      "von_mises",     "pressure",     "viscous_strain", "plastic_strain",
+      "flow_stress",   "back_stress",  "strain",         "equivalent_plastic_strain",
+      "pore_fraction", "nodal_stress", "distortion",     "nodal_von_mises"};
+  return std::find(k_of_mechanics.begin(), k_of_mechanics.end(), field) != k_of_mechanics.end();
+}
+
+bool freezes(std::string_view field) {
+  constexpr std::array k_of_freezing = {"solid_fraction", "solidified_at",      "local_solidification_time",
+                                        "niyama",         "shrinkage_porosity", "secondary_arm_spacing"};
+  return std::find(k_of_freezing.begin(), k_of_freezing.end(), field) != k_of_freezing.end();
+}
+
+/// The bodies that hold a point: two where they touch. Collective.
+std::vector<std::size_t> bodies_at(const Assembly& a, const CaseMeasures& m, const mesh::Point& point) {
+  std::vector<std::size_t> found;
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+    const double slack = 1e-3 * m.bodies[b].mean_edge;
+    bool inside = true;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(a.mesh.dimension); ++d)
+      inside = inside && point[d] > m.bodies[b].low[d] - slack && point[d] < m.bodies[b].high[d] + slack;
+    if (inside && mesh::locate(a.mesh, point, static_cast<int>(b)).distance <= slack) found.push_back(b);
+  }
+  return found;
+}
+
+void compare(const CaseSpec& spec, const Assembly& a, const ProbeSpec& probe, std::size_t b,
+             Findings& findings) {
+  const BodySpec& body = spec.bodies[b];
+  if (spec.has_heat() && spec.has_mechanics() && deforms(probe.field) && only_conducts(body))
+    findings.push_back({false, probe.where,
+                        fmt::format("the probe '{}' takes the {} of '{}', which only conducts heat: it stays "
+                                    "as it is",
+                                    probe.name, probe.field, body.name),
+                        "a body that deforms"});
+  if (freezes(probe.field) && a.materials[b].solidification() == nullptr)
+    findings.push_back({false, probe.where,
+                        fmt::format("the probe '{}' takes the {} of '{}', of '{}', which does not freeze",
+                                    probe.name, probe.field, body.name, body.material),
+                        "a body that is poured"});
+}
+
+}  // namespace
+
+void find_in_probes(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  for (const ProbeSpec& probe : spec.probes) {
+    if (probe.kind == ProbeSpec::Kind::difference || probe.kind == ProbeSpec::Kind::global) continue;
+    if (probe.kind != ProbeSpec::Kind::point) {
+      for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+        if (spec.bodies[b].mesh_group() == probe.group) compare(spec, a, probe, b, findings);
+      continue;
+    }
+    mesh::Point point{};
+    std::copy_n(probe.point.begin(), std::min(probe.point.size(), point.size()), point.begin());
+    std::vector<std::size_t> bodies;
+    if (!probe.body) {
+      bodies = bodies_at(a, m, point);
+    } else {
+      for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+        if (spec.bodies[b].name == *probe.body) bodies.push_back(b);
+    }
+    if (bodies.empty()) continue;
+    compare(spec, a, probe, bodies.front(), findings);
+    // Bodies that share their nodes there have one temperature.
+    const bool apart = bodies.size() > 1 && m.bodies[bodies[0]].shared_nodes[bodies[1]] == 0;
+    if (apart)
+      findings.push_back(
+          {false, probe.where,
+           fmt::format("the probe '{}' lies where '{}' and '{}' touch: it measures '{}'", probe.name,
+                       spec.bodies[bodies[0]].name, spec.bodies[bodies[1]].name, spec.bodies[bodies[0]].name),
+           "body = the one that is meant"});
+  }
+}
+
+}  // namespace solidus::model
