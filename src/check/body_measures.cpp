@@ -24,7 +24,8 @@ BodySet bit(int body) {
 }
 
 double distance(const mesh::Point& a, const mesh::Point& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+  return std::sqrt(x * x + y * y + z * z);
 }
 
 const mesh::Point& at(const mesh::Mesh& mesh, Index node) {

@@ -47,7 +47,7 @@ linear::NodeGraph HeatSystem::graph() const {
 }
 
 void HeatSystem::bind() {
-  kept_conduction_.clear();
+  forget_conduction();
   for (const auto& block : conduction_)
     if (block) block->bind(*matrix_);
   for (SurfaceHeat& surface : surfaces_) surface.bind(*matrix_);
@@ -175,7 +175,7 @@ ConductionBlock& HeatSystem::conduction(std::size_t block) {
 /// Conduction without its limits, in local_:  Σ_j K_ij (u_j − u_i), since Σ_j K_ij = 0. A uniform temperature
 /// gives no flow to the last bit, and what one node of a pair gives the other one gets.
 void HeatSystem::conduct(std::span<const double> temperature) {
-  if (kept_conduction_.empty()) keep_conduction();
+  if (!keeps_conduction()) keep_conduction();
   std::vector<const double*> potential(fields_.size(), temperature.data());
   std::vector<double> factor(fields_.size(), 1.0);
   for (std::size_t b = 0; b < fields_.size(); ++b) {
@@ -191,6 +191,7 @@ void HeatSystem::conduct(std::span<const double> temperature) {
   const bool half = matrix_->storage() == linear::BlockMatrix::Storage::upper;
   const std::span<const std::int64_t> start = matrix_->row_start();
   const std::span<const Index> columns = matrix_->columns();
+  const double* const entries = kept_conduction_.empty() ? matrix_->block(0) : kept_conduction_.data();
   // The diagonal adds nothing. Rows of ghosts are scrap.
   for (std::size_t i = 0; i + 1 < start.size(); ++i) {
     const int own = node_body_.empty() ? 0 : node_body_[i];
@@ -200,8 +201,7 @@ void HeatSystem::conduct(std::span<const double> temperature) {
       const int body = own >= 0 ? own : node_body_[j];
       if (body < 0) continue;
       const auto b = static_cast<std::size_t>(body);
-      const double flow =
-          kept_conduction_[static_cast<std::size_t>(s)] * (factor[b] * (potential[b][j] - potential[b][i]));
+      const double flow = entries[s] * (factor[b] * (potential[b][j] - potential[b][i]));
       sum += flow;
       if (half) local_[j] -= flow;
     }

@@ -185,6 +185,11 @@ class HeatSystem {
   void conduct(std::span<const double> temperature);
   double add_flows(std::span<const double> temperature);
   void keep_conduction();
+  bool keeps_conduction() const { return !kept_conduction_.empty() || !kept_diagonal_.empty(); }
+  void forget_conduction();
+  bool only_diagonal_beside_conduction() const;
+  void keep_conduction_apart();
+  void assemble_diagonal(std::span<const double> temperature, std::span<const double> slopes);
   void find_node_bodies();
   void scale_by_slopes(std::span<const double> slopes);
   void add_kept_conduction(std::span<const double> temperature, std::span<const double> slopes,
@@ -204,7 +209,10 @@ class HeatSystem {
   std::vector<Field> fields_;                   ///< one per body
   std::unique_ptr<NodalPotential> nodal_;
   std::unique_ptr<ConductionLimiter> limiter_;  ///< null where conduction is not limited
-  std::vector<double> kept_conduction_;  ///< Σ_m κ_m ∫∇N_a·∇N_b dV by slot; empty until it is needed
+  /// Σ_m κ_m ∫∇N_a·∇N_b dV by slot; empty until it is needed. Where nothing else than conduction has entries
+  /// beside the diagonal the matrix itself keeps them, and the diagonal stands here, [owned node].
+  std::vector<double> kept_conduction_, kept_diagonal_;
+  bool keeps_apart_ = false;    ///< nodes belong to several bodies, or something else had entries there
   std::vector<int> node_body_;  ///< the body of each local node, −1 of several; empty: there is one body
   /// K_ij of one body between two nodes that both belong to several bodies, i = j included.
   struct SharedPair {

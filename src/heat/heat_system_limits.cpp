@@ -17,14 +17,14 @@ void HeatSystem::limit(bool on) {
   on = on && closed_;
   if (on == (limiter_ != nullptr)) return;
   limiter_.reset();
-  kept_conduction_.clear();
+  forget_conduction();
   if (!on) return;
   limiter_ = std::make_unique<ConductionLimiter>(mesh_, potentials_);
 }
 
 bool HeatSystem::find_limits(std::span<const double> temperature, double negligible) {
   if (!limiter_ || !exchange_) return false;
-  if (kept_conduction_.empty()) keep_conduction();
+  if (!keeps_conduction()) keep_conduction();
   if (!limiter_->needed()) return false;
   std::vector<LimitedFlow*> flows;
   std::vector<double> gain(contributed_.size()), loss(contributed_.size());

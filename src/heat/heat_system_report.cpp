@@ -36,7 +36,7 @@ std::size_t HeatSystem::bytes() const {
     if (block) total += block->bytes();
   for (const Field& u : fields_)
     total += u.nodes.capacity() * sizeof(Index) + u.value.capacity() * sizeof(double);
-  total += kept_conduction_.capacity() * sizeof(double) + nodal_->bytes() +
+  total += (kept_conduction_.capacity() + kept_diagonal_.capacity()) * sizeof(double) + nodal_->bytes() +
            node_body_.capacity() * sizeof(int) + shared_.capacity() * sizeof(SharedPair);
   if (limiter_) total += limiter_->bytes();
   return total;

@@ -184,7 +184,15 @@ NodalEnthalpy::Point NodalEnthalpy::point(Index node, double heat) const {
   return {std::min(piece.t0 + 2.0 * from / (piece.c0 + root), piece.t1), 1.0 / (root * share.weight)};
 }
 
+/// Whether some curve of the node jumps at this very temperature.
+bool NodalEnthalpy::jumps_at(Index node, double temperature) const {
+  return std::ranges::any_of(shares(node), [&](const Share& s) {
+    return std::ranges::any_of(curve(s).jumps(), [&](const auto& j) { return j.temperature == temperature; });
+  });
+}
+
 double NodalEnthalpy::plateau_share(Index node, double heat, double temperature) const {
+  if (!jumps_at(node, temperature)) return 1.0;
   const double low = lower(node, temperature), high = upper(node, temperature);
   return high > low ? std::clamp((heat - low) / (high - low), 0.0, 1.0) : 1.0;
 }
@@ -226,12 +234,12 @@ double NodalEnthalpy::solid_volume(Index node, int body, double heat, double tem
 }
 
 double NodalEnthalpy::latent(Index node, double heat, double temperature) const {
-  const double share = plateau_share(node, heat, temperature);
   double latent = 0;
   for (const Share& s : shares(node)) {
     const material::Material& m = materials_[static_cast<std::size_t>(s.body)];
     for (const material::PhaseChange& change : m.phase_changes) {
       const double below = change.fraction.below(temperature), above = change.fraction.above(temperature);
+      const double share = below == above ? 0.0 : plateau_share(node, heat, temperature);
       latent += s.weight * m.density * change.latent_heat * (1.0 - below + share * (below - above));
     }
   }

@@ -111,6 +111,7 @@ class NodalEnthalpy {
   const material::EnthalpyCurve& curve(const Share& share) const {
     return curves_[static_cast<std::size_t>(share.body)];
   }
+  bool jumps_at(Index node, double temperature) const;
   double mixed_temperature(std::span<const Share> shares, double heat, bool& plateau) const;
   /// The shares of every owned node, [start[node], start[node + 1]).
   struct Shares {

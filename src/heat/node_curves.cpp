@@ -18,7 +18,7 @@ StorageCurve::AtHeat NodeCurves::sum_at_heat(Index node, double heat) const {
 
 StorageCurve::AtPotential NodeCurves::sum_at_potential(Index node, double potential, double near) const {
   const double t = system_.potential().temperature(node, potential, near);
-  return {t, storage_.lower(node, t), storage_.upper(node, t)};
+  return {t, storage_.lower(node, t), storage_.upper(node, t), 0.0};
 }
 
 }  // namespace solidus::heat

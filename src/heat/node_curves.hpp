@@ -26,13 +26,14 @@ class NodeCurves {
     return at;
   }
   /// @param near  a temperature from which the search starts where several materials meet
-  /// Returns the temperature [K] and H [J] at both ends of a plateau.
+  /// Returns the temperature [K], H [J] at both ends of a plateau and dv/dH [K/J]; zero where at_heat() has
+  /// to tell it: at plateaus and at nodes of several materials.
   StorageCurve::AtPotential at_potential(Index node, double potential, double near) const {
     const NodalEnthalpy::Share* share = only_share(node);
     if (share == nullptr) return sum_at_potential(node, potential, near);
     const StorageCurve::AtPotential at =
         curves_[static_cast<std::size_t>(share->body)].at_potential(potential);
-    return {at.temperature, share->weight * at.lower, share->weight * at.upper};
+    return {at.temperature, share->weight * at.lower, share->weight * at.upper, at.slope / share->weight};
   }
 
  private:

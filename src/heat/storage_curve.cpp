@@ -93,7 +93,12 @@ StorageCurve::AtPotential StorageCurve::at_potential(double v) const {
   double t = root(piece->k0, piece->k1, v - piece->v0);
   if (piece != &below_) t = std::min(t, piece->width);
   const double h = piece->h0 + t * (piece->c0 + 0.5 * piece->c1 * t);
-  return {piece->t0 + t, t == 0 ? h - piece->jump : h, h};
+  constexpr double k_near = 1e-6;  // of the piece, from a jump
+  const bool at_start = piece->jump > 0 && t <= k_near * std::min(piece->width, 1.0);
+  const bool at_end = piece != &below_ && std::isfinite(piece->width) && piece[1].jump > 0 &&
+                      piece->width - t <= k_near * piece->width;
+  const double slope = at_start || at_end ? 0.0 : (piece->k0 + piece->k1 * t) / (piece->c0 + piece->c1 * t);
+  return {piece->t0 + t, t == 0 ? h - piece->jump : h, h, slope};
 }
 
 }  // namespace solidus::heat

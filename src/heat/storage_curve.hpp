@@ -27,6 +27,7 @@ class StorageCurve {
   struct AtPotential {
     double temperature;   ///< [K]
     double lower, upper;  ///< h, the ends of a jump [J/m³]
+    double slope;         ///< dv/dh [K m³/J]; zero at a jump, where h decides
   };
   AtPotential at_potential(double v) const;
 

@@ -1,5 +1,6 @@
 #include "heat/surface_heat.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 
@@ -269,6 +270,10 @@ void SurfaceHeat::add_supply(std::span<const double> temperature, std::span<doub
 
 void SurfaceHeat::update_flows(std::span<const double> temperature) {
   for (std::size_t i = 0; i < flows_.size(); ++i) flows_[i].heat = flow(temperature, i);
+}
+
+bool SurfaceHeat::diagonal() const {
+  return pairs_.empty() && std::ranges::all_of(patches_, [](const Patch& p) { return p.n_nodes == 1; });
 }
 
 void SurfaceHeat::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const {

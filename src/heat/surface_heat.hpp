@@ -95,6 +95,8 @@ class SurfaceHeat {
   /// points; adds its magnitude, before heat into the body cancels heat out of it, to `moved`.
   double add_residual(std::span<const double> temperature, std::span<double> r, double& moved) const;
   void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const;
+  /// Whether add_tangent() adds to the diagonal alone.
+  bool diagonal() const;
   /// The flows from corners with negative weights; `left` is set by the limiter. Not of a flux, which has no
   /// ambient temperature to stay within.
   std::span<LimitedFlow> flows() { return flows_; }

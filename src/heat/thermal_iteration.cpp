@@ -196,7 +196,8 @@ HeatBalance ThermalIteration::conclude(ThermalState& trial) {
   phase_.require_positive(now_.temperature);
   if (nodal()) phase_.book(residual(), dt_, now_.enthalpy);
   const ThermalState from{old_->temperature, stored_from_};
-  const HeatBalance balance = phase_.balance(from, now_, residual(), moved(), dt_);
+  HeatBalance balance = phase_.balance(from, now_, residual(), moved(), dt_);
+  phase_.set_latent(balance, from, now_);
   trial = now_;
   return balance;
 }

@@ -244,7 +244,8 @@ class ThermalPhase {
   /// the fluxes r are; the next step begins from these heats. Updates the ghosts.
   void book(std::span<const double> residual, double dt, std::span<double> heat) const;
   /// The start of a step: prescribed temperatures hold, and heats are those of their temperatures.
-  ThermalState start(const ThermalState& old, double time);
+  /// @param all  false: of the prescribed ones alone
+  ThermalState start(const ThermalState& old, double time, bool all = true);
   /// Whether the enthalpy of the nodes is the unknown: with the closed rule, and with the open one where a
   /// material has an isothermal change.
   bool nodal() const { return truncated_newton_ != nullptr; }

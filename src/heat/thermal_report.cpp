@@ -32,7 +32,6 @@ HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& n
     for (const auto& block : points_) stored += block->stored(next.temperature);
   }
   balance.stored = parallel::global_sum(stored);
-  set_latent(balance, old, next);
   balance.exchanged = moved * dt;
   return balance;
 }

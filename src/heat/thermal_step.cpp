@@ -68,6 +68,7 @@ ThermalReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, 
     report = solve_stage(old, old, {pass.dt}, pass, next);
     if (flows) report.flows.last = flow(old, next, {pass.dt});
   }
+  set_latent(report.balance, old, next);
   if (flows) report.flows.dt = pass.dt;
   trial = std::move(next);
   return report;
@@ -119,7 +120,6 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   stage_flows.last_share = stage.dt / pass.dt;
   add_stage(report, stage.carried, last);
   report.flows = std::move(stage_flows);
-  set_latent(report.balance, old, next);
   return report;
 }
 
@@ -128,7 +128,9 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
                                         const linear::RungeKuttaStage& stage, const ThermalPass& pass,
                                         ThermalState& next) {
   begin_stage(stage, before.temperature);
-  next = start(pass.iterate != nullptr ? *pass.iterate : before, pass.time);
+  // H* itself lies so far ahead at a front that the iteration begins half way to it.
+  const bool half_way = nodal() && stage.carried != 0 && pass.iterate == nullptr;
+  next = start(pass.iterate != nullptr ? *pass.iterate : before, pass.time, !half_way);
   ThermalReport report;
   if (!nodal()) {
     for (const auto& block : points_) {
@@ -143,9 +145,7 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
     return report;
   }
   std::vector<double> from = stage_start(old, before, stage).enthalpy;
-  // H* itself lies so far ahead at a front that the iteration begins half way to it.
-  if (stage.carried != 0 && pass.iterate == nullptr)
-    start_from(stage_start(old, before, {stage.dt, 0.5 * (1 + stage.carried)}).enthalpy, next);
+  if (half_way) start_from(stage_start(old, before, {stage.dt, 0.5 * (1 + stage.carried)}).enthalpy, next);
   const TemperatureRange range = limit_conduction(before, old);
   report.newton =
       truncated_newton_->solve(from, stage.dt, next.temperature, next.enthalpy, range, pass.newton_steps);
@@ -180,14 +180,15 @@ std::vector<double> ThermalPhase::flow(const ThermalState& from, const ThermalSt
   return flow;
 }
 
-ThermalState ThermalPhase::start(const ThermalState& old, double time) {
+ThermalState ThermalPhase::start(const ThermalState& old, double time, bool all) {
   system_->set_time(time);
   ThermalState next{old.temperature, old.enthalpy};
   system_->prescribe(next.temperature);
   if (nodal())
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-      next.enthalpy[at(i)] = std::clamp(old.enthalpy[at(i)], storage_->lower(i, next.temperature[at(i)]),
-                                        storage_->upper(i, next.temperature[at(i)]));
+      if (all || system_->fixed()[at(i)])
+        next.enthalpy[at(i)] = std::clamp(old.enthalpy[at(i)], storage_->lower(i, next.temperature[at(i)]),
+                                          storage_->upper(i, next.temperature[at(i)]));
   return next;
 }
 

@@ -114,9 +114,11 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
   heat_ = heat;
   temperature_ = temperature;
   dt_ = dt;
+  rate_ = 1.0 / dt;
   conductance_ = 0;
   revisions_ = idle_ = 0;
   linear_ = true;
+  looked_up_ = false;
   allocate();
   PlateauWatch watch(mesh_, storage_, system_.matrix(), ghosts_);
   watch.passed_in_depth(heat_, temperature_);

@@ -87,7 +87,7 @@ class TruncatedNewton {
   bool converged() const { return norm_ <= options_.tolerance * moved_ || norm_ <= round_off_; }
   void assemble();
   void relax_nodes(bool all);
-  void look_up();
+  double look_up(Index node);
   double relax_locally();
   void sweep();
   void follow_other_processes();
@@ -105,6 +105,7 @@ class TruncatedNewton {
   double true_slope(double alpha);
   double slope_along_step() const;
   void move(double alpha);
+  void take(double alpha);
 
   const mesh::Mesh& mesh_;
   HeatSystem& system_;
@@ -115,7 +116,7 @@ class TruncatedNewton {
   TruncatedNewtonOptions options_;
   std::vector<char> relaxed_;
 
-  double dt_ = 1;
+  double dt_ = 1, rate_ = 1;  ///< Δt, 1/Δt
   std::span<const double> old_heat_;
   std::span<double> heat_, temperature_;
   std::vector<double> r_;  ///< F, during sweeps that of the linear A, [owned node]
@@ -128,10 +129,11 @@ class TruncatedNewton {
   std::vector<double> curve_slope_;  ///< dv/dH there, zero on a plateau
   std::vector<double> from_heat_;    ///< H where the search begins
   double norm_ = 0, moved_ = 0, round_off_ = 0, conductance_ = 0;
-  bool linear_ = true;     ///< whether sweeps with A have brought F down, in this solve
-  int idle_ = 0;           ///< revisions that have found nothing new
-  int revisions_ = 0;      ///< of the limits of conduction, in this step
-  double negligible_ = 0;  ///< |F_i| for which no node is relaxed
+  bool looked_up_ = false;  ///< whether v and dv/dH are those of the heats
+  bool linear_ = true;      ///< whether sweeps with A have brought F down, in this solve
+  int idle_ = 0;            ///< revisions that have found nothing new
+  int revisions_ = 0;       ///< of the limits of conduction, in this step
+  double negligible_ = 0;   ///< |F_i| for which no node is relaxed
 };
 
 }  // namespace solidus::heat

@@ -25,6 +25,18 @@ void TruncatedNewton::move(double alpha) {
         curves_.at_potential(static_cast<Index>(i), potential_[i] + alpha * step_[i], temperature_[i]);
     temperature_[i] = at.temperature;
     heat_[i] = step_[i] < 0 ? at.upper : at.lower;
+    curve_slope_[i] = at.slope;
+  }
+}
+
+/// Ends the search where move() has taken the nodes.
+void TruncatedNewton::take(double alpha) {
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    if (step_[i] == 0) continue;
+    if (const auto node = static_cast<Index>(i); curve_slope_[i] > 0)
+      potential_[i] += alpha * step_[i];
+    else
+      look_up(node);
   }
 }
 
@@ -58,19 +70,21 @@ bool TruncatedNewton::search(bool short_too) {
   const profile::Part part("line search");
   std::copy_n(heat_.begin(), r_.size(), from_heat_.begin());
   const double start = slope_along_step();
-  const double alpha = minimise(start, 1.0, &TruncatedNewton::linear_slope);
+  double alpha = minimise(start, 1.0, &TruncatedNewton::linear_slope);
   if (alpha < k_short && !short_too) {
     for (std::size_t i = 0; i < r_.size(); ++i) {
       if (step_[i] == 0) continue;
       heat_[i] = from_heat_[i];
-      temperature_[i] = curves_.at_heat(static_cast<Index>(i), heat_[i]).temperature;
+      temperature_[i] = look_up(static_cast<Index>(i));
     }
     return false;
   }
   // A holds the terms that are not linear in v by their derivatives only: the step must be checked with F
   // itself.
   const double slope = true_slope(alpha);
-  if (start < 0 && !(slope <= -k_accept_rise * start)) minimise(start, alpha, &TruncatedNewton::true_slope);
+  if (start < 0 && !(slope <= -k_accept_rise * start))
+    alpha = minimise(start, alpha, &TruncatedNewton::true_slope);
+  take(alpha);
   return true;
 }
 

@@ -19,22 +19,22 @@ constexpr int k_relaxations = 60;      ///< evaluations of a node's curve in one
 
 /// Solves the equation of one node, F_i + (H − H_i)/Δt + A_ii (v(H) − v_i) = 0, for its H; returns the change
 /// of v. The left-hand side rises with H, at 1/Δt at least: Newton's method, within a bracket as soon as
-/// there is one.
+/// there is one. The neighbours wait for the result: what does not depend on the residual is divided first.
 double TruncatedNewton::relax(std::size_t i, double residual) {
   if (std::abs(residual) <= negligible_ || system_.fixed()[i] || (!relaxed_.empty() && relaxed_[i] == 0))
     return 0;
   const auto node = static_cast<Index>(i);
-  const double a = std::max(diagonal_[i], 0.0), h0 = heat_[i], v0 = potential_[i];
+  const double a = std::max(diagonal_[i], 0.0), h0 = heat_[i], v0 = potential_[i], rate = rate_;
   StorageCurve::AtHeat at{temperature_[i], v0, curve_slope_[i]};
   double low = -HUGE_VAL, high = HUGE_VAL, h = h0, defect = residual;
   for (int trial = 0; trial < k_relaxations; ++trial) {
     (defect > 0 ? high : low) = h;
-    double next = h - defect / (1.0 / dt_ + a * at.slope);
+    double next = h - defect * (1.0 / (rate + a * at.slope));
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     if (!std::isfinite(next) || next == h) break;
     h = next;
     at = curves_.at_heat(node, h);
-    defect = residual + (h - h0) / dt_ + a * (at.potential - v0);
+    defect = residual + (h - h0) * rate + a * (at.potential - v0);
     if (std::abs(defect) <= k_relaxed * std::abs(residual)) break;
   }
   heat_[i] = h;
@@ -61,7 +61,7 @@ void TruncatedNewton::sweep() {
   };
   const auto visit = [&](std::size_t i) {
     const double heat = heat_[i], change = relax(i, r_[i]);
-    r_[i] += (heat_[i] - heat) / dt_ + diagonal_[i] * change;
+    r_[i] += (heat_[i] - heat) * rate_ + diagonal_[i] * change;
     step_[i] += change;
     if (change != 0) for_later(i, [&](std::size_t j, double entry) { r_[j] += entry * change; });
   };
@@ -94,13 +94,13 @@ void TruncatedNewton::follow_other_processes() {
         r_[i] += values[s] * step_[j] - std::abs(values[s]) * step_[i];
 }
 
-/// Finds v and dv/dH of all nodes, which the sweeps and the step that follows them start from.
-void TruncatedNewton::look_up() {
-  for (std::size_t i = 0; i < r_.size(); ++i) {
-    const StorageCurve::AtHeat at = curves_.at_heat(static_cast<Index>(i), heat_[i]);
-    potential_[i] = at.potential;
-    curve_slope_[i] = at.slope;
-  }
+/// Finds v and dv/dH of a node at its heat; returns Θ. From then on sweeps and steps carry them along.
+double TruncatedNewton::look_up(Index node) {
+  const auto i = static_cast<std::size_t>(node);
+  const StorageCurve::AtHeat at = curves_.at_heat(node, heat_[i]);
+  potential_[i] = at.potential;
+  curve_slope_[i] = at.slope;
+  return at.temperature;
 }
 
 /// The sweeps, with A at the temperatures of now, and F there. What A holds by derivatives only (films and
@@ -113,7 +113,9 @@ void TruncatedNewton::relax_nodes(bool all) {
     const profile::Part part("sweeps");
     negligible_ =
         all ? 0 : k_negligible * options_.tolerance * moved_ / static_cast<double>(mesh_.n_global_nodes);
-    look_up();
+    if (!looked_up_)
+      for (std::size_t i = 0; i < r_.size(); ++i) look_up(static_cast<Index>(i));
+    looked_up_ = true;
     sweep();
   }
   const double swept = linear_ ? relax_locally() : HUGE_VAL;
@@ -130,7 +132,7 @@ double TruncatedNewton::relax_locally() {
   negligible_ = 0;
   local.run([this](std::size_t i, double residual) {
     const double heat = heat_[i], change = relax(i, residual);
-    return NodeChange{change, (heat_[i] - heat) / dt_};
+    return NodeChange{change, (heat_[i] - heat) * rate_};
   });
   return local.sum();
 }

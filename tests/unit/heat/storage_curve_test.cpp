@@ -55,6 +55,7 @@ TEST(StorageCurve, SaysWhatTheCurvesSayThatItIsMadeOf) {
       EXPECT_NEAR(at.temperature, t, 1e-11 * t);
       EXPECT_NEAR(at.lower, h.lower(t), 1e-8 * std::abs(hot));
       EXPECT_NEAR(at.upper, h.upper(t), 1e-8 * std::abs(hot));
+      EXPECT_NEAR(at.slope, h.inverse_slope(h.upper(t)) * k(t), 1e-7 * at.slope) << t;
     }
     for (const material::EnthalpyCurve::Jump& jump : h.jumps()) {
       const double within = h.lower(jump.temperature) + 0.3 * jump.height;
@@ -64,6 +65,7 @@ TEST(StorageCurve, SaysWhatTheCurvesSayThatItIsMadeOf) {
       const heat::StorageCurve::AtPotential ends = curve.at_potential(at.potential);
       EXPECT_DOUBLE_EQ(ends.temperature, jump.temperature);
       EXPECT_NEAR(ends.upper - ends.lower, jump.height, 1e-9 * jump.height);
+      EXPECT_EQ(ends.slope, 0.0);
     }
   }
 }
