@@ -29,6 +29,7 @@ struct HertzCase {
   contact::IntegrationRule rule = contact::IntegrationRule::automatic;
   std::optional<double> penalty_factor{};      ///< of a case file, in place of `stiffness`
   std::optional<double> pressure_tolerance{};  ///< of the augmented Lagrangian; absent: by penetration
+  double stabilisation = contact::ContactParameters{}.stabilisation;
 };
 
 inline constexpr double k_hertz_radius = 1, k_hertz_width = 0.6, k_hertz_young = 200e9, k_hertz_poisson = 0.3;
@@ -83,6 +84,7 @@ struct Hertz {
     if (c.penalty_factor) spec.penalty = *c.penalty_factor;
     spec.pressure_tolerance = c.pressure_tolerance;
     spec.search_distance = 0.05;
+    spec.stabilisation = c.stabilisation;
     // Gives a half width of about 0.03 R.
     const bool block = c.bodies == HertzCase::Bodies::round_on_block;
     const double approach = (line ? 1.6e-3 : 1e-3) * (block ? 1.3 : 1);
