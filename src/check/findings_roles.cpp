@@ -93,7 +93,7 @@ void strong_films(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   }
 }
 
-/// What keeps moulds above the solidus for ever.
+/// Finds films, radiation and held temperatures that keep a mould above the solidus of what is poured.
 void heated_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (m.pours.empty()) return;
   double solidus = 0;
