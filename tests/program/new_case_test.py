@@ -75,7 +75,7 @@ class NewCase(ProgramTest):
         self.assertAlmostEqual(volumes["core"], 8e-6, delta=1e-12)
 
     def test_of_an_assembly_takes_roles_from_names_and_says_which_body_is_which(self):
-        text = self.done("new", str(SOURCES / "tests/parts/valve.step"), "--alloy", "brass", "--fineness", "0.6", "-o", "case")
+        text = self.done("new", str(SOURCES / "tests/parts/valve.step"), "--alloy", "brass", "--fineness", "0.8", "-o", "case")
         case = tomllib.loads((self.folder / "case/case.toml").read_text())
         roles = {body.get("group", body["name"]): body["role"] for body in case["body"]}
         self.assertEqual(roles, {"valve_body": "casting", "core": "core", "mould": "mould"})
@@ -121,7 +121,7 @@ class NewCase(ProgramTest):
 
     def test_a_riser_stands_on_the_plane_of_symmetry_which_halves_it(self):
         text, case = self.new(str(SOURCES / "tests/parts/tee_flange.step"), "--symmetry", "y", "--riser", "auto",
-                              "--fineness", "0.6")
+                              "--fineness", "0.7")
         self.assertIn("symmetry    the half below y = 0 mm is computed", text)
         self.assertIn("high, halved by the plane of symmetry on which it stands", text)
         foot, diameter, height = self.riser(case)
