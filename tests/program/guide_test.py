@@ -168,6 +168,7 @@ class Guide(ProgramTest):
         empty folder; then the Python of docs/guide/results.md reads what they left. `./dev nightly` runs all of them. Else
         the pictures and the coupled run of the part are left out, a minute of one core, and the case by hand, which has
         to be the one that its notebook runs, ends after a second."""
+        (self.folder / ".git").mkdir()  # within a clone results go to its root, and the folder of the test may lie in one
         page = (SOURCES / "docs/guide/getting_started.md").read_text()
         case, = (block.text for block in blocks(page) if block.language == "toml")
         indented = [line.strip() for line in page.splitlines() if re.match(r"    (\./dev|cp|solidus|~)", line)]
