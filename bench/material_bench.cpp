@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "material/isentropic.hpp"
+#include "material/laws/hardening_law.hpp"
+#include "material/laws/perzyna.hpp"
 #include "material/viscoplastic.hpp"
 
 namespace solidus::material {

@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "parallel/petsc_session.hpp"
+
 #if defined(__SANITIZE_ADDRESS__)
 #define SOLIDUS_LEAK_CHECK
 #elif defined(__has_feature)
@@ -79,10 +81,11 @@ bool select_tests(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  namespace petsc = solidus::petsc;
   ::testing::InitGoogleTest(&argc, argv);
   if (!select_tests(argc, argv)) return 2;
   ignore_leaks(true);
-  if (PetscInitialize(nullptr, nullptr, nullptr, nullptr) != 0) return 3;
+  if (!petsc::start({})) return 3;
   ignore_leaks(false);
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
@@ -94,6 +97,6 @@ int main(int argc, char** argv) {
   int result = RUN_ALL_TESTS();
   MPI_Allreduce(MPI_IN_PLACE, &result, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD);
   check_leaks();
-  PetscFinalize();
+  petsc::end();
   return result;
 }

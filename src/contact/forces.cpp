@@ -43,6 +43,7 @@ void ContactForces::activate(bool on) {
 
 void ContactForces::begin(bool isentropic, double share) {
   multipliers_.begin();
+  term_.begin();
   law_.isentropic = isentropic;
   law_.share = share;
 }
@@ -54,6 +55,7 @@ PointForces ContactForces::at(const PointMotion& motion, Index point) const {
 }
 
 void ContactForces::augment(const ContactState& now, ContactStep& step) {
+  term_.begin();
   if (active_) multipliers_.augment(now, step);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "parallel/parallel.hpp"
@@ -10,6 +11,11 @@
 namespace solidus::contact {
 
 namespace {
+
+/// Newton's iteration has gone astray, or the stabilisation holds it back, after so many tangents.
+constexpr int k_patient = 8;
+/// The stabilisation then becomes a tenth with every tangent, down to this share of itself.
+constexpr double k_least_stabilisation = 1e-4;
 
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
@@ -123,7 +129,7 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
                      f.conductance.by_pressure * f.normal.tangent + f.conductance.by_penetration,
                      f.traction_by_conductance);
   }
-  const double stabilisation = w * stabilisation_ * law_.normal.penalty;
+  const double stabilisation = w * stabilisation_ * stabilisation_share_ * law_.normal.penalty;
   for (std::size_t c = 0; c < n; ++c) {
     const Point& g = motion.penetration_rate[c];
     Tensor traction_rate{};
@@ -242,6 +248,8 @@ void MechanicsTerm::add_temperature_tangent(linear::CoupledMatrix& matrix) {
 
 void MechanicsTerm::add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) {
   if (!active_) return;
+  ++n_tangents_;
+  stabilisation_share_ = std::clamp(std::pow(10.0, k_patient - n_tangents_), k_least_stabilisation, 1.0);
   geometry_.at(step_.time, x, ContactKinematics::Points::own);
   if (components_ == 2)
     add_tangents<2>(matrix);

@@ -25,6 +25,10 @@ namespace solidus::contact {
 /// T̄_n: T_n as the kinematics carry it. With `symmetric` ∂T/∂t_N is left out, and of the rest the symmetric
 /// part is taken; the symmetric part of the whole would be indefinite wherever points slip.
 ///
+/// The tangent holds a share of the penalty at every point (ContactParameters::stabilisation). Against a
+/// melt, with next to no stiffness, that share is much, and Newton's iteration creeps: from its ninth tangent
+/// on the share falls.
+///
 /// Where the friction law finds no state the residual is not a number: Newton's method shortens its step.
 class MechanicsTerm : public linear::Contribution {
  public:
@@ -32,6 +36,8 @@ class MechanicsTerm : public linear::Contribution {
   /// @param name  of the pair, for the log: with level debug every residual leaves a line
   MechanicsTerm(std::string name, const ContactGeometry& geometry, const PointLaw& law,
                 const ContactStep& step, double stabilisation, bool symmetric);
+  /// Another Newton iteration follows.
+  void begin() { n_tangents_ = 0; }
   /// Off: no term at all.
   void activate(bool on) { active_ = on; }
 
@@ -72,7 +78,7 @@ class MechanicsTerm : public linear::Contribution {
   ContactGraph& graph_;
   const PointLaw& law_;
   const ContactStep& step_;
-  double stabilisation_;
+  double stabilisation_, stabilisation_share_ = 1;
   bool symmetric_;
   bool active_ = true;
   mutable int version_ = 0;  ///< of the graph it has
@@ -80,6 +86,7 @@ class MechanicsTerm : public linear::Contribution {
   const linear::BlockMatrix* coupled_ = nullptr;  ///< that coupled_slots_ know
   std::vector<PointStatus> status_;               ///< at the last residual
   Index changes_ = 0;
+  int n_tangents_ = 0;  ///< of this iteration
   FrictionStatus failure_ = FrictionStatus::converged;
 };
 

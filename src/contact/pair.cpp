@@ -83,7 +83,7 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   }
 }
 
-void ContactPair::rest(const ContactState& old, double time, double dt, std::span<const double> temperature) {
+void ContactPair::hold(const ContactState& old, double time, double dt, std::span<const double> temperature) {
   const std::vector<double> displacement = geometry_->no_displacement();
   begin(old, {.time = time, .dt = dt, .displacement = displacement, .temperature = temperature});
   update(displacement);

@@ -107,7 +107,7 @@ class ContactPair {
   bool has_temperature() const { return heat_ && heat_->has_temperature(); }
   /// Begins a step of bodies that do not deform and updates the pair: heat alone, where the interface stores
   /// it. Local.
-  void rest(const ContactState& old, double time, double dt, std::span<const double> temperature);
+  void hold(const ContactState& old, double time, double dt, std::span<const double> temperature);
   /// State of the points at the last update() or restore().
   const ContactState& state() const { return end_.state; }
 

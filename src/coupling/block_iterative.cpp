@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "coupling/contact_states.hpp"
-#include "coupling/contact_work.hpp"
 #include "coupling/largest_difference.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/phase_iterate.hpp"
@@ -45,7 +44,7 @@ std::vector<double> interface_temperatures(const std::vector<contact::ContactSta
 
 /// A step on its way.
 struct BlockIterative::Iterate {
-  double time = 0, dt = 0;
+  Attempt attempt;
   int number = 0;                 ///< of the iteration
   State now;                      ///< results of the last passes
   PhaseIterate phases;            ///< fractions of phase changes that the mechanical pass holds
@@ -54,7 +53,7 @@ struct BlockIterative::Iterate {
   std::vector<double> temperature, before;
   bool solved = false;  ///< both passes reached the tolerances of their phases
   int turns = 0;        ///< of the augmented Lagrangian, in all mechanical passes
-  StepEffort effort;
+  StepEffort& effort;
 };
 
 BlockIterative::BlockIterative(Phases phases, IterationOptions options)
@@ -88,27 +87,30 @@ void BlockIterative::forget() {
 }
 
 StepEffort BlockIterative::advance(const State& old, State& trial, double time, double dt) {
-  ContactWork contact(phases_);
-  Iterate it{.time = time,
-             .dt = dt,
+  const ContactWork contact(phases_);
+  StepEffort effort;
+  if (options_.loop == IterationOptions::Loop::single) {
+    try {
+      solve(old, trial, {.time = time, .dt = dt, .newton_steps = 1}, contact, effort);
+      return effort;
+    } catch (const StepRejected&) {
+      synchronise(old);
+    }
+  }
+  solve(old, trial, {.time = time, .dt = dt, .newton_steps = 0}, contact, effort);
+  return effort;
+}
+
+void BlockIterative::solve(const State& old, State& trial, const Attempt& attempt, ContactWork contact,
+                           StepEffort& effort) {
+  Iterate it{.attempt = attempt,
              .now = old,
              .phases = {phases_, old.heat},
              .interface = {},
              .temperature = old.heat.temperature,
              .before = {},
-             .effort = {}};
-  for (Relaxation& relaxation : relaxation_) relaxation.begin();
-  changes_.clear();
-  while (true) {
-    ++it.number;
-    iterate(old, it);
-    if (agrees(old, it)) break;
-    require_progress(it);
-    relax(it);
-  }
-  if (options_.sweep == IterationOptions::Sweep::jacobi) thermal(old, it, 0);
-
-  StepEffort effort = std::move(it.effort);
+             .effort = effort};
+  iterate_until_agreement(old, it);
   effort.coupling_iterations = it.number;
   if (phases_.structural != nullptr) {
     contact.add(phases_.mechanics->work_share());
@@ -120,11 +122,24 @@ StepEffort BlockIterative::advance(const State& old, State& trial, double time, 
   trial.contacts = std::move(it.now.contacts);
   effort.stability = stability_audit(phases_, old, trial, effort, Booking::mechanical);
   summarise(phases_, trial, effort);
-  return effort;
+}
+
+void BlockIterative::iterate_until_agreement(const State& old, Iterate& it) {
+  for (Relaxation& relaxation : relaxation_) relaxation.begin();
+  changes_.clear();
+  while (true) {
+    ++it.number;
+    iterate(old, it);
+    if (agrees(old, it)) break;
+    require_progress(it);
+    relax(it);
+  }
+  if (options_.sweep == IterationOptions::Sweep::jacobi) thermal(old, it, 0);
 }
 
 bool BlockIterative::mechanical(const State& old, Iterate& it, int newton_steps) const {
-  mechanics::MechanicalPass pass{.time = it.time, .dt = it.dt, .temperature = old.heat.temperature};
+  mechanics::MechanicalPass pass{
+      .time = it.attempt.time, .dt = it.attempt.dt, .temperature = old.heat.temperature};
   it.phases.hold(pass);
   pass.newton_steps = newton_steps;
   if (it.number > 1) {
@@ -137,21 +152,20 @@ bool BlockIterative::mechanical(const State& old, Iterate& it, int newton_steps)
 
 bool BlockIterative::thermal(const State& old, Iterate& it, int newton_steps) const {
   const heat::ThermalPass pass{
-      .time = it.time, .dt = it.dt, .iterate = &it.now.heat, .newton_steps = newton_steps};
+      .time = it.attempt.time, .dt = it.attempt.dt, .iterate = &it.now.heat, .newton_steps = newton_steps};
   return thermal_pass(phases_, old, it.now, pass, it.effort);
 }
 
 // A pass of each phase (4.2, 4.3), and how much they changed.
 void BlockIterative::iterate(const State& old, Iterate& it) {
   const std::vector<double> displacement = it.now.mechanics.displacement;
-  const int newton_steps = options_.loop == IterationOptions::Loop::single ? 1 : 0;
   try {
     if (alternates(it)) {
-      it.solved = thermal(old, it, newton_steps);
-      it.solved = mechanical(old, it, newton_steps) && it.solved;
+      it.solved = thermal(old, it, it.attempt.newton_steps);
+      it.solved = mechanical(old, it, it.attempt.newton_steps) && it.solved;
     } else {
-      it.solved = mechanical(old, it, newton_steps);
-      it.solved = thermal(old, it, newton_steps) && it.solved;
+      it.solved = mechanical(old, it, it.attempt.newton_steps);
+      it.solved = thermal(old, it, it.attempt.newton_steps) && it.solved;
     }
   } catch (const StepRejected& rejected) {
     const bool grew = changes_.size() > 1 && changes_.back().temperature > changes_.front().temperature;

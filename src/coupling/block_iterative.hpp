@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/contact_work.hpp"
 #include "coupling/phases.hpp"
 #include "coupling/relaxation.hpp"
 #include "coupling/scheme.hpp"
@@ -28,7 +29,7 @@ struct IterationOptions {
   enum class Sweep { gauss_seidel, jacobi };
   enum class Loop {
     nested,  ///< every pass to the tolerance of its phase
-    single   ///< one Newton step a pass
+    single   ///< one Newton step a pass; nested in a step where that does not converge
   };
   Sweep sweep = Sweep::gauss_seidel;
   Loop loop = Loop::nested;
@@ -61,6 +62,17 @@ class BlockIterative final : public CouplingScheme {
 
  private:
   struct Iterate;
+  struct Attempt {
+    double time = 0, dt = 0;  ///< end and length of the step [s]
+    int newton_steps = 0;     ///< of a pass; zero: as many as its phase needs
+  };
+  /// Solves the step with passes of so many Newton steps.
+  /// @param contact  as it was at the start of the step
+  /// @param effort   what passes need is added
+  void solve(const State& old, State& trial, const Attempt& attempt, ContactWork contact, StepEffort& effort);
+  /// Iterates from the start of the step on. Throws StepRejected when the iteration diverges or does not
+  /// converge.
+  void iterate_until_agreement(const State& old, Iterate& it);
   /// Returns whether the phase reached its tolerance. Zero Newton steps: as many as it takes.
   bool mechanical(const State& old, Iterate& it, int newton_steps) const;
   bool thermal(const State& old, Iterate& it, int newton_steps) const;

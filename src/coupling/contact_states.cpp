@@ -70,7 +70,7 @@ void begin_contacts(const Phases& phases, const std::vector<contact::ContactStat
 void rest_contacts(const Phases& phases, const State& old, double time, double dt) {
   for (std::size_t i = 0; i < phases.contacts.size(); ++i)
     if (phases.contacts[i]->has_temperature())
-      phases.contacts[i]->rest(state_of(old.contacts, i), time, dt, old.heat.temperature);
+      phases.contacts[i]->hold(state_of(old.contacts, i), time, dt, old.heat.temperature);
 }
 
 std::vector<contact::ContactState> contact_states(const Phases& phases) {

@@ -7,6 +7,7 @@
 #include "coupling/contact_work.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
+#include "coupling/turn_watch.hpp"
 #include "system/errors.hpp"
 #include "system/profile.hpp"
 
@@ -29,6 +30,15 @@ std::vector<double> rate(const std::vector<double>& from, const std::vector<doub
 
 /// Times that heat and equilibrium of a step are solved at most until the gaps agree.
 constexpr int k_gap_turns = 4;
+
+contact::GapHeat sum(const std::vector<contact::GapHeat>& pairs) {
+  contact::GapHeat all;
+  for (const contact::GapHeat& pair : pairs) {
+    all.passed += pair.passed;
+    all.misplaced += pair.misplaced;
+  }
+  return all;
+}
 
 /// Adds the effort of a turn that was repeated; how hard the phase is, the harder turn says.
 void add_effort(const PhaseEffort& before, PhaseEffort& effort) {
@@ -125,12 +135,15 @@ std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, Sta
   StepEffort deformed;
   mechanical_phase(old, warm, trial, time, dt, extrapolated(old, dt), deformed);
   Gaps used = start;
+  TurnWatch watch;
   while (true) {
-    Gaps right = start;
-    const Gaps end = gaps();
-    for (std::size_t i = 0; i < right.size(); ++i) right[i] = contact::middle(start[i], end[i]);
+    Gaps right = middle(start, gaps());
     deformed.gap_heat = gap_heat(used, right, warm);
-    if (!misplaces_much(deformed.gap_heat, dt, effort) || turns == most) break;
+    const contact::GapHeat all = sum(deformed.gap_heat);
+    if (!misplaces_much(all, dt, effort) || turns == most) break;
+    const TurnWatch::Finding finding = watch.after(all.misplaced / all.passed);
+    if (finding == TurnWatch::Finding::stuck) break;
+    if (finding == TurnWatch::Finding::round) right = middle(used, right);
     ++turns;
     const PhaseEffort heat = effort.heat, mechanics = deformed.mechanics;
     restore_contacts(phases_, old);
@@ -152,6 +165,12 @@ std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, Sta
   return effort;
 }
 
+SequentialSplit::Gaps SequentialSplit::middle(const Gaps& a, const Gaps& b) {
+  Gaps result;
+  for (std::size_t i = 0; i < a.size(); ++i) result.push_back(contact::middle(a[i], b[i]));
+  return result;
+}
+
 SequentialSplit::Gaps SequentialSplit::gaps() const {
   Gaps gaps;
   for (const contact::ContactPair* pair : phases_.contacts) gaps.push_back(pair->heat_gaps());
@@ -166,16 +185,11 @@ std::vector<contact::GapHeat> SequentialSplit::gap_heat(const Gaps& used, const 
   return heat;
 }
 
-bool SequentialSplit::misplaces_much(const std::vector<contact::GapHeat>& heat, double dt,
+bool SequentialSplit::misplaces_much(const contact::GapHeat& all, double dt,
                                      const StepEffort& conducted) const {
   constexpr double k_much_heat = 0.01;  // of what moved in the step: interfaces that pass less matter little
-  contact::GapHeat sum;
-  for (const contact::GapHeat& pair : heat) {
-    sum.passed += pair.passed;
-    sum.misplaced += pair.misplaced;
-  }
-  return sum.misplaced > options_.gap_tolerance * sum.passed &&
-         dt * sum.passed > k_much_heat * conducted.energy.heat_exchanged;
+  return all.misplaced > options_.gap_tolerance * all.passed &&
+         dt * all.passed > k_much_heat * conducted.energy.heat_exchanged;
 }
 
 StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double time, double dt,

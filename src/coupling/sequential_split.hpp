@@ -11,9 +11,9 @@
 ///
 /// With heat first the gaps of a step are known when its heat has passed. Where their change within the step
 /// has misplaced more than a given share of what the interfaces passed, heat and equilibrium are solved again
-/// from t_n, heat through the mean of the gaps at both ends of the step, until they agree. Any conductance
-/// that is not negative dissipates, so that the statements of stability and of the first law stay as they
-/// are.
+/// from t_n, heat through the mean of the gaps at both ends of the step, until they agree; where that goes
+/// round between two states, through gaps between the two (turn_watch.hpp). Any conductance that is not
+/// negative dissipates, so that the statements of stability and of the first law stay as they are.
 ///
 /// Both are products of the same two dissipative operators (docs/theory/coupling_stability.md, section 3).
 #pragma once
@@ -56,6 +56,7 @@ class SequentialSplit : public CouplingScheme {
   /// Gaps that heat passes through, [contact][point].
   using Gaps = std::vector<std::vector<contact::HeatGap>>;
   Gaps gaps() const;
+  static Gaps middle(const Gaps& a, const Gaps& b);
   /// Heat at the configuration of t_n.
   /// @param through  the gaps; empty: those of t_n. Otherwise Newton's iteration starts from `warm`.
   StepEffort heat_at_rest(const State& old, State& warm, double time, double dt, const Gaps& through);
@@ -63,8 +64,8 @@ class SequentialSplit : public CouplingScheme {
   std::vector<contact::GapHeat> gap_heat(const Gaps& used, const Gaps& right, const State& warm) const;
   /// Whether that is to be mended: more than the tolerance allows, and not little beside all heat of the
   /// step.
-  bool misplaces_much(const std::vector<contact::GapHeat>& heat, double dt,
-                      const StepEffort& conducted) const;
+  /// @param all  the sum over the interfaces
+  bool misplaces_much(const contact::GapHeat& all, double dt, const StepEffort& conducted) const;
   /// Newton's start of a mechanical phase.
   struct Start {
     std::vector<double> displacement, pressure;

@@ -24,6 +24,7 @@
 #pragma once
 
 #include "material/hardening_heat.hpp"
+#include "material/liquid.hpp"
 #include "material/thermal_potential.hpp"
 #include "material/viscoplastic.hpp"
 

@@ -2,18 +2,14 @@
 /// the flow stress (monograph 2.49d, 2.60). K_ξ = ∂K/∂ξ, the flow stress is σ_0 + K_ξ.
 ///
 /// Each law has a file in laws/. The return mapping calls those without a curve directly, the others through
-/// HardeningLaw; types of automatic differentiation, which only tests have, call built-in laws directly.
+/// HardeningLaw: hardening_laws.cpp is all of the program that is compiled again when one of them changes.
 ///
 /// Symbols: ξ equivalent plastic strain, σ_0 [Pa]. Validity: ξ >= 0.
 #pragma once
 
-#include <stdexcept>
 #include <type_traits>
 
 #include "material/laws/linear.hpp"
-#include "material/laws/measured_hardening.hpp"
-#include "material/laws/swift.hpp"
-#include "material/laws/voce.hpp"
 
 namespace solidus::material {
 namespace detail {
@@ -24,23 +20,17 @@ inline constexpr bool k_on_laws = std::is_base_of_v<HardeningOn<T>, HardeningLaw
 template <class T>
 inline constexpr bool k_along_laws = std::is_base_of_v<HardeningAlong<T>, HardeningLaw>;
 
-/// use(law) of a built-in law.
-template <class Use>
-auto with_built_in(IsotropicHardening kind, Use use) {
-  switch (kind) {
-    case IsotropicHardening::none:
-      return use(NoHardening());
-    case IsotropicHardening::linear:
-      return use(LinearHardening());
-    case IsotropicHardening::saturation:
-      return use(Voce());
-    case IsotropicHardening::power:
-      return use(Swift());
-    case IsotropicHardening::table:
-      return use(MeasuredHardening());
-  }
-  throw std::logic_error("a law that was added knows no such type of numbers");
-}
+/// The built-in laws on a type of automatic differentiation. Only tests have such types and define these
+/// (tests/unit/material/built_in_hardening.hpp), so that no other file reads the laws.
+template <class T>
+HardeningStress<T> built_in_stress(IsotropicHardening kind, const FlowCurves& curves,
+                                   const FlowProperties<T>& p, const T& xi);
+template <class T>
+T built_in_energy(IsotropicHardening kind, const FlowCurves& curves, const FlowProperties<T>& p, const T& xi);
+template <class T>
+HardeningSlopes<T> built_in_slopes(const Flow& flow, const FlowProperties<T>& values,
+                                   const FlowProperties<T>& slopes, const T& line_temperature,
+                                   const T& temperature, const T& xi);
 
 template <class T>
 HardeningStress<T> curved_stress(IsotropicHardening kind, const FlowCurves& curves,
@@ -48,7 +38,7 @@ HardeningStress<T> curved_stress(IsotropicHardening kind, const FlowCurves& curv
   if constexpr (k_on_laws<T>)
     return hardening_law(kind).stress(curves, p, xi);
   else
-    return with_built_in(kind, [&](auto law) { return detail::stress_of<decltype(law), T>(curves, p, xi); });
+    return built_in_stress<T>(kind, curves, p, xi);
 }
 
 template <class T>
@@ -61,10 +51,7 @@ template <class T>
     return hardening_law(flow.isotropic)
         .slopes(flow.curves, values, slopes, line_temperature, temperature, xi);
   else
-    return with_built_in(flow.isotropic, [&](auto law) {
-      return HardeningLawOf<decltype(law)>::template slopes_of<T>(flow.curves, values, slopes,
-                                                                  line_temperature, temperature, xi);
-    });
+    return built_in_slopes<T>(flow, values, slopes, line_temperature, temperature, xi);
 }
 
 }  // namespace detail
@@ -88,8 +75,7 @@ T hardening_energy(IsotropicHardening kind, const FlowCurves& curves, const Flow
   if constexpr (detail::k_on_laws<T>)
     return hardening_law(kind).energy(curves, p, xi);
   else
-    return detail::with_built_in(
-        kind, [&](auto law) { return detail::energy_of<decltype(law), T>(curves, p, xi); });
+    return detail::built_in_energy<T>(kind, curves, p, xi);
 }
 
 }  // namespace solidus::material

@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "input/units.hpp"
-#include "material/hardening.hpp"
+#include "material/laws/linear.hpp"
+#include "material/laws/measured_hardening.hpp"
+#include "material/laws/swift.hpp"
+#include "material/laws/voce.hpp"
 
 namespace solidus::material {
 namespace {

@@ -21,11 +21,12 @@
 /// quarter of their value along their lines; beyond it the status is outside_range.
 #pragma once
 
-#include "material/hardening_heat.hpp"
 #include "material/viscoplastic.hpp"
 
 namespace solidus::material {
 
+/// The templates are compiled for double and Lane (isentropic.cpp); who needs other types of numbers includes
+/// isentropic_impl.hpp.
 class Isentropic {
  public:
   template <class T>
@@ -109,5 +110,3 @@ Sym4<T> full_tangent(const Isentropic::Response<T>& r) {
 }
 
 }  // namespace solidus::material
-
-#include "material/isentropic_impl.hpp"

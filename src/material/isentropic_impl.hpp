@@ -1,8 +1,10 @@
-/// Bodies of the templates of isentropic.hpp. Included by isentropic.hpp only.
+/// Bodies of the templates of isentropic.hpp, as viscoplastic_impl.hpp.
 #pragma once
 
+#include "material/hardening_heat.hpp"
 #include "material/isentropic.hpp"
 #include "material/reduced_entropy.hpp"
+#include "material/viscoplastic_impl.hpp"
 
 namespace solidus::material {
 namespace detail {
@@ -294,6 +296,15 @@ Isentropic::Response<T> Isentropic::update(const Properties<T>& p, const State<T
 }
 
 // In isentropic.cpp. Entropy and update round alike there: a step without strain leaves no defect.
+extern template Isentropic::Properties<double> Isentropic::properties_at(const double&, const double&,
+                                                                         const PhaseState<double>&) const;
+extern template Isentropic::Properties<Lane> Isentropic::properties_at(const Lane&, const Lane&,
+                                                                       const PhaseState<Lane>&) const;
+extern template Viscoplastic::Properties<Jet<double>> Isentropic::at_temperature(const Properties<double>&,
+                                                                                 const double&) const;
+extern template Viscoplastic::Properties<Jet<Lane>> Isentropic::at_temperature(const Properties<Lane>&,
+                                                                               const Lane&) const;
+extern template Lane Isentropic::entropy(const Properties<Lane>&, const Sym<Lane>&, const State<Lane>&) const;
 extern template double Isentropic::entropy(const Properties<double>&, const Sym<double>&,
                                            const State<double>&) const;
 extern template Isentropic::Response<double> Isentropic::update(const Properties<double>&,

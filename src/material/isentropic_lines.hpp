@@ -4,6 +4,7 @@
 #pragma once
 
 #include "material/isentropic.hpp"
+#include "material/liquid.hpp"
 
 namespace solidus::material {
 

@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "material/laws/armstrong_frederick.hpp"
-#include "material/laws/prager.hpp"
 
 namespace solidus::material {
 

@@ -1,4 +1,5 @@
-#include "material/kinematic.hpp"
+#include "material/laws/armstrong_frederick.hpp"
+#include "material/laws/prager.hpp"
 
 namespace solidus::material {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "material/external_law.hpp"
-#include "material/liquid.hpp"
+#include "material/laws/liquid_law.hpp"
 
 namespace solidus::material {
 
@@ -33,7 +33,8 @@ double Material::solid_fraction(double temperature) const {
 }
 
 bool Material::chooses_viscosity() const {
-  return has_dashpot(liquid_model) && solidification() != nullptr && !(liquid_viscosity.max_value() > 0);
+  return liquid_law(liquid_model).dashpot() && solidification() != nullptr &&
+         !(liquid_viscosity.max_value() > 0);
 }
 
 const ExternalLaw* external_law(const Material& material) {

@@ -13,7 +13,9 @@
 /// recalled (b > 0). Included by isentropic.hpp only.
 #pragma once
 
+#include "material/hardening.hpp"
 #include "material/isentropic_lines.hpp"
+#include "material/return_mapping.hpp"
 
 namespace solidus::material {
 

@@ -68,5 +68,3 @@ ThermalDerivatives<T> thermal_derivatives(const Viscoplastic& law, const Viscopl
                                           double dt, const Viscoplastic::Response<T>& response);
 
 }  // namespace solidus::material
-
-#include "material/thermal_derivatives_impl.hpp"

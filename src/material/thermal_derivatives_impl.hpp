@@ -2,6 +2,7 @@
 #pragma once
 
 #include "material/thermal_derivatives.hpp"
+#include "material/viscoplastic_impl.hpp"
 
 namespace solidus::material {
 

@@ -24,17 +24,25 @@
 /// monograph 48 (1999); errata.
 #pragma once
 
-#include "material/hardening.hpp"
-#include "material/liquid.hpp"
-#include "material/return_mapping.hpp"
+#include "material/flow_properties.hpp"
 #include "material/viscoelastic.hpp"
 #include "numbers/tensor.hpp"
 
 namespace solidus::material {
+namespace return_mapping {  // return_mapping.hpp
+template <class T>
+struct Problem;
+template <class T>
+struct Yield;
+template <class T>
+struct Solution;
+}  // namespace return_mapping
 
 /// A trial stress above this, or not a number, is outside the law's range [Pa].
 inline constexpr double k_largest_stress = 1e100;
 
+/// The templates are compiled for double and Lane, properties_at for their Jets too (viscoplastic.cpp); who
+/// needs other types of numbers includes viscoplastic_impl.hpp.
 class Viscoplastic {
  public:
   template <class T>
@@ -76,12 +84,7 @@ class Viscoplastic {
   };
 
   /// Keeps a reference to the material. Without Material::flow the solid is elastic.
-  explicit Viscoplastic(const Material& material)
-      : material_(&material),
-        flow_(material.flow ? &*material.flow : nullptr),
-        recalls_(flow_ != nullptr && kinematic_law(flow_->kinematic).recalls()),
-        linear_rate_(flow_ != nullptr && flow_->linear_rate()),
-        powered_rate_(flow_ != nullptr && flow_->powered_rate()) {}
+  explicit Viscoplastic(const Material& material);
 
   /// @param initial_temperature Θ_0 of 2.51 [K]
   template <class T>
@@ -170,5 +173,3 @@ Sym4<T> full_tangent(const Viscoplastic::Response<T>& r) {
 }
 
 }  // namespace solidus::material
-
-#include "material/viscoplastic_impl.hpp"

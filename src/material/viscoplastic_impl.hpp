@@ -1,7 +1,10 @@
-/// Bodies of the templates of viscoplastic.hpp, for double, Lane and automatic differentiation. Included by
-/// viscoplastic.hpp only.
+/// Bodies of the templates of viscoplastic.hpp, for double, Lane and automatic differentiation. Files that
+/// include it are compiled again when a law changes that is called directly.
 #pragma once
 
+#include "material/hardening.hpp"
+#include "material/liquid.hpp"
+#include "material/return_mapping.hpp"
 #include "material/viscoplastic.hpp"
 
 namespace solidus::material {
@@ -197,11 +200,21 @@ template <bool recalls, class T>
                             .status = solution.converged ? Status::converged : Status::cut_the_step});
 }
 
-// In viscoplastic.cpp: they are large, and every kernel calls them.
+// In viscoplastic.cpp.
+extern template Viscoplastic::Properties<double> Viscoplastic::properties_at(const double&, const double&,
+                                                                             const PhaseState<double>&) const;
+extern template Viscoplastic::Properties<Lane> Viscoplastic::properties_at(const Lane&, const Lane&,
+                                                                           const PhaseState<Lane>&) const;
+extern template Viscoplastic::Properties<Jet<double>> Viscoplastic::properties_at(
+    const Jet<double>&, const Jet<double>&, const PhaseState<Jet<double>>&) const;
+extern template Viscoplastic::Properties<Jet<Lane>> Viscoplastic::properties_at(
+    const Jet<Lane>&, const Jet<Lane>&, const PhaseState<Jet<Lane>>&) const;
 extern template Viscoplastic::Response<double> Viscoplastic::update(const Properties<double>&,
                                                                     const State<double>&, const Sym<double>&,
                                                                     double) const;
 extern template Viscoplastic::Response<Lane> Viscoplastic::update(const Properties<Lane>&, const State<Lane>&,
                                                                   const Sym<Lane>&, double) const;
+extern template Sym<Lane> Viscoplastic::loading(const Properties<Lane>&, const State<Lane>&, const Sym<Lane>&,
+                                                double) const;
 
 }  // namespace solidus::material

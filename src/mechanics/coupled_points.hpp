@@ -9,9 +9,8 @@
 /// All derivatives are those along the update, flow and hardening eliminated (thermal_derivatives.hpp).
 #pragma once
 
-#include "material/structural_lines.hpp"
-#include "material/structural_partials.hpp"
 #include "mechanics/coupled_kernel.hpp"
+#include "mechanics/coupled_rates.hpp"
 #include "mechanics/point_block.hpp"
 
 namespace solidus::mechanics {
@@ -67,12 +66,7 @@ class CoupledPoints : public Kernel, public CoupledKernel {
   }
 
  protected:
-  /// Derivatives at a point: of the stress and of the heat per time [W/m³].
-  struct Rates {
-    Sym<Lane> stress;            ///< σ_Θ [Pa/K]
-    Sym<Lane> heat_strain{};     ///< h_ε
-    Lane heat_temperature{0.0};  ///< h_Θ
-  };
+  using Rates = CoupledRates;
 
   /// @param strain, increment  that the law sees, and since the start of the step
   Rates rates(std::optional<StructuralForm> form, Index batch, int q, Lane theta, const Sym<Lane>& strain,
@@ -80,62 +74,22 @@ class CoupledPoints : public Kernel, public CoupledKernel {
     const auto start = this->start_state(batch, q);
     const auto p = jets(batch, q, theta);
     const auto r = this->update(batch, q, strain);
-    const material::Variation<Lane> update(this->law_, p, start, strain, this->effective_dt_, r);
-    Rates d;
-    d.stress = update.stress();
-    if (!form) return d;
-    const auto& at = this->points_.at(batch, q);
-    const auto partials = material::structural_partials<Lane>(
-        this->law_.material(),
-        material::along_lines(this->law_.material(), at.line_temperature, theta, at.strain_offset), theta,
-        at.now.strain_trace, at.now.elastic_squared, p.elastic.solid_fraction.v >= Lane(1.0),
-        at.now.hardening, at.now.back_squared);
-    const Lane rate(1.0 / this->dt_);
-    if (form == StructuralForm::energy) {
-      auto energy = update.along(partials.internal_energy);
-      if (this->law_.material().flow && this->law_.material().flow->heat_share) {
-        const auto stored = update.cold_work();
-        energy.temperature += stored.temperature;
-        energy.strain += stored.strain;
-      }
-      const Lane at_end(this->stress_share_);  // of σ in the stress at work
-      d.heat_temperature = rate * (energy.temperature - at_end * dot(d.stress, increment));
-      d.heat_strain = rate * (energy.strain - this->mean_stress(batch, q, r.stress) -
-                              at_end * transposed_tangent(r, increment));
-    } else {
-      const auto entropy = update.along(partials.entropy);
-      const auto dissipation = update.dissipation();
-      d.heat_temperature =
-          rate * (entropy.value - at.old_entropy + theta * entropy.temperature) - dissipation.temperature;
-      d.heat_strain = Lane(rate * theta) * entropy.strain - dissipation.strain;
-    }
-    return d;
+    const Sym<Lane> at_work = this->mean_stress(batch, q, r.stress);
+    return coupled_rates({this->law_, p, start, r, strain, increment, at_work, this->points_.at(batch, q),
+                          theta, this->dt_, this->effective_dt_, this->stress_share_},
+                         form);
   }
 
   /// The jets at the temperature of the iterate, phases held as in prepare().
   material::Viscoplastic::Properties<Jet<Lane>> jets(Index batch, int q, Lane theta) const {
-    auto p =
-        thermal_properties(this->law_, theta, temperature_at(this->geometry_, batch, q, initial_temperature_),
-                           material::Frozen{.phase = true});
-    const auto held = this->properties_[this->index(batch, q)].elastic;
-    p.elastic.thermal_strain.v = held.thermal_strain;
-    p.elastic.solid_fraction.v = held.solid_fraction;
-    if (this->law_.material().chooses_viscosity()) p.elastic.viscosity = Jet<Lane>(held.viscosity);
-    return p;
+    return coupled_properties(this->law_, theta,
+                              temperature_at(this->geometry_, batch, q, initial_temperature_),
+                              this->properties_[this->index(batch, q)].elastic);
   }
 
   const linear::BlockMatrix::Slot* heat_slots_of(Index batch) const { return heat_slots_.of(batch); }
 
  private:
-  /// Cᵀ : a.
-  template <class Response>
-  static Sym<Lane> transposed_tangent(const Response& r, const Sym<Lane>& a) {
-    Sym<Lane> t = r.twice_shear * dev(a) + dot(r.left, a) * r.right;
-    const Lane volumetric = r.bulk * trace(a);
-    for (int i = 0; i < 3; ++i) t[i] += volumetric;
-    return t;
-  }
-
   /// Sets S and E from which the step counts, unless there are none.
   void count_from(const PackVector<StructuralDensities>& densities) {
     if (densities.empty()) return;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "material/hardening.hpp"
+
 namespace solidus::mechanics {
 
 namespace {

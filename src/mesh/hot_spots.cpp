@@ -206,9 +206,12 @@ BodyExtent extent_of(const RawMesh& mesh, const std::string& body) {
   return extent;
 }
 
-double top_above(const RawMesh& mesh, const std::vector<std::string>& bodies, const Point& point) {
+ViewFromAbove::ViewFromAbove(const RawMesh& mesh, const std::vector<std::string>& bodies)
+    : faces_(triangles(common_skin(mesh, bodies))) {}
+
+double ViewFromAbove::top(const Point& point) const {
   double top = point[2];
-  for (const auto& t : triangles(common_skin(mesh, bodies))) {
+  for (const auto& t : faces_) {
     const double x0 = t[0][0] - point[0], y0 = t[0][1] - point[1], x1 = t[1][0] - point[0],
                  y1 = t[1][1] - point[1], x2 = t[2][0] - point[0], y2 = t[2][1] - point[1];
     const double a = x1 * y2 - x2 * y1, b = x2 * y0 - x0 * y2, c = x0 * y1 - x1 * y0, sum = a + b + c;

@@ -1,6 +1,7 @@
 /// Finds the thickest places of a body: the largest spheres that lie in it. Rank 0 only.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,8 +35,16 @@ struct BodyExtent {
 };
 BodyExtent extent_of(const RawMesh& mesh, const std::string& body);
 
-/// The height at which a vertical line leaves the bodies for the last time [m]; the point's own where it
-/// meets no face.
-double top_above(const RawMesh& mesh, const std::vector<std::string>& bodies, const Point& point);
+/// Bodies as they are seen from above.
+class ViewFromAbove {
+ public:
+  ViewFromAbove(const RawMesh& mesh, const std::vector<std::string>& bodies);
+  /// The height at which a vertical line leaves the bodies for the last time [m]; the point's own where it
+  /// meets no face above it.
+  double top(const Point& point) const;
+
+ private:
+  std::vector<std::array<Point, 3>> faces_;  ///< triangles of their common skin
+};
 
 }  // namespace solidus::mesh

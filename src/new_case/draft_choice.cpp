@@ -54,9 +54,16 @@ class Choice {
     draft_.step = 1;
     draft_.every = 30;
     if (options_.shots > 0)
-      draft_.shots = {options_.shots, process_.pour,       600,
-                      process_.open,  process_.eject,      process_.spray,
-                      process_.close, process_.spray_film, process_.spray_source};
+      draft_.shots = {options_.shots,
+                      process_.pour,
+                      600,
+                      process_.open,
+                      process_.eject,
+                      process_.spray,
+                      process_.close,
+                      process_.spray_film,
+                      process_.spray_source,
+                      0};
     return draft_;
   }
 

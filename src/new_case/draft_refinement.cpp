@@ -25,8 +25,8 @@ namespace {
 
 class Refinement {
  public:
-  Refinement(Draft& draft, const CastingProcess& process, double fineness)
-      : draft_(draft), process_(process), fineness_(fineness) {}
+  Refinement(Draft& draft, const CastingProcess& process, const material::Material& alloy, double fineness)
+      : draft_(draft), process_(process), alloy_(alloy), fineness_(fineness) {}
 
   DraftEstimate refine() {
     mesh::KeptMesh kept;  // the case is built again and again, often with the same elements
@@ -119,6 +119,28 @@ class Refinement {
     return longest;
   }
 
+  /// Film outside of a die that takes as much heat in a shot as the castings bring until they are well solid,
+  /// less what spray and air take from the cavity, while the die is as warm as it was preheated; spread over
+  /// all of its outside [W/(m² K)].
+  double cooling_of_die(const CheckedRun& checked) const {
+    constexpr double k_below_solidus = 100, k_ambient = 20, k_cavity_film = 20;  // [K], [°C], [W/(m² K)]
+    const DraftShots& shots = *draft_.shots;
+    const material::EnthalpyCurve curve = alloy_.enthalpy();
+    double heat = 0, outside = 0, warmer = 0;
+    for (const DraftBody& body : draft_.bodies)
+      if (body.role == Role::die) warmer = body.start - k_ambient;
+    for (const results::PourOverview& pour : checked.overview.pours)
+      for (const results::BodyOverview& body : checked.overview.bodies)
+        if (body.name == pour.body)
+          heat += body.volume * (curve.upper(pour.pouring) - curve.upper(pour.solidus - k_below_solidus)) -
+                  body.skin * warmer *
+                      (shots.spray_film * shots.spray + k_cavity_film * (shots.eject + shots.close));
+    for (const results::SkinOverview& skin : checked.overview.skins)
+      if (role_of(skin.body) == Role::die && skin.surface == skin.body + "_free") outside += skin.area;
+    if (heat <= 0 || outside <= 0 || warmer <= 0) return 0;
+    return two_digits(heat / (shots.cycle() * outside * warmer));
+  }
+
   /// @return whether sizes and walls may stay
   bool adapt(const CheckedRun& checked) {
     double time = 0, reach = 0;
@@ -141,13 +163,19 @@ class Refinement {
           estimate_.metal_nodes += static_cast<double>(body.nodes);
     }
     // The estimate is of one dimension: the run ends when all is solid, well before this where it is right.
-    constexpr double k_latest = 6, k_usual = 1.8, k_margin_of_shots = 1.3;
+    constexpr double k_latest = 6, k_usual = 1.8, k_margin_of_shots = 2.5;
     estimate_.freezing = time;
     if (time > 0) {
       draft_.end = two_digits(std::max(k_latest * time, 1.0));
       draft_.step = two_digits(std::max(k_usual * time, 1.0) / 600);
       draft_.every = two_digits(std::max(k_usual * time, 1.0) / 20);
-      if (draft_.shots) draft_.shots->solidify = two_digits(std::max(k_margin_of_shots * time, 1.0));
+      if (draft_.shots) {
+        draft_.shots->solidify = two_digits(std::max(k_margin_of_shots * time, 1.0));
+        draft_.shots->cooling = cooling_of_die(checked);
+        constexpr double k_steps_of_shot = 300, k_outputs_of_shot = 12;  // as many shots, as many fields
+        draft_.step = two_digits(draft_.shots->solidify / k_steps_of_shot);
+        draft_.every = two_digits(draft_.shots->cycle() / k_outputs_of_shot);
+      }
     }
     bool good = true;
     constexpr double k_most = 6000, k_wanted = 3500, k_reaches = 2;
@@ -171,6 +199,7 @@ class Refinement {
 
   Draft& draft_;
   const CastingProcess& process_;
+  const material::Material& alloy_;
   double fineness_;
   DraftEstimate estimate_;
 };
@@ -190,8 +219,9 @@ void write_draft(const Draft& draft) {
     throw InputError({draft.folder.string()}, "the case cannot be written there", "a folder with room");
 }
 
-DraftEstimate refine_draft(Draft& draft, const CastingProcess& process, double fineness) {
-  return Refinement(draft, process, fineness).refine();
+DraftEstimate refine_draft(Draft& draft, const CastingProcess& process, const material::Material& alloy,
+                           double fineness) {
+  return Refinement(draft, process, alloy, fineness).refine();
 }
 
 }  // namespace solidus::model

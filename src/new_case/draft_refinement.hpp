@@ -2,6 +2,7 @@
 /// nodes and the freezing time, from which bodies, films, sizes, walls and the end of the run follow.
 #pragma once
 
+#include "material/material.hpp"
 #include "new_case/casting_processes.hpp"
 #include "new_case/new_case_text.hpp"
 
@@ -17,8 +18,10 @@ struct DraftEstimate {
 void write_draft(const Draft& draft);
 
 /// Builds, checks and writes the case until its sizes and walls fit, at most four times.
+/// @param alloy     what is cast: its heat is what the channels of a die take, shot after shot
 /// @param fineness  so many times as many elements along each edge as usual
 /// Throws InputError, and then leaves no case.toml.
-DraftEstimate refine_draft(Draft& draft, const CastingProcess& process, double fineness);
+DraftEstimate refine_draft(Draft& draft, const CastingProcess& process, const material::Material& alloy,
+                           double fineness);
 
 }  // namespace solidus::model

@@ -151,6 +151,10 @@ std::string report(const Draft& draft, const PartMeasures& part, const DraftEsti
             ? fmt::format("it leaves the die after {:g} s, {} times",
                           draft.shots->pour + draft.shots->solidify + draft.shots->open, draft.shots->number)
             : fmt::format("the run ends when it has, at {:g} s at the latest", draft.end));
+  if (draft.shots && draft.shots->cooling > draft.film)
+    out +=
+        fmt::format("\n  cooling     {:g} W/m2/K outside the die take what the castings bring, an estimate",
+                    draft.shots->cooling);
   out += twin_riser_text(draft);
   out += doubtful_unit_text(options, part);
   out += unknown_bodies_text(draft, options.as);
@@ -174,7 +178,7 @@ NewCaseReport make_new_case(const NewCaseOptions& options) {
   Draft draft = choose_draft(options, process, alloy, part);
   draft.folder = folder;
   write_draft(draft);
-  const DraftEstimate estimate = refine_draft(draft, process, options.fineness);
+  const DraftEstimate estimate = refine_draft(draft, process, alloy, options.fineness);
   return {draft.folder / "case.toml", report(draft, part, estimate, options)};
 }
 

@@ -30,6 +30,9 @@ struct DraftShots {
   double pour = 0, solidify = 0, open = 0, eject = 0, spray = 0, close = 0;  ///< durations [s]
   double spray_film = 0;                                                     ///< [W/(m² K)]
   std::string spray_source;
+  double cooling = 0;  ///< film outside of the die that keeps its mean temperature [W/(m² K)]; 0: unknown
+
+  double cycle() const { return pour + solidify + open + eject + spray + close; }
 };
 
 struct DraftRiser {

@@ -40,6 +40,9 @@ bool initialize(int* n, char*** list) {
   // One process alone needs little of Open MPI: no daemon (orted) that could start further ones, no search
   // for InfiniPath, OpenCL and graphics devices. That search takes longer than all the rest of the start.
   const PassingVariable no_daemon("OMPI_MCA_ess_singleton_isolated", "1");
+  // Without the daemon all such processes would make and remove one and the same folder for temporary files,
+  // and now and then one would end because another had just removed it.
+  const PassingVariable no_folder("OMPI_MCA_orte_create_session_dirs", "0");
   const PassingVariable no_network("OMPI_MCA_pml", "ob1"), itself("OMPI_MCA_btl", "self");
   const PassingVariable no_devices("HWLOC_PLUGINS_BLACKLIST",
                                    "hwloc_opencl.so,hwloc_gl.so,hwloc_cuda.so,hwloc_nvml.so,hwloc_rsmi.so");

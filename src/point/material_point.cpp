@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "material/free_energy.hpp"
 #include "material/melt.hpp"
 #include "point/linear_system.hpp"
 

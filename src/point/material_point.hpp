@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "material/external_law.hpp"
-#include "material/free_energy.hpp"
 #include "material/time_integration.hpp"
+#include "material/viscoplastic.hpp"
 #include "point/loading.hpp"
 
 namespace solidus::point {

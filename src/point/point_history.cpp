@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "material/hardening.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::point {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "material/isentropic.hpp"
+#include "material/isentropic_impl.hpp"
 
 namespace solidus {
 

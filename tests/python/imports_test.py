@@ -75,6 +75,27 @@ class Imports(unittest.TestCase):
                     named = [name for name in included if name.startswith(f"{room}/{folder}/")]
                     self.assertEqual(named, [], file)
 
+    def test_a_law_of_a_material_is_compiled_with_few_sources(self):
+        """A law that changes compiles its registry anew, one that is called directly the return mapping too, and never a kernel."""
+        graph = imports()
+        reached = {}
+        for file in graph:
+            seen, next_ones = set(), [file]
+            while next_ones:
+                seen.add(name := next_ones.pop())
+                next_ones += [other for other in graph[name] if other not in seen]
+            reached[file] = seen
+        laws = [file for file in graph if file.startswith("material/laws/") and not file.endswith(("_law.hpp", "law_list.hpp", "parameter.hpp"))]
+        self.assertGreater(len(laws), 12)
+        for law in laws:
+            sources = [file for file, seen in reached.items() if law in seen and file.endswith(".cpp")]
+            self.assertLessEqual(len(sources), 10, f"{law}: {sources}")
+            kernels = [file for file, seen in reached.items() if law in seen and file.startswith("mechanics/") and is_interface(file)]
+            self.assertEqual(kernels, [], law)
+        for law in ("voce", "swift", "measured_hardening"):
+            sources = [file for file, seen in reached.items() if f"material/laws/{law}.hpp" in seen and file.endswith(".cpp")]
+            self.assertEqual(sources, ["material/hardening_laws.cpp"])
+
     def test_mpi_and_petsc_are_seen_by_few_files_and_by_no_header_outside_their_rooms(self):
         library = re.compile(r"^#include <(petsc[^>]*|mpi\.h)>", re.MULTILINE)
         graph = imports()

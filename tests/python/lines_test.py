@@ -29,6 +29,10 @@ class Lines(unittest.TestCase):
             self.assertGreater(len(files), 300)
             self.assertLessEqual(statistics.median(len(text) for text in files.values()), 150, folder)
             self.assertEqual([file for file, text in files.items() if len(text) > 450], [])
+        for folder, pattern in (("web/report/src", "*.ts"), ("tests/report", "*.mjs"), ("python", "*.py"), ("bench", "*.py")):
+            lengths = {file: len(lines(file)) for file in (ROOT / folder).rglob(pattern)}
+            self.assertGreater(len(lengths), 0, folder)
+            self.assertEqual([file for file, length in lengths.items() if length > 450], [])
 
     def test_a_fifth_is_documentation(self):
         code = [line for text in sources("src").values() for line in text if line.strip()]

@@ -29,9 +29,10 @@ struct Outcome {
 };
 
 /// Runs the program in a folder and keeps what it says on stderr.
-Outcome run(const fs::path& folder, const std::string& arguments) {
-  const std::string command = "cd '" + folder.string() +
-                              "' && SOLIDUS_MATERIALS='" SOLIDUS_SOURCE_DIR "/materials' '" SOLIDUS_BINARY_DIR
+/// @param setting  NAME=value of the environment
+Outcome run(const fs::path& folder, const std::string& arguments, const std::string& setting = "") {
+  const std::string command = "cd '" + folder.string() + "' && " + setting +
+                              " SOLIDUS_MATERIALS='" SOLIDUS_SOURCE_DIR "/materials' '" SOLIDUS_BINARY_DIR
                               "/solidus' " +
                               arguments + " 2>&1 >/dev/null";
   std::FILE* pipe = popen(command.c_str(), "r");
@@ -104,6 +105,17 @@ TEST(BadInputTest, TheCasesTheBrokenOnesAreMadeFromAreRight) {
     const Outcome outcome = run(folder, arguments);
     EXPECT_EQ(outcome.code, 0) << arguments << ": " << outcome.errors;
   }
+  fs::remove_all(folder);
+}
+
+// Processes that start at the same moment have nothing in common that one could take from another.
+TEST(BadInputTest, TheProgramStartsWithoutAFolderForTemporaryFiles) {
+  const fs::path folder = fs::temp_directory_path() / "solidus_start";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  std::ofstream(folder / "good.toml") << k_good;
+  const Outcome outcome = run(folder, "check good.toml", "TMPDIR=/dev/null");
+  EXPECT_EQ(outcome.code, 0) << outcome.errors;
   fs::remove_all(folder);
 }
 

@@ -92,7 +92,9 @@ struct BlockIterativeScheme {
         .doc("What the mechanical phase holds; both end at the simultaneous solution.");
     s.choice("loop", &I::loop,
              {{"nested", I::Loop::nested, "each phase is solved to its own tolerance"},
-              {"single", I::Loop::single, "one Newton step of each phase per iteration"}})
+              {"single", I::Loop::single,
+               "one Newton step of each phase per iteration; a step where that does not converge is solved "
+               "once more with `nested`, before it is cut"}})
         .initially("nested")
         .doc("How the iterations of the phases and those between them are nested (monograph 4.4).");
     s.choice("relaxation", &I::relaxation,

@@ -179,6 +179,37 @@ TEST_P(FrictionForces, HaveASymmetricTangentWhenAskedTo) {
   }
 }
 
+// Open contact without friction: its tangent is the stabilisation alone. Collective.
+TEST(MechanicsTerm, HoldsLessOfAMeltWhoseIterationDoesNotEnd) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  ContactParameters s = spec(Formulation::small_sliding);
+  s.friction.reset();
+  s.stabilisation = 1e-8;
+  ContactPair pair(mesh, kind_of(mesh), s);
+  const std::vector<double> rest(mesh.x.size() * 2, 0.0);
+  pair.begin({}, {.time = 1, .dt = 1, .displacement = rest});
+  const std::vector<double> apart = test::nodal_field(mesh, 2, [](const Point&, bool upper) {
+    return std::vector<double>{0.0, upper ? 1e-3 : 0.0};
+  });
+  const auto held = [&] {
+    const auto matrix = matrix_of(mesh, pair.mechanics());
+    std::vector<double> product(static_cast<std::size_t>(mesh.n_owned_nodes) * 2, 0.0);
+    pair.mechanics().add_tangent(apart, *matrix);
+    matrix->multiply(apart, product);
+    double sum = 0;
+    for (const double f : product) sum += std::abs(f);
+    return parallel::global_sum(sum);
+  };
+  const double first = held();
+  EXPECT_GT(first, 0);
+  for (int k = 2; k <= 8; ++k) EXPECT_DOUBLE_EQ(held(), first) << k;
+  EXPECT_NEAR(held() / first, 0.1, 1e-9);
+  for (int k = 10; k <= 12; ++k) held();
+  EXPECT_NEAR(held() / first, 1e-4, 1e-12);
+  pair.begin({}, {.time = 1, .dt = 1, .displacement = rest});
+  EXPECT_DOUBLE_EQ(held(), first);
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, FrictionForces,
                          testing::Values(Formulated{Formulation::small_sliding, Shape::tri3},
                                          Formulated{Formulation::small_sliding, Shape::quad8},

@@ -44,7 +44,7 @@ struct Block {
     return m;
   }
 
-  Block(double coupling_number, double film_over_capacity, Mapping mapping)
+  Block(double coupling_number, double film_over_capacity, Mapping mapping, bool radiates = false)
       : body({.cells = {4, 2, 1}}, AnalysisKind::plane_strain, metal(coupling_number)) {
     body.hold("left", 0);
     body.hold("bottom", 1);
@@ -53,7 +53,9 @@ struct Block {
     mechanics = body.phase();
     structural = std::make_unique<mechanics::StructuralHeat>(*mechanics, mechanics::StructuralForm::energy);
     heat::ThermalConditions thermal;
-    if (film_over_capacity > 0)
+    if (radiates)
+      for (const char* side : {"left", "right"}) thermal.radiations.push_back({side, side, {1.0}, 300.0});
+    else if (film_over_capacity > 0)
       for (const char* side : {"left", "right"})
         thermal.films.push_back({side, side, {0.5 * film_over_capacity * k_capacity}, k_start - 0.1});
     else
@@ -145,6 +147,25 @@ TEST(BlockIterative, RejectsAStepThatTakesTooManyIterations) {
         << rejected.reason();
     EXPECT_EQ(rejected.where().rfind("node ", 0), 0U) << rejected.where();
   }
+}
+
+// Radiation takes more Newton steps than the phases take turns.
+TEST(BlockIterative, SolvesAStepWithWholePassesWhereSingleNewtonStepsDoNotConverge) {
+  constexpr double k_day = 86400;
+  const auto solve = [](const IterationOptions& options, coupling::State& end) {
+    Block block(1e-6, 0, Mapping::isothermal, true);
+    return BlockIterative(block.phases, options).advance(block.start, end, k_day, k_day).coupling_iterations;
+  };
+  coupling::State expected, trial;
+  IterationOptions options;
+  const int nested = solve(options, expected);
+  options.loop = Loop::single;
+  EXPECT_GT(solve(options, trial), nested);
+  options.max_iterations = nested;
+  EXPECT_EQ(solve(options, trial), nested);
+  EXPECT_EQ(trial.heat.temperature, expected.heat.temperature);
+  EXPECT_EQ(trial.mechanics.displacement, expected.mechanics.displacement);
+  EXPECT_LT(trial.heat.temperature[0], k_start - 10);
 }
 
 // With so much conduction in a long step the coupling is weak, in a short one it is not.

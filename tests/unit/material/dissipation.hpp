@@ -11,6 +11,7 @@
 /// Symbols: γ flow multiplier, σ_0 flow stress [Pa], Θ temperature [K].
 #pragma once
 
+#include "material/return_mapping.hpp"
 #include "material/viscoplastic.hpp"
 
 namespace solidus::material {

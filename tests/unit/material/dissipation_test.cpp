@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "material/hardening_heat.hpp"
 #include "material/isentropic.hpp"
 #include "thermal_cases.hpp"
 

@@ -5,6 +5,8 @@
 #include <optional>
 #include <random>
 
+#include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 #include "material/viscoplastic.hpp"
 
 namespace solidus::material::test {

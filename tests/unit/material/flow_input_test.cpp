@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "../../laws/hardening_parameter.hpp"
 #include "input/document.hpp"
 #include "input/key_docs.hpp"
 #include "material/hardening.hpp"
@@ -92,11 +93,14 @@ saturation_stress = "110 MPa"
 saturation_rate = 12
 )";
   const Flow f = *with_flow(keys + "hardening_modulus = \"5 MPa\"").flow;
+  const auto parameter = [&](const char* key) {
+    return material::test::hardening_parameter(f.isotropic, key);
+  };
   EXPECT_EQ(f.isotropic, IsotropicHardening::saturation);
-  EXPECT_DOUBLE_EQ(f.hardening[Voce::saturation_stress].value(300), 110e6);
-  EXPECT_DOUBLE_EQ(f.hardening[Voce::saturation_rate].value(300), 12);
-  EXPECT_DOUBLE_EQ(f.hardening[Voce::hardening_modulus].value(300), 5e6);
-  EXPECT_EQ(with_flow(keys).flow->hardening[Voce::hardening_modulus].value(300), 0);
+  EXPECT_DOUBLE_EQ(f.hardening[parameter("saturation_stress")].value(300), 110e6);
+  EXPECT_DOUBLE_EQ(f.hardening[parameter("saturation_rate")].value(300), 12);
+  EXPECT_DOUBLE_EQ(f.hardening[parameter("hardening_modulus")].value(300), 5e6);
+  EXPECT_EQ(with_flow(keys).flow->hardening[parameter("hardening_modulus")].value(300), 0);
 }
 
 TEST(FlowInput, ReadsThePowerLaw) {
@@ -105,8 +109,11 @@ reference_strain = "0.1 percent"
 hardening_exponent = 0.2)")
                       .flow;
   EXPECT_EQ(f.isotropic, IsotropicHardening::power);
-  EXPECT_DOUBLE_EQ(f.hardening[Swift::reference_strain].value(300), 1e-3);
-  EXPECT_DOUBLE_EQ(f.hardening[Swift::exponent].value(300), 0.2);
+  const auto parameter = [&](const char* key) {
+    return material::test::hardening_parameter(f.isotropic, key);
+  };
+  EXPECT_DOUBLE_EQ(f.hardening[parameter("reference_strain")].value(300), 1e-3);
+  EXPECT_DOUBLE_EQ(f.hardening[parameter("hardening_exponent")].value(300), 0.2);
 }
 
 const std::string k_curves = R"(isotropic_hardening = "table"

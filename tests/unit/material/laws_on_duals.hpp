@@ -4,17 +4,8 @@
 #include "dual.hpp"
 #include "material/isentropic.hpp"
 
-namespace solidus::material {
+namespace solidus::material::test {
 
-namespace test {
 using Ad = Dual<double, 6>;  ///< by the components of strain
-}
 
-extern template Viscoplastic::Response<test::Ad> Viscoplastic::update(const Properties<test::Ad>&,
-                                                                      const State<test::Ad>&,
-                                                                      const Sym<test::Ad>&, double) const;
-extern template Isentropic::Response<test::Ad> Isentropic::update(const Properties<test::Ad>&,
-                                                                  const State<test::Ad>&,
-                                                                  const Sym<test::Ad>&, double) const;
-
-}  // namespace solidus::material
+}  // namespace solidus::material::test

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 
+#include "../../laws/hardening_parameter.hpp"
 #include "material/hardening.hpp"
 #include "material/library.hpp"
 #include "material/source_grade.hpp"
@@ -212,7 +213,8 @@ TEST(LibraryConsistency, StrengthAndStiffnessFallToTheLiquidus) {
     };
     falls(m.flow->flow_stress, "flow stress");
     if (m.flow->isotropic == IsotropicHardening::saturation)
-      falls(m.flow->hardening[Voce::saturation_stress], "saturation stress");
+      falls(m.flow->hardening[material::test::hardening_parameter(m.flow->isotropic, "saturation_stress")],
+            "saturation stress");
     falls(m.young_modulus, "Young's modulus");
     if (m.solidification() == nullptr) continue;
     const double liquidus = m.solidification()->fraction.liquidus();

@@ -1,5 +1,5 @@
 /// The derivatives of the update with respect to temperature and strain against automatic differentiation.
-#include "material/thermal_derivatives.hpp"
+#include "material/thermal_derivatives_impl.hpp"
 
 #include <gtest/gtest.h>
 

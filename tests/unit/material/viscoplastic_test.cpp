@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "../../laws/hardening_parameter.hpp"
 #include "flow_cases.hpp"
+#include "material/return_mapping.hpp"
 #include "material/time_integration.hpp"
 
 namespace solidus::material::test {
@@ -276,7 +278,8 @@ TEST(Viscoplastic, WithoutStressStrengthOrStiffnessTheAnswerIsFinite) {
               EXPECT_TRUE(finite(law.update(p, {}, strain, 0.1)));
               p.flow.kinematic_modulus = 0;
               if (isotropic == IsotropicHardening::linear) p.flow.hardening[LinearHardening::modulus] = 0;
-              if (isotropic == IsotropicHardening::saturation) p.flow.hardening[Voce::hardening_modulus] = 0;
+              if (isotropic == IsotropicHardening::saturation)
+                p.flow.hardening[material::test::hardening_parameter(isotropic, "hardening_modulus")] = 0;
               EXPECT_TRUE(finite(law.update(p, {}, strain, 0.1)));
             }
 }

@@ -1,6 +1,7 @@
 /// The heat of plastic flow and the energy that hardening stores, in both forms of structural heat.
 #include <gtest/gtest.h>
 
+#include "../../laws/hardening_parameter.hpp"
 #include "heated.hpp"
 #include "material/free_energy.hpp"
 #include "material/hardening.hpp"
@@ -90,8 +91,11 @@ TEST(PlasticHeat, TheTangentIsTheDerivativeOfTheResidual) {
 
 TEST(PlasticHeat, AtFixedTemperatureOfConstantPropertiesTheHeatReleasedIsTheDissipation) {
   material::Material m = test::plastic_material();
-  for (Table* table : {&m.flow->flow_stress, &m.flow->hardening[material::Voce::saturation_stress],
-                       &m.flow->hardening[material::Voce::hardening_modulus], &m.flow->kinematic_modulus})
+  const auto parameter = [&](const char* key) {
+    return &m.flow->hardening[material::test::hardening_parameter(m.flow->isotropic, key)];
+  };
+  for (Table* table : {&m.flow->flow_stress, parameter("saturation_stress"), parameter("hardening_modulus"),
+                       &m.flow->kinematic_modulus})
     *table = table->value(300);
   m.expansion = 0.0;
   const Pulled p(m);

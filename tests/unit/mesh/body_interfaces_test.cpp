@@ -185,7 +185,7 @@ TEST(HotSpots, ABlockHoldsASphereOfItsLeastSideAndItsWallsAreAsThickAsItsSides) 
   EXPECT_NEAR(extent.volume, 6, 1e-12);
   EXPECT_NEAR(extent.area, 22, 1e-12);
   EXPECT_NEAR(extent.centre[0], 1.5, 1e-12);
-  EXPECT_NEAR(top_above(mesh, {"block"}, {1.5, 1, 0.2}), 1, 1e-12);
+  EXPECT_NEAR(ViewFromAbove(mesh, {"block"}).top({1.5, 1, 0.2}), 1, 1e-12);
 }
 
 TEST(HotSpots, OnAPlaneTheCentreLiesThereThoughTheBodyIsThickerBesideIt) {

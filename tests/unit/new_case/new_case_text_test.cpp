@@ -59,7 +59,8 @@ TEST(NewCaseText, OfShotsHasStagesACycleAndSpray) {
              .spray = 0.25,
              .close = 10,
              .spray_film = 300,
-             .spray_source = "a guess"};
+             .spray_source = "a guess",
+             .cooling = 0};
   CaseSpec spec = case_keys().read(parse_document(case_text(d), "case.toml"));
   resolve_stages(spec);
   const std::vector<StageRun> runs = stage_runs(spec);
@@ -72,6 +73,24 @@ TEST(NewCaseText, OfShotsHasStagesACycleAndSpray) {
   for (const ThermalConditionSpec& c : spec.thermal_conditions)
     if (holds(c.stages, &runs[4])) names.push_back(c.name);
   EXPECT_THAT(names, ElementsAre("air_on_die", "spray_on_die_to_casting"));
+}
+
+TEST(NewCaseText, OfShotsCoolsTheOutsideOfTheDieByWhatTheCastingsBring) {
+  Draft d = draft();
+  d.films = {"casting", "die"};
+  DraftShots& shots = d.shots.emplace();
+  shots.number = 10;
+  shots.pour = shots.open = shots.spray = 5;
+  shots.solidify = 90;
+  shots.eject = shots.close = 15;
+  shots.cooling = 120;
+  const std::string text = case_text(d);
+  EXPECT_THAT(text, HasSubstr("name = \"air_on_casting\"\ngroup = \"casting_free\"\nkind = \"film\"\n"
+                              "coefficient = \"20 W/m2/K\""));
+  EXPECT_THAT(text, HasSubstr("what keeps it at 250 degC in the mean\nname = \"cooling_of_die\"\n"
+                              "group = \"die_free\"\nkind = \"film\"\ncoefficient = \"120 W/m2/K\""));
+  shots.cooling = 5;  // air alone takes more
+  EXPECT_THAT(case_text(d), HasSubstr("name = \"air_on_die\""));
 }
 
 TEST(NewCaseText, OfOneCastingHasNoStages) {

@@ -3,7 +3,8 @@ import { byId, h } from "./dom";
 import { drawForPaper, onTimePicked, redrawCharts } from "./charts";
 import { Page } from "./run";
 import { Workbench } from "./workbench";
-import { buildHead, buildSections } from "./sections";
+import { buildHead } from "./head";
+import { buildSections } from "./sections";
 
 function theme(): void {
   const kept = (() => {

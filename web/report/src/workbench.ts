@@ -1,11 +1,12 @@
-/** The pictures of the runs, the panel beside them and the slider below: one choice for all. */
+/** The pictures of the runs and the slider below: one choice for all, which the panel beside them changes. */
 import { Quaternion, Vector3 } from "three";
-import { byId, h, save } from "./dom";
-import { chart, ChartSpec, markTime, removeChart } from "./charts";
+import { byId, h } from "./dom";
+import { markTime } from "./charts";
 import { Camera } from "./camera";
-import { mapOf, MAPS } from "./colours";
-import { alongLine } from "./geometry";
-import { duration, place, short, withUnit } from "./quantities";
+import { mapOf } from "./colours";
+import { LineSpec, Probes } from "./probes";
+import { Panel } from "./panel";
+import { duration, place, withUnit } from "./quantities";
 import type { Field, Page, Run } from "./run";
 import { Mark, Stage } from "./stage";
 import type { Hit } from "./picking";
@@ -20,16 +21,17 @@ export class Workbench {
   readonly choice: Choice;
   readonly stages: Stage[] = [];
   readonly runs: Run[];
-  private readonly camera = new Camera();
+  readonly camera = new Camera();
   private marks: Mark[] = [];
   private playing = 0;
   private times: number[] = [];
-  private fixedRange = false;
-  private ofMoment = true;
-  private scaleChosen = false;
-  private panelParts: { refresh(): void }[] = [];
-  private probeCards: HTMLElement[] = [];
+  fixedRange = false;
+  ofMoment = true;
+  scaleChosen = false;
+  private panel?: Panel;
+  private readonly probes = new Probes(this);
   private lastHit?: { run: number; hit: Hit };
+  private lineSpec?: LineSpec;
 
   constructor(readonly page: Page) {
     this.runs = page.runs.filter((r) => r.bodies.length > 0).slice(0, 2);
@@ -48,7 +50,7 @@ export class Workbench {
       byId("stages").append(stage.root);
     }
     this.timebar();
-    this.panel();
+    this.panel = new Panel(this);
     this.keys();
   }
   /** The first picture, once the page has the room for it. */
@@ -113,7 +115,7 @@ export class Workbench {
     }
     return last;
   }
-  private shownBodies(run: Run): number[] {
+  shownBodies(run: Run): number[] {
     const shown = run.bodies.flatMap((b, i) => ((this.choice.shown.get(b.name) ?? "shown") === "shown" ? [i] : []));
     return shown.length ? shown : run.bodies.map((_, i) => i);
   }
@@ -125,7 +127,7 @@ export class Workbench {
     }
     return out;
   }
-  private extent(axis: number): [number, number] {
+  extent(axis: number): [number, number] {
     let low = Infinity, high = -Infinity;
     for (const run of this.runs)
       for (const b of this.visibleBodies(run)) {
@@ -135,10 +137,10 @@ export class Workbench {
       }
     return low <= high ? [low, high] : [0, 1];
   }
-  private extents(): string {
+  extents(): string {
     return [0, 1, 2].map((i) => this.extent(i).join()).join();
   }
-  private visibleBodies(run: Run): number[] {
+  visibleBodies(run: Run): number[] {
     const some = run.bodies.flatMap((b, i) => ((this.choice.shown.get(b.name) ?? "shown") !== "hidden" ? [i] : []));
     return some.length ? some : run.bodies.map((_, i) => i);
   }
@@ -189,7 +191,7 @@ export class Workbench {
     const index = this.timeIndex();
     byId<HTMLInputElement>("time").value = String(index);
     byId("clock").textContent = `t = ${duration(this.times[index])}`;
-    for (const part of this.panelParts) part.refresh();
+    this.panel?.refresh();
     markTime(this.choice.time);
   }
   private legendNote(stage: Stage): (Node | string)[] {
@@ -356,61 +358,26 @@ export class Workbench {
     if (points.length >= MOST_POINTS) return;
     const at = [x[3 * hit.node], x[3 * hit.node + 1], x[3 * hit.node + 2]];
     this.marks.push({ run, body: hit.body, node: hit.node, at, label, kind: "point" });
-    this.showProbes();
+    this.probes.show(this.marks, this.lineSpec);
     this.update();
   }
   clearMarks(): void {
     this.marks = [];
     this.lastHit = undefined;
-    this.showProbes();
+    this.probes.show(this.marks, this.lineSpec);
     this.update();
   }
-  private lineSpec?: { run: number; p: number[]; q: number[] };
   private line(run: number, from: Hit, to: Hit): void {
     this.marks = this.marks.filter((m) => m.kind !== "line");
     for (const [hit, label] of [[from, "A"], [to, "B"]] as [Hit, string][])
       this.marks.push({ run, body: hit.body, node: hit.node, at: hit.place, label, kind: "line" });
     this.lineSpec = { run, p: from.place, q: to.place };
-    this.showProbes();
+    this.probes.show(this.marks, this.lineSpec);
     this.update();
   }
 
-  /** The curves of the nodes that were clicked and of the line between two places. */
-  private showProbes(): void {
-    for (const card of this.probeCards) removeChart(card);
-    this.probeCards = [];
-    const field = this.field;
-    const points = this.marks.filter((m) => m.kind === "point");
-    if (field && points.length && !field.atEnd) {
-      const lines = points.map((m, i) => {
-        const run = this.runs[m.run], of = run.fields.find((f) => f.id === field.id);
-        const y = run.times.map((_, k) => (of?.has(m.body) ? of.value(m.body, m.node, k) * field.unit.scale + field.unit.offset : NaN));
-        const which = this.runs.length > 1 ? `${run.meta.name}, ` : "";
-        return { label: `${m.label}: ${which}${run.bodies[m.body].name}, node ${run.bodies[m.body].numbers[m.node]}`, x: run.times, y, colour: i };
-      });
-      this.addProbe({ title: `${field.label} at the nodes clicked`, unit: field.unit.text, lines, time: true }, points.length > 0);
-    }
-    if (field && this.lineSpec && this.marks.some((m) => m.kind === "line")) {
-      const { run, p, q } = this.lineSpec, r = this.runs[run], moment = this.stages[run].view.moment;
-      const of = r.fields.find((f) => f.id === field.id);
-      const lines = this.visibleBodies(r).flatMap((b, i) => {
-        if (!of?.has(b) || !r.bodies[b].hasCells) return [];
-        const pairs = alongLine(r.bodies[b].x, r.bodies[b].cells, r.bodies[b].corners, of.values(b, moment), p, q);
-        return pairs.length ? [{ label: r.bodies[b].name, x: pairs.map((v) => v[0] * 1e3), y: pairs.map((v) => v[1] * field.unit.scale + field.unit.offset), colour: i }] : [];
-      });
-      this.addProbe({ title: `${field.label} from A to B at t = ${duration(r.times[moment])}`, unit: field.unit.text, lines: merged(lines), xLabel: "From A", xUnit: "mm" }, true);
-    }
-  }
-  private addProbe(spec: ChartSpec, closable: boolean): void {
-    const card = chart(spec);
-    if (closable)
-      card.querySelector("figcaption")!.append(h("button", { class: "quiet", title: "Take away (Esc)", click: () => this.clearMarks() }, "✕"));
-    this.probeCards.push(card);
-    byId("probed").append(card);
-  }
-
-  // The panel
-  private change(f: (c: Choice) => void): void {
+  // What is chosen
+  change(f: (c: Choice) => void): void {
     f(this.choice);
     this.update();
   }
@@ -418,9 +385,9 @@ export class Workbench {
     this.choice.field = id;
     this.adoptField();
     this.update();
-    this.showProbes();
+    this.probes.show(this.marks, this.lineSpec);
   }
-  private fields(): Field[] {
+  fields(): Field[] {
     const seen = new Map<string, Field>();
     for (const run of this.runs) for (const f of run.fields) if (!seen.has(f.id)) seen.set(f.id, f);
     return [...seen.values()];
@@ -428,227 +395,6 @@ export class Workbench {
   private nextField(by: number): void {
     const ids = this.fields().map((f) => f.id), i = ids.indexOf(this.choice.field);
     this.setField(ids[(i + by + ids.length) % ids.length]);
-  }
-
-  private panel(): void {
-    const panel = byId("panel"), c = this.choice;
-    const part = (title: string, refresh: () => void, ...children: (Node | null)[]) => {
-      panel.append(h("fieldset", {}, h("legend", {}, title), ...children));
-      this.panelParts.push({ refresh });
-    };
-    this.fieldPart(part);
-    this.bodiesPart(part);
-    if (this.run.displacement.length) this.deformationPart(part);
-    if (this.run.axisymmetric) {
-      const turns: [string, number][] = [["Section", 0], ["½", Math.PI], ["¾", 1.5 * Math.PI], ["Full", 2 * Math.PI]];
-      const buttons = turns.map(([text, angle]) => h("button", { click: () => {
-        const wasFlat = this.flat;
-        this.change((ch) => (ch.revolved = angle));
-        if (wasFlat !== this.flat) this.camera.turn.identity();
-        this.fit();
-      } }, text));
-      part("Turned about the axis", () => buttons.forEach((b, i) => b.classList.toggle("on", turns[i][1] === c.revolved)), h("div", { class: "choice" }, ...buttons));
-    }
-    if (this.run.dimension === 3) this.cutPart(part);
-    this.onlyPart(part);
-    this.viewPart(part);
-  }
-
-  private fieldPart(part: Part): void {
-    const c = this.choice;
-    const select = h("select", { id: "field", "aria-label": "Field", change: () => this.setField(select.value) });
-    const groups = new Map<string, HTMLOptGroupElement>();
-    for (const f of this.fields()) {
-      if (!groups.has(f.group)) groups.set(f.group, h("optgroup", { label: f.group }));
-      groups.get(f.group)!.append(h("option", { value: f.id }, f.label));
-    }
-    for (const name of ["Heat", "Mechanics", "Contact", "Criteria"]) if (groups.has(name)) select.append(groups.get(name)!);
-    const map = h("select", { "aria-label": "Colours", change: () => this.change((ch) => (ch.map = map.value)) }, ...MAPS.map((m) => h("option", { value: m }, m)));
-    const bands = h("select", { "aria-label": "Bands", change: () => this.change((ch) => (ch.bands = +bands.value)) }, ...[["0", "smooth"], ["6", "6 bands"], ["10", "10 bands"], ["16", "16 bands"]].map(([v, t]) => h("option", { value: v }, t)));
-    const low = h("input", { type: "number", step: "any", "aria-label": "Least of the scale" }), high = h("input", { type: "number", step: "any", "aria-label": "Greatest of the scale" });
-    const set = () => {
-      const unit = this.field!.unit;
-      const l = (+low.value - unit.offset) / unit.scale, u = (+high.value - unit.offset) / unit.scale;
-      if (!(l < u)) return;
-      this.fixedRange = true;
-      this.change((ch) => {
-        ch.low = l;
-        ch.high = u;
-      });
-    };
-    low.addEventListener("change", set);
-    high.addEventListener("change", set);
-    const how = ["Run", "Moment"].map((text, i) => h("button", { title: i ? "Scale of the present moment" : "Scale of the whole run", click: () => {
-      this.fixedRange = false;
-      this.ofMoment = i === 1;
-      this.scaleChosen = true;
-      this.update();
-    } }, text));
-    const log = h("input", { type: "checkbox", change: () => this.change((ch) => (ch.log = log.checked)) });
-    part("Field", () => {
-      select.value = c.field;
-      map.value = c.map;
-      bands.value = String(c.bands);
-      const unit = this.field?.unit ?? { scale: 1, offset: 0, text: "" };
-      if (document.activeElement !== low) low.value = String(+(c.low * unit.scale + unit.offset).toPrecision(5));
-      if (document.activeElement !== high) high.value = String(+(c.high * unit.scale + unit.offset).toPrecision(5));
-      how.forEach((b, i) => b.classList.toggle("on", !this.fixedRange && this.ofMoment === (i === 1)));
-      log.checked = c.log;
-      log.disabled = !(c.low > 0) || unit.offset !== 0;
-    },
-    h("div", { class: "row" }, select), h("div", { class: "row" }, map, bands),
-    h("div", { class: "two" }, h("label", {}, "from", low), h("label", {}, "to", high)),
-    h("div", { class: "row" }, h("div", { class: "choice" }, ...how), h("label", {}, log, " log")));
-  }
-
-  private bodiesPart(part: Part): void {
-    const names = [...new Set(this.runs.flatMap((r) => r.bodies.map((b) => b.name)))];
-    const states: [Shown, string][] = [["shown", "Show"], ["ghost", "Ghost"], ["hidden", "Hide"]];
-    const rows = names.map((name) => {
-      const buttons = states.map(([state, text]) => h("button", { "data-body": name, "data-state": state, click: () => {
-        const before = this.extents();
-        this.change((ch) => ch.shown.set(name, state));
-        if (this.extents() !== before) this.fit();
-      } }, text));
-      const material = this.runs.flatMap((r) => r.bodies).find((b) => b.name === name)?.material ?? "";
-      return { name, buttons, row: h("div", {}, h("span", { title: `${name}: ${material}` }, name), h("div", { class: "choice" }, ...buttons)) };
-    });
-    part("Bodies", () => {
-      for (const { name, buttons } of rows)
-        buttons.forEach((b, i) => b.classList.toggle("on", (this.choice.shown.get(name) ?? "shown") === states[i][0]));
-    }, h("div", { class: "bodies" }, ...rows.map((r) => r.row)));
-  }
-
-  private deformationPart(part: Part): void {
-    const slider = h("input", { type: "range", min: 0, max: 100, "aria-label": "Scale of displacements", id: "scale" });
-    const output = h("output");
-    const factors = [0, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
-    slider.max = String(factors.length - 1);
-    slider.addEventListener("input", () => this.change((ch) => (ch.scale = factors[+slider.value])));
-    part("Displacements", () => {
-      const i = factors.reduce((best, f, k) => (Math.abs(f - this.choice.scale) < Math.abs(factors[best] - this.choice.scale) ? k : best), 0);
-      slider.value = String(i);
-      output.textContent = this.choice.scale === 0 ? "none" : `× ${this.choice.scale}`;
-    }, h("div", { class: "row" }, slider, output));
-  }
-
-  private cutPart(part: Part): void {
-    const c = this.choice.cut;
-    const on = h("input", { type: "checkbox", id: "cut", change: () => this.change(() => (c.on = on.checked)) });
-    const slider = h("input", { type: "range", min: 0, max: 400, "aria-label": "Place of the cut", id: "cutat" });
-    const output = h("output");
-    const span = () => {
-      let low = Infinity, high = -Infinity;
-      const [ex, ey, ez] = [this.extent(0), this.extent(1), this.extent(2)];
-      for (const x of ex) for (const y of ey) for (const z of ez) {
-        const d = c.normal[0] * x + c.normal[1] * y + c.normal[2] * z;
-        low = Math.min(low, d);
-        high = Math.max(high, d);
-      }
-      return [low, high];
-    };
-    const at = () => {
-      const [low, high] = span();
-      c.at = low + (high - low) * (0.002 + 0.996 * (+slider.value / 400));
-    };
-    slider.addEventListener("input", () => this.change(() => {
-      at();
-      c.on = true;
-    }));
-    const normals: [string, () => [number, number, number]][] = [
-      ["x", () => [1, 0, 0]], ["y", () => [0, 1, 0]], ["z", () => [0, 0, 1]],
-      ["screen", () => new Vector3(0, 0, 1).applyQuaternion(this.camera.turn).toArray() as [number, number, number]],
-    ];
-    let chosen = "z";
-    const buttons = normals.map(([text, normal]) => h("button", { title: text === "screen" ? "Through the middle, along the screen" : `Across ${text}`, click: () => this.change(() => {
-      chosen = text;
-      c.normal = normal();
-      slider.value = "200";
-      at();
-      c.on = true;
-    }) }, text));
-    const flip = h("button", { title: "Show the other side", click: () => this.change(() => {
-      c.normal = c.normal.map((v) => -v) as [number, number, number];
-      c.at = -c.at;
-      c.on = true;
-    }) }, "flip");
-    this.moveCut = (by) => {
-      const [low, high] = span();
-      slider.value = String(Math.round((400 * (c.at - low)) / (high - low)) + by);
-      slider.dispatchEvent(new Event("input"));
-    };
-    part("Cut", () => {
-      on.checked = c.on;
-      const [low, high] = span();
-      slider.value = String(Math.round((400 * (c.at - low)) / (high - low)));
-      buttons.forEach((b, i) => b.classList.toggle("on", c.on && normals[i][0] === chosen));
-      const sign = Math.sign(c.normal.reduce((a, b) => a + b, 0)) || 1;
-      const at = Math.abs(c.at) < 1e-5 * (high - low) ? 0 : chosen === "screen" ? c.at : sign * c.at;
-      output.textContent = `${short(1e3 * at)} mm`;
-    }, h("div", { class: "row" }, h("label", {}, on, " on"), h("div", { class: "choice" }, ...buttons), flip), h("div", { class: "row" }, slider, output));
-  }
-  private moveCut: (by: number) => void = () => {};
-
-  private onlyPart(part: Part): void {
-    const o = this.choice.only;
-    const on = h("input", { type: "checkbox", id: "only", change: () => this.change(() => {
-      o.on = on.checked;
-      const view = this.stages[0].view, [low, high] = view.field?.rangeAt(this.shownBodies(view.run), view.moment) ?? [0, 1];
-      if (o.on) [o.low, o.high] = [low + 0.5 * (high - low), high];
-    }) });
-    const low = h("input", { type: "range", min: 0, max: 500, "aria-label": "Least value shown", id: "onlylow" });
-    const high = h("input", { type: "range", min: 0, max: 500, "aria-label": "Greatest value shown" });
-    const outLow = h("output"), outHigh = h("output");
-    const value = (s: HTMLInputElement) => this.choice.low + (+s.value / 500) * (this.choice.high - this.choice.low);
-    const set = () => this.change(() => {
-      o.on = true;
-      o.low = Math.min(value(low), value(high));
-      o.high = Math.max(value(low), value(high));
-    });
-    low.addEventListener("input", set);
-    high.addEventListener("input", set);
-    const has = (id: string) => this.fields().some((f) => f.id === id);
-    const preset = (text: string, title: string, field: string, range: (r: [number, number]) => [number, number]) =>
-      has(field) ? h("button", { title, click: () => {
-        this.setField(field);
-        this.change((c) => {
-          [o.low, o.high] = range([c.low, c.high]);
-          o.on = true;
-        });
-      } }, text) : null;
-    part("Only values between", () => {
-      on.checked = o.on;
-      const share = (v: number) => String(Math.round((500 * (v - this.choice.low)) / (this.choice.high - this.choice.low)));
-      low.value = o.on ? share(o.low) : "0";
-      high.value = o.on ? share(o.high) : "500";
-      const unit = this.field?.unit;
-      outLow.textContent = o.on && unit ? withUnit(o.low, unit) : "";
-      outHigh.textContent = o.on && unit ? withUnit(o.high, unit) : "";
-    },
-    h("div", { class: "row" }, h("label", {}, on, " on"), low, outLow), h("div", { class: "row" }, h("label", { style: "visibility:hidden" }, "☐ on"), high, outHigh),
-    h("div", { class: "presets" },
-      preset("Still liquid", "Where less than half has frozen at this moment", "solid_fraction", () => [0, 0.5]),
-      preset("Mushy", "Between liquid and solid at this moment", "solid_fraction", () => [0.01, 0.99]),
-      preset("Last to freeze", "What froze in the last tenth of the time: hot spots", "solidified_at", ([l, u]) => [l + 0.9 * (u - l), u]),
-      preset("Low Niyama", "The lowest tenth of the range on a scale of logarithms: poor feeding", "niyama", ([l, u]) => [l, l > 0 ? l * (u / l) ** 0.1 : l + 0.02 * (u - l)]),
-      preset("Pores", "Where more than a tenth of the densest pores has opened at this moment", "pore_fraction", ([, u]) => [0.1 * u, u]),
-      preset("Open gap", "Where casting and mould are apart by more than a tenth of the widest gap", "gap", ([, u]) => [0.1 * u, u])));
-  }
-
-  private viewPart(part: Part): void {
-    const mesh = h("input", { type: "checkbox", id: "mesh", change: () => this.change((c) => (c.mesh = mesh.checked)) });
-    const directions: [string, [number, number, number]][] = [
-      ["+x", [1, 0, 0]], ["−x", [-1, 0, 0]], ["+y", [0, 1, 0]], ["−y", [0, -1, 0]], ["+z", [0, 0, 1]], ["−z", [0, 0, -1]], ["Corner", this.camera.corner],
-    ];
-    const solid = this.run.dimension === 3 || this.run.axisymmetric;
-    part("View", () => (mesh.checked = this.choice.mesh),
-      h("div", { class: "views" }, ...(solid ? directions.map(([text, d]) => h("button", { click: () => this.look(d) }, text)) : []), h("button", { click: () => this.fit(), title: "Everything in sight (F)" }, "Fit")),
-      h("div", { class: "row" }, h("label", {}, mesh, " elements"), h("span", { style: "flex:1" }),
-        h("button", { class: "quiet", title: "Save the picture", click: () => this.stages.forEach((s) => {
-          s.view.render();
-          s.view.canvas.toBlob((b) => b && save(`${s.view.run.meta.name.replace(/\W+/g, "_")}.png`, b));
-        }) }, "PNG"), h("button", { class: "quiet", title: "Take marks and lines away (Esc)", click: () => this.clearMarks() }, "clear marks")),
-      h("p", { class: "hint" }, "Click: curves of a node. Shift-click: values along the line from the last click. ? lists the keys."));
   }
 
   private keys(): void {
@@ -660,7 +406,7 @@ export class Workbench {
       const actions: Record<string, () => void> = {
         " ": () => this.play(), "[": () => this.nextField(-1), "]": () => this.nextField(1), f: () => this.fit(), Escape: () => this.clearMarks(),
         c: () => this.run.dimension === 3 && this.change((c) => (c.cut.on = !c.cut.on)), m: () => this.change((c) => (c.mesh = !c.mesh)),
-        t: () => byId("theme").click(), "?": () => byId("help").click(), ",": () => this.moveCut(-8), ".": () => this.moveCut(8),
+        t: () => byId("theme").click(), "?": () => byId("help").click(), ",": () => this.panel?.moveCut(-8), ".": () => this.panel?.moveCut(8),
         ...(inSlider ? {} : { ArrowLeft: () => this.step(-1), ArrowRight: () => this.step(1), Home: () => this.goTo(this.times[0]), End: () => this.goTo(this.times[this.times.length - 1]) }),
       };
       const action = directions[e.key] ? () => this.look(directions[e.key]) : actions[e.key.length === 1 ? e.key.toLowerCase() : e.key];
@@ -677,23 +423,6 @@ export class Workbench {
   }
 }
 
-type Part = (title: string, refresh: () => void, ...children: (Node | null)[]) => void;
-
 function niceFactor(value: number): number {
   return [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000].filter((f) => f <= value).pop() ?? 1;
-}
-
-/** uPlot wants each abscissa once in a line: places that two cells share hold two values at a jump. */
-function merged<T extends { x: number[]; y: number[] }>(lines: T[]): T[] {
-  return lines.map((line) => {
-    const x: number[] = [], y: number[] = [];
-    line.x.forEach((v, i) => {
-      if (x.length && v - x[x.length - 1] < 1e-6) y[y.length - 1] = (y[y.length - 1] + line.y[i]) / 2;
-      else {
-        x.push(v);
-        y.push(line.y[i]);
-      }
-    });
-    return { ...line, x, y };
-  });
 }

@@ -1,0 +1,69 @@
+#include "new_case/riser_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesh/parametric_meshes.hpp"
+
+namespace solidus::model {
+namespace {
+
+/// Bodies that are blocks in one mesh.
+class Blocks {
+ public:
+  void add(const std::string& name, const mesh::Point& low, const std::vector<double>& size) {
+    mesh::RawMesh block =
+        mesh::make_block({.size = size, .origin = {}, .divisions = {2, 2, 1}}, mesh::Shape::hex8);
+    const auto before = static_cast<Index>(mesh_.x.size());
+    for (mesh::Point p : block.x) {
+      for (std::size_t i = 0; i < 3; ++i) p[i] += low[i];
+      mesh_.x.push_back(p);
+    }
+    mesh::RawGroup group = block.groups.at("block");
+    for (mesh::RawBlock& b : group.blocks)
+      for (Index& node : b.nodes) node += before;
+    mesh_.dimension = 3;
+    mesh_.groups[name] = group;
+    part_.metal.push_back(name);
+  }
+
+  /// Where a riser stands that has metal for such a volume and is 18 mm or more wide.
+  DraftRiser riser(const mesh::InscribedSphere& thickest, double volume,
+                   const DraftSymmetry* plane = nullptr) {
+    part_.mesh = mesh_;
+    part_.volume = volume;
+    part_.area = volume / 3e-3;
+    part_.spheres = {thickest};
+    return choose_riser(part_, 0.04, plane ? std::optional(*plane) : std::nullopt);
+  }
+
+ private:
+  mesh::RawMesh mesh_;
+  PartMeasures part_;
+};
+
+TEST(RiserChoice, StandsOnTheThickestPlaceWhereNothingIsInItsWay) {
+  Blocks plate;
+  plate.add("plate", {0, 0, 0}, {0.2, 0.2, 0.014});
+  const DraftRiser riser = plate.riser({{0.1, 0.11, 0.007}, 0.007}, 1e-4);
+  EXPECT_EQ(riser.foot[0], 0.1);
+  EXPECT_EQ(riser.foot[1], 0.11);
+  EXPECT_NEAR(riser.foot[2], 0.014 - 0.05 * riser.diameter, 1e-12);
+}
+
+// As in a brake disc, whose hat rises beside the ring that is to be fed: the riser cut the wall of the hat
+// and came out of it on the other side, which no mesh could follow.
+TEST(RiserChoice, KeepsClearOfAWallBesideThePlaceAndHangsOverTheEdgeForThat) {
+  Blocks angle;
+  angle.add("plate", {0, 0, 0}, {0.2, 0.06, 0.014});
+  angle.add("wall", {0, 0, 0.014}, {0.2, 0.012, 0.05});
+  const DraftRiser riser = angle.riser({{0.1, 0.03, 0.007}, 0.007}, 3e-4);
+  EXPECT_GT(riser.diameter, 0.04);
+  EXPECT_GT(riser.foot[1] - 0.5 * riser.diameter, 0.012 + 0.05 * riser.diameter);
+  EXPECT_LT(std::hypot(riser.foot[0] - 0.1, riser.foot[1] - 0.03), 0.41 * riser.diameter);
+  EXPECT_NEAR(riser.foot[2], 0.014 - 0.05 * riser.diameter, 1e-12);
+}
+
+}  // namespace
+}  // namespace solidus::model
