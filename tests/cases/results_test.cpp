@@ -1,5 +1,5 @@
-/// Results of whole runs: of a steady state, of the second law, of surfaces that are covered in part, of probes
-/// over groups, of contact whose turns do not end, of tables with names that are taken.
+/// Results of whole runs: of a steady state, of the second law, of surfaces that are covered in part, of
+/// probes over groups, of contact whose turns do not end, of tables with names that are taken.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -373,7 +373,8 @@ TEST(Probes, TakeMeanIntegralAndExtremesOfEveryFieldOverABodyAndASurface) {
         return run.history.at(name + "[" + unit + "]");
       };
       for (std::size_t row = 0; row < run.history.at("time[s]").size(); ++row) {
-        const double least = column("minimum")[row], largest = column("maximum")[row], mean = column("mean")[row];
+        const double least = column("minimum")[row], largest = column("maximum")[row],
+                     mean = column("mean")[row];
         const double rounding = 1e-12 * std::max(std::abs(least), std::abs(largest));
         EXPECT_GE(mean, least - rounding) << field << " of " << group.name << ", row " << row;
         EXPECT_LE(mean, largest + rounding) << field << " of " << group.name << ", row " << row;

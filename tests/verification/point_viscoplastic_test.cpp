@@ -38,8 +38,10 @@ TEST(PerzynaPoint, FlowsAtTheSteadyStressOfTheRateForExponentsAboveAndBelowOne) 
       const double over = k_drag / k_root * std::pow(eta / k_root * rate / k_drag, 1 / n);
       // The transient falls by e within over/(n E).
       const double strain = (k_flow_stress + 30 * over / std::min(n, 1.0)) / k_young;
+      // Where the overstress is small, most steps are elastic.
+      const int steps = n < 1 ? 3000 : 300;
       const History h =
-          run_all(viscoplastic(n, eta), k_solid, {segment(strain / rate, 300, {{0, strain_to(strain)}})});
+          run_all(viscoplastic(n, eta), k_solid, {segment(strain / rate, steps, {{0, strain_to(strain)}})});
       const MaterialPointRecord& last = h.records.back();
       // exp(-30) of the transient and Newton's tolerance are left
       EXPECT_NEAR(last.stress[0], k_flow_stress + over, 1e-8 * over) << "rate " << rate << ", n " << n;
@@ -108,11 +110,12 @@ TEST(PerzynaPoint, RelaxesAsTheClosedFormAtOrderOneAndTwo) {
 
 // With n = 1/2 the overstress falls as a parabola, and is gone after 2.83 units of time.
 TEST(PerzynaPoint, RelaxesAsTheClosedFormWithAnExponentBelowOne) {
-  for (const auto integration : {point::PointIntegration::backward_euler, point::PointIntegration::two_step}) {
+  for (const auto integration :
+       {point::PointIntegration::backward_euler, point::PointIntegration::two_step}) {
     const double coarse = relax(0.5, integration, 1024, 2).error,
                  fine = relax(0.5, integration, 2048, 2).error;
-    EXPECT_NEAR(observed_order(coarse, fine),
-                integration == point::PointIntegration::backward_euler ? 1 : 2, 0.1);
+    EXPECT_NEAR(observed_order(coarse, fine), integration == point::PointIntegration::backward_euler ? 1 : 2,
+                0.1);
     EXPECT_LT(fine, 1e-3);
   }
 }
