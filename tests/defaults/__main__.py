@@ -32,9 +32,9 @@ Made by `./dev defaults`; every folder of `cases/` has a row. Each case as it st
 do not matter (1e-10 of the forces, 1e-7 of the motion, 1e-11 of the heat), and with steps, or their error limits, a
 quarter as large besides. The largest difference of any probe of the case at any time of the run, as a part of the range
 of that probe, and the probe's at the last time that both runs reach; without probes of the case the hottest node, solid
-fraction, heat and force of the contact; of a profile its values at the end. A run that goes on until all is solid also
-has the difference of that time. Where steps adapt, other tolerances lead to other steps, and a probe that jumps shows
-it. Tests at a point of a material have no tolerance to choose; their steps are those of all curves together.
+fraction, heat and force of the contact, or the values of its profile at the end. A run that goes on until all is solid
+also has the difference of that time. Where steps adapt, other tolerances lead to other steps, and a probe that jumps
+shows it. Tests at a point of a material have no tolerance to choose; their steps are those of all curves together.
 """
 
 LAST = ("Next: [when a step has converged](../decisions/0017-when-a-step-has-converged.md) · "

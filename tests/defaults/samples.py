@@ -25,12 +25,16 @@ def columns(names, rows, wanted, prefix=""):
     return {prefix + name: (times, [row[i] for row in rows]) for i, name in enumerate(names) if name in wanted}
 
 
+def probes(names):
+    """The columns of history.csv that the case asked for."""
+    own = next((i for i, n in enumerate(names) if n.startswith(OWN)), len(names))
+    return [n for n in names[1:own] if not n.startswith(("stage", "cycle"))]
+
+
 def of_history(folder):
     """The probes of the case by name, each as times and values; without any, some of the program's own columns."""
     names, rows = table(folder / "history.csv")
-    own = next((i for i, n in enumerate(names) if n.startswith(OWN)), len(names))
-    asked = [n for n in names[1:own] if not n.startswith(("stage", "cycle"))]
-    return columns(names, rows, asked or [n for n in names if n.startswith(INSTEAD)])
+    return columns(names, rows, probes(names) or [n for n in names if n.startswith(INSTEAD)])
 
 
 def of_profiles(folder):
@@ -59,8 +63,8 @@ def of_point(folder):
 
 
 def of_places(folder, kind):
-    """Whether what is sampled are values along a line at the end, not over time."""
-    return kind != "point" and bool(tables_of_profiles(folder))
+    """Whether what is sampled are values along a line at the end, not over time: those of a case without probes."""
+    return kind != "point" and not probes(table(folder / "history.csv")[0]) and bool(tables_of_profiles(folder))
 
 
 def of(folder, kind):
