@@ -137,6 +137,8 @@ def chosen(spec, history, others, folder):
     if len(units) > 1:
         raise ResultError(f"plots.toml: curves '{spec['file']}': columns of different units "
                           f"({', '.join(sorted(units))})")
+    history = history.until(spec.get("until"))
+    others = {name: other.until(spec.get("until")) for name, other in others.items()}
     clock = Clock(history["time[s]"])
     label = style.axis_label(spec.get("quantity", "Value"), units.pop())
     figure, axes = _axes(spec.get("title", ""), clock, label)

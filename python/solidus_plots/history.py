@@ -31,6 +31,12 @@ class Table(dict):
                 groups.setdefault(self.unit(header), []).append(header)
         return groups
 
+    def until(self, moment):
+        """The rows up to a moment [s]; all of them without one."""
+        if moment is None:
+            return self
+        return Table({header: values[self["time[s]"] <= moment] for header, values in self.items()})
+
 
 def read_table(path, first="time[s]"):
     """`first`: what the first column must be; None: anything."""

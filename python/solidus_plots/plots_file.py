@@ -9,7 +9,7 @@ from solidus_plots.vtu import ResultError
 FIELD_KEYS = {"quantity", "field", "component", "unit", "contours", "levels", "bands", "colours", "range",
               "above", "below", "smooth"}
 SHEET_KEYS = {"file", "only", "title", "times", "columns", "bodies", "magnification", "probes"}
-KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "moments", "name",
+KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "moments", "until", "name",
                    "compare"},
         "graphs": {"file", "only", "title", "table", "x", "x_quantity", "part", "quantity", "lines", "each",
                    "values", "keep", "from_zero"},
@@ -60,7 +60,7 @@ VALUES = [
     (("times",), lambda v: _all(v, _moment) and v, 'a list of moments [s], "first", "last"'),
     (("time",), _moment, 'a moment [s], "first" or "last"'),
     (("component", "columns", "bands"), lambda v: _number(v) and v == int(v) and v >= 0, "a whole number"),
-    (("magnification", "above", "below", "shift"), _number, "a number"),
+    (("magnification", "above", "below", "shift", "until"), _number, "a number"),
     (("range", "view"), lambda v: _all(v, _number) and len(v) == 2, "two numbers"),
     (("contours",), lambda v: _number(v) or _all(v, _number), "a number of lines, or a list of values"),
     (("planes",), lambda v: _all(v, _table) and v, "a list of planes"),

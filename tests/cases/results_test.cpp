@@ -1,17 +1,20 @@
 /// Results of whole runs: of a steady state, of the second law, of surfaces that are covered in part, of
-/// tables with names that are taken.
+/// probes over groups, of contact whose turns do not end, of tables with names that are taken.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "../unit/results/vtu_reader.hpp"
+#include "case/field_list.hpp"
 #include "case_folder.hpp"
 
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const solidus::testing::CaseFolder k_here("results");
 
@@ -261,6 +264,124 @@ TEST(ContactPressure, IntegratesToTheForceOnASurfaceThatIsCoveredInPart) {
   EXPECT_GT(force, 1e3);
   EXPECT_NEAR(run.history.at("on_slave[N]").back(), force, 1e-9 * force);
   EXPECT_NEAR(run.history.at("on_master[N]").back(), force, 1e-9 * force);
+}
+
+// A penalty this soft leaves nearly all of the penetration to the next turn.
+TEST(AugmentedLagrangian, WhoseTurnsDoNotEndSaysWhereAndAdvisesOnTheContactAlone) {
+  std::string text = k_ledge;
+  text.insert(text.find("[[probe]]"), "normal = \"augmented_lagrangian\"\npenalty_factor = 1e-4\n");
+  const auto run = k_here.run("turns", text, {"time.min_step=\"0.5 s\""});
+  EXPECT_FALSE(run.finished);
+  EXPECT_THAT(run.reason, HasSubstr("reason: contact 'faces': 400 turns of the augmented Lagrangian leave"));
+  EXPECT_THAT(run.reason, HasSubstr("where: node "));
+  EXPECT_THAT(run.reason, HasSubstr("normal = \"penalty\" in that [[contact]]"));
+  EXPECT_THAT(run.reason, HasSubstr("penalty_factor"));
+  EXPECT_THAT(run.reason, Not(HasSubstr("heat.")));
+}
+
+/// A casting that freezes, is pushed along a mould and rubs, with inertia and wear: it has every field.
+const std::string k_rubbing = R"(title = "A casting that rubs"
+[analysis]
+kind = "plane_strain"
+physics = "thermomechanical"
+[mesh]
+shape = "two_blocks"
+element = "quad4"
+[mesh.two_blocks]
+lower = ["60 mm", "20 mm"]
+upper = ["40 mm", "20 mm"]
+lower_divisions = [6, 2]
+upper_divisions = [4, 3]
+[time]
+end = "20 s"
+step = "1 s"
+[[body]]
+name = "lower"
+material = "steel_mould"
+initial_temperature = "100 degC"
+[[body]]
+name = "upper"
+role = "casting"
+material = "aluminium_alsi7mg"
+initial_temperature = "600 degC"
+[[mechanical_condition]]
+name = "held"
+group = "lower_y_min"
+kind = "displacement"
+ux = "0 mm"
+uy = "0 mm"
+[[mechanical_condition]]
+name = "pushed"
+group = "upper_y_max"
+kind = "displacement"
+ux = { of = "time", points = [["0 s", "0 mm"], ["20 s", "0.2 mm"]] }
+uy = { of = "time", points = [["0 s", "0 mm"], ["20 s", "-0.5 mm"]] }
+[[thermal_condition]]
+name = "air"
+group = "upper_y_max"
+kind = "film"
+coefficient = "1000 W/m2/K"
+ambient = "20 degC"
+[[contact]]
+name = "faces"
+slave = "upper_bottom"
+master = "lower_top"
+[contact.heat]
+conductance = "3000 W/m2/K"
+gap_law = "constant"
+[contact.friction]
+coefficient = 0.2
+internal_variable = "normal_work"
+[contact.wear]
+archard = 1e-4
+hardness = "1 GPa"
+[dynamics]
+[criteria]
+feeders = ["upper_y_max"]
+)";
+
+TEST(Probes, TakeMeanIntegralAndExtremesOfEveryFieldOverABodyAndASurface) {
+  using solidus::model::FieldInfo;
+  struct Group {
+    std::string name, unit;
+    double measure;  ///< for a metre of thickness
+  };
+  const Group groups[] = {{"upper", "m3", 0.04 * 0.02}, {"upper_bottom", "m2", 0.04}};
+  const auto header = [](const std::string& field, const Group& group, const std::string& kind) {
+    const std::string unit = solidus::model::field_info(field).unit;
+    const std::string shown = kind != "integral" ? unit : unit == "1" ? group.unit : unit + " " + group.unit;
+    return std::array{field + "_" + group.name + "_" + kind, shown};
+  };
+  std::string text = k_rubbing;
+  const auto fields = solidus::model::field_names(true);
+  for (const std::string& field : fields)
+    for (const Group& group : groups)
+      for (const char* kind : {"mean", "minimum", "maximum", "integral"}) {
+        const FieldInfo::Rank rank = solidus::model::field_info(field).rank;
+        const auto [name, unit] = header(field, group, kind);
+        text += "[[probe]]\nname = \"" + name + "\"\nkind = \"" + kind + "\"\nfield = \"" + field +
+                "\"\ngroup = \"" + group.name + "\"\nunit = \"" + unit + "\"\n";
+        if (rank != FieldInfo::Rank::scalar)
+          text += rank == FieldInfo::Rank::vector ? "component = \"x\"\n" : "component = \"xx\"\n";
+      }
+  const auto run = k_here.run("rubbing", text);
+  ASSERT_TRUE(run.finished) << run.reason;
+  for (const std::string& field : fields)
+    for (const Group& group : groups) {
+      const auto column = [&](const std::string& kind) -> const std::vector<double>& {
+        const auto [name, unit] = header(field, group, kind);
+        return run.history.at(name + "[" + unit + "]");
+      };
+      for (std::size_t row = 0; row < run.history.at("time[s]").size(); ++row) {
+        const double least = column("minimum")[row], largest = column("maximum")[row],
+                     mean = column("mean")[row];
+        const double rounding = 1e-12 * std::max(std::abs(least), std::abs(largest));
+        EXPECT_GE(mean, least - rounding) << field << " of " << group.name << ", row " << row;
+        EXPECT_LE(mean, largest + rounding) << field << " of " << group.name << ", row " << row;
+        EXPECT_NEAR(column("integral")[row], group.measure * mean, group.measure * rounding)
+            << field << " of " << group.name << ", row " << row;
+      }
+    }
 }
 
 TEST(InternalVariable, IsALengthWhereItIsASlip) {

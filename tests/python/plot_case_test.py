@@ -7,7 +7,7 @@ import unittest
 import unittest.mock
 
 from field_files import write
-from solidus_plots import plot_case
+from solidus_plots import curves, plot_case
 from solidus_plots.plot_case import draw
 
 
@@ -76,6 +76,21 @@ class Folders(unittest.TestCase):
         names, problems = self.drawn("[[maps]\n")
         self.assertIn("overview_temperature.png", names)
         self.assertIn("plots.toml", problems[0])
+
+    def test_curves_end_where_they_are_told_to(self):
+        (self.folder / "history.csv").write_text("time[s],T_a[degC]\n0,20\n12.5,30\n100,30\n")
+        for until, last in (("", 100.0), ("until = 50\n", 12.5)):
+            with unittest.mock.patch.object(curves.style, "save", side_effect=self.keep):
+                self.drawn(f'[[curves]]\nfile = "curve"\nlines = [{{ column = "T_a[degC]" }}]\n{until}')
+            self.assertEqual(self.kept["curve"], last)
+        _, problems = self.drawn('[[curves]]\nfile = "curve"\nlines = [{ column = "T_a[degC]" }]\nuntil = "end"')
+        self.assertTrue(any("'until' must be a number" in problem for problem in problems), problems)
+
+    def keep(self, figure, folder, name, **_):
+        """Notes the last moment of a figure's first line in place of writing it."""
+        self.kept = getattr(self, "kept", {}) | {name: figure.axes[0].get_lines()[0].get_xdata()[-1]}
+        curves.plt.close(figure)
+        return []
 
     def test_the_pictures_that_every_run_gets_can_be_left_out(self):
         names, problems = self.drawn("[automatic]\ndraw = false")
