@@ -91,7 +91,7 @@ class Iteration {
   const std::vector<char>* fixed_ = nullptr;
   const MultiPointConstraints* constraints_ = nullptr;
   double norm_ = 0, reference_ = 0;
-  bool stepped_ = false;  ///< a step has been taken
+  bool stepped_ = false;                                        ///< a step has been taken
   double next_step_ = std::numeric_limits<double>::infinity();  ///< its estimated relative size
 };
 
