@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "case/roles.hpp"
 #include "check/findings.hpp"
 #include "input/units.hpp"
 
