@@ -125,7 +125,8 @@ std::string spray_text(const Draft& d) {
   return t;
 }
 
-/// What surrounds a free skin: air, or the channels of a die that casts shot after shot.
+/// The film on the free skin of a body: that of the air, or for a die that casts shot after shot that of its
+/// channels.
 std::string film_text(const Draft& d, const std::string& body) {
   const auto found = std::ranges::find(d.bodies, body, &DraftBody::name);
   const bool cooled =

@@ -10,7 +10,7 @@ namespace solidus::model {
 
 /// An upright cylinder with 1.2 times the modulus of the thickest place, and metal enough for the shrinkage
 /// of all; on top of that of the thickest places that has the least metal above it, moved by up to four
-/// tenths of its diameter where metal that rises beside it would become one with it.
+/// tenths of its diameter so that no metal rises beside it and little of its foot hangs over an edge.
 ///
 /// Of half a part it stands on the plane of symmetry, which halves it, where a place there is nearly as thick
 /// as the thickest, or where it would touch its mirror image beside it. Else each half has one of its own,
