@@ -9,6 +9,7 @@
 
 #include "check/boundary_faces.hpp"
 #include "mesh/block_geometry.hpp"
+#include "mesh/block_part.hpp"
 #include "mesh/quadrature.hpp"
 #include "parallel/parallel.hpp"
 
@@ -67,8 +68,8 @@ double volume_of(const mesh::BlockGeometry& geometry, Index element) {
   return volume;
 }
 
-void measure_block(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::ElementBlock& block,
-                   BodyMeasures& body, double& edges, double& n_edges) {
+void measure_part(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::ElementBlock& block,
+                  BodyMeasures& body, double& edges, double& n_edges) {
   const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
   for (Index e = 0; e < block.n_counted; ++e) {
     body.volume += volume_of(geometry, e);
@@ -150,7 +151,9 @@ std::vector<BodyMeasures> measure_bodies(const mesh::Mesh& mesh, AnalysisKind ki
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const auto b = static_cast<std::size_t>(block.body);
     bodies[b].elements += block.n_counted;
-    measure_block(mesh, kind, block, bodies[b], edges[b], n_edges[b]);
+    mesh::for_parts(block, [&](const mesh::ElementBlock& part, Index) {
+      measure_part(mesh, kind, part, bodies[b], edges[b], n_edges[b]);
+    });
   }
   for (std::size_t b = 0; b < n; ++b) reduce(bodies[b], edges[b], n_edges[b]);
   return bodies;
@@ -160,15 +163,17 @@ double share_between(const mesh::Mesh& mesh, AnalysisKind kind, int body, const 
   double all = 0, between = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.body != body) continue;
-    const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
-    for (Index e = 0; e < block.n_counted; ++e) {
-      const double volume = volume_of(geometry, e);
-      const Index* nodes = block.element(e);
-      all += volume;
-      if (std::all_of(nodes, nodes + mesh::node_count(block.shape),
-                      [&](Index node) { return marked[static_cast<std::size_t>(node)] != 0; }))
-        between += volume;
-    }
+    mesh::for_parts(block, [&](const mesh::ElementBlock& part, Index) {
+      const mesh::BlockGeometry geometry(mesh, part, kind, mesh::stiffness_rule(part.shape));
+      for (Index e = 0; e < part.n_counted; ++e) {
+        const double volume = volume_of(geometry, e);
+        const Index* nodes = part.element(e);
+        all += volume;
+        if (std::all_of(nodes, nodes + mesh::node_count(part.shape),
+                        [&](Index node) { return marked[static_cast<std::size_t>(node)] != 0; }))
+          between += volume;
+      }
+    });
   }
   all = parallel::global_sum(all);
   return all > 0 ? parallel::global_sum(between) / all : 0.0;
