@@ -265,8 +265,8 @@ void build(const CaseSpec& spec, Assembly& a) {
   for (const InitialTemperatureRange& range : a.start) highest.push_back(range.high);
   check_melts(spec, a.materials, highest);
   build_contacts(spec, a);
-  a.phases.temperature = nodal_temperature(spec, start, a.mesh);
   if (spec.has_mechanics()) {
+    a.phases.temperature = nodal_temperature(spec, start, a.mesh);
     build_mechanics(spec, a.phases.temperature, a);
     if (spec.exchanges_heat()) {
       a.structural = std::make_unique<mechanics::StructuralHeat>(

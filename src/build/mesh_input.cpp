@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "build/interfaces.hpp"
 #include "build/mesh_checks.hpp"
@@ -186,7 +187,7 @@ mesh::Mesh load_mesh(CaseSpec& spec) {
   for (const ContactSpec& contact : spec.contacts)
     for (const std::string& surface : contact.sides())
       if (spec.rigid_surface(surface) == nullptr) replicated.push_back(surface);
-  return mesh::distribute(raw, bodies, replicated, work);
+  return mesh::distribute(std::move(raw), bodies, replicated, work);
 }
 
 }  // namespace solidus::model

@@ -9,6 +9,7 @@
 
 #include "check/boundary_faces.hpp"
 #include "mesh/block_geometry.hpp"
+#include "mesh/block_part.hpp"
 #include "mesh/quadrature.hpp"
 #include "parallel/parallel.hpp"
 
@@ -67,24 +68,37 @@ double volume_of(const mesh::BlockGeometry& geometry, Index element) {
   return volume;
 }
 
-void measure_block(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::ElementBlock& block,
-                   BodyMeasures& body, double& edges, double& n_edges) {
+/// Calls visit(p, q) for the edges of an element, from vertex p to vertex q: twice where two of its faces
+/// share each.
+template <class Visit>
+void each_edge(mesh::Shape shape, const Visit& visit) {
+  const int n_vertices = mesh::vertex_count(shape);
+  if (n_vertices == mesh::dimension(shape) + 1) {  // all pairs of a simplex, once
+    for (int p = 0; p < n_vertices; ++p)
+      for (int q = p + 1; q < n_vertices; ++q) visit(p, q);
+    return;
+  }
+  const int corners = mesh::vertex_count(mesh::face_shape(shape));
+  for (int f = 0; f < mesh::face_count(shape); ++f) {
+    const auto local = mesh::face_nodes(shape, f);
+    for (int i = 0; i < (corners == 2 ? 1 : corners); ++i)
+      visit(local[static_cast<std::size_t>(i)], local[static_cast<std::size_t>((i + 1) % corners)]);
+  }
+}
+
+void measure_part(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::ElementBlock& block,
+                  BodyMeasures& body, double& edges, double& n_edges) {
   const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
   for (Index e = 0; e < block.n_counted; ++e) {
     body.volume += volume_of(geometry, e);
-    const mesh::Shape face = mesh::face_shape(block.shape);
-    const int corners = mesh::vertex_count(face);
+    const Index* const nodes = block.element(e);
     double shortest = std::numeric_limits<double>::max(), longest = 0;
-    for (int f = 0; f < mesh::face_count(block.shape); ++f)
-      for (int i = 0; i < (corners == 2 ? 1 : corners); ++i) {
-        const auto local = mesh::face_nodes(block.shape, f);
-        const double length =
-            distance(at(mesh, block.element(e)[local[static_cast<std::size_t>(i)]]),
-                     at(mesh, block.element(e)[local[static_cast<std::size_t>((i + 1) % corners)]]));
-        shortest = std::min(shortest, length);
-        longest = std::max(longest, length);
-        edges += length, ++n_edges;
-      }
+    each_edge(block.shape, [&](int p, int q) {
+      const double length = distance(at(mesh, nodes[p]), at(mesh, nodes[q]));
+      shortest = std::min(shortest, length);
+      longest = std::max(longest, length);
+      edges += length, ++n_edges;
+    });
     body.shortest_edge = std::min(body.shortest_edge, shortest);
     body.longest_edge = std::max(body.longest_edge, longest);
     if (shortest > 0) body.flattest = std::max(body.flattest, longest / shortest);
@@ -150,7 +164,9 @@ std::vector<BodyMeasures> measure_bodies(const mesh::Mesh& mesh, AnalysisKind ki
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const auto b = static_cast<std::size_t>(block.body);
     bodies[b].elements += block.n_counted;
-    measure_block(mesh, kind, block, bodies[b], edges[b], n_edges[b]);
+    mesh::for_parts(block, [&](const mesh::ElementBlock& part, Index) {
+      measure_part(mesh, kind, part, bodies[b], edges[b], n_edges[b]);
+    });
   }
   for (std::size_t b = 0; b < n; ++b) reduce(bodies[b], edges[b], n_edges[b]);
   return bodies;
@@ -160,15 +176,17 @@ double share_between(const mesh::Mesh& mesh, AnalysisKind kind, int body, const 
   double all = 0, between = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.body != body) continue;
-    const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
-    for (Index e = 0; e < block.n_counted; ++e) {
-      const double volume = volume_of(geometry, e);
-      const Index* nodes = block.element(e);
-      all += volume;
-      if (std::all_of(nodes, nodes + mesh::node_count(block.shape),
-                      [&](Index node) { return marked[static_cast<std::size_t>(node)] != 0; }))
-        between += volume;
-    }
+    mesh::for_parts(block, [&](const mesh::ElementBlock& part, Index) {
+      const mesh::BlockGeometry geometry(mesh, part, kind, mesh::stiffness_rule(part.shape));
+      for (Index e = 0; e < part.n_counted; ++e) {
+        const double volume = volume_of(geometry, e);
+        const Index* nodes = part.element(e);
+        all += volume;
+        if (std::all_of(nodes, nodes + mesh::node_count(part.shape),
+                        [&](Index node) { return marked[static_cast<std::size_t>(node)] != 0; }))
+          between += volume;
+      }
+    });
   }
   all = parallel::global_sum(all);
   return all > 0 ? parallel::global_sum(between) / all : 0.0;

@@ -32,7 +32,7 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
   bind();
   local_.resize(mesh.x.size());
   supplied_.resize(mesh.x.size());
-  contributed_.resize(static_cast<std::size_t>(mesh.n_owned_nodes));
+  if (!contributions_.empty()) contributed_.resize(static_cast<std::size_t>(mesh.n_owned_nodes));
   contribution_power_.resize(contributions_.size());
 }
 
@@ -238,7 +238,8 @@ double HeatSystem::add_flows(std::span<const double> temperature) {
 
 double HeatSystem::entropy_power(std::span<const double> temperature) const {
   double sum = 0;
-  for (std::size_t i = 0; i < contributed_.size(); ++i) sum -= supplied_[i] / temperature[i];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i)
+    sum -= supplied_[i] / temperature[i];
   return sum;
 }
 

@@ -27,7 +27,7 @@ bool HeatSystem::find_limits(std::span<const double> temperature, double negligi
   if (!keeps_conduction()) keep_conduction();
   if (!limiter_->needed()) return false;
   std::vector<LimitedFlow*> flows;
-  std::vector<double> gain(contributed_.size()), loss(contributed_.size());
+  std::vector<double> gain(static_cast<std::size_t>(mesh_.n_owned_nodes)), loss(gain.size());
   conduct(temperature);
   for (std::size_t i = 0; i < gain.size(); ++i) (local_[i] > 0 ? gain : loss)[i] += std::abs(local_[i]);
   for (SurfaceHeat& surface : surfaces_) {

@@ -4,8 +4,11 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "mesh/block_geometry.hpp"
+#include "mesh/block_part.hpp"
 
 namespace solidus::heat {
 
@@ -24,32 +27,46 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
   std::sort(breaks_.begin(), breaks_.end());
   breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
 
-  std::vector<std::vector<Share>> of_node(static_cast<std::size_t>(mesh.n_owned_nodes));
-  for (const mesh::ElementBlock& block : mesh.blocks) {
-    const PackVector<Lane> weights = mesh::nodal_weights(mesh, block, kind);
-    const Index n = mesh::node_count(block.shape);
-    for (Index e = 0; e < block.size(); ++e)
-      for (Index a = 0; a < n; ++a) {
-        const Index node = block.element(e)[a];
-        if (node >= mesh.n_owned_nodes) continue;
-        const double w = weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
-        auto& list = of_node[static_cast<std::size_t>(node)];
-        const auto found =
-            std::find_if(list.begin(), list.end(), [&](const Share& s) { return s.body == block.body; });
-        if (found != list.end())
-          found->weight += w;
-        else
-          list.push_back({block.body, w});
-      }
-  }
-  std::size_t n_shares = 0;
-  for (const auto& list : of_node) n_shares += list.size();
-  shares_.reserve(n_shares);
-  start_.reserve(of_node.size() + 1);
+  // Nearly all nodes belong to one body: what others have of a node stands apart.
+  constexpr int k_none = -1;
+  std::vector<Share> first(static_cast<std::size_t>(mesh.n_owned_nodes), Share{k_none, 0.0});
+  std::map<Index, std::vector<Share>> further;
+  const auto share = [&](Index node, int body) -> Share& {
+    Share& own = first[static_cast<std::size_t>(node)];
+    if (own.body == k_none) own.body = body;
+    if (own.body == body) return own;
+    std::vector<Share>& list = further[node];
+    const auto found = std::ranges::find(list, body, &Share::body);
+    return found != list.end() ? *found : list.emplace_back(Share{body, 0.0});
+  };
+  for (const mesh::ElementBlock& block : mesh.blocks)
+    mesh::for_parts(block, [&](const mesh::ElementBlock& part, Index) {
+      const PackVector<Lane> weights = mesh::nodal_weights(mesh, part, kind);
+      const Index n = mesh::node_count(part.shape);
+      for (Index e = 0; e < part.size(); ++e)
+        for (Index a = 0; a < n; ++a)
+          if (const Index node = part.element(e)[a]; node < mesh.n_owned_nodes)
+            share(node, block.body).weight +=
+                weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
+    });
+  start_.reserve(first.size() + 1);
   start_.assign(1, 0);
-  for (const auto& list : of_node) {
-    assert(!list.empty() && "every owned node belongs to an element");
-    shares_.insert(shares_.end(), list.begin(), list.end());
+  if (further.empty()) {
+    for (std::size_t i = 0; i < first.size(); ++i) start_.push_back(i + 1);
+    shares_ = std::move(first);
+    return;
+  }
+  std::size_t n_shares = first.size();
+  for (const auto& [node, list] : further) n_shares += list.size();
+  shares_.reserve(n_shares);
+  auto more = further.begin();
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    assert(first[i].body != k_none && "every owned node belongs to an element");
+    shares_.push_back(first[i]);
+    if (more != further.end() && static_cast<std::size_t>(more->first) == i) {
+      shares_.insert(shares_.end(), more->second.begin(), more->second.end());
+      ++more;
+    }
     start_.push_back(shares_.size());
   }
 }

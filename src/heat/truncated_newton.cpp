@@ -38,13 +38,13 @@ TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, con
 }
 
 void TruncatedNewton::allocate() {
-  for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_, &from_heat_}) v->resize(r_.size());
+  for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_}) v->resize(r_.size());
   step_.resize(mesh_.x.size());
   slope_.assign(mesh_.x.size(), 1.0);
 }
 
 void TruncatedNewton::release() {
-  for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_, &from_heat_, &step_, &slope_})
+  for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_, &step_, &slope_})
     std::vector<double>().swap(*v);
   solver_.release();
 }
@@ -171,9 +171,11 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
     by_chords = may_use_chords && in_depth;
     linear::LinearReport linear = by_chords ? correct_by_chords(to) : correct(to);
     report.linear_iterations += linear.iterations;
+    solver_.release();  // sweeps have copies of their own
     if (linear.converged && !search(by_chords || !may_use_chords)) {
       by_chords = true;
       linear = correct_by_chords(to);
+      solver_.release();
       report.linear_iterations += linear.iterations;
       if (linear.converged) search(true);
     }

@@ -100,6 +100,7 @@ class TruncatedNewton {
   linear::LinearReport correct_by_chords(double forcing);
   bool revise_limits(const TemperatureRange& range);
   bool search(bool short_too);
+  bool find_length(bool short_too);
   double minimise(double start, double longest, double (TruncatedNewton::*slope_at)(double));
   double linear_slope(double alpha);
   double true_slope(double alpha);
@@ -127,7 +128,7 @@ class TruncatedNewton {
   std::vector<double> product_;      ///< A times it; before that the right-hand side, [owned node]
   std::vector<double> potential_;    ///< v of the heats, but for the trials of a search, [owned node]
   std::vector<double> curve_slope_;  ///< dv/dH there, zero on a plateau
-  std::vector<double> from_heat_;    ///< H where the search begins
+  std::vector<double> from_heat_;    ///< H where a search begins, within it alone
   double norm_ = 0, moved_ = 0, round_off_ = 0, conductance_ = 0;
   bool looked_up_ = false;  ///< whether v and dv/dH are those of the heats
   bool linear_ = true;      ///< whether sweeps with A have brought F down, in this solve

@@ -68,7 +68,13 @@ double TruncatedNewton::slope_along_step() const {
 /// @return whether the step was taken
 bool TruncatedNewton::search(bool short_too) {
   const profile::Part part("line search");
-  std::copy_n(heat_.begin(), r_.size(), from_heat_.begin());
+  from_heat_.assign(heat_.begin(), heat_.begin() + static_cast<std::ptrdiff_t>(r_.size()));
+  const bool taken = find_length(short_too);
+  std::vector<double>().swap(from_heat_);
+  return taken;
+}
+
+bool TruncatedNewton::find_length(bool short_too) {
   const double start = slope_along_step();
   double alpha = minimise(start, 1.0, &TruncatedNewton::linear_slope);
   if (alpha < k_short && !short_too) {

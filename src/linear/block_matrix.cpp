@@ -19,9 +19,25 @@ namespace {
 
 /// Numbers behind the last block, which products of half a matrix read.
 constexpr std::size_t k_overhang = 8;
+/// Columns of a row, in any order, through which a further one is looked for.
+constexpr std::size_t k_searched = 64;
 
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
+}
+
+/// Adds a column once to a row of few. A long row, of contact say, may have it several times over between two
+/// growths: then it is freed of repetitions first, so that its memory follows from its columns, not from the
+/// number of cliques.
+void add_column(Index column, std::vector<Index>& row) {
+  if (row.size() <= k_searched) {
+    if (std::find(row.begin(), row.end(), column) != row.end()) return;
+  } else if (row.size() == row.capacity()) {
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    if (2 * row.size() > row.capacity()) row.reserve(2 * row.capacity());
+  }
+  row.push_back(column);
 }
 
 }  // namespace
@@ -35,13 +51,9 @@ void NodeGraph::add_cliques(std::span<const Index> nodes, int n) {
     const auto clique = nodes.subspan(start, count);
     for (Index row : clique) {
       if (row >= mesh_.n_owned_nodes) continue;
-      auto& columns = rows_[at(row)];
-      if (left_out_.empty()) {
-        columns.insert(columns.end(), clique.begin(), clique.end());
-      } else if (!left_out_[at(row)]) {
-        std::copy_if(clique.begin(), clique.end(), std::back_inserter(columns),
-                     [&](Index column) { return !left_out_[at(column)]; });
-      }
+      if (!left_out_.empty() && left_out_[at(row)]) continue;
+      for (const Index column : clique)
+        if (left_out_.empty() || !left_out_[at(column)]) add_column(column, rows_[at(row)]);
     }
   }
 }
@@ -50,7 +62,7 @@ void NodeGraph::compress(std::vector<std::int64_t>& row_start, std::vector<Index
   std::size_t n_columns = 0;
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
     auto& list = rows_[at(row)];
-    list.push_back(row);  // the diagonal always exists
+    add_column(row, list);  // the diagonal always exists
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
     if (upper) list.erase(list.begin(), std::lower_bound(list.begin(), list.end(), row));

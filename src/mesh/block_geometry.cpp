@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "mesh/block_part.hpp"
+
 namespace solidus::mesh {
 
 namespace {
@@ -194,15 +196,10 @@ Rule weighting_rule(Shape shape, bool squared) {
 template <class Function>
 void integrate_basis(const Mesh& mesh, const ElementBlock& block, AnalysisKind kind, const Rule& rule,
                      Function f, PackVector<Lane>& integral, PackVector<Lane>& volume) {
-  constexpr Index k_chunk = 64 * k_lanes;
   const auto nn = static_cast<std::size_t>(node_count(block.shape));
   integral.assign(static_cast<std::size_t>(batches(block.size())) * nn, Lane(0.0));
   volume.assign(static_cast<std::size_t>(batches(block.size())), Lane(0.0));
-  for (Index first = 0; first < block.size(); first += k_chunk) {
-    const Index n = std::min(k_chunk, block.size() - first);
-    ElementBlock part;
-    part.shape = block.shape;
-    part.nodes.assign(block.element(first), block.element(first) + n * node_count(block.shape));
+  for_parts(block, [&](const ElementBlock& part, Index first) {
     const BlockGeometry geometry(mesh, part, kind, rule);
     const auto from = static_cast<std::size_t>(first / k_lanes);
     for (std::size_t b = 0; b < static_cast<std::size_t>(geometry.n_batches); ++b)
@@ -212,7 +209,7 @@ void integrate_basis(const Mesh& mesh, const ElementBlock& block, AnalysisKind k
         for (std::size_t a = 0; a < nn; ++a)
           integral[(from + b) * nn + a] += w * Lane(f(geometry.values[p * nn + a]));
       }
-  }
+  });
 }
 
 }  // namespace

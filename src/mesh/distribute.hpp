@@ -19,5 +19,8 @@ enum class BodyWork {
 /// @param work  of each body; empty: all of them everything
 Mesh distribute(const RawMesh& raw, const std::vector<std::string>& bodies,
                 const std::vector<std::string>& replicated, const std::vector<BodyWork>& work);
+/// The same, and the whole mesh is given up before this process unpacks its part: less memory at a time.
+Mesh distribute(RawMesh&& raw, const std::vector<std::string>& bodies,
+                const std::vector<std::string>& replicated, const std::vector<BodyWork>& work);
 
 }  // namespace solidus::mesh

@@ -21,6 +21,12 @@ class Packer {
     put_size(v.size());
     append(v.data(), v.size() * sizeof(T));
   }
+  /// A vector, value by value: put_size() of their number comes before the first one.
+  template <class T>
+  void put_values(const T* values, std::size_t n) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    append(values, n * sizeof(T));
+  }
   void put(const std::string& s) {
     put_size(s.size());
     append(s.data(), s.size());

@@ -21,32 +21,49 @@ std::size_t at(std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
-// Elements around every node, as their lists of nodes.
-struct ElementsOfNodes {
-  struct Element {
-    const Index* nodes;
-    int n;
-  };
-  std::vector<std::int64_t> start;
-  std::vector<Element> element;
-};
-
-ElementsOfNodes elements_of_nodes(Index n_nodes, const std::vector<const RawBlock*>& blocks) {
-  ElementsOfNodes around;
-  around.start.assign(at(n_nodes) + 1, 0);
-  for (const RawBlock* b : blocks)
-    for (const Index i : b->nodes) ++around.start[at(i) + 1];
-  std::partial_sum(around.start.begin(), around.start.end(), around.start.begin());
-  around.element.resize(at(around.start.back()));
-  std::vector<std::int64_t> fill(around.start.begin(), around.start.end() - 1);
-  for (const RawBlock* b : blocks) {
-    const int nn = node_count(b->shape);
-    for (std::size_t e = 0; e < b->nodes.size(); e += at(nn))
-      for (std::size_t a = 0; a < at(nn); ++a)
-        around.element[at(fill[at(b->nodes[e + a])]++)] = {b->nodes.data() + e, nn};
+// Elements around every node. A tetrahedral mesh has 23 of these numbers a node: four bytes each, with one
+// count over all blocks.
+class ElementsOfNodes {
+ public:
+  ElementsOfNodes(Index n_nodes, const std::vector<const RawBlock*>& blocks) : blocks_(blocks) {
+    start_.assign(at(n_nodes) + 1, 0);
+    first_.push_back(0);
+    for (const RawBlock* b : blocks) {
+      first_.push_back(first_.back() + static_cast<Number>(b->nodes.size()) / node_count(b->shape));
+      for (const Index i : b->nodes) ++start_[at(i) + 1];
+    }
+    if (first_.back() > std::numeric_limits<std::uint32_t>::max())
+      throw InputError({}, "the mesh has more than 4e9 elements");
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    number_.resize(at(start_.back()));
+    std::vector<std::int64_t> fill(start_.begin(), start_.end() - 1);
+    std::uint32_t number = 0;
+    for (const RawBlock* b : blocks) {
+      const auto nn = at(node_count(b->shape));
+      for (std::size_t e = 0; e < b->nodes.size(); e += nn, ++number)
+        for (std::size_t a = 0; a < nn; ++a) number_[at(fill[at(b->nodes[e + a])]++)] = number;
+    }
   }
-  return around;
-}
+
+  /// Calls visit(nodes of the element) for each element around a node.
+  template <class Visit>
+  void visit_around(Index node, Visit&& visit) const {
+    std::size_t block = 0;
+    for (std::int64_t k = start_[at(node)]; k < start_[at(node) + 1]; ++k) {
+      const Number number = number_[at(k)];
+      while (number >= first_[block + 1]) ++block;  // they rise
+      const auto nn = at(node_count(blocks_[block]->shape));
+      visit(std::span(blocks_[block]->nodes).subspan(at(number - first_[block]) * nn, nn));
+    }
+  }
+
+ private:
+  using Number = std::int64_t;
+  const std::vector<const RawBlock*>& blocks_;
+  std::vector<Number> first_;  ///< number of the first element of each block; one more at the end
+  std::vector<std::int64_t> start_;
+  std::vector<std::uint32_t> number_;
+};
 
 // Work of a time step [µs]: per neighbour in a row of a matrix (three or four Newton iterations, each solved
 // by conjugate gradients), and per entry of an element's matrix and quadrature point.
@@ -64,22 +81,24 @@ double sum(const std::vector<double>& a) {
 }  // namespace
 
 NodeNeighbours neighbours(Index n_nodes, const std::vector<const RawBlock*>& blocks) {
-  const ElementsOfNodes around = elements_of_nodes(n_nodes, blocks);
+  const ElementsOfNodes around(n_nodes, blocks);
   NodeNeighbours graph;
   graph.start.reserve(at(n_nodes) + 1);
   graph.start.push_back(0);
   std::vector<Index> row, seen_from(at(n_nodes), -1);
-  for (Index i = 0; i < n_nodes; ++i) {
+  const auto find_row = [&](Index i) {
     row.clear();
     seen_from[at(i)] = i;
-    for (std::int64_t k = around.start[at(i)]; k < around.start[at(i) + 1]; ++k) {
-      const auto [nodes, nn] = around.element[at(k)];
-      for (int a = 0; a < nn; ++a) {
-        if (seen_from[at(nodes[a])] == i) continue;
-        seen_from[at(nodes[a])] = i;
-        row.push_back(nodes[a]);
+    around.visit_around(i, [&](std::span<const Index> nodes) {
+      for (const Index node : nodes) {
+        if (seen_from[at(node)] == i) continue;
+        seen_from[at(node)] = i;
+        row.push_back(node);
       }
-    }
+    });
+  };
+  for (Index i = 0; i < n_nodes; ++i) {
+    find_row(i);
     std::sort(row.begin(), row.end());
     graph.node.insert(graph.node.end(), row.begin(), row.end());
     graph.start.push_back(static_cast<std::int64_t>(graph.node.size()));

@@ -121,19 +121,12 @@ std::size_t Subdomains::element_bytes(int process) const {
 
 std::vector<char> Subdomains::pack(int process) {
   const std::vector<Index> nodes = nodes_of(process);
-  std::vector<Point> x;
-  std::vector<GlobalIndex> number, input;
-  x.reserve(nodes.size());
-  number.reserve(nodes.size());
-  input.reserve(nodes.size());
   std::vector<std::vector<Index>> sets(whole_.node_sets.size());
-  for (const Index i : nodes) {
-    const auto here = static_cast<Index>(x.size());
-    local_[at(i)] = here;
-    x.push_back(raw_.x[at(i)]);
-    number.push_back(whole_.number[at(i)]);
-    input.push_back(raw_.input_node[at(i)]);
-    for (Index k = first_set_[at(i)]; k < first_set_[at(i) + 1]; ++k) sets[at(sets_[at(k)])].push_back(here);
+  for (std::size_t here = 0; here < nodes.size(); ++here) {
+    const std::size_t i = at(nodes[here]);
+    local_[i] = static_cast<Index>(here);
+    for (Index k = first_set_[i]; k < first_set_[i + 1]; ++k)
+      sets[at(sets_[at(k)])].push_back(static_cast<Index>(here));
   }
 
   Packer p;
@@ -141,26 +134,32 @@ std::vector<char> Subdomains::pack(int process) {
             sets_.size() * sizeof(Index) + k_for_names);
   const GlobalIndex first = whole_.first[at(process)], n_owned = whole_.first[at(process) + 1] - first;
   p.put(std::vector<GlobalIndex>{raw_.dimension, n_owned, whole_.first.back(), first});
-  p.put(std::exchange(x, {}));
-  p.put(std::exchange(number, {}));
-  p.put(std::exchange(input, {}));
+  const auto put_of_nodes = [&](const auto& values) {
+    p.put_size(nodes.size());
+    for (const Index i : nodes) p.put_values(&values[at(i)], 1);
+  };
+  put_of_nodes(raw_.x);
+  put_of_nodes(whole_.number);
+  put_of_nodes(raw_.input_node);
   p.put_size(bodies_.size());
   for (const std::string& name : bodies_) p.put(name);
   const auto put_block = [&](const RawBlock& block, int body, Elements& elements) {
-    const int nn = node_count(block.shape);
+    const std::size_t nn = at(node_count(block.shape));
     const std::size_t n_elements = elements.counted.size() + elements.others.size();
-    std::vector<Index> local;
-    std::vector<GlobalIndex> input_element;
-    local.reserve(n_elements * at(nn));
-    input_element.reserve(n_elements);
+    p.put(std::vector<BlockHeader>{{block.shape, body, static_cast<Index>(elements.counted.size())}});
+    p.put_size(n_elements * nn);
+    std::vector<Index> local(nn);
     for (const auto* list : {&elements.counted, &elements.others})
       for (const Index e : *list) {
-        for (int a = 0; a < nn; ++a) local.push_back(local_[at(block.nodes[at(e) * at(nn) + at(a)])]);
-        input_element.push_back(block.input_element.empty() ? 0 : block.input_element[at(e)]);
+        for (std::size_t a = 0; a < nn; ++a) local[a] = local_[at(block.nodes[at(e) * nn + a])];
+        p.put_values(local.data(), nn);
       }
-    p.put(std::vector<BlockHeader>{{block.shape, body, static_cast<Index>(elements.counted.size())}});
-    p.put(local);
-    p.put(input_element);
+    p.put_size(n_elements);
+    for (const auto* list : {&elements.counted, &elements.others})
+      for (const Index e : *list) {
+        const GlobalIndex number = block.input_element.empty() ? 0 : block.input_element[at(e)];
+        p.put_values(&number, 1);
+      }
     elements = {};
   };
   p.put_size(volumes_.size());

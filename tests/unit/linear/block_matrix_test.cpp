@@ -114,6 +114,24 @@ TEST(NodeGraph, RowsHoldEachNeighbourOnceAndTheDiagonal) {
   }
 }
 
+TEST(NodeGraph, LongRowsHoldEachNeighbourOnceHoweverOftenItComes) {
+  const Grid grid(20, 10);
+  NodeGraph graph(grid.mesh);
+  std::vector<Index> all(grid.mesh.x.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Index>((7 * i) % all.size());
+  for (int pass = 0; pass < 20; ++pass) {
+    graph.add_cliques(all, static_cast<int>(all.size()));
+    std::reverse(all.begin(), all.end());
+  }
+  std::vector<std::int64_t> start;
+  std::vector<Index> columns;
+  graph.compress(start, columns);
+  std::sort(all.begin(), all.end());
+  ASSERT_EQ(columns.size(), all.size() * static_cast<std::size_t>(grid.mesh.n_owned_nodes));
+  for (std::size_t row = 0; row + 1 < start.size(); ++row)
+    EXPECT_TRUE(std::equal(all.begin(), all.end(), columns.begin() + start[row])) << "row " << row;
+}
+
 TEST(NodeGraph, NodesWithoutElementsKeepTheirDiagonal) {
   const Grid grid(2, 2);
   std::vector<std::int64_t> start;
