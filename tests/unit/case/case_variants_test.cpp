@@ -76,8 +76,10 @@ material = "iron.toml"
 [variant.slow_iron]
 include = [":slower", ":iron"]
 title = "Slow iron"
+[variant.coarse]
+include = ":slow_iron"
+mesh.block.divisions = [2, 1]
 [variant]
-coarse = { include = ":slow_iron", mesh = { block = { size = ["10 mm", "5 mm"], divisions = [2, 1] } } }
 plain = {}
 )";
 
@@ -100,6 +102,7 @@ TEST_F(CaseVariants, AFileServesAsWellAsItsFolderAndAVariantMayIncludeAnother) {
   EXPECT_EQ(c.spec.title, "Slow iron");
   EXPECT_DOUBLE_EQ(*c.spec.time.end, 50) << "--set lies over the variant";
   EXPECT_DOUBLE_EQ(*c.spec.time.step, 2);
+  EXPECT_THAT(c.toml(), HasSubstr("divisions = [2, 1]"));
 }
 
 TEST_F(CaseVariants, AVariantThatChangesNothingIsTheCase) {
