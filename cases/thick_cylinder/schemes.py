@@ -48,7 +48,7 @@ def run(options, scheme, factor, step):
     folder = options.folder / "stability" / f"x{factor}_{step:g}_{scheme.replace(', ', '_').replace(' ', '_')}"
     settings = [f'time.step="{step:g} s"', f'time.min_step="{step:g} s"', 'output.every="1000 s"',
                 f'body.wall.material="{HERE}/materials/te_x{factor}.toml"'] + more
-    command = [options.program, "run", HERE / f"te_x1_{variant}.toml", "-o", folder]
+    command = [options.program, "run", f"{HERE}:te_x1_{variant}", "-o", folder]
     for setting in settings:
         command += ["--set", setting]
     done = subprocess.run(command, capture_output=True, text=True, env=os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})

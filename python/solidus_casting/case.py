@@ -45,7 +45,7 @@ class Case(Section):
     def __init__(self, document: Mapping[str, Any] | None = None, *, folder: str | Path | None = None) -> None:
         own: Document = {}
         super().__init__(self, schemas.case_schema(), "", lambda _: own)
-        self._set(file=None, folder=Path(folder or Path.cwd()).absolute(), loaded=None, cache=None)
+        self._set(file=None, variant="", folder=Path(folder or Path.cwd()).absolute(), loaded=None, cache=None)
         for key, value in (document or {}).items():
             self[key] = value
 
@@ -55,10 +55,22 @@ class Case(Section):
 
     @classmethod
     def load(cls, path: str | Path) -> "Case":
-        """Reads a case file, or the ``case.toml`` of a folder. Raises :class:`InputError`."""
-        file = Path(path).absolute()
+        """Reads a case file, the ``case.toml`` of a folder, or a variant of either, ``"CASE:VARIANT"``.
+
+        A variant is read as a whole case. Raises :class:`InputError`.
+        """
+        file, variant = Path(path).absolute(), ""
+        if not file.exists() and ":" in file.name:
+            before, _, variant = str(path).rpartition(":")
+            file = Path(before or ".").absolute()
         if file.is_dir():
             file = file / "case.toml"
+        if variant:
+            document = tomllib.loads(verbs.call("resolve", f"{file}:{variant}"))
+            case = cls(folder=file.parent)
+            case.given().update(document)
+            case._set(file=file, variant=variant, loaded=copy.deepcopy(document))
+            return case
         try:
             document = tomllib.loads(file.read_text(encoding="utf-8"))
         except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
@@ -83,7 +95,7 @@ class Case(Section):
         """A case of its own with some keys changed: ``case.copy({"time.step": "1 s"})``."""
         other = Case(folder=self._folder)
         other.given().update(copy.deepcopy(self.given()))
-        other._set(file=self._file, loaded=copy.deepcopy(self._loaded))
+        other._set(file=self._file, variant=self._variant, loaded=copy.deepcopy(self._loaded))
         for path, value in (changes or {}).items():
             other[path] = value
         return other
@@ -117,7 +129,7 @@ class Case(Section):
         file.write_text(document_text(document), encoding="utf-8")
         self.given().clear()
         self.given().update(document)
-        self._set(file=file, folder=file.parent, loaded=copy.deepcopy(document))
+        self._set(file=file, variant="", folder=file.parent, loaded=copy.deepcopy(document))
         return file
 
     def explain(self, key: str = "") -> str:
@@ -157,7 +169,7 @@ class Case(Section):
         """
         changes = self._assignments()
         if changes is not None:
-            words = [str(self._file)]
+            words = [f"{self._file}:{self._variant}" if self._variant else str(self._file)]
             for change in changes:
                 words += ["--set", change]
             yield words

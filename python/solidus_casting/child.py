@@ -57,7 +57,7 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
     Parameters
     ----------
     case:
-        A :class:`Case`, a case file or a folder with a ``case.toml``.
+        A :class:`Case`, a case file or a folder with a ``case.toml``, or a variant of either, ``"CASE:VARIANT"``.
     output:
         Folder of the results; by default that of the program, ``results/CASE/VARIANT``, where the case is a file. A case
         that was made in Python and is in no file needs one.

@@ -43,12 +43,34 @@ std::string taplo_rules(const fs::path& folder) {
   };
   rule("Material files: in a folder named materials", {"materials/*.toml"}, {}, "material");
   rule("Point files: in a folder named point, or point.toml", {"point/*.toml", "point.toml"}, {}, "point");
+  rule("Variants of a case: variants.toml", {"variants.toml"}, {}, "variants");
   rule("Cases: everything else", {"*.toml"},
-       {"materials/*.toml", "point/*.toml", "point.toml", "plots.toml", "study.toml", ".taplo.toml",
-        "taplo.toml", "pyproject.toml"},
+       {"materials/*.toml", "point/*.toml", "point.toml", "variants.toml", "plots.toml", "study.toml",
+        ".taplo.toml", "taplo.toml", "pyproject.toml"},
        "case");
   return text;
 }
+
+/// A file of variants holds sections of a case under names of their own.
+constexpr const char* k_variants_schema = R"({
+  "$schema": "http://json-schema.org/draft-07/schema#",
+  "title": "Variants of a Solidus case",
+  "type": "object",
+  "additionalProperties": false,
+  "properties": {
+    "part": {
+      "description": "What several variants share: [part.NAME], included as \":NAME\"",
+      "type": "object",
+      "additionalProperties": { "$ref": "case.schema.json" }
+    },
+    "variant": {
+      "description": "[variant.NAME], laid over the case.toml beside this file and run as CASE:NAME",
+      "type": "object",
+      "additionalProperties": { "$ref": "case.schema.json" }
+    }
+  }
+}
+)";
 
 bool ours(const fs::path& file) {
   std::ifstream in(file);
@@ -71,6 +93,7 @@ ExitCode init_editor(const std::string& wanted) {
     fs::create_directories(folder / ".solidus");
     const std::vector<std::pair<std::string, std::string>> files = {
         {".solidus/case.schema.json", json_schema(model::case_keys().info(), "Solidus case")},
+        {".solidus/variants.schema.json", k_variants_schema},
         {".solidus/material.schema.json",
          json_schema(material::material_section().info(), "Solidus material")},
         {".solidus/point.schema.json", json_schema(point::point_section().info(), "Solidus point")},

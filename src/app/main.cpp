@@ -70,7 +70,9 @@ ExitCode guarded(const std::function<ExitCode()>& verb) {
 }
 
 void add_case_arguments(CLI::App& verb, CaseArguments& arguments) {
-  verb.add_option("CASE", arguments.path, "A case file, or a folder with a case.toml")->required();
+  verb.add_option("CASE", arguments.path,
+                  "A case file, or a folder with a case.toml; CASE:VARIANT for one of its variants")
+      ->required();
   verb.add_option("--set", arguments.set, "Change a key, for example --set time.step=\"0.5 s\"")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -167,6 +169,9 @@ ExitCode parse_and_run(int argc, char** argv) {
   CLI::App* resolve_verb =
       program.add_subcommand("resolve", "Print a case as one file: includes, --set and defaults in place");
   add_case_arguments(*resolve_verb, arguments);
+  CLI::App* variants_verb =
+      program.add_subcommand("variants", "List the variants of a case, which run as CASE:VARIANT");
+  variants_verb->add_option("CASE", arguments.path, "A case file, or a folder with a case.toml")->required();
   for (CLI::App* verb : {run_verb, check_verb, resolve_verb}) {
     CLI::Option* heat_only = verb->add_flag("--heat-only", arguments.heat_only,
                                             "Compute heat alone; what does not apply is left out and named");
@@ -320,6 +325,7 @@ ExitCode parse_and_run(int argc, char** argv) {
                                     : FileKind::case_file;
   if (*run_verb) return run(arguments);
   if (*check_verb) return check(arguments);
+  if (*variants_verb) return list_variants(arguments.path);
   if (*resolve_verb) return resolve(arguments);
   if (*point_verb) return check_law ? check_point_laws(arguments) : run_point(arguments);
   if (*explain_verb) return explain(file, key, manual);

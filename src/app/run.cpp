@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 fs::path results_folder(const CaseArguments& arguments, const model::Case& c) {
   if (!arguments.output.empty()) return arguments.output;
   if (c.spec.output.folder) return *c.spec.output.folder;
-  return results_root() / results::default_run_folder(c.file);
+  return results_root() / results::default_run_folder(c.file, c.variant);
 }
 
 /// A folder as one types it: below the present folder without the way to it.

@@ -14,7 +14,7 @@ namespace solidus::app {
 enum ExitCode { k_done = 0, k_bad_input = 1, k_cannot_continue = 2, k_our_bug = 3, k_interrupted = 130 };
 
 struct CaseArguments {
-  std::string path;              ///< a case file, or a folder with a case.toml
+  std::string path;  ///< a case file, or a folder with a case.toml; with :VARIANT one of its variants
   std::vector<std::string> set;  ///< "path=value"
   std::string output;            ///< results folder; empty: by the case
   bool progress_bar = true;      ///< on a terminal
@@ -34,6 +34,8 @@ ExitCode run(const CaseArguments& arguments);
 ExitCode check(const CaseArguments& arguments);
 /// Prints a case as one file: includes, overrides and defaults in place, paths absolute. Reads no mesh.
 ExitCode resolve(const CaseArguments& arguments);
+/// Lists the variants of a case (build/case_layers.hpp).
+ExitCode list_variants(const std::string& path);
 /// A material point through a history of strain, stress and temperature.
 /// @param arguments path: a point file, or a folder with a point.toml
 ExitCode run_point(const CaseArguments& arguments);

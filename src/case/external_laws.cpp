@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/scheme_names.hpp"
 #include "material/external_law.hpp"
 #include "numbers/types.hpp"
 
@@ -14,6 +15,14 @@ namespace {
 
 /// Of the moduli, from which on the energies of the program are not those of the law.
 constexpr double k_moduli = 0.01;
+
+/// What to write instead: schemes that hold the temperature by themselves, and those that can be told to.
+std::string isothermal_schemes() {
+  return "scheme = " + coupling::names_of_schemes([](const coupling::SchemeTraits& t) {
+           return t.mapping == mechanics::Mapping::isothermal;
+         }) +
+         ", or another one whose mechanical phase is told to hold the temperature (solidus explain coupling)";
+}
 
 void check_scheme(const CaseSpec& spec, const material::Material& material) {
   const std::string of = "the law from outside of '" + material.name + "'";
@@ -27,15 +36,13 @@ void check_scheme(const CaseSpec& spec, const material::Material& material) {
                 "scheme = \"{}\" holds the entropy of every point, which {} does not tell as a function "
                 "of temperature",
                 spec.coupling.scheme->name(), of),
-            "scheme = \"isothermal\", or \"block_iterative\" with passes = \"isothermal\" in "
-            "[coupling.iteration]");
+            isothermal_schemes());
       case mechanics::Mapping::simultaneous:
         throw InputError(
             spec.coupling.where,
             fmt::format("scheme = \"{}\" needs the change of stress with temperature, which {} does not give",
                         spec.coupling.scheme->name(), of),
-            "scheme = \"isothermal\", or \"block_iterative\" with passes = \"isothermal\" in "
-            "[coupling.iteration]");
+            isothermal_schemes());
     }
   if (spec.mechanics.integration != mechanics::TimeIntegration::backward_euler)
     throw InputError(spec.coupling.where,

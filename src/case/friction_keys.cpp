@@ -67,8 +67,9 @@ Section<FrictionSpec> friction_keys() {
           "The thermal phase of a split finds slip and temperature of the interface anew, with the "
           "coefficient "
           "at its own temperature (5.40-5.51), in place of keeping the slip of the mechanical phase, with "
-          "which the first law closes. Schemes simultaneous and block_iterative solve these equations in any "
-          "case; not with double_pass.");
+          "which the first law closes. Schemes whose fields agree at the end of a step solve these equations "
+          "in "
+          "any case; one that cannot take them says so.");
   s.place(&F::where);
   return s;
 }
@@ -101,7 +102,8 @@ Section<InterfaceSpec> interface_keys() {
       .initially("0 J/m2/K")
       .doc(
           "C_co (3.41b). Zero: it stores no heat, its temperature is where the heat flows balance. With "
-          "hardening that depends on temperature, the isentropic split keeps its estimate only above zero.");
+          "hardening that depends on temperature, a split that holds entropies keeps its estimate of "
+          "stability only above zero.");
   return s;
 }
 

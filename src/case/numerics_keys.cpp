@@ -1,4 +1,5 @@
 #include "case/case_keys.hpp"
+#include "coupling/scheme_kind.hpp"
 #include "input/kinds.hpp"
 
 namespace solidus::model {
@@ -41,7 +42,7 @@ Section<heat::HeatOptions> heat_keys() {
          "first order"},
         {"backward_euler", ThermalStepping::backward_euler, "one stage, first order"}})
       .initially("automatic")
-      .doc("Integration in time, of heat alone and in the isentropic and isothermal splits.");
+      .doc("Integration in time, of heat alone and in schemes whose thermal phase is solved by itself.");
   s.key("open_degree", &HeatOptions::open_degree)
       .initially(0)
       .range(0, 10)
@@ -94,14 +95,14 @@ Section<MechanicsSpec> mechanics_keys() {
       .initially(true)
       .doc(
           "An iterative solver goes only as far as the Newton iteration gains by (Eisenstat and Walker "
-          "1996); false: always to linear_tolerance. Newton's criterion is the same. Also of the "
-          "simultaneous scheme.");
+          "1996); false: always to linear_tolerance. Newton's criterion is the same. Also of a "
+          "scheme that solves both fields at once.");
   s.key("linear_tolerance", &MechanicsSpec::linear_tolerance)
       .initially(1e-8)
       .range(1e-15, 0.1)
       .doc(
           "Residual of a linear system over its right-hand side below which no iterative solver goes. Also "
-          "of the simultaneous scheme.");
+          "of a scheme that solves both fields at once.");
   s.key("b_bar", &MechanicsSpec::b_bar)
       .initially(true)
       .doc(
@@ -140,7 +141,7 @@ Section<CouplingSpec> coupling_keys() {
   Section<CouplingSpec> s("coupling", "How the two phases take turns.");
   s.place(&CouplingSpec::where);
   s.kinds("scheme", &CouplingSpec::scheme, coupling::schemes())
-      .initially("isentropic")
+      .initially(std::string(coupling::default_scheme()->name()))
       .doc("The coupling scheme. With heat or mechanics alone there is nothing to couple.");
   using Heating = CouplingSpec::StructuralHeatForm;
   s.choice(
@@ -151,10 +152,11 @@ Section<CouplingSpec> coupling_keys() {
          "temperature x difference of the structural entropy, less dissipation (4.43a; isothermal: 4.48a "
          "with 4.50 collapsed)"},
         {"literal", Heating::literal,
-         "isothermal split only: the difference to the entropy after the mechanical phase, and structural "
+         "after an isothermal mechanical phase only: the difference to the entropy after the mechanical "
+         "phase, and structural "
          "heating H^ep (4.48a, 4.50)"},
         {"temperature", Heating::temperature,
-         "isothermal split only: heat capacity C and structural heating H^ep (4.53a)"},
+         "after an isothermal mechanical phase only: heat capacity C and structural heating H^ep (4.53a)"},
         {"none", Heating::none, "deformation neither takes up nor releases heat"}})
       .initially("energy")
       .doc("How deformation and viscous dissipation enter the heat balance.");

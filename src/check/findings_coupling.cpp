@@ -5,6 +5,7 @@
 
 #include "check/coupling_estimate.hpp"
 #include "check/findings.hpp"
+#include "coupling/scheme_names.hpp"
 
 namespace solidus::model {
 
@@ -26,8 +27,12 @@ void find_in_coupling(const CaseSpec& spec, const Assembly& a, const CaseMeasure
                    "evenly over {:.0f} steps",
                    strongest.decisive(), strongest.body, spec.coupling.scheme->name(), steps, 100 * share,
                    m.effort.steps),
-       "coupling.scheme = \"simultaneous\" does not lag; shorter steps lag less. In metals it is below 0.1 "
-       "times: are expansion and Poisson's ratio right?"});
+       fmt::format(
+           "coupling.scheme = {} does not lag; shorter steps lag less. In metals it is below 0.1 times: "
+           "are expansion and Poisson's ratio right?",
+           coupling::names_of_schemes([](const coupling::SchemeTraits& t) {
+             return t.mapping == mechanics::Mapping::simultaneous;
+           }))});
 }
 
 }  // namespace solidus::model

@@ -11,6 +11,7 @@
 #include "check/findings.hpp"
 #include "contact/laws/contact_law.hpp"
 #include "contact/laws/gap_law.hpp"
+#include "coupling/scheme_names.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::model {
@@ -169,7 +170,7 @@ void conductances(const CaseSpec& spec, Findings& findings) {
 }
 
 /// 5.24 without a heat capacity would forbid every slip that changes the entropy: the interface keeps its
-/// temperature instead, and the estimate of the isentropic split with it (5.13a).
+/// temperature instead, and the estimate of a split that holds entropies with it (5.13a).
 void isentropic_friction(const CaseSpec& spec, Findings& findings) {
   if (!spec.isentropic() || spec.coupling.scheme->traits().iterates) return;
   for (const ContactSpec& contact : spec.contacts) {
@@ -182,12 +183,15 @@ void isentropic_friction(const CaseSpec& spec, Findings& findings) {
           {false, contact.friction->where,
            fmt::format(
                "the hardening of friction in '{}' depends on temperature, but its interface stores no "
-               "heat: the isentropic split holds its temperature instead of its entropy there, and is "
-               "stable only as the isothermal one is",
-               contact.name),
+               "heat: the {} scheme holds its temperature instead of its entropy there, and is stable only "
+               "as "
+               "one that holds temperatures is",
+               contact.name, spec.coupling.scheme->name()),
            "[contact.interface] heat_capacity above zero (1000 J/m2/K is a skin of 0.3 mm of steel), or "
-           "scheme "
-           "= \"simultaneous\" or \"block_iterative\""});
+           "scheme = " +
+               coupling::names_of_schemes([](const coupling::SchemeTraits& t) {
+                 return t.iterates || t.mapping == mechanics::Mapping::simultaneous;
+               })});
   }
 }
 

@@ -1,4 +1,5 @@
 /// The coupling schemes that every program has, in the order of the reference page.
+#include "coupling/scheme_names.hpp"
 #include "coupling/schemes/block_iterative_keys.hpp"
 #include "coupling/schemes/double_pass_keys.hpp"
 #include "coupling/schemes/isentropic_keys.hpp"
@@ -18,6 +19,14 @@ Kinds<SchemeKind>& schemes() {
     return all;
   }();
   return kinds;
+}
+
+std::string names_of_schemes(const std::function<bool(const SchemeTraits&)>& wanted) {
+  std::string names;
+  for (const Kind<SchemeKind>& kind : schemes().all())
+    if (wanted(kind.read(kind.keys->completed(Value{}, ""))->traits()))
+      names += (names.empty() ? "\"" : " or \"") + kind.name + "\"";
+  return names;
 }
 
 std::shared_ptr<const SchemeKind> default_scheme() {

@@ -39,7 +39,7 @@ std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mes
                                                Mapping mapping, bool b_bar) {
   if (mapping != Mapping::isothermal)
     refuse_external(material, "a phase that holds more than its temperature",
-                    "coupling.scheme = \"isothermal\"");
+                    "a mechanical phase that holds the temperature (coupling.scheme)");
   if (mapping == Mapping::simultaneous) {
     switch (kind) {
       case AnalysisKind::plane_strain:

@@ -120,10 +120,10 @@ void remove_old(const fs::path& root, const std::vector<std::string>& tables) {
 
 }  // namespace
 
-fs::path default_run_folder(const fs::path& case_file) {
+fs::path default_run_folder(const fs::path& case_file, const std::string& variant) {
   const fs::path full = fs::absolute(case_file).lexically_normal();
-  const std::string variant = full.stem().string();
-  return fs::path("results") / full.parent_path().filename() / (variant == "case" ? "default" : variant);
+  const std::string name = variant.empty() ? full.stem().string() : variant;
+  return fs::path("results") / full.parent_path().filename() / (name == "case" ? "default" : name);
 }
 
 bool is_finished(const fs::path& folder) {

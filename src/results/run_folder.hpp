@@ -8,9 +8,11 @@
 
 namespace solidus::results {
 
-/// results/NAME/default for NAME/case.toml, results/NAME/VARIANT for NAME/VARIANT.toml, relative to the
-/// present folder.
-std::filesystem::path default_run_folder(const std::filesystem::path& case_file);
+/// results/NAME/default for NAME/case.toml, results/NAME/VARIANT for NAME/VARIANT.toml or a variant of the
+/// name, relative to the present folder.
+/// @param variant  of the case file (build/case_layers.hpp); empty: the file as it is
+std::filesystem::path default_run_folder(const std::filesystem::path& case_file,
+                                         const std::string& variant = {});
 
 /// Whether the run of this folder has come to its end: its summary says so, which is written last.
 /// Collective.

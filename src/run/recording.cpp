@@ -61,7 +61,7 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.progress_options.largest_step = largest_adaptive_step(spec);
   r.progress_options.terminal = options.terminal;
   r.summary.case_file = c.file.string();
-  r.summary.variant = results::default_run_folder(c.file).filename().string();
+  r.summary.variant = results::default_run_folder(c.file, c.variant).filename().string();
   r.summary.title = spec.title;
   r.summary.mesh = counts(spec, a.mesh);
   if (a.mechanics)

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "build/case_layers.hpp"
 #include "results/overview.hpp"
 #include "run/session.hpp"
 #include "system/log.hpp"
@@ -22,13 +23,18 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// The files of cases/ that are whole cases: variants include a case.toml, materials and plots are none.
+/// The files of cases/ that are whole cases, and variants: materials and plots are none.
 std::vector<fs::path> case_files() {
   std::vector<fs::path> files;
   for (const auto& folder : fs::directory_iterator(fs::path(SOLIDUS_SOURCE_DIR) / "cases")) {
     if (!fs::exists(folder.path() / "case.toml")) continue;
     for (const auto& file : fs::directory_iterator(folder.path())) {
       if (file.path().extension() != ".toml" || file.path().filename() == "plots.toml") continue;
+      if (file.path().filename() == "variants.toml") {
+        for (const model::VariantInfo& variant : model::variants_beside(file.path()))
+          files.emplace_back(folder.path().string() + ":" + variant.name);
+        continue;
+      }
       std::ifstream in(file.path());
       const std::string text((std::istreambuf_iterator<char>(in)), {});
       if (text.find("include = ") != std::string::npos || text.find("[[body]]") != std::string::npos)

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "build/case_layers.hpp"
 #include "case_run.hpp"
 
 namespace {
@@ -79,7 +80,7 @@ const Sliding& slide(const std::string& variant, int passes) {
   if (found != runs.end()) return found->second;
   const std::string name = "sheet_sliding_" + variant;
   const double end = 32.0 * passes;
-  Sliding s{solidus::testing::run("cases/sheet_sliding/" + variant + ".toml", name,
+  Sliding s{solidus::testing::run("cases/sheet_sliding:" + variant, name,
                                   {"cycle.pass.repeat=" + std::to_string(passes),
                                    "output.times=[\"" + std::to_string(end) + " s\"]"}),
             {}};
@@ -100,10 +101,11 @@ TEST(SheetSliding, EveryVariantIsInOrder) {
     for (const char* force : {"_3920", "_2940", "_1960", "_980"})
       for (const char* law : {"", "_work"}) missing.insert(std::string(steel) + force + law);
   EXPECT_EQ(missing.size(), 16u);
-  for (const auto& file : fs::directory_iterator(k_folder)) {
-    if (file.path().extension() != ".toml" || file.path().stem() == "plots") continue;
-    missing.erase(file.path().stem());
-    EXPECT_NO_THROW(solidus::model::check_run(solidus::model::load_case(file.path()))) << file.path();
+  for (const auto& variant : solidus::model::variants_beside(k_folder / "case.toml")) {
+    missing.erase(variant.name);
+    EXPECT_NO_THROW(
+        solidus::model::check_run(solidus::model::load_case(k_folder.string() + ":" + variant.name)))
+        << variant.name;
   }
   EXPECT_THAT(missing, ::testing::IsEmpty());
 }

@@ -5,7 +5,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 corpus=$1
 mkdir -p "$corpus"/{case,material,point,csv,overrides,checkpoint,mesh,vtk,openfoam,import,report}
 for file in cases/*/*.toml tests/robustness/mutate/corpus/*.toml; do
-  case $file in cases/point/* | */plots.toml) continue ;; esac
+  case $file in cases/point/* | */plots.toml | */variants.toml) continue ;; esac
   cp "$file" "$corpus/case/$(tr / _ <<<"$file")"
 done
 cp materials/*.toml "$corpus/material/"

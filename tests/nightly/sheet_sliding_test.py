@@ -13,7 +13,7 @@ PASSES = 20
 class SheetSliding(unittest.TestCase):
     def slide(self, steel, force, suffix):
         law = LAWS[suffix]
-        code, said, folder = run(f"sheet_sliding/{steel}_{force}{suffix}.toml")
+        code, said, folder = run(f"sheet_sliding:{steel}_{force}{suffix}")
         self.assertEqual(code, 0, said)
         history, wear = numbers(folder / "history.csv"), numbers(folder / "wear_profile.csv")
 

@@ -10,11 +10,11 @@ REFERENCE = ROOT / "tests/verification/reference"
 
 
 def run(case):
-    """Runs a case file below cases/.
+    """Runs a case file below cases/, or a variant of a case, FOLDER:VARIANT.
 
     @returns its exit code, what it said, and the folder of its results
     """
-    folder = Path(os.environ["SOLIDUS_FOLDER"]) / Path(case).with_suffix("")
+    folder = Path(os.environ["SOLIDUS_FOLDER"]) / Path(case.replace(":", "/")).with_suffix("")
     done = subprocess.run([os.environ["SOLIDUS_PROGRAM"], "run", str(ROOT / "cases" / case), "-o", str(folder)],
                           capture_output=True, text=True, timeout=3600, check=False)
     return done.returncode, done.stdout + done.stderr, folder

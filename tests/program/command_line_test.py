@@ -12,9 +12,9 @@ import time
 import tomllib
 import unittest
 
-from program import PROGRAM, ProgramTest, solidus
+from program import PROGRAM, SOURCES, ProgramTest, solidus
 
-VERBS = {"run", "check", "resolve", "explain", "schema", "point", "mesh-info", "materials", "export", "version", "plot", "compare",
+VERBS = {"run", "check", "resolve", "variants", "explain", "schema", "point", "mesh-info", "materials", "export", "version", "plot", "compare",
          "study", "init-editor", "completion", "man", "help"}
 LONG_CASE = """
 title = "A block that cools for ever"
@@ -169,13 +169,31 @@ class CommandLine(ProgramTest):
             self.assertTrue(f"solidus {verb}" in text, verb)
         self.assertTrue("130" in text)
 
+    def test_variants_are_listed_run_and_refused_with_the_nearest_name(self):
+        folder = SOURCES / "cases/thick_cylinder"
+        lines = self.done("variants", folder).splitlines()
+        self.assertEqual(len(lines), 90)
+        titles = dict(line.partition(" ")[::2] for line in lines)
+        self.assertEqual(titles["te_x6_isothermal"].strip(),
+                         "Thick-walled cylinder: elastic, alpha x 6, isothermal split, literal form")
+        self.assertIn("has no variants", self.done("variants", SOURCES / "cases/hot_spots"))
+        self.assertIn('scheme = "simultaneous"', self.done("resolve", f"{folder}:te_x1_simultaneous"))
+        wrong = solidus("run", f"{folder}:te_x1_simultanous")
+        self.assertEqual(wrong.returncode, 1)
+        self.assertIn("did you mean 'te_x1_simultaneous'?", wrong.stderr)
+        self.done("run", f"{folder}:te_x1_isothermal", "--set", "time.end=20 s", "-o", self.folder / "out")
+        self.assertEqual(json.loads((self.folder / "out/summary.json").read_text())["variant"], "te_x1_isothermal")
+
     def test_an_editor_learns_which_schema_a_file_has(self):
         self.done("init-editor")
         rules = tomllib.loads((self.folder / ".taplo.toml").read_text())["rule"]
         schemas = [json.loads((self.folder / rule["schema"]["path"].removeprefix(f"file://{self.folder}/")).read_text())
                    for rule in rules]
-        self.assertEqual([schema["title"] for schema in schemas], ["Solidus material", "Solidus point", "Solidus case"])
+        self.assertEqual([schema["title"] for schema in schemas], ["Solidus material", "Solidus point", "Variants of a Solidus case", "Solidus case"])
         self.assertIn("**/plots.toml", rules[-1]["exclude"])
+        self.assertIn("**/variants.toml", rules[-1]["exclude"])
+        of_variants = schemas[2]["properties"]["variant"]["additionalProperties"]["$ref"]
+        self.assertTrue((self.folder / ".solidus" / of_variants).is_file())
         self.assertIn("even-better-toml", (self.folder / ".vscode/extensions.json").read_text())
         self.done("init-editor")  # again: its own files are replaced
         self.write(".taplo.toml", "# mine\n")

@@ -39,6 +39,18 @@ class Cases(ProgramTest):
         self.assertEqual(variant.resolved()["body"][0]["initial_temperature"], "690 degC")
         self.assertEqual(variant.body.mould.material, "steel_mould")
 
+    def test_a_variant_of_a_case_is_loaded_by_its_name(self):
+        case = sc.Case.load(f"{SOURCES}/cases/thick_cylinder:te_x6_isothermal")
+        self.assertEqual(case.coupling.structural_heating, "literal")
+        self.assertTrue(case.body.wall.material.endswith("materials/te_x6.toml"))
+        case.time.step = "20 s"
+        with case.as_arguments() as words:
+            self.assertEqual(words, [f"{SOURCES}/cases/thick_cylinder/case.toml:te_x6_isothermal", "--set", 'time.step="20 s"'])
+        self.assertEqual(case.resolved()["time"]["step"], "20 s")
+        with self.assertRaises(sc.InputError) as caught:
+            sc.Case.load(f"{SOURCES}/cases/thick_cylinder:te_x6_isotermal")
+        self.assertIn("te_x6_isothermal", str(caught.exception))
+
     def test_completion_offers_the_keys_of_the_program(self):
         case = block()
         self.assertLessEqual({"title", "mesh", "body", "output"}, set(dir(case)))

@@ -75,6 +75,18 @@ class Imports(unittest.TestCase):
                     named = [name for name in included if name.startswith(f"{room}/{folder}/")]
                     self.assertEqual(named, [], file)
 
+    def test_no_text_outside_of_their_room_names_a_scheme(self):
+        """Advice takes the names from the schemes (names_of_schemes), a default from default_scheme()."""
+        schemes = {name for file in SOURCES.glob("coupling/schemes/*.hpp")
+                   for name in re.findall(r'string_view name = "(\w+)"', file.read_text(encoding="utf-8"))}
+        self.assertGreaterEqual(len(schemes), 5)
+        quoted = re.compile(r'\\?"(' + "|".join(sorted(schemes)) + r')\\?"')
+        for file in sorted(SOURCES.rglob("*.[ch]pp")):
+            if file.relative_to(SOURCES).parts[0] == "coupling":
+                continue
+            code = [line for line in file.read_text(encoding="utf-8").splitlines() if not line.lstrip().startswith("//")]
+            self.assertEqual([line for line in code if quoted.search(line)], [], file)
+
     def test_a_law_of_a_material_is_compiled_with_few_sources(self):
         """A law that changes compiles its registry anew, one that is called directly the return mapping too, and never a kernel."""
         graph = imports()

@@ -3,7 +3,7 @@
 ///   isotropic   σ = σ_0 + B ln(1 + ξ/ε_0),  ξ = ε − σ/E
 ///   kinematic   σ = σ_0 + X,  dX = (K − r(ξ) X) dξ
 ///   rate        σ = σ_0 + √(3/2) S asinh(√(3/2) ε̇/A), once the stress is steady
-///   liquid      σ = f_Sᵖ σ_0 + √(3/2) x(√(3/2) ε̇), likewise
+///   liquid      σ = f_Sᵖ σ_0 in mush that flows at any rate
 #include "../laws/hyperbolic_sine.hpp"
 #include "../laws/late_strength.hpp"
 #include "../laws/logarithmic.hpp"
@@ -61,6 +61,22 @@ TEST(AddedLawAtAPoint, HasTheOverstressOfItsRate) {
     const double rate = 0.05 / duration, root = std::sqrt(1.5);
     EXPECT_NEAR(h.records.back().stress[0], 100e6 + root * 20e6 * std::asinh(root * rate / 1e-3),
                 1e-6 * 100e6);
+  }
+}
+
+TEST(AddedLawAtAPoint, HasTheStrengthThatItsMushHas) {
+  material::Material m = point_material();
+  m.flow.emplace();
+  m.flow->flow_stress = 100e6;
+  m.liquid_model = test::k_late_strength.model;
+  for (const double power : {1.0, 3.0}) {
+    m.liquid_numbers = {power};
+    for (const double temperature : {850.0, 825.0}) {
+      const double fraction = (900 - temperature) / 100;
+      const History h = run_all(m, {temperature, temperature}, {segment(1, 20, {{0, strain_to(0.02)}})});
+      EXPECT_NEAR(h.records.back().stress[0], std::pow(fraction, power) * 100e6, 1e-6 * 100e6)
+          << power << " at " << temperature;
+    }
   }
 }
 

@@ -27,7 +27,7 @@ TOKENS = [b"-1", b"0", b"1e308", b"nan", b"inf", b"1e-300", b"999999999999999999
 def corpus():
     """(verb, file): what may be damaged, and the verb that reads it."""
     seeds = [("run", p) for p in sorted((ROOT / "tests/robustness/mutate/corpus").glob("*.toml"))]
-    seeds += [("check", p) for p in sorted((ROOT / "cases").glob("*/*.toml")) if p.name != "plots.toml" and p.parent.name != "point"]
+    seeds += [("check", p) for p in sorted((ROOT / "cases").glob("*/*.toml")) if p.name not in ("plots.toml", "variants.toml") and p.parent.name != "point"]
     seeds += [("materials", p) for p in sorted((ROOT / "materials").glob("*.toml"))]
     seeds += [("point", p) for p in sorted((ROOT / "cases/point").glob("*.toml"))]
     seeds += [("mesh-info", p) for p in sorted((ROOT / "tests/robustness/mutate/corpus").glob("mesh.*"))]

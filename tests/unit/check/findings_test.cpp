@@ -380,7 +380,7 @@ coefficient = [0.1, { of = "temperature", argument_unit = "degC", unit = "1", po
   const std::string friction = rubbing.substr(rubbing.find("[contact.friction]"));
   const std::string text = changed(changed(rubbing, friction, ""), "gap_law = \"constant\"\n",
                                    "gap_law = \"constant\"\n" + friction);
-  const auto degenerates = ::testing::Contains(HasSubstr("the isentropic split holds its temperature"));
+  const auto degenerates = ::testing::Contains(HasSubstr("the isentropic scheme holds its temperature"));
   EXPECT_THAT(said_of(text), degenerates);
   EXPECT_THAT(said_of(changed(text, "[contact.friction]",
                               "[contact.interface]\nheat_capacity = \"1000 J/m2/K\"\n[contact.friction]")),

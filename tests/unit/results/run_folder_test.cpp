@@ -31,6 +31,7 @@ TEST(RunFolder, IsNamedAfterCaseAndVariant) {
   EXPECT_EQ(default_run_folder("cases/aluminium_cylinder/case.toml"), "results/aluminium_cylinder/default");
   EXPECT_EQ(default_run_folder("cases/aluminium_cylinder/quad.toml"), "results/aluminium_cylinder/quad");
   EXPECT_EQ(default_run_folder("/a/b/../c/h_const.toml"), "results/c/h_const");
+  EXPECT_EQ(default_run_folder("/a/c/case.toml", "hot"), "results/c/hot");
 }
 
 TEST(RunFolder, HoldsTheResolvedCaseAtOnce) {
