@@ -52,11 +52,15 @@ void AugmentedLagrangian::accelerate(const std::vector<double>& penetration) {
   last_penetration_ = penetration;
 }
 
-void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step) {
+void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, AugmentedBy by) {
   if (!acts()) return;
-  const std::vector<double> penetration = nodal_penetration(now);
+  const bool by_means = by == AugmentedBy::means;
+  std::vector<double> penetration;
+  if (by_means) {
+    penetration = nodal_penetration(now);
+    accelerate(penetration);
+  }
   const ContactKinematics& kinematics = geometry_.kinematics();
-  accelerate(penetration);
   // Sticking keeps the compliance of its penalty where nobody asked for multipliers: points that are more
   // than a face can follow would drive their tangential tractions to and fro from turn to turn.
   const bool tangential = !pressure_tolerance_;
@@ -64,28 +68,42 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step) {
     for (const ContactPointState& from : step.from) step.start_traction.push_back(from.traction);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     ContactPointState& from = step.from[at(p)];
-    const ContactKinematics::Particle particle = kinematics.particle(p);
-    double mean = 0;
-    for (std::size_t b = 0; b < particle.nodes.size(); ++b)
-      mean += particle.share[b] * step_factor_[at(particle.nodes[b])] * penetration[at(particle.nodes[b])];
+    double grown = now.points[at(p)].penetration;
+    if (by_means) {
+      const ContactKinematics::Particle particle = kinematics.particle(p);
+      grown = 0;
+      for (std::size_t b = 0; b < particle.nodes.size(); ++b)
+        grown += particle.share[b] * step_factor_[at(particle.nodes[b])] * penetration[at(particle.nodes[b])];
+    }
     if (now.points[at(p)].status == PointStatus::open)
       from.multiplier = least_multiplier(from);
     else
-      from.multiplier = std::max(least_multiplier(from), from.multiplier + law_.penalty * mean);
+      from.multiplier = std::max(least_multiplier(from), from.multiplier + law_.penalty * grown);
     if (tangential) from.traction = now.points[at(p)].traction;
   }
 }
 
+AugmentedLagrangian::Largest AugmentedLagrangian::largest(const ContactState& now) const {
+  Largest found;
+  for (const double g : nodal_penetration(now)) found.penetration = std::max(found.penetration, std::abs(g));
+  for (const ContactPointState& point : now.points) found.pressure = std::max(found.pressure, point.pressure);
+  found.penetration = parallel::global_max(found.penetration);
+  found.pressure = parallel::global_max(found.pressure);
+  return found;
+}
+
 double AugmentedLagrangian::excess(const ContactState& now) const {
   if (!acts()) return 0;
-  double largest = 0;
-  for (const double g : nodal_penetration(now)) largest = std::max(largest, std::abs(g));
-  largest = parallel::global_max(largest);
-  if (!pressure_tolerance_) return largest / allowed_;
-  double pressure = 0;
-  for (const ContactPointState& point : now.points) pressure = std::max(pressure, point.pressure);
-  const double allowed = *pressure_tolerance_ * parallel::global_max(pressure) / law_.penalty;
-  return allowed > 0 ? largest / allowed : 0;
+  const Largest found = largest(now);
+  if (!pressure_tolerance_) return found.penetration / allowed_;
+  const double allowed = *pressure_tolerance_ * found.pressure / law_.penalty;
+  return allowed > 0 ? found.penetration / allowed : 0;
+}
+
+double AugmentedLagrangian::share_of_penalty(const ContactState& now) const {
+  if (!acts()) return 0;
+  const Largest found = largest(now);
+  return found.pressure > 0 ? found.penetration * law_.penalty / found.pressure : 0;
 }
 
 std::string AugmentedLagrangian::worst_penetration(const ContactState& now) const {

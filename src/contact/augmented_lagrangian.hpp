@@ -6,6 +6,16 @@
 /// There are more points than the unknowns of a face can bring to zero penetration one by one, but their
 /// means can be. Where a mean falls slowly from turn to turn its step is lengthened by Aitken's factor a_N,
 /// from 1 to 30: a node at the edge of contact has few closed points, hence a weak spring.
+///
+/// Weights N_a² are positive where those of quadratic faces, N_a, are not; but the step is then no gradient
+/// of the energy, and where the closed points change from turn to turn it may go round. Turns by points,
+///
+///   λ_p = max(λ_p + ε_N g_p, −p_a),
+///
+/// are the method of multipliers proper, a proximal-point iteration of the dual energy: it falls in every
+/// turn, whatever opens and closes, where the energy is convex (R. T. Rockafellar, Math. Oper. Res. 1 (1976)
+/// 97–116). They end where no point penetrates and none that is apart presses, and with them the means; the
+/// pressures are then less smooth from point to point.
 #pragma once
 
 #include <optional>
@@ -17,6 +27,9 @@
 #include "contact/step.hpp"
 
 namespace solidus::contact {
+
+/// What the multipliers follow in a turn.
+enum class AugmentedBy { means, points };
 
 class AugmentedLagrangian {
  public:
@@ -32,15 +45,23 @@ class AugmentedLagrangian {
   void begin() { last_penetration_.clear(); }
   /// Takes the next turn: raises the multipliers of the step's start from the state that this turn has led
   /// to, and lets friction set out from the tractions of that state. Collective.
-  void augment(const ContactState& now, ContactStep& step);
+  void augment(const ContactState& now, ContactStep& step, AugmentedBy by);
   /// The largest mean penetration around a node of the slave, as a share of what is allowed. Collective.
   double excess(const ContactState& now) const;
+  /// The largest mean penetration around a node of the slave, as a share of the largest penetration with which
+  /// the penalty alone would carry the pressures of that state, max t_N/ε_N; zero without pressure. Collective.
+  double share_of_penalty(const ContactState& now) const;
   /// Describes the place of the largest mean penetration, for messages. Collective.
   std::string worst_penetration(const ContactState& now) const;
 
  private:
   /// Lengthens the steps of the nodes from their mean penetrations now and one turn before.
   void accelerate(const std::vector<double>& penetration);
+  /// Largest |ḡ_a| [m] and t_N [Pa] of a state. Collective.
+  struct Largest {
+    double penetration = 0, pressure = 0;
+  };
+  Largest largest(const ContactState& now) const;
   /// Mean penetrations ḡ_a, [local node] [m]. Collective.
   std::vector<double> nodal_penetration(const ContactState& now) const;
 

@@ -54,13 +54,17 @@ PointForces ContactForces::at(const PointMotion& motion, Index point) const {
                      step_.iterate_of(point));
 }
 
-void ContactForces::augment(const ContactState& now, ContactStep& step) {
+void ContactForces::augment(const ContactState& now, ContactStep& step, AugmentedBy by) {
   term_.begin();
-  if (active_) multipliers_.augment(now, step);
+  if (active_) multipliers_.augment(now, step, by);
 }
 
 double ContactForces::excess(const ContactState& now) const {
   return active_ ? multipliers_.excess(now) : 0.0;
+}
+
+double ContactForces::share_of_penalty(const ContactState& now) const {
+  return active_ ? multipliers_.share_of_penalty(now) : 0.0;
 }
 
 GlobalIndex ContactForces::changes() const {

@@ -36,8 +36,9 @@ class ContactForces {
   bool symmetric() const { return symmetric_; }
   /// The next turn of the augmented Lagrangian, how far it still is from its end, and where
   /// (augmented_lagrangian.hpp). Collective.
-  void augment(const ContactState& now, ContactStep& step);
+  void augment(const ContactState& now, ContactStep& step, AugmentedBy by);
   double excess(const ContactState& now) const;
+  double share_of_penalty(const ContactState& now) const;
   std::string worst_penetration(const ContactState& now) const { return multipliers_.worst_penetration(now); }
   /// Points that changed between open, sticking and slipping at the last residual. Collective.
   GlobalIndex changes() const;

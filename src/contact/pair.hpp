@@ -140,10 +140,12 @@ class ContactPair {
   InterfaceSums commit_heat(std::span<const double> temperature);
 
   /// Takes a turn of the augmented Lagrangian from the last update() (augmented_lagrangian.hpp). Collective.
-  void augment() { forces_->augment(end_.state, step_); }
+  void augment(AugmentedBy by = AugmentedBy::means) { forces_->augment(end_.state, step_, by); }
   /// The largest mean penetration around a node of the slave at the last update(), over closed points, as a
   /// share of what is allowed; zero where there is no augmented Lagrangian. Collective.
   double excess() const { return forces_->excess(end_.state); }
+  /// The same as a share of what the penalty alone would leave. Collective.
+  double share_of_penalty() const { return forces_->share_of_penalty(end_.state); }
 
   /// Drops the recorded sparsity pattern (coupling/scheme.hpp, forget()).
   void forget() { geometry_->graph().forget(); }

@@ -23,6 +23,12 @@ namespace {
 
 /// Changes below this part of the values themselves are rounding.
 constexpr double k_rounding = 1e-13;
+/// Iterations within which the change of temperature is to fall to a half; else the temperatures that the
+/// mechanical pass sees go half as far. Where heat follows a contact that closes by it (a gap that opens as
+/// its metal cools), the whole step goes round between two states, one with contact and one without.
+constexpr std::size_t k_patience = 8;
+/// Iterations without damping.
+constexpr std::size_t k_whole_steps = 24;
 /// A change of temperature so many times the first one says that the iteration diverges.
 constexpr double k_diverged = 100;
 
@@ -51,8 +57,10 @@ struct BlockIterative::Iterate {
   std::vector<double> interface;  ///< Θ_c that friction holds in it; empty in the first iteration [K]
   /// Θ⁽ⁱ⁾ that the mechanical pass sees, and Θ⁽ⁱ⁻¹⁾ [K], [local node].
   std::vector<double> temperature, before;
-  bool solved = false;  ///< both passes reached the tolerances of their phases
-  int turns = 0;        ///< of the augmented Lagrangian, in all mechanical passes
+  bool solved = false;   ///< both passes reached the tolerances of their phases
+  bool at_rest = false;  ///< the last mechanical pass set out within the tolerance of its forces
+  double damping = 1;    ///< of relaxation
+  int turns = 0;         ///< of the augmented Lagrangian, in all mechanical passes
   StepEffort& effort;
 };
 
@@ -132,6 +140,7 @@ void BlockIterative::iterate_until_agreement(const State& old, Iterate& it) {
     iterate(old, it);
     if (agrees(old, it)) break;
     require_progress(it);
+    damp(it);
     relax(it);
   }
   if (options_.sweep == IterationOptions::Sweep::jacobi) thermal(old, it, 0);
@@ -147,7 +156,12 @@ bool BlockIterative::mechanical(const State& old, Iterate& it, int newton_steps)
     pass.iterate = &it.now.mechanics;
   }
   const std::vector<contact::ContactState> before = it.number > 1 ? it.now.contacts : old.contacts;
-  return mechanical_pass(phases_, old, it.now, pass, it.effort, before, &it.turns).newton.converged;
+  const int turns = it.turns;
+  const linear::NewtonReport newton =
+      mechanical_pass(phases_, old, it.now, pass, it.effort, before, &it.turns).newton;
+  it.at_rest = it.turns == turns + 1 && !newton.residuals.empty() &&
+               newton.residuals.front() <= phases_.mechanics->options().newton.tolerance;
+  return newton.converged;
 }
 
 bool BlockIterative::thermal(const State& old, Iterate& it, int newton_steps) const {
@@ -196,9 +210,25 @@ bool BlockIterative::agrees(const State& old, const Iterate& it) const {
            change <= k_rounding * largest(now);
   };
   const double of_fractions = it.phases.any() ? it.phases.difference(it.now.heat) : 0.0;
-  return it.solved && of_fractions <= options_.tolerance &&
-         small(changes_.back().temperature, it.now.heat.temperature, old.heat.temperature) &&
+  if (!it.solved || of_fractions > options_.tolerance ||
+      !small(changes_.back().temperature, it.now.heat.temperature, old.heat.temperature))
+    return false;
+  // Displacements that equilibrium hardly determines (of melt, or of a body that contact alone holds) wander
+  // by what the tolerance of forces leaves, however little the temperatures change.
+  const bool wanders = changes_.size() > k_whole_steps && it.at_rest;
+  return wanders ||
          small(changes_.back().displacement, it.now.mechanics.displacement, old.mechanics.displacement);
+}
+
+void BlockIterative::damp(Iterate& it) const {
+  const std::size_t n = changes_.size();
+  if (n < k_whole_steps || n % k_patience != 0) return;
+  const auto least = [this](std::size_t from, std::size_t to) {
+    double found = changes_[from].temperature;
+    for (std::size_t i = from; i < to; ++i) found = std::min(found, changes_[i].temperature);
+    return found;
+  };
+  if (least(n - k_patience, n) > 0.5 * least(n - 2 * k_patience, n - k_patience)) it.damping *= 0.5;
 }
 
 void BlockIterative::require_progress(const Iterate& it) const {
@@ -241,11 +271,11 @@ void BlockIterative::relax(Iterate& it) {
   std::vector<double> change(from.size());
   for (std::size_t i = 0; i < change.size(); ++i) change[i] = it.now.heat.temperature[i] - from[i];
   const bool second = options_.sweep == IterationOptions::Sweep::jacobi && it.number % 2 == 1;
-  const double factor = relaxation_[second ? 1 : 0].factor(std::span(change).first(n_owned));
+  const double factor = it.damping * relaxation_[second ? 1 : 0].factor(std::span(change).first(n_owned));
   for (std::size_t i = 0; i < change.size(); ++i) change[i] = from[i] + factor * change[i];
   it.before = std::exchange(it.temperature, std::move(change));
   it.interface = interface_temperatures(it.now.contacts);
-  it.phases.advance(it.now.heat);
+  it.phases.advance(it.now.heat, it.damping);
 }
 
 }  // namespace solidus::coupling

@@ -10,6 +10,9 @@
 /// are those of Θ⁽ⁱ⁾. In Gauss–Seidel's sweep the thermal pass works at the newest configuration, in Jacobi's
 /// at the one before; the first iteration is that of the split in both.
 ///
+/// An iteration whose changes do not fall to a half in eight goes half as far from the 24th on, again and
+/// again: heat that follows a contact which closes by it would send whole steps round between two states.
+///
 /// Isothermal passes converge where the coupling number (or its relaxed value) is below one, isentropic ones
 /// whatever it is (docs/theory/coupling.md).
 #pragma once
@@ -81,6 +84,8 @@ class BlockIterative final : public CouplingScheme {
   const std::vector<double>& answered(const Iterate& it) const;
   bool agrees(const State& old, const Iterate& it) const;
   void require_progress(const Iterate& it) const;
+  /// Halves the way from iterate to iterate where the changes do not fall.
+  void damp(Iterate& it) const;
   [[noreturn]] void diverged(const Iterate& it, const std::string& how) const;
   std::string largest_change(const Iterate& it) const;
   void relax(Iterate& it);

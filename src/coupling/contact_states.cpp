@@ -13,12 +13,15 @@ namespace solidus::coupling {
 
 namespace {
 
-constexpr int k_most_augmentations = 400;
-// If points at the edge of contact open and close from turn to turn, the penetrations do not converge: after
-// k_enough_augmentations turns they may be k_tolerable times as large as allowed, with a warning. The passes
-// of a step that is iterated set out from the multipliers of the one before, and share these turns.
+// Multipliers follow the means around nodes first. After k_enough_augmentations turns, where points at the edge
+// of contact open and close from turn to turn, penetrations may be k_tolerable times as large as allowed, with
+// a warning; else multipliers follow the points from there on. The passes of a step that is iterated set out
+// from the multipliers of the one before, and share these turns.
 constexpr int k_enough_augmentations = 60;
 constexpr double k_tolerable = 10;
+// After so many turns a step stands as it is, with a warning that says how far it is off, unless the penalty
+// alone would leave less.
+constexpr int k_most_augmentations = 200;
 // Turns that nobody asked for (ContactSpec::pressure_tolerance) end here: what is left is less than the
 // penalty alone would leave.
 constexpr int k_enough_by_default = 12;
@@ -43,6 +46,31 @@ void advance_history(const contact::ContactPointState& from, const contact::Cont
   // In the entropy of the interface's capacity.
   if (from.temperature > 0 && to.temperature > 0)
     start.temperature = from.temperature * std::pow(to.temperature / from.temperature, carried);
+}
+
+/// The number among 1, 2, 5, 10, 20, 50, 100 that is not below a share in per cent: a warning that is said
+/// once for each.
+int rounded_up(double share) {
+  constexpr int k_steps[] = {1, 2, 5, 10, 20, 50};
+  for (const int step : k_steps)
+    if (100 * share <= step) return step;
+  return 100;
+}
+
+/// Takes the multipliers as they are and says so; throws StepRejected where the penalty alone is better.
+void end_turns(const contact::ContactPair& pair, int turns, double excess) {
+  const double share = pair.share_of_penalty();
+  if (share > 1)
+    throw StepRejected(
+        fmt::format("contact '{}': {} turns of the augmented Lagrangian leave penetrations {:.3g} times as "
+                    "large as allowed",
+                    pair.spec().name, turns, excess),
+        pair.forces().worst_penetration(pair.state()));
+  logging::warn(
+      "contact '{}': in some steps {} turns of the augmented Lagrangian do not settle; its multipliers are "
+      "taken as they are there, off by up to {} % of the largest contact pressure; normal = \"penalty\" or a "
+      "larger penetration_tolerance costs fewer turns",
+      pair.spec().name, k_most_augmentations, rounded_up(share));
 }
 
 }  // namespace
@@ -116,7 +144,8 @@ bool penetrations_small(const Phases& phases, int turn, int earlier) {
     }
   }
   if (excess <= 1) return true;
-  if (turn + earlier >= k_enough_augmentations && excess <= k_tolerable) {
+  const bool enough = turn + earlier >= k_enough_augmentations;
+  if (enough && excess <= k_tolerable) {
     logging::warn(
         "contact '{}': in some steps points open and close from one turn of the augmented Lagrangian to the "
         "next, and penetrations stay above penetration_tolerance, by less than {:g} times; normal = "
@@ -124,13 +153,12 @@ bool penetrations_small(const Phases& phases, int turn, int earlier) {
         worst->spec().name, k_tolerable);
     return true;
   }
-  if (turn >= k_most_augmentations)
-    throw StepRejected(
-        fmt::format("contact '{}': {} turns of the augmented Lagrangian leave penetrations {:.3g} times as "
-                    "large as allowed",
-                    worst->spec().name, turn, excess),
-        worst->forces().worst_penetration(worst->state()));
-  for (contact::ContactPair* pair : phases.contacts) pair->augment();
+  if (turn + earlier >= k_most_augmentations) {
+    end_turns(*worst, turn + earlier, excess);
+    return true;
+  }
+  const contact::AugmentedBy by = enough ? contact::AugmentedBy::points : contact::AugmentedBy::means;
+  for (contact::ContactPair* pair : phases.contacts) pair->augment(by);
   return false;
 }
 

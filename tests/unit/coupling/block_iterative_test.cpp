@@ -136,6 +136,15 @@ TEST(BlockIterative, DivergesWhereTheCouplingNumberExceedsOneAndSaysSo) {
   EXPECT_LT(changes(1.5, 0, Mapping::isothermal, aitken).size(), 10U);
 }
 
+// A change that grows by a tenth from iteration to iteration; half of the step contracts to a twentieth.
+TEST(BlockIterative, GoesHalfAsFarWhereItsChangesDoNotFall) {
+  const std::vector<BlockIterative::Change> found = changes(1.1, 0, Mapping::isothermal, {});
+  ASSERT_GT(found.size(), 25U);
+  EXPECT_LT(found.size(), 40U);
+  EXPECT_GT(found[23].temperature, 5 * found[0].temperature);
+  EXPECT_LT(found.back().temperature, 1e-6 * found[23].temperature);
+}
+
 TEST(BlockIterative, RejectsAStepThatTakesTooManyIterations) {
   IterationOptions options;
   options.max_iterations = 4;

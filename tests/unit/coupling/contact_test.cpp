@@ -4,13 +4,11 @@
 
 #include <cmath>
 
-#include "../../verification/contact_bodies.hpp"
-#include "../contact/friction_laws.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
-#include "coupling/isothermal_split.hpp"
 #include "coupling/passes.hpp"
 #include "parallel/parallel.hpp"
+#include "rubbed.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
 #include "system/processes.hpp"
@@ -19,69 +17,9 @@ namespace solidus {
 namespace {
 
 using mesh::Shape;
-
-/// Mechanics alone with one contact pair, stepped by a scheme.
-struct Rubbed {
-  std::vector<material::Material> materials;
-  contact::ContactPair pair;
-  mechanics::MechanicalPhase phase;
-  coupling::Phases phases;
-  coupling::IsothermalSplit scheme;
-  coupling::State state;
-
-  Rubbed(const mesh::Mesh& mesh, AnalysisKind kind, const contact::ContactParameters& spec,
-         const mechanics::MechanicalConditions& conditions, mechanics::MechanicsOptions options)
-      : materials{test::elastic(70e9, 0.3), test::elastic(70e9, 0.3)},
-        pair(mesh, kind, spec, std::vector<double>{70e9, 70e9}),
-        phase(mesh, kind, materials, std::vector<double>(mesh.x.size(), 300.0), conditions,
-              for_pair(std::move(options), pair), {&pair.mechanics()}),
-        phases{.mechanics = &phase,
-               .contacts = {&pair},
-               .temperature = std::vector<double>(mesh.x.size(), 300.0),
-               .ambient_temperature = {}},
-        scheme(phases) {
-    state.mechanics = phase.initial_state();
-    state.contacts = {pair.history().initial()};
-  }
-  Rubbed(const Rubbed&) = delete;
-
-  coupling::StepEffort step(double dt) {
-    coupling::State trial = state;
-    const double time = state.time + dt;
-    const coupling::StepEffort effort = scheme.advance(state, trial, time, dt);
-    trial.time = time;
-    state = std::move(trial);
-    return effort;
-  }
-
- private:
-  static mechanics::MechanicsOptions for_pair(mechanics::MechanicsOptions options,
-                                              const contact::ContactPair& pair) {
-    options.symmetric = pair.forces().symmetric();
-    return options;
-  }
-};
-
-/// The lower block stands; the upper one is pressed by 20 MPa and pulled along at 20 mm/s.
-mechanics::MechanicalConditions pulled() {
-  mechanics::MechanicalConditions c;
-  c.displacements.push_back({"lower_y_min", 0, 0.0});
-  c.displacements.push_back({"lower_y_min", 1, 0.0});
-  c.displacements.push_back({"upper_y_max", 0, Table({0, 10}, {0, 0.2})});
-  c.pressures.push_back({"upper_y_max", Table({0, 1}, {0, 20e6})});
-  c.plane_faces = {{"upper_y_max"}};
-  return c;
-}
-
-contact::ContactParameters rubbing() {
-  contact::ContactParameters s = test::interface();
-  s.formulation = contact::Formulation::large_sliding;
-  s.search_distance = 0.02;
-  s.penalty = 1e13;
-  s.penalty_is_factor = false;
-  s.friction = contact::friction_spec({0.2, 0.05}, 1e6);
-  return s;
-}
+using test::pulled;
+using test::Rubbed;
+using test::rubbing;
 
 TEST(ContactInDynamics, QuotientKeepsTheEnergyOfAnImpactThatThePenaltyDoesNot) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 1e-5);
@@ -235,46 +173,6 @@ WorkOnContact dynamic_step(Rubbed& run, double dt) {
 const mechanics::Motion k_means[] = {mechanics::Motion::trapezoidal(),
                                      mechanics::Motion::generalised_alpha(0.6)};
 
-// Penetrations after one solve, which no further one follows, 5 and 20 times as large as allowed.
-TEST(AugmentedLagrangian, AcceptsAfterSixtyTurnsWhatIsTenTimesTooLargeAndSaysSo) {
-  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  contact::ContactParameters s = rubbing();
-  s.normal = contact::NormalKind::augmented_lagrangian;
-  const auto check = [&](double tolerance, const auto& look) {
-    s.penetration_tolerance = tolerance;
-    mechanics::MechanicalConditions c;
-    for (int i = 0; i < 2; ++i) c.displacements.push_back({"lower_y_min", i, 0.0});
-    c.displacements.push_back({"upper_y_max", 0, 0.0});
-    c.displacements.push_back({"upper_y_max", 1, -1e-5});
-    Rubbed run(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
-    const mechanics::MechanicalState old = run.state.mechanics;
-    const mechanics::MechanicalPass pass{.time = 1, .dt = 1, .temperature = run.phases.temperature};
-    coupling::begin_contacts(run.phases, run.state.contacts, old, pass);
-    mechanics::MechanicalState next;
-    run.phase.solve(old, next, pass);
-    run.pair.update(next.displacement);
-    look(run);
-  };
-  double excess = 0;
-  check(1e-6, [&](const Rubbed& run) { excess = run.pair.excess(); });
-  ASSERT_GT(excess, 0);
-  logging::clear_warnings();
-  check(1e-6 * excess / 5, [](Rubbed& run) {
-    EXPECT_FALSE(coupling::penetrations_small(run.phases, 59));
-    EXPECT_TRUE(logging::warnings().empty());
-    EXPECT_TRUE(coupling::penetrations_small(run.phases, 60));
-  });
-  ASSERT_EQ(logging::warnings().size(), 1);
-  EXPECT_THAT(logging::warnings()[0], ::testing::HasSubstr("by less than 10 times"));
-  logging::clear_warnings();
-  check(1e-6 * excess / 20, [](Rubbed& run) {
-    EXPECT_FALSE(coupling::penetrations_small(run.phases, 60));
-    EXPECT_FALSE(coupling::penetrations_small(run.phases, 399));
-    EXPECT_THROW(coupling::penetrations_small(run.phases, 400), StepRejected);
-  });
-  EXPECT_TRUE(logging::warnings().empty());
-}
-
 TEST(ContactWork, OfTheAugmentedLagrangianHasTheTractionsOfTheStart) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
   contact::ContactParameters s = rubbing();
@@ -373,71 +271,6 @@ TEST(ContactHistory, LeavesAStepThatIsTakenAgainTheSameBits) {
     EXPECT_NEAR(a[p].slip, b[p].slip, rounding);
     EXPECT_EQ(a[p].status, b[p].status);
   }
-}
-
-TEST(AugmentedLagrangian, LeavesNoPenetrationWhereThePenaltyDoes) {
-  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  mechanics::MechanicalConditions c = test::symmetric_supports(2);
-  c.pressures.push_back({"upper_y_max", 1e8});
-  contact::ContactParameters s = test::interface();
-  s.penalty = 1;  // a soft one: the penetration is as large as the strain of an element
-  for (const auto formulation : {contact::Formulation::small_sliding, contact::Formulation::large_sliding}) {
-    s.formulation = formulation;
-    s.normal = contact::NormalKind::augmented_lagrangian;
-    s.penetration_tolerance = 1e-8;
-    Rubbed run(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
-    const coupling::StepEffort effort = run.step(1);
-    EXPECT_GE(effort.mechanics.iterations, 2);
-    const contact::ContactNodalFields fields = contact::nodal_fields(run.pair.view(), {});
-    const bool fixed = formulation == contact::Formulation::small_sliding;
-    for (std::size_t i = 0; i < fields.nodes.size(); ++i) {
-      // Gauss points that do not know where the master's faces end see the mean, not every point, closed;
-      // they leave the pressure an error of quadrature.
-      EXPECT_LE(std::abs(fields.opening[i]), fixed ? 1e-8 * 0.06 : 1e-6 * 0.06);
-      EXPECT_NEAR(fields.pressure[i], 1e8, (fixed ? 1e-7 : 1e-2) * 1e8);
-    }
-    // The next step starts from the multipliers and has nothing to do.
-    EXPECT_LE(run.step(1).mechanics.iterations, 2);
-  }
-}
-
-// A scheme that takes one Newton iteration in every pass: multipliers that grew from iterates out of
-// equilibrium, or that began anew in every pass, would go round.
-TEST(AugmentedLagrangian, SettlesInPassesOfOneIterationAsInPassesToEquilibrium) {
-  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  mechanics::MechanicalConditions c = test::symmetric_supports(2);
-  c.pressures.push_back({"upper_y_max", 1e8});
-  contact::ContactParameters s = test::interface();
-  s.penalty = 1;
-  s.normal = contact::NormalKind::augmented_lagrangian;
-  s.penetration_tolerance = 1e-8;
-  Rubbed whole(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
-  whole.step(1);
-  Rubbed single(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
-  coupling::State trial = single.state;
-  mechanics::MechanicalPass pass{.time = 1, .dt = 1, .temperature = single.phases.temperature};
-  pass.newton_steps = 1;
-  int iterations = 0;
-  const auto take = [&] {
-    coupling::StepEffort effort;
-    const std::vector<contact::ContactState> before = trial.contacts;
-    const bool solved =
-        coupling::mechanical_pass(single.phases, single.state, trial, pass, effort, before).newton.converged;
-    iterations = effort.mechanics.iterations;
-    pass.iterate = &trial.mechanics;
-    return solved;
-  };
-  bool solved = take();
-  for (int passes = 1; passes < 10 && !solved; ++passes) solved = take();
-  EXPECT_TRUE(solved);
-  EXPECT_GE(iterations, 2) << "of the turns in which the multipliers grew";
-  EXPECT_TRUE(take());
-  EXPECT_LE(iterations, 1) << "what was found is the start of the next pass";
-  EXPECT_LE(single.pair.excess(), 1);
-  for (std::size_t i = 0; i < trial.contacts[0].points.size(); ++i)
-    EXPECT_NEAR(trial.contacts[0].points[i].multiplier, whole.state.contacts[0].points[i].multiplier, 1e3);
-  for (std::size_t i = 0; i < trial.mechanics.displacement.size(); ++i)
-    EXPECT_NEAR(trial.mechanics.displacement[i], whole.state.mechanics.displacement[i], 1e-8 * 0.06);
 }
 
 }  // namespace
