@@ -9,6 +9,7 @@
 #include "mesh/file_format.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/kept_mesh.hpp"
+#include "mesh/poor_tetrahedra.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/reader_message.hpp"
 #include "mesh/reader_process.hpp"
@@ -54,6 +55,7 @@ RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double 
   const auto attempt_text = [&](int attempt) {
     return solids ? meshing_attempt(attempt) : faceted_attempt(attempt);
   };
+  constexpr double k_repaired = 1.2 * k_sound_quality;  // nothing is left that is hardly sound
   std::optional<RawMesh> best;
   double best_quality = 0;
   int best_way = 0, tried = same != nullptr ? 1 : 0;
@@ -63,7 +65,10 @@ RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double 
     ++tried;
     try {
       RawMesh mesh = read_in_one_way(source, &geometry);
-      if (enough > 0 && source.element_order == 1) smooth_poor_tetrahedra(mesh);
+      if (enough > 0 && source.element_order == 1) {
+        smooth_poor_tetrahedra(mesh);
+        repair_poor_tetrahedra(mesh, k_repaired);
+      }
       const double quality = least_quality(mesh);
       // Later ways have more elements, which a quality that is hardly better is not worth.
       constexpr double k_better = 1.1;

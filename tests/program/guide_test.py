@@ -1,6 +1,6 @@
 """Every page of the guide and the README: what they tell to type is typed, what they print as a file is checked, from the
-page itself. The first page, getting_started.md, is run (see there); runs of other pages that take long are checked
-(`solidus check`) instead, and those of tutorials shortened."""
+page itself. The first page, getting_started.md, is run (see there), and the tutorials' runs are shortened; commands of the other
+pages are checked here and typed by typed_pages_test.py."""
 
 import functools
 import json

@@ -56,3 +56,28 @@ def without_launcher(words):
 def is_pattern(word):
     """CASE, FOLDER: what a reader puts something in for."""
     return re.fullmatch(r"\[?[A-Z_]{3,}\]?", word) is not None
+
+
+PROGRAMS = (r"(?:NP=\d+ |PYTHONPATH=\S+ )?(?:\./dev|~/solidus/dev|solidus|mpirun|srun|ccx|cmake|cp|cd|apt|podman|python3|/usr/bin/python3"
+            r"|solidus-env/bin/pip)(?= |$)")
+# A verb alone, between backticks: a name of the thing, not a line to type.
+NAMED = re.compile(r"(?:solidus|\./dev)(?: (?!help|man|version|schema|explain|materials$)[a-z-]+)?(?: --log \w+ run)?")
+
+
+def typed_lines(page):
+    """What a reader types, in its order: lines of blocks of a shell (a script is one of them), indented lines, and commands
+    between backticks that name what they work on."""
+    found = []
+    for match in re.finditer(FENCE.pattern + r"|^    (\S[^\n]*)$|`([^`\n]+)`", page, re.S | re.M):
+        if match[3] is not None and match[2] in ("", "sh", "bash"):
+            text = textwrap.dedent(match[3])
+            if text.startswith("#!"):
+                found.append(text)
+            else:
+                found += [line for line in text.splitlines() if re.match(PROGRAMS, line)]
+        elif match[4] and re.match(PROGRAMS, match[4]):
+            found.append(match[4])
+        elif match[5] and re.match(r"(?:\./dev|~/solidus/dev|solidus|mpirun)(?= )", match[5]) and not (
+                NAMED.fullmatch(match[5]) or "…" in match[5] or "..." in match[5]):
+            found.append(match[5])
+    return found
