@@ -96,9 +96,12 @@ class Table:
         return array.copy() if copy else array
 
     def to_pandas(self, index: str | None = None) -> "pandas.DataFrame":
-        """The table as pandas' DataFrame, its units in ``frame.attrs["units"]``; `index` names the column of the rows."""
-        import pandas
-
+        """The table as pandas' DataFrame, its units in ``frame.attrs["units"]``; `index` names the column of the rows. Needs
+        pandas (Debian: python3-pandas)."""
+        try:
+            import pandas
+        except ImportError as error:
+            raise ImportError("to_pandas() needs pandas: apt install python3-pandas, or pip install pandas") from error
         frame = pandas.DataFrame({name: self.array[name] for name in self.columns})
         frame.attrs["units"] = dict(self.units)
         return frame.set_index(index) if index else frame

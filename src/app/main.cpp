@@ -25,6 +25,7 @@
 #include "material/library.hpp"
 #include "mesh/reader_process.hpp"
 #include "parallel/petsc_session.hpp"
+#include "system/blas_threads.hpp"
 #include "system/errors.hpp"
 #include "system/free_memory.hpp"
 #include "system/input_file.hpp"
@@ -374,6 +375,7 @@ int main(int argc, char** argv) {
   keep_environment();
   profile::begin();
   give_large_arrays_back();
+  use_one_thread_of_blas();
   // Arguments behind "--" are PETSc's.
   char** const end = argv + argc;
   char** const separator = std::find_if(argv, end, [](const char* a) { return std::string_view(a) == "--"; });

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "results/report/report_page.hpp"
 #include "system/errors.hpp"
@@ -25,9 +26,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t k_most_request = 8192;  // [byte]
-constexpr std::chrono::seconds k_soonest{2};  // between two pages
-constexpr double k_share = 0.05;              // of the time goes into pages at most
+constexpr std::size_t k_most_request = 8192;   // [byte]
+constexpr std::size_t k_most_visitors = 64;    // connected at once
+constexpr std::chrono::seconds k_patience{4};  // with a visitor that says nothing
+constexpr std::chrono::seconds k_soonest{2};   // between two pages
+constexpr double k_share = 0.05;               // of the time goes into pages at most
 constexpr std::chrono::seconds k_looks_on{10}, k_last_page{6};
 
 std::string random_token() {
@@ -123,33 +126,50 @@ void Watch::finish() {
 }
 
 void Watch::serve() {
+  std::vector<Visitor> visitors;
+  std::vector<pollfd> wait;
   while (!stop_) {
-    pollfd wait{socket_, POLLIN, 0};
-    if (::poll(&wait, 1, 100) <= 0) continue;
+    wait.assign(1, {socket_, POLLIN, 0});
+    for (const Visitor& visitor : visitors) wait.push_back({visitor.connection, POLLIN, 0});
+    ::poll(wait.data(), wait.size(), 100);
+    // A visitor is heard when it says something: one that only connects, as browsers do ahead of time, keeps
+    // nobody waiting.
+    for (std::size_t i = visitors.size(); i-- > 0;) {
+      const bool said = wait[i + 1].revents != 0;
+      if (said ? hear(visitors[i]) : Clock::now() < visitors[i].until) continue;
+      ::close(visitors[i].connection);
+      visitors.erase(visitors.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    if (wait[0].revents == 0) continue;
     const int connection = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC);
     if (connection < 0) continue;
-    try {
-      answer(connection);
-    } catch (const std::exception&) {
-      // The request is left without an answer; the run continues.
+    if (visitors.size() == k_most_visitors) {  // the one that has been here longest leaves
+      ::close(visitors.front().connection);
+      visitors.erase(visitors.begin());
     }
-    ::close(connection);
+    visitors.push_back({connection, {}, Clock::now() + k_patience});
   }
+  for (const Visitor& visitor : visitors) ::close(visitor.connection);
 }
 
-void Watch::answer(int connection) {
+bool Watch::hear(Visitor& visitor) {
+  std::array<char, 2048> part{};
+  const ssize_t n = ::recv(visitor.connection, part.data(), part.size(), MSG_DONTWAIT);
+  if (n <= 0 || visitor.request.size() > k_most_request) return false;
+  visitor.request.append(part.data(), static_cast<std::size_t>(n));
+  if (visitor.request.find("\r\n\r\n") == std::string::npos) return Clock::now() < visitor.until;
+  try {
+    answer(visitor.connection, reply(visitor.request));
+  } catch (const std::exception&) {
+    // The request is left without an answer; the run continues.
+  }
+  return false;
+}
+
+void Watch::answer(int connection, const std::string& text) {
   const timeval patience{2, 0};
   ::setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   ::setsockopt(connection, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
-  std::string request;
-  std::array<char, 2048> part{};
-  const auto until = Clock::now() + std::chrono::seconds(4);
-  while (request.find("\r\n\r\n") == std::string::npos) {
-    const ssize_t n = ::recv(connection, part.data(), part.size(), 0);
-    if (n <= 0 || request.size() > k_most_request || Clock::now() > until) return;
-    request.append(part.data(), static_cast<std::size_t>(n));
-  }
-  const std::string text = reply(request);
   for (std::size_t sent = 0; sent < text.size();) {
     const ssize_t n = ::send(connection, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
     if (n <= 0) return;
@@ -157,6 +177,8 @@ void Watch::answer(int connection) {
   }
   // Until the other side has it: closing at once may drop what is on its way.
   ::shutdown(connection, SHUT_WR);
+  std::array<char, 2048> part{};
+  const auto until = Clock::now() + k_patience;
   while (::recv(connection, part.data(), part.size(), 0) > 0 && Clock::now() < until) {
   }
 }

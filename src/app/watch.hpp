@@ -27,8 +27,15 @@ class Watch {
 
  private:
   using Clock = std::chrono::steady_clock;
+  struct Visitor {
+    int connection;
+    std::string request;  ///< what it has said so far
+    Clock::time_point until;
+  };
   void serve();
-  void answer(int connection);
+  /// Reads what a visitor says and answers a whole request; whether its connection stays open.
+  bool hear(Visitor& visitor);
+  void answer(int connection, const std::string& text);
   std::string reply(const std::string& request);
   void renew();
   std::string stamp() const;

@@ -6,6 +6,7 @@ from pathlib import Path
 import pty
 import re
 import select
+import shutil
 import signal
 import subprocess
 import time
@@ -83,6 +84,18 @@ class CommandLine(ProgramTest):
         wrong = solidus("help", "rum")
         self.assertEqual(wrong.returncode, 1)
         self.assertIn("did you mean 'run'?", wrong.stderr)
+
+    def test_one_thread_of_linear_algebra_unless_the_environment_says_otherwise(self):
+        if shutil.which("cc") is None:
+            self.skipTest("no C compiler")
+        # In front of whichever BLAS the machine has stands one that tells how many threads it was given.
+        self.write("blas.c", '#include <stdio.h>\nvoid openblas_set_num_threads(int n) { printf("threads %d\\n", n); fflush(stdout); }\n')
+        subprocess.run(["cc", "-shared", "-fPIC", "-o", "blas.so", "blas.c"], cwd=self.folder, check=True)
+        silent = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}
+        for given, told in (({}, True), ({"OPENBLAS_NUM_THREADS": "2"}, False), ({"OMP_NUM_THREADS": "2"}, False)):
+            said = subprocess.run([PROGRAM, "version"], env={**silent, **given, "LD_PRELOAD": str(self.folder / "blas.so")},
+                                  capture_output=True, text=True, check=True).stdout
+            self.assertEqual("threads 1\n" in said, told, given)
 
     def test_what_is_missing_is_said_with_where_to_look(self):
         self.write("part.step", "ISO-10303-21;")

@@ -2,6 +2,7 @@
 // Each check is a sentence; the last line counts them.
 import { spawn, spawnSync } from "node:child_process";
 import { request } from "node:http";
+import { connect } from "node:net";
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { Browser } from "./browser.mjs";
@@ -386,6 +387,13 @@ try {
   check("nor under the name of another machine", (await ask(address, { headers: { host: `evil.example:${port}` } })).status === 404);
   check("nor any other file", (await ask(`${address}case.toml`)).status === 404 && (await ask(`${address}../../etc/passwd`)).status === 404);
   check("nor for another method", (await ask(address, { method: "POST" })).status === 404);
+  const silent = await Promise.all(Array.from({ length: 20 }, () => new Promise((done) => {
+    const socket = connect(+port, "127.0.0.1", () => done(socket));
+    socket.on("error", () => done(socket));
+  })));
+  const asked = Date.now(), beside = await ask(address), waited = Date.now() - asked;
+  check("twenty visitors that say nothing keep nobody waiting", beside.status === 200 && waited < 15000, [beside.status, waited]);
+  silent.forEach((socket) => socket.destroy());
   const live = await until(async () => (await ask(address)).body.includes('id="stamp"'));
   check("the page is there while the run goes on", live && run.exitCode === null, run.exitCode);
   const watcher = await browser.page(1000, 800);
