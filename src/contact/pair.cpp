@@ -154,6 +154,22 @@ std::vector<HeatGap> ContactPair::heat_gaps() const {
   return heat_ ? heat_->term().gaps() : std::vector<HeatGap>{};
 }
 
+std::vector<HeatGap> ContactPair::heat_gaps_ahead(std::span<const double> displacement, double time) const {
+  std::vector<HeatGap> gaps = heat_gaps();
+  if (gaps.empty() || !active_) return gaps;
+  const ContactKinematics& kinematics = geometry_->at(time, displacement);
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    HeatGap& gap = gaps[at(p)];
+    if (!gap.partnered || !(gap.penetration < 0)) continue;
+    const PointMotion motion =
+        kinematics.motion(p, end_.state.points[at(p)], ContactKinematics::Asked::motion);
+    gap.partnered = motion.partnered;
+    if (motion.partnered) gap.penetration = std::min(motion.penetration + step_.from[at(p)].offset, 0.0);
+  }
+  geometry_->at(end_.time, end_.displacement);
+  return gaps;
+}
+
 void ContactPair::conduct_through(std::span<const HeatGap> gaps) {
   if (heat_) heat_->term().set_gaps(gaps);
 }

@@ -120,6 +120,10 @@ class ContactPair {
   /// The gaps that heat passes through, at the last update() or restore(), or those of conduct_through():
   /// [point]; empty without a heat law. Local.
   std::vector<HeatGap> heat_gaps() const;
+  /// The gaps as they would be at a later displacement [local node][component], ghosts up to date [m], and
+  /// time, seen from state(): open ones widen or close with the motion; those that carry a pressure, or melt
+  /// that clings to its wall, stay closed, since their forces do not follow from the motion alone. Local.
+  std::vector<HeatGap> heat_gaps_ahead(std::span<const double> displacement, double time) const;
   /// Conducts through these gaps until the next update() or restore(), wherever a point has a partner in
   /// both. Local.
   void conduct_through(std::span<const HeatGap> gaps);

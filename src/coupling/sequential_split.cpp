@@ -129,15 +129,19 @@ std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, Sta
                                                            int& turns) {
   turns = 1;
   State warm;
-  StepEffort effort = heat_at_rest(old, warm, time, dt, {});
-  if (stop && stop(warm, effort.fields.flows)) return {};
   const Gaps start = gaps();
+  const Gaps expected = expected_gaps(old, time, dt, start);
+  Gaps used = start;
+  for (std::size_t i = 0; i < used.size() && i < old.steady_gaps.size(); ++i)
+    if (old.steady_gaps[i] != 0) used[i] = expected[i];
+  StepEffort effort = heat_at_rest(old, warm, time, dt, used, false);
+  if (stop && stop(warm, effort.fields.flows)) return {};
   StepEffort deformed;
   mechanical_phase(old, warm, trial, time, dt, extrapolated(old, dt), deformed);
-  Gaps used = start;
   TurnWatch watch;
   while (true) {
     Gaps right = middle(start, gaps());
+    trial.steady_gaps = steady_gaps(start, expected, right, warm);
     deformed.gap_heat = gap_heat(used, right, warm);
     const contact::GapHeat all = sum(deformed.gap_heat);
     if (!misplaces_much(all, dt, effort) || turns == most) break;
@@ -147,7 +151,7 @@ std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, Sta
     ++turns;
     const PhaseEffort heat = effort.heat, mechanics = deformed.mechanics;
     restore_contacts(phases_, old);
-    effort = heat_at_rest(old, warm, time, dt, right);
+    effort = heat_at_rest(old, warm, time, dt, right, true);
     const Start before{trial.mechanics.displacement, trial.mechanics.pressure};
     deformed = {};
     mechanical_phase(old, warm, trial, time, dt, before, deformed);
@@ -169,6 +173,28 @@ SequentialSplit::Gaps SequentialSplit::middle(const Gaps& a, const Gaps& b) {
   Gaps result;
   for (std::size_t i = 0; i < a.size(); ++i) result.push_back(contact::middle(a[i], b[i]));
   return result;
+}
+
+SequentialSplit::Gaps SequentialSplit::expected_gaps(const State& old, double time, double dt,
+                                                     const Gaps& start) const {
+  if (options_.gap_tolerance >= 1) return start;
+  const std::vector<double> moved =
+      coupling::extrapolated(old.mechanics.displacement, old.displacement_rate, dt);
+  if (moved.empty()) return start;
+  Gaps end;
+  for (const contact::ContactPair* pair : phases_.contacts) end.push_back(pair->heat_gaps_ahead(moved, time));
+  return middle(start, end);
+}
+
+std::vector<char> SequentialSplit::steady_gaps(const Gaps& start, const Gaps& expected, const Gaps& right,
+                                               const State& warm) const {
+  constexpr double k_much_nearer = 0.5;
+  const std::vector<contact::GapHeat> from_start = gap_heat(start, right, warm),
+                                      from_expected = gap_heat(expected, right, warm);
+  std::vector<char> steady(start.size());
+  for (std::size_t i = 0; i < steady.size(); ++i)
+    steady[i] = from_expected[i].misplaced <= k_much_nearer * from_start[i].misplaced;
+  return steady;
 }
 
 SequentialSplit::Gaps SequentialSplit::gaps() const {
@@ -193,7 +219,7 @@ bool SequentialSplit::misplaces_much(const contact::GapHeat& all, double dt,
 }
 
 StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double time, double dt,
-                                         const Gaps& through) {
+                                         const Gaps& through, bool again) {
   StepEffort effort;
   phases_.mechanics->hold_deformation(old.mechanics, old.heat.temperature, plateau_share(phases_, old.heat));
   find_interface_temperatures(phases_, old, time - dt);
@@ -202,7 +228,7 @@ StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double t
   thermal_pass(phases_, old, warm,
                {.time = time,
                 .dt = dt,
-                .iterate = through.empty() ? nullptr : &warm.heat,
+                .iterate = again ? &warm.heat : nullptr,
                 .stepping = phases_.heat->stepping()},
                effort);
   book_interface(effort.energy, phases_.structural != nullptr);

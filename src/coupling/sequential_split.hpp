@@ -57,9 +57,18 @@ class SequentialSplit : public CouplingScheme {
   using Gaps = std::vector<std::vector<contact::HeatGap>>;
   Gaps gaps() const;
   static Gaps middle(const Gaps& a, const Gaps& b);
+  /// The gaps in the middle of a step if bodies go on moving as in the step before; those of t_n, `start`,
+  /// where that motion is not known.
+  Gaps expected_gaps(const State& old, double time, double dt, const Gaps& start) const;
+  /// The pairs whose gaps in the middle of the step, `right`, are much nearer to the expected ones than to
+  /// those of the start (State::steady_gaps).
+  std::vector<char> steady_gaps(const Gaps& start, const Gaps& expected, const Gaps& right,
+                                const State& warm) const;
   /// Heat at the configuration of t_n.
-  /// @param through  the gaps; empty: those of t_n. Otherwise Newton's iteration starts from `warm`.
-  StepEffort heat_at_rest(const State& old, State& warm, double time, double dt, const Gaps& through);
+  /// @param through  the gaps; empty: those of t_n
+  /// @param again    Newton's iteration starts from `warm`
+  StepEffort heat_at_rest(const State& old, State& warm, double time, double dt, const Gaps& through,
+                          bool again);
   /// The heat that passed through the gaps `used` at the temperatures found, [contact].
   std::vector<contact::GapHeat> gap_heat(const Gaps& used, const Gaps& right, const State& warm) const;
   /// Whether that is to be mended: more than the tolerance allows, and not little beside all heat of the

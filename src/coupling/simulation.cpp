@@ -103,6 +103,7 @@ void Simulation::enter_stage(Progress& p, const std::optional<RestartData>& from
                      p.committed.mechanics.displacement};
     p.committed.mechanics.dt_before = 0;
     p.committed.displacement_rate.clear();
+    p.committed.steady_gaps.clear();
     p.committed.pressure_rate.clear();
   } else {
     p.stage_start = from->stage;

@@ -24,6 +24,9 @@ struct State {
   std::vector<double> displacement_rate;
   /// The same of the nodal pressure of mixed elements [Pa/s], [local node][field].
   std::vector<double> pressure_rate;
+  /// One per pair: whether its gaps in the last step were much nearer to those that the motion before let
+  /// expect than to those of its start. Empty: not known, as no.
+  std::vector<char> steady_gaps;
   /// Schemes leave these alone: the simulation brings them to the state that it commits.
   criteria::CriteriaState criteria;
   heat::BurningState burning;

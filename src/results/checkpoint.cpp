@@ -23,7 +23,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_format = "Solidus checkpoint 15";
+/// Characters that stand for a pair in State::steady_gaps.
+constexpr char k_steady = 's', k_unsteady = '-';
+constexpr const char* k_format = "Solidus checkpoint 16";
 constexpr const char* k_known = "known";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
@@ -201,6 +203,9 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
     c.state.pressure_rate.resize(c.state.mechanics.pressure.size());
     take_nodes(in, "pressure_rate_of_last_step", nodes, c.state.pressure_rate);
   }
+  const std::string steady = in.text("steady_gaps");
+  c.state.steady_gaps.assign(steady.begin(), steady.end());
+  for (char& of_pair : c.state.steady_gaps) of_pair = of_pair == k_steady;
   take_shots(in, nodes, c.state, c.continuation.shots);
   mechanics::MechanicalState& mechanics = c.state.mechanics;
   // A run that went on with backward Euler left no history before the last: the next step is one too.
@@ -269,6 +274,9 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   out.text("first_guess", parallel::any_process(!c.state.displacement_rate.empty()) ? k_known : "unknown");
   nodal("rate_of_last_step", c.state.displacement_rate);
   nodal("pressure_rate_of_last_step", c.state.pressure_rate);
+  std::string steady;
+  for (const char of_pair : c.state.steady_gaps) steady += of_pair != 0 ? k_steady : k_unsteady;
+  out.text("steady_gaps", steady);
   const coupling::Rates& rates = c.continuation.rates;
   out.text("rates", rates.known() ? k_known : "unknown");
   if (rates.known()) {

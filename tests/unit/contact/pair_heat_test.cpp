@@ -134,6 +134,41 @@ TEST(InterfaceHeat, PassesThroughTheGapsThatItIsTold) {
   EXPECT_EQ(pair.gap_heat(mean, mean, temperature).misplaced, 0);
 }
 
+// Seen from 40 µm, a gap that widens to 120 µm will have these, one that closes is closed; points that carry a
+// pressure stay closed. The pair itself stays where it was.
+TEST(InterfaceHeat, SeesTheGapsOfALaterDisplacement) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  ContactParameters s = spec();
+  s.heat = heat_spec();
+  ContactPair pair(mesh, AnalysisKind::plane_strain, s);
+  const auto lifted = [&](double gap) {
+    return test::nodal_field(mesh, 2, [&](const Point&, bool upper) {
+      return std::vector<double>{0, upper ? gap : 0};
+    });
+  };
+  const auto same = [](const std::vector<HeatGap>& a, const std::vector<HeatGap>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t p = 0; p < a.size(); ++p) {
+      EXPECT_EQ(a[p].partnered, b[p].partnered) << p;
+      EXPECT_NEAR(a[p].penetration, b[p].penetration, 1e-18) << p;
+      EXPECT_EQ(a[p].pressure, b[p].pressure) << p;
+    }
+  };
+  pair.update(lifted(120e-6));
+  const std::vector<HeatGap> wide = pair.heat_gaps();
+  pair.update(lifted(40e-6));
+  const std::vector<HeatGap> now = pair.heat_gaps();
+  same(pair.heat_gaps_ahead(lifted(120e-6), 1), wide);
+  for (const HeatGap& gap : pair.heat_gaps_ahead(lifted(-10e-6), 1)) {
+    EXPECT_EQ(gap.penetration, 0);
+    EXPECT_EQ(gap.pressure, 0);
+  }
+  same(pair.heat_gaps(), now);
+  pair.update(lifted(-10e-6));
+  const std::vector<HeatGap> pressed = pair.heat_gaps();
+  same(pair.heat_gaps_ahead(lifted(120e-6), 1), pressed);
+}
+
 TEST(InterfaceHeat, LeavesOneBodyAndEntersTheOtherWithoutLoss) {
   for (bool nodal : {true, false})
     for (Shape shape : {Shape::tri3, Shape::hex8, Shape::hex20}) {
