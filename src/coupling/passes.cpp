@@ -16,7 +16,7 @@ namespace solidus::coupling {
 
 namespace {
 
-/// @param hardest  iterations of the harder stage
+/// @param hardest  effort of the harder stage
 void add(const linear::NewtonReport& newton, int hardest, double seconds, PhaseEffort& effort) {
   effort.iterations += newton.iterations;
   effort.hardest += hardest;
@@ -51,7 +51,7 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
     if (turns != nullptr) *turns = earlier + n_turns;
     try {
       report = phases.mechanics->solve(old.mechanics, next, turn);
-      add(report.newton, report.newton.iterations, 0, effort.mechanics);
+      add(report.newton, report.newton.effort, 0, effort.mechanics);
     } catch (const StepRejected& rejected) {
       reject_with_contacts(phases, rejected);
     }

@@ -70,7 +70,7 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
     truncated_newton_ = std::make_unique<TruncatedNewton>(
         mesh, *system_, *storage_, *solver_, ghosts_,
         TruncatedNewtonOptions{options_.tolerance > 0 ? options_.tolerance : k_nodal_tolerance,
-                               options_.max_iterations},
+                               options_.max_iterations, k_nodal_tolerance},
         std::move(relaxed));
   }
   for (const mesh::ElementBlock& block : mesh.blocks) {

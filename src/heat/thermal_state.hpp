@@ -56,7 +56,7 @@ struct EntropyChange {
 
 struct ThermalReport {
   linear::NewtonReport newton;  ///< sums over the stages of the step
-  int hardest = 0;              ///< the most iterations of one stage
+  int hardest = 0;              ///< the most effort of one stage (linear::NewtonReport)
   HeatBalance balance;
   StageFlows flows;  ///< known where the nodes hold the heat and something flows
 };

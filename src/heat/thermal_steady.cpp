@@ -36,8 +36,7 @@ std::size_t at(Index i) {
 }
 
 void add_iterations(linear::NewtonReport& report, linear::NewtonReport last) {
-  last.iterations += report.iterations;
-  last.linear_iterations += report.linear_iterations;
+  last.add_solves(report);
   report = std::move(last);
 }
 
@@ -79,6 +78,7 @@ linear::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperatu
   temperature_system_->tangent(temperature);
   linear::NewtonOptions newton;
   newton.tolerance = options_.tolerance > 0 ? options_.tolerance : k_point_tolerance;
+  newton.effort_tolerance = k_point_tolerance;
   newton.inexact = false;  // an iteration costs as much as 25 of the linear solver, which takes as many
   newton.absolute_tolerance = temperature_system_->round_off(temperature);
   newton.max_iterations = newton_steps > 0 ? newton_steps : options_.max_iterations;

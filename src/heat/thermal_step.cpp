@@ -46,8 +46,7 @@ void add_stage(ThermalReport& report, double carried, ThermalReport& last) {
     sum.conditions[i].heat += carried * first.conditions[i].heat;
   for (std::size_t i = 0; i < sum.contributions.size(); ++i)
     sum.contributions[i] += carried * first.contributions[i];
-  last.newton.iterations += report.newton.iterations;
-  last.newton.linear_iterations += report.newton.linear_iterations;
+  last.newton.add_solves(report.newton);
   last.hardest = std::max(last.hardest, report.hardest);
   report = std::move(last);
 }
@@ -106,8 +105,7 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
     second_order = false;
     begin_stage(first, old.temperature);
     ThermalReport again = solve_stage(old, middle, rest, to_end, next);
-    again.newton.iterations += last.newton.iterations;
-    again.newton.linear_iterations += last.newton.linear_iterations;
+    again.newton.add_solves(last.newton);
     again.hardest = std::max(again.hardest, last.hardest);
     last = std::move(again);
   }
@@ -140,7 +138,7 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
     temperature_system_->use_storage(true);
     std::vector<double> residual(at(mesh_.n_owned_nodes));
     report.newton = solve_temperature(next.temperature, residual, pass.newton_steps);
-    report.hardest = report.newton.iterations;
+    report.hardest = report.newton.effort;
     report.balance = balance(old, next, residual, temperature_system_->moved(), stage.dt);
     return report;
   }
@@ -149,7 +147,7 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
   const TemperatureRange range = limit_conduction(before, old);
   report.newton =
       truncated_newton_->solve(from, stage.dt, next.temperature, next.enthalpy, range, pass.newton_steps);
-  report.hardest = report.newton.iterations;
+  report.hardest = report.newton.effort;
   require_positive(next.temperature);
   if (!may_end(report.newton, pass.newton_steps))
     require(report.newton, truncated_newton_->residual(), next.temperature);

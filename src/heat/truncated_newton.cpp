@@ -163,6 +163,7 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
       break;
     }
     ++report.iterations;
+    if (norm_ > std::max(options_.tolerance, options_.effort_tolerance) * moved_) ++report.effort;
     const double to = forcing.next(norm_, options_.tolerance * moved_ / norm_);
     const bool in_depth = watch.passed_in_depth(heat_, temperature_);
     const bool may_use_chords =

@@ -55,6 +55,7 @@ namespace solidus::heat {
 struct TruncatedNewtonOptions {
   double tolerance = 1e-6;  ///< Σ|F_i| <= tolerance × heat moved per time
   int max_iterations = 50;
+  double effort_tolerance = 1e-6;  ///< what linear::NewtonReport::effort counts down to
 };
 
 class TruncatedNewton {

@@ -70,6 +70,7 @@ class Iteration {
   double goal() const { return std::max(options_.tolerance * reference_, options_.absolute_tolerance); }
   bool balanced() const { return norm_ <= goal(); }
   bool converged() const;
+  bool takes_effort() const;
   bool chord_converges(double norm_before) const {
     return norm_ * (k_chord_residual * norm_ / norm_before) <= goal();
   }
@@ -101,6 +102,15 @@ bool Iteration::converged() const {
   if (options_.step_tolerance <= 0 || norm_ <= options_.absolute_tolerance) return balanced();
   if (!std::isfinite(next_step_)) return false;  // no step has been taken
   return balanced() && (next_step_ <= options_.step_tolerance || norm_ <= k_no_force * goal());
+}
+
+/// Whether the iteration would go on with the tolerances down to which its effort counts.
+bool Iteration::takes_effort() const {
+  const double goal = std::max(std::max(options_.tolerance, options_.effort_tolerance) * reference_,
+                               options_.absolute_tolerance);
+  if (norm_ > goal) return true;
+  if (options_.step_tolerance <= 0 || norm_ <= k_no_force * goal) return false;
+  return !(next_step_ <= std::max(options_.step_tolerance, options_.effort_step_tolerance));
 }
 
 void Iteration::measure_next_step(double alpha, double norm_before) {
@@ -218,6 +228,7 @@ NewtonReport Iteration::run() {
     for (double& value : r_) value = -value;
     tangent = nullptr;
     ++report.iterations;
+    if (takes_effort()) ++report.effort;
     report.linear_iterations += linear.iterations;
     if (!linear.converged) {
       report.reason = "linear solver: " + linear.reason;

@@ -18,6 +18,8 @@ struct NewtonOptions {
   /// the tolerance says nothing of an error along which the system has next to no stiffness. Zero: the
   /// residual alone ends the iteration.
   double step_tolerance = 0;
+  /// What NewtonReport::effort counts down to, where the tolerances ask for more.
+  double effort_tolerance = 1e-5, effort_step_tolerance = 1e-3;
   int max_iterations = 25;
   bool line_search = true;
   bool chords = true;   ///< steps with the tangent before, where they will do
@@ -29,9 +31,19 @@ struct NewtonReport {
   bool converged = false;
   bool out_of_iterations = false;  ///< stopped by max_iterations alone: x is a good iterate
   int iterations = 0;              ///< linear solves
+  /// Those of them that set out from farther off than NewtonOptions::effort_tolerance: how hard the solution
+  /// is, whatever tolerance is asked for beyond that.
+  int effort = 0;
   int linear_iterations = 0;
   std::vector<double> residuals;  ///< ‖r‖/reference before each solve and at the end
   std::string reason;             ///< why it stopped when it did not converge
+
+  /// Counts the solves of an iteration before this one as well.
+  void add_solves(const NewtonReport& before) {
+    iterations += before.iterations;
+    effort += before.effort;
+    linear_iterations += before.linear_iterations;
+  }
 };
 
 /// A system r(x) = 0 in nodal fields [local node][component], which stand one behind the other in x; so do

@@ -188,8 +188,7 @@ MechanicalReport MechanicalPhase::solve(const MechanicalState& old, MechanicalSt
     const linear::NewtonReport from_guess = std::move(report.newton);
     x = start(old, pass);
     report.newton = linear::newton(equilibrium, *solver_, ghosts_, fields_, x, newton_options);
-    report.newton.iterations += from_guess.iterations;
-    report.newton.linear_iterations += from_guess.linear_iterations;
+    report.newton.add_solves(from_guess);
   }
   for (int turn = 1; report.newton.converged && pressure_ &&
                      pressure_->fill_pores(std::span<const double>(x).subspan(n_displacements()), turn);
@@ -197,8 +196,7 @@ MechanicalReport MechanicalPhase::solve(const MechanicalState& old, MechanicalSt
     const linear::NewtonReport before = std::move(report.newton);
     residual_is_known_ = false;
     report.newton = linear::newton(equilibrium, *solver_, ghosts_, fields_, x, newton_options);
-    report.newton.iterations += before.iterations;
-    report.newton.linear_iterations += before.linear_iterations;
+    report.newton.add_solves(before);
   }
   const bool may_end = pass.newton_steps > 0 && report.newton.out_of_iterations;
   if (!report.newton.converged && !may_end) reject(report.newton.reason, x);

@@ -128,7 +128,8 @@ const CouplingEstimate* too_strong(std::span<const CouplingEstimate> couplings) 
 }  // namespace
 
 std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double time,
-                      const std::string& checkpoint, std::span<const CouplingEstimate> couplings) {
+                      const std::string& checkpoint, std::span<const CouplingEstimate> couplings,
+                      const std::string& ran_out) {
   const std::string checkpoint_line =
       checkpoint.empty() ? "" : fmt::format("  checkpoint: {} (t = {:.6g} s)\n", checkpoint, time);
   if (stop.asked)
@@ -144,6 +145,7 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
                         stop.tries == 1 ? "step" : "steps, each shorter", stop.smallest_step) +
             checkpoint_line;
   text += "  what may help:";
+  if (!ran_out.empty()) text += fmt::format("\n    - {}", ran_out);
   const CouplingEstimate* unstable = too_strong(couplings);
   if (unstable != nullptr)
     text += fmt::format(

@@ -14,7 +14,9 @@ namespace solidus::model {
 /// @param time the run reached [s]
 /// @param checkpoint its file
 /// @param couplings  of a run by the isothermal split, otherwise empty
+/// @param ran_out    MeltWatch::ran_out()
 std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double time,
-                      const std::string& checkpoint, std::span<const CouplingEstimate> couplings = {});
+                      const std::string& checkpoint, std::span<const CouplingEstimate> couplings = {},
+                      const std::string& ran_out = {});
 
 }  // namespace solidus::model

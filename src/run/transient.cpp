@@ -61,7 +61,10 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
       gaps_(a.phases.contacts) {
   simulation_.add(range_);
   if (a.heat) simulation_.add(bounds_.emplace(spec, *a.heat));
-  if (a.phases.coherency != nullptr) simulation_.add(walls_);
+  if (a.phases.coherency != nullptr) {
+    simulation_.add(walls_);
+    simulation_.add(melts_.emplace(spec, a));
+  }
   if (lags_a_step(spec, a.phases.coherency != nullptr)) simulation_.add(lag_);
   simulation_.add(gaps_);
   simulation_.add(dissipation_);
@@ -101,7 +104,8 @@ std::optional<RunResult> Transient::result(std::optional<coupling::Outcome> outc
       options_.folder.empty()
           ? ""
           : results::CheckpointFolder(options_.folder).latest().lexically_normal().string();
-  return RunResult{false, stop_text(why_.stop, spec_, why_.time, checkpoint, couplings)};
+  return RunResult{false, stop_text(why_.stop, spec_, why_.time, checkpoint, couplings,
+                                    melts_ ? melts_->ran_out() : std::string())};
 }
 
 void Transient::change_conditions() {

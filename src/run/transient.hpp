@@ -13,6 +13,7 @@
 #include "run/bounds_watch.hpp"
 #include "run/dissipation_watch.hpp"
 #include "run/gap_watch.hpp"
+#include "run/melt_watch.hpp"
 #include "run/range_watch.hpp"
 #include "run/session.hpp"
 
@@ -56,6 +57,7 @@ class Transient {
   coupling::Simulation simulation_;
   RangeWatch range_;
   std::optional<BoundsWatch> bounds_;
+  std::optional<MeltWatch> melts_;
   DissipationWatch dissipation_;
   StabilityWatch stability_;
   FirstLawWatch first_law_;

@@ -200,4 +200,40 @@ TEST(LeavingBodies, MayNotLeaveMeltWithoutItsMould) {
   EXPECT_THAT(solidus::logging::warnings(), ::testing::Not(::testing::Contains(HasSubstr("would run out"))));
 }
 
+/// A block of melt on a floor, between a plane of symmetry and, with `walls`, a wall.
+std::string melt_on_a_floor(bool walls) {
+  const auto held = [](const char* group, const char* component) {
+    return std::string("[[mechanical_condition]]\nname = \"") + group + "\"\ngroup = \"" + group +
+           "\"\nkind = \"displacement\"\n" + component + " = \"0 mm\"\n";
+  };
+  return R"(title = "Melt on a floor"
+[analysis]
+kind = "plane_strain"
+physics = "thermomechanical"
+gravity = "9.81 m/s2"
+[mesh]
+shape = "block"
+element = "tri3"
+[mesh.block]
+size = ["20 mm", "20 mm"]
+divisions = [4, 4]
+[time]
+end = "30 s"
+step = "1 s"
+[[body]]
+name = "block"
+material = "aluminium_alsi7mg"
+initial_temperature = "700 degC"
+)" + held("y_min", "uy") +
+         held("x_min", "ux") + (walls ? held("x_max", "ux") : "");
+}
+
+TEST(LeavingBodies, MeltThatNothingHoldsRunsOutAndTheRunSaysSo) {
+  k_here.run("no_wall", melt_on_a_floor(false));
+  EXPECT_THAT(solidus::logging::warnings(),
+              ::testing::Contains(HasSubstr("the melt of 'block' has run out: by t = ")));
+  ASSERT_TRUE(k_here.run("wall", melt_on_a_floor(true)).finished);
+  EXPECT_THAT(solidus::logging::warnings(), ::testing::Not(::testing::Contains(HasSubstr("has run out"))));
+}
+
 }  // namespace

@@ -75,6 +75,8 @@ class Runner:
         if code == 1:
             said = re.search(r"solidus: (\S+:\d+:\d+: .*)", log)
             return ("refused", said[1]) if said else ("broken", "refused without a place: " + log[-200:])
+        if code == 2 and "has run out" in log:  # a melt that nothing holds has no equilibrium
+            return "refused", re.search(r"the melt of .* has run out", log)[0]
         if code == 2:
             said = re.search(r"reason: (.*)", log)
             return "stopped", said[1] if said else log[-200:]

@@ -149,6 +149,23 @@ TEST(Newton, ForcesInBalanceDoNotEndItWhereTheDisplacementIsFarOff) {
   EXPECT_EQ(solve(1e-2, 1e-3).second, 0);  // rounding is no reason for a step
 }
 
+TEST(Newton, TheEffortOfASolutionIsThatOfTheDefaultsWhateverToleranceIsAskedFor) {
+  const Grid grid(5, 6);
+  const auto solve = [&](double tolerance) {
+    SpringGrid system = cubic(grid);
+    system.matrix().set_fixed(fix(grid, 7));
+    std::vector<double> x(static_cast<std::size_t>(grid.mesh.n_nodes()), 1.5);
+    return run(grid, system, x, {.tolerance = tolerance, .line_search = false, .chords = false});
+  };
+  const NewtonReport loose = solve(1e-2), usual = solve(NewtonOptions{}.effort_tolerance),
+                     tight = solve(1e-13);
+  EXPECT_EQ(loose.effort, loose.iterations);
+  EXPECT_EQ(usual.effort, usual.iterations);
+  EXPECT_EQ(tight.effort, usual.effort);
+  EXPECT_LT(loose.effort, usual.effort);
+  EXPECT_LT(tight.effort, tight.iterations);
+}
+
 TEST(Newton, AStartOutOfBalanceByLessThanRoundingIsLeftWhereForcesAreMuchMore) {
   const Grid grid(5, 6);
   const auto iterations = [&](double absolute) {

@@ -1,0 +1,35 @@
+/// Warns once where a melt has flowed so far that it has run out: nothing holds it at its sides or below.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "build/assembly.hpp"
+#include "case/case_spec.hpp"
+#include "coupling/observer.hpp"
+
+namespace solidus::model {
+
+/// A melt that neither a mould nor a support holds on all sides is driven out by its weight, and goes on with
+/// every step. Such a case has no answer, only a step that does not converge or results that mean nothing.
+class MeltWatch final : public coupling::Observer {
+ public:
+  /// @param a  with phases.coherency; must outlive this object
+  MeltWatch(const CaseSpec& spec, const Assembly& a);
+  void begin(const coupling::State&) override {}
+  void step(const coupling::StepRecord& record, const coupling::State& state) override;
+  void stopped(const coupling::Stop&, const coupling::State&) override {}
+  void end(const coupling::State&) override {}
+
+  /// What has run out, how far, and since when; empty: nothing has.
+  const std::string& ran_out() const { return ran_out_; }
+
+ private:
+  const CaseSpec& spec_;
+  const Assembly& a_;
+  std::vector<int> body_;     ///< [owned node]: the body that its first element belongs to
+  std::vector<double> size_;  ///< [body] diagonal of its box [m], over all processes
+  std::string ran_out_;
+};
+
+}  // namespace solidus::model
