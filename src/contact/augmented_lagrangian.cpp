@@ -100,10 +100,20 @@ double AugmentedLagrangian::excess(const ContactState& now) const {
   return allowed > 0 ? found.penetration / allowed : 0;
 }
 
-double AugmentedLagrangian::share_of_penalty(const ContactState& now) const {
+double AugmentedLagrangian::pressure_error(const ContactState& now) const {
   if (!acts()) return 0;
-  const Largest found = largest(now);
-  return found.pressure > 0 ? found.penetration * law_.penalty / found.pressure : 0;
+  double force = 0, area = 0;
+  const ContactKinematics& kinematics = geometry_.kinematics();
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    const ContactKinematics::Particle particle = kinematics.particle(p);
+    const double pressure = now.points[at(p)].pressure;
+    if (!particle.counted || !(pressure > 0)) continue;
+    force += particle.weight * pressure;
+    area += particle.weight;
+  }
+  force = parallel::global_sum(force);
+  area = parallel::global_sum(area);
+  return force > 0 ? largest(now).penetration * stiffness_ * area / force : 0;
 }
 
 std::string AugmentedLagrangian::worst_penetration(const ContactState& now) const {

@@ -36,9 +36,14 @@ class AugmentedLagrangian {
   /// Keeps references.
   /// @param allowed             penetration that may be left [m]
   /// @param pressure_tolerance  in place of it, ContactParameters::pressure_tolerance
+  /// @param stiffness           ⟨E/h⟩ of the stiffer surface (penalty.hpp) [Pa/m]; zero: not known
   AugmentedLagrangian(const ContactGeometry& geometry, const NormalLaw& law, double allowed,
-                      std::optional<double> pressure_tolerance)
-      : geometry_(geometry), law_(law), allowed_(allowed), pressure_tolerance_(pressure_tolerance) {}
+                      std::optional<double> pressure_tolerance, double stiffness)
+      : geometry_(geometry),
+        law_(law),
+        allowed_(allowed),
+        pressure_tolerance_(pressure_tolerance),
+        stiffness_(stiffness > 0 ? stiffness : law.penalty) {}
   /// Whether the law has multipliers; without them the functions below do nothing.
   bool acts() const { return law_.kind == NormalKind::augmented_lagrangian; }
   /// The turns of another step follow.
@@ -48,9 +53,11 @@ class AugmentedLagrangian {
   void augment(const ContactState& now, ContactStep& step, AugmentedBy by);
   /// The largest mean penetration around a node of the slave, as a share of what is allowed. Collective.
   double excess(const ContactState& now) const;
-  /// The largest mean penetration around a node of the slave, as a share of the largest penetration with which
-  /// the penalty alone would carry the pressures of that state, max t_N/ε_N; zero without pressure. Collective.
-  double share_of_penalty(const ContactState& now) const;
+  /// What the penetrations that are left may change the pressures by, as a share of their mean: the largest
+  /// mean penetration around a node of the slave, taken up by the elements next to the surface, ⟨E/h⟩ ḡ_a over
+  /// the mean t_N of the closed points; zero without pressure. The default penalty alone would leave a tenth.
+  /// Collective.
+  double pressure_error(const ContactState& now) const;
   /// Describes the place of the largest mean penetration, for messages. Collective.
   std::string worst_penetration(const ContactState& now) const;
 
@@ -69,6 +76,7 @@ class AugmentedLagrangian {
   const NormalLaw& law_;
   double allowed_;
   std::optional<double> pressure_tolerance_;
+  double stiffness_;
   /// ḡ_a [m] and a_N in the last turn of this step, [local node]; empty in the first turn.
   std::vector<double> last_penetration_, step_factor_;
 };

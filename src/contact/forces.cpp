@@ -33,7 +33,7 @@ ContactForces::ContactForces(const ContactGeometry& geometry, const ContactParam
       law_(law_of(spec, penalty_of(geometry.mesh(), spec, surfaces, body_modulus))),
       symmetric_(spec.friction ? spec.friction->symmetric : geometry.kinematics().symmetric()),
       multipliers_(geometry, law_.normal, spec.penetration_tolerance * geometry.face_size(),
-                   spec.pressure_tolerance),
+                   spec.pressure_tolerance, stiffness_of(geometry.mesh(), surfaces, body_modulus)),
       term_(spec.name, geometry, law_, step, spec.stabilisation, spec.friction && spec.friction->symmetric) {}
 
 void ContactForces::activate(bool on) {
@@ -63,8 +63,8 @@ double ContactForces::excess(const ContactState& now) const {
   return active_ ? multipliers_.excess(now) : 0.0;
 }
 
-double ContactForces::share_of_penalty(const ContactState& now) const {
-  return active_ ? multipliers_.share_of_penalty(now) : 0.0;
+double ContactForces::pressure_error(const ContactState& now) const {
+  return active_ ? multipliers_.pressure_error(now) : 0.0;
 }
 
 GlobalIndex ContactForces::changes() const {

@@ -38,7 +38,7 @@ class ContactForces {
   /// (augmented_lagrangian.hpp). Collective.
   void augment(const ContactState& now, ContactStep& step, AugmentedBy by);
   double excess(const ContactState& now) const;
-  double share_of_penalty(const ContactState& now) const;
+  double pressure_error(const ContactState& now) const;
   std::string worst_penetration(const ContactState& now) const { return multipliers_.worst_penetration(now); }
   /// Points that changed between open, sticking and slipping at the last residual. Collective.
   GlobalIndex changes() const;

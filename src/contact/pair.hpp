@@ -145,7 +145,7 @@ class ContactPair {
   /// share of what is allowed; zero where there is no augmented Lagrangian. Collective.
   double excess() const { return forces_->excess(end_.state); }
   /// The same as a share of what the penalty alone would leave. Collective.
-  double share_of_penalty() const { return forces_->share_of_penalty(end_.state); }
+  double pressure_error() const { return forces_->pressure_error(end_.state); }
 
   /// Drops the recorded sparsity pattern (coupling/scheme.hpp, forget()).
   void forget() { geometry_->graph().forget(); }

@@ -60,15 +60,18 @@ double local_stiffness(const mesh::Mesh& mesh, const ContactSurface& surface,
   return area > 0 ? sum / area : 0;
 }
 
+double stiffness_of(const mesh::Mesh& mesh, const PairSurfaces& surfaces, std::span<const double> modulus) {
+  if (modulus.size() != mesh.bodies.size()) return 0;
+  return std::max(local_stiffness(mesh, surfaces.slave, modulus),
+                  surfaces.master ? local_stiffness(mesh, *surfaces.master, modulus) : 0.0);
+}
+
 double penalty_of(const mesh::Mesh& mesh, const ContactParameters& spec, const PairSurfaces& surfaces,
                   std::span<const double> modulus) {
   if (!(spec.penalty > 0))
     throw InputError(spec.where, fmt::format("contact '{}': the penalty is not positive", spec.name));
   if (!spec.penalty_is_factor) return spec.penalty;
-  double stiffness = 0;
-  if (modulus.size() == mesh.bodies.size())
-    stiffness = std::max(local_stiffness(mesh, surfaces.slave, modulus),
-                         surfaces.master ? local_stiffness(mesh, *surfaces.master, modulus) : 0.0);
+  const double stiffness = stiffness_of(mesh, surfaces, modulus);
   if (!(stiffness > 0))
     throw InputError(
         spec.where,

@@ -14,6 +14,9 @@ namespace solidus::contact {
 double local_stiffness(const mesh::Mesh& mesh, const ContactSurface& surface,
                        std::span<const double> modulus);
 
+/// The larger ⟨E/h⟩ of the two surfaces [Pa/m]; zero where no modulus is known. Collective.
+double stiffness_of(const mesh::Mesh& mesh, const PairSurfaces& surfaces, std::span<const double> modulus);
+
 /// ε_N of a pair [Pa/m]: as given, or the factor on the stiffness of the stiffer of its surfaces. Collective.
 /// Throws InputError for one that is not positive, and for a factor where no stiffness is known.
 double penalty_of(const mesh::Mesh& mesh, const ContactParameters& spec, const PairSurfaces& surfaces,

@@ -19,8 +19,8 @@ namespace {
 // from the multipliers of the one before, and share these turns.
 constexpr int k_enough_augmentations = 60;
 constexpr double k_tolerable = 10;
-// After so many turns a step stands as it is, with a warning that says how far it is off, unless the penalty
-// alone would leave less.
+// After so many turns a step stands as it is, with a warning that says how far it is off, unless the default
+// penalty alone would leave less.
 constexpr int k_most_augmentations = 200;
 // Turns that nobody asked for (ContactSpec::pressure_tolerance) end here: what is left is less than the
 // penalty alone would leave.
@@ -57,10 +57,12 @@ int rounded_up(double share) {
   return 100;
 }
 
-/// Takes the multipliers as they are and says so; throws StepRejected where the penalty alone is better.
+/// Takes the multipliers as they are and says so; throws StepRejected where pressures may be farther off than
+/// with the default penalty alone.
 void end_turns(const contact::ContactPair& pair, int turns, double excess) {
-  const double share = pair.share_of_penalty();
-  if (share > 1)
+  constexpr double k_of_default_penalty = 0.1;
+  const double share = pair.pressure_error();
+  if (share > k_of_default_penalty)
     throw StepRejected(
         fmt::format("contact '{}': {} turns of the augmented Lagrangian leave penetrations {:.3g} times as "
                     "large as allowed",
@@ -68,7 +70,7 @@ void end_turns(const contact::ContactPair& pair, int turns, double excess) {
         pair.forces().worst_penetration(pair.state()));
   logging::warn(
       "contact '{}': in some steps {} turns of the augmented Lagrangian do not settle; its multipliers are "
-      "taken as they are there, off by up to {} % of the largest contact pressure; normal = \"penalty\" or a "
+      "taken as they are there, off by up to {} % of the mean contact pressure; normal = \"penalty\" or a "
       "larger penetration_tolerance costs fewer turns",
       pair.spec().name, k_most_augmentations, rounded_up(share));
 }
