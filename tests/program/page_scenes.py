@@ -18,7 +18,10 @@ BRACKET = {"bracket": "cases/bracket"}
 CRANKSHAFT = ["solidus run bracket -o results/crankshaft/default"]
 SCENES = {
     "README.md": Scene({"part.step": "tests/parts/flange.step"}),
-    "case_file.md": Scene({"part.step": "tests/parts/flange.step"}, words={"CASE": "cases/aluminium_cylinder"}),
+    "case_file.md": Scene({"part.step": "tests/parts/flange.step"},
+                          {"case.toml": 'title = "A steel block', "variants.toml": "[part.finer]"},
+                          lines=["mkdir block && cp case.toml variants.toml block"],
+                          words={"CASE": "cases/aluminium_cylinder", "FOLDER": "block"}, end="10 s"),
     "command_line.md": Scene(
         texts={"case.toml": "case_file.md"},
         lines=["mkdir -p ~/.local/share/bash-completion/completions ~/.zfunc ~/.config/fish/completions",
@@ -36,7 +39,8 @@ SCENES = {
     "findings.md": Scene(BRACKET, words={"CASE": "bracket"}),
     "getting_started.md": Scene({"bracket.geo": "cases/bracket/bracket.geo", "case.toml": "cases/bracket/case.toml"},
                                 lines=["solidus run case.toml -o results/case/default"]),
-    "install.md": Scene({"bracket.step": "cases/bracket_from_step/bracket.step"}, words={"CASE": "hot_spots"}),
+    "install.md": Scene({"bracket.step": "cases/bracket_from_step/bracket.step", "aluminium_cylinder": "cases/aluminium_cylinder"},
+                        words={"CASE": "hot_spots"}),
     "interfaces.md": Scene(BRACKET),
     "material_import.md": Scene(texts={"alsi9cu3.csv": "Temperature [C]"}),
     "materials.md": Scene(texts={"my_alloy.toml": 'title = "My alloy"'}, words={"FILE": "my_alloy.toml"}),

@@ -72,10 +72,10 @@ class TypedPages(ProgramTest):
     def put_in(line, scene):
         """The line with CASE, FOLDER and the like replaced; None where something stays open."""
         words = {"CASE": "case.toml", "FOLDER": "somewhere", "NAME": "aluminium_alsi7mg", **scene.words}
-        for word in set(filter(is_pattern, line.split())):
+        for word in set(filter(is_pattern, re.split(r"[\s:]", line))):  # FOLDER:VARIANT too
             if word not in words:
                 return None
-            line = re.sub(rf"(?<!\S){word}(?!\S)", words[word], line)
+            line = re.sub(rf"(?<!\S){word}(?![^\s:])", words[word], line)
         return line
 
     def test_every_command_of_every_page_can_be_typed_as_it_stands(self):
