@@ -170,7 +170,7 @@ class Layers {
   int n_files_ = 0;
 };
 
-/// What may have been meant by a path that is not there: cases beside it, or variants of its folder, with
+/// Suggests names for a path that is not there: cases beside it, or variants of its folder, with
 /// nearly its name.
 std::string near_case(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");

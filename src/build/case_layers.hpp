@@ -19,7 +19,7 @@
 
 namespace solidus::model {
 
-/// What a user means by the name of a case.
+/// A case as a user names it, taken apart.
 struct CaseName {
   std::filesystem::path file;  ///< exists
   std::string variant;         ///< of the variants.toml beside it; empty: the file as it is

@@ -16,7 +16,7 @@ namespace {
 /// Of the moduli, from which on the energies of the program are not those of the law.
 constexpr double k_moduli = 0.01;
 
-/// What to write instead: schemes that hold the temperature by themselves, and those that can be told to.
+/// Advises on other schemes: those that hold the temperature by themselves, and those that can be told to.
 std::string isothermal_schemes() {
   return "scheme = " + coupling::names_of_schemes([](const coupling::SchemeTraits& t) {
            return t.mapping == mechanics::Mapping::isothermal;

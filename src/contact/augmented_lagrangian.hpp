@@ -28,7 +28,7 @@
 
 namespace solidus::contact {
 
-/// What the multipliers follow in a turn.
+/// The penetrations from which a turn raises the multipliers: means around nodes, or those of the points.
 enum class AugmentedBy { means, points };
 
 class AugmentedLagrangian {
@@ -53,10 +53,9 @@ class AugmentedLagrangian {
   void augment(const ContactState& now, ContactStep& step, AugmentedBy by);
   /// The largest mean penetration around a node of the slave, as a share of what is allowed. Collective.
   double excess(const ContactState& now) const;
-  /// What the penetrations that are left may change the pressures by, as a share of their mean: the largest
-  /// mean penetration around a node of the slave, taken up by the elements next to the surface, ⟨E/h⟩ ḡ_a over
-  /// the mean t_N of the closed points; zero without pressure. The default penalty alone would leave a tenth.
-  /// Collective.
+  /// An estimate of the error of the pressures, as a share of their mean: the largest mean penetration left
+  /// around a node of the slave, taken up by the elements next to the surface, ⟨E/h⟩ ḡ_a over the mean t_N of
+  /// the closed points; zero without pressure. The default penalty alone would leave a tenth. Collective.
   double pressure_error(const ContactState& now) const;
   /// Describes the place of the largest mean penetration, for messages. Collective.
   std::string worst_penetration(const ContactState& now) const;

@@ -13,10 +13,10 @@ namespace solidus::coupling {
 
 namespace {
 
-// Multipliers follow the means around nodes first. After k_enough_augmentations turns, where points at the edge
-// of contact open and close from turn to turn, penetrations may be k_tolerable times as large as allowed, with
-// a warning; else multipliers follow the points from there on. The passes of a step that is iterated set out
-// from the multipliers of the one before, and share these turns.
+// Multipliers follow the means around nodes first. After k_enough_augmentations turns, where points at the
+// edge of contact open and close from turn to turn, penetrations may be k_tolerable times as large as
+// allowed, with a warning; else multipliers follow the points from there on. The passes of a step that is
+// iterated set out from the multipliers of the one before, and share these turns.
 constexpr int k_enough_augmentations = 60;
 constexpr double k_tolerable = 10;
 // After so many turns a step stands as it is, with a warning that says how far it is off, unless the default

@@ -18,7 +18,8 @@ struct NewtonOptions {
   /// the tolerance says nothing of an error along which the system has next to no stiffness. Zero: the
   /// residual alone ends the iteration.
   double step_tolerance = 0;
-  /// What NewtonReport::effort counts down to, where the tolerances ask for more.
+  /// Iterations that set out from less than these do not count as effort (NewtonReport::effort), where the
+  /// tolerances ask for more.
   double effort_tolerance = 1e-5, effort_step_tolerance = 1e-3;
   int max_iterations = 25;
   bool line_search = true;

@@ -59,12 +59,10 @@ struct SequentialScheme {
         .range(0.0, 1.0)
         .doc(
             "With heat first: share of the heat through interfaces that may be misplaced because the gaps "
-            "are "
-            "other ones than expected from the motion of the step before. Where it is more, the step is "
-            "solved "
-            "again, heat through the mean of the gaps at both of its ends, until it is not, three times at "
-            "most. 0.02 where it is not given; one: never, and heat passes through the gaps of the step's "
-            "start.");
+            "are other ones than expected from the motion of the step before. Where it is more, the step is "
+            "solved again, heat through the mean of the gaps at both of its ends, until it is not, three "
+            "times at most. 0.02 where it is not given; one: never, and heat passes through the gaps of the "
+            "step's start.");
   }
 };
 
