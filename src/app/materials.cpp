@@ -1,10 +1,12 @@
 /// The verb `materials`: the library, or one material with its sources.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/material_tables.hpp"
 #include "app/verbs.hpp"
 #include "case/case_materials.hpp"
 #include "input/units.hpp"
+#include "material/designations.hpp"
 #include "material/laws/hardening_law.hpp"
 #include "material/laws/kinematic_law.hpp"
 #include "material/laws/liquid_law.hpp"
@@ -101,6 +103,8 @@ ExitCode materials(const std::string& name, const std::string& output) {
   if (!name.empty()) {
     const Material material = material::find_material(name, folders);
     std::string out = describe(material);
+    if (const auto known_as = material::designations(name, folders); !known_as.empty())
+      out += fmt::format("Also named {}\n", fmt::join(known_as, ", "));
     if (!output.empty()) {
       results::on_first_process([&] { write_material_tables(material, output); });
       out += fmt::format("Tables in {}\n", output);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "input/document.hpp"
+#include "material/designations.hpp"
 #include "material/elasticity.hpp"
 #include "material/external_keys.hpp"
 #include "material/laws/fraction_law.hpp"
@@ -54,6 +55,7 @@ void inherit(Value& own, const Value& base, const SectionInfo& keys) {
     if ((entry.key == "plasticity" && given.find("external") != nullptr) ||
         (entry.key == "external" && given.find("plasticity") != nullptr))
       continue;  // one of them is the law of the solid
+    if (entry.key == "designations") continue;  // a material that is like another has not its name
     Value* mine = own.find(entry.key);
     if (mine == nullptr) {
       if (key == nullptr || belongs(*key, given)) own.set(entry.key, entry.value);
@@ -80,7 +82,7 @@ fs::path locate(const std::string& reference, std::span<const fs::path> library,
   for (const fs::path& place : library)
     if (const fs::path file = place / (reference + ".toml"); fs::exists(file, unreadable)) return file;
   throw InputError(where, "there is no material '" + reference + "'",
-                   one_of(material_names(library), reference));
+                   materials_meant(reference, material_names(library), library));
 }
 
 /// The document of a file with the values that it inherits.

@@ -44,6 +44,7 @@ enum class ExpansionAs {
 /// The keys of a material file, as read and in SI.
 struct MaterialData {
   std::string title, like;
+  std::vector<std::string> designations;
   Function density, conductivity, specific_heat;
   SpecificHeatAt specific_heat_at = SpecificHeatAt::constant_pressure;
   std::vector<PhaseChangeData> phase_changes;
@@ -82,7 +83,8 @@ Material load_material(const std::filesystem::path& file,
 /// The material that the user names: a name in the library, or a file (anything with ".toml" at its end)
 /// relative to the file that names it. The first folder of the library that has the name wins.
 /// @param where  the place of the name in the user's input
-/// Throws InputError with the nearest name when there is none.
+/// Throws InputError when there is none, with the materials that the name designates ("A356") or the nearest
+/// name.
 Material find_material(const std::string& reference, std::span<const std::filesystem::path> library,
                        const SourceLocation& where = {});
 

@@ -112,6 +112,12 @@ Section<MaterialData> material_keys() {
   Section<MaterialData> s(
       "", "A material: every property with unit, source and the temperatures for which it holds.");
   s.key("title", &MaterialData::title).initially("").doc("What it is, in one line.");
+  s.key("designations", &MaterialData::designations)
+      .initially(Value::list())
+      .doc(
+          "Names of standards and of the trade by which one may look for the material: who writes one of "
+          "them "
+          "in a case is told its name in the library.");
   s.key("like", &MaterialData::like)
       .initially("")
       .doc(

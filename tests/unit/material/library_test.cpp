@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "input/document.hpp"
+#include "material/designations.hpp"
 #include "material/hardening.hpp"
 #include "material/laws/perzyna.hpp"
 
@@ -18,7 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 const std::array<fs::path, 1> k_library{fs::path(SOLIDUS_SOURCE_DIR) / "materials"};
 
@@ -135,6 +139,34 @@ TEST(MaterialLibrary, AnUnknownNameIsAnsweredWithTheNearestAndThePlace) {
                                     HasSubstr("did you mean 'aluminium_99_7'?")));
   }
   EXPECT_THROW(find_material("missing.toml", k_library), InputError);
+}
+
+TEST(MaterialLibrary, ADesignationIsAnsweredWithTheMaterialsThatHaveIt) {
+  const auto names = material_names(k_library);
+  const auto meant = [&](const char* name) { return designated(name, names, k_library); };
+  EXPECT_THAT(meant("a356"), ElementsAre("aluminium_alsi7mg"));
+  EXPECT_THAT(meant("A356-T6"), ElementsAre("aluminium_alsi7mg"));
+  EXPECT_THAT(meant("EN-GJS 400 15"), ElementsAre("nodular_iron"));
+  EXPECT_THAT(meant("1.4408"), ElementsAre("stainless_steel_316"));
+  EXPECT_THAT(meant("zamak"), ElementsAre("zinc_zamak3", "zinc_zamak5"));
+  EXPECT_THAT(meant("Inconel 718"), IsEmpty());
+  EXPECT_THAT(meant("7"), IsEmpty());
+  EXPECT_EQ(materials_meant("Zamak 5", names, k_library),
+            "did you mean 'zinc_zamak5' (Zinc die-casting alloy Zamak 5 (ZnAl4Cu1))? `solidus materials` "
+            "lists all");
+  EXPECT_THAT(materials_meant("steel_mold", names, k_library),
+              StartsWith("did you mean 'steel_mould'? one of: "));
+}
+
+TEST(MaterialLibrary, NoTwoMaterialsHaveADesignationInCommon) {
+  const auto names = material_names(k_library);
+  int known = 0;
+  for (const std::string& name : names)
+    for (const std::string& designation : designations(name, k_library)) {
+      EXPECT_THAT(designated(designation, names, k_library), ElementsAre(name)) << designation;
+      ++known;
+    }
+  EXPECT_GE(known, 80);
 }
 
 TEST(LeftRanges, NamesThePropertiesThatARunTookOutsideTheirRange) {

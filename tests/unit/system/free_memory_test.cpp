@@ -1,6 +1,7 @@
 #include "system/free_memory.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -51,6 +52,21 @@ TEST(FreeMemory, GoesBackToTheSystemAlsoWhereALibraryWantsToKeepIt) {
   return_free_memory();
   give_large_arrays_back();
   EXPECT_LT(left_by(k_size), k_size / 8);
+#endif
+}
+
+TEST(FreeMemory, ArraysThatComeAndGoKeepTheirPages) {
+#ifdef SOLIDUS_OTHER_ALLOCATOR
+  GTEST_SKIP() << "another allocator";
+#else
+  give_large_arrays_back();
+  constexpr std::size_t k_size = 24 << 20;
+  left_by(k_size);
+  rusage before{}, after{};
+  getrusage(RUSAGE_SELF, &before);
+  for (int i = 0; i < 50; ++i) left_by(k_size);
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_minflt - before.ru_minflt, 6144) << "an array of 24 MiB has 6144 pages";
 #endif
 }
 
