@@ -46,7 +46,7 @@ TEST(FreeMemory, GoesBackToTheSystemAlsoWhereALibraryWantsToKeepIt) {
   GTEST_SKIP() << "another allocator";
 #else
   constexpr long k_size = 192 << 20;  // more than the end of the heap, which is kept
-  mallopt(M_MMAP_MAX, 0);  // as SuperLU_DIST does
+  mallopt(M_MMAP_MAX, 0);             // as SuperLU_DIST does
   mallopt(M_TRIM_THRESHOLD, -1);
   EXPECT_GT(left_by(k_size), k_size / 2);
   return_free_memory();
