@@ -44,8 +44,10 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
   mechanics::MechanicalPass turn = pass;
   mechanics::MechanicalState next;
   // Most of a state is its history: the storage of the one that is overwritten serves again.
-  if (pass.iterate != &trial.mechanics && &old.mechanics != &trial.mechanics)
+  if (pass.iterate != &trial.mechanics && &old.mechanics != &trial.mechanics) {
     next.history = std::move(trial.mechanics.history);
+    next.elements = std::move(trial.mechanics.elements);
+  }
   const int earlier = turns != nullptr ? *turns : 0;
   for (int n_turns = 1;; ++n_turns) {
     if (turns != nullptr) *turns = earlier + n_turns;

@@ -1,8 +1,6 @@
 /// A mesh block that takes no part in mechanics: of a body that only conducts heat or that has been removed.
-/// No stiffness, stress, history, weight or structural heat; its fields are zero.
+/// No stiffness, stress, history, weight or structural heat; results show zero in its elements.
 #pragma once
-
-#include <memory>
 
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/coupled_kernel.hpp"
@@ -12,9 +10,8 @@ namespace solidus::mechanics {
 
 class AbsentBlock final : public BlockKernel, public CoupledKernel {
  public:
-  /// @param kept  of the body when it was there, whose fields are shown until keep_fields(); may be null
   AbsentBlock(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind,
-              const material::Material& material, std::unique_ptr<BlockKernel> kept = nullptr);
+              const material::Material& material);
 
   bool symmetric() const override { return true; }
   void bind(const linear::BlockMatrix&) override {}
@@ -24,14 +21,12 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
   void add_tangent(std::span<const double>, linear::BlockMatrix&) override {}
   BlockWork finish(std::span<const double>, std::span<const double>, const BlockEnd&) override { return {}; }
   FlowChange restart_flow(const StepStart&, std::span<const double>, std::span<const double>,
-                          BlockHistory&) override {
+                          const BlockEnd&) override {
     return {};
   }
   void hold_deformation(const StepStart&) override {}
   std::string failure(std::span<const double>) const override { return {}; }
   FlowingVolume flowing(std::span<const double>) const override { return {}; }
-  void get_field(ElementField which, std::span<double> out) const override;
-  void keep_fields() override { kept_.reset(); }
   void add_nodal_volume(double, std::span<double>) const override {}
 
   void spread_heat_as_stored(const PackVector<Lane>&) override {}
@@ -48,7 +43,6 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
  private:
   mesh::BlockGeometry nowhere_;  ///< of no element
   StructuralPoints points_;      ///< there: none
-  std::unique_ptr<BlockKernel> kept_;
 };
 
 }  // namespace solidus::mechanics

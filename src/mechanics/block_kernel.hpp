@@ -60,6 +60,8 @@ struct BlockEnd {
   BlockHistory& history;
   BlockHistory* stress = nullptr;   ///< at the points at t_{n+1}; null: not asked for
   StressAtWork* at_work = nullptr;  ///< of this step, for a later one; null: not asked for
+  /// Values of the elements for results; null: not asked for. Storage that no other state has serves again.
+  SharedElementValues* elements = nullptr;
 };
 
 /// Sums over the counted elements of a block.
@@ -120,8 +122,9 @@ class BlockKernel {
   /// and the flow that of t_n (4.45, 4.49, 4.54): history, values for results and what the thermal phase
   /// needs. Melt and mush keep their flow, and the stress power stays that of the last finish().
   /// @param start  temperatures, phases and melt
+  /// @param end    history of the mechanical phase, which is brought up to date, and values for results
   virtual FlowChange restart_flow(const StepStart& start, std::span<const double> old_u,
-                                  std::span<const double> u, BlockHistory& trial) = 0;
+                                  std::span<const double> u, const BlockEnd& end) = 0;
   /// Holds the deformation: has the effect of prepare() and finish() for a body that stays at the held
   /// displacement and history.
   virtual void hold_deformation(const StepStart& start) = 0;
@@ -129,11 +132,6 @@ class BlockKernel {
   virtual std::string failure(std::span<const double> u) const = 0;
   /// Volume of the block that flows plastically at u; counted elements only.
   virtual FlowingVolume flowing(std::span<const double> u) const = 0;
-  /// out[element][component]: averages over the elements. The values are those of the last finish(), or those
-  /// stored by keep_fields().
-  virtual void get_field(ElementField which, std::span<double> out) const = 0;
-  /// Stores the values of the last finish(), which get_field() returns until the next call.
-  virtual void keep_fields() = 0;
   /// out_i += weight × ∫ N_i dV, [local node].
   virtual void add_nodal_volume(double weight, std::span<double> out) const = 0;
 

@@ -25,7 +25,6 @@
 #include "material/melt.hpp"
 #include "material/time_integration.hpp"
 #include "mechanics/balance.hpp"
-#include "mechanics/element_field.hpp"
 #include "mechanics/inertial_forces.hpp"
 #include "mechanics/mechanical_conditions.hpp"
 #include "mechanics/mechanical_state.hpp"
@@ -215,10 +214,12 @@ class MechanicalPhase {
   /// The matrix of the tangent, with its fixed degrees of freedom and multi-point constraints.
   linear::BlockMatrix& matrix() { return *matrix_; }
   /// Passes the deformation at x to StructuralHeat and writes the history at x.
-  /// @param stress   at the points at x, of the right size; null: not asked for
-  /// @param at_work  of every block; null: not asked for
+  /// @param stress    at the points at x, of the right size; null: not asked for
+  /// @param at_work   of every block; null: not asked for
+  /// @param elements  MechanicalState::elements; null: not asked for
   BlockWork finish(const MechanicalState& old, std::span<const double> x, std::vector<BlockHistory>& history,
-                   std::vector<BlockHistory>* stress = nullptr, std::vector<StressAtWork>* at_work = nullptr);
+                   std::vector<BlockHistory>* stress = nullptr, std::vector<StressAtWork>* at_work = nullptr,
+                   std::vector<SharedElementValues>* elements = nullptr);
   /// finish() at the solution; the state and the report that follow from it, the latter without that of
   /// Newton's iteration.
   MechanicalReport conclude(const MechanicalState& old, const MechanicalPass& pass, std::vector<double> x,
@@ -232,12 +233,6 @@ class MechanicalPhase {
   /// A residual that is rounding [N].
   double round_off() const { return round_off_; }
 
-  /// Values of the last solve, or of the one stored by keep_fields(): [block of the
-  /// mesh][element][component].
-  std::vector<double> element_field(ElementField which) const;
-  /// Stores the fields of the last, committed solution: element_field() returns them until the next call,
-  /// whatever is tried and rejected in between.
-  void keep_fields();
   /// True when a material can flow plastically: then there are plastic fields to show.
   bool plastic() const { return plastic_; }
   /// Fixed degrees of freedom, and multi-point constraints (Loads).
@@ -309,7 +304,6 @@ class MechanicalPhase {
   std::vector<double> initial_temperature_;
   NodalPhases nodal_phases_;
   std::vector<BlockHistory> start_;  ///< z* of the two-step method, one per block
-  bool keeps_fields_ = false;        ///< keep_fields() has been called
   double round_off_ = 0;             ///< residual that is rounding [N]
   std::vector<double> x_;            ///< unknowns of the last residual
   std::vector<double> residual_;     ///< there

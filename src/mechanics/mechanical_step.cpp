@@ -287,7 +287,8 @@ FlowChange MechanicalPhase::restart_flow(const MechanicalState& old, const Mecha
              b, pass.phase_temperature.empty() ? pass.temperature : pass.phase_temperature,
              pass.plateau_share),
          .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]},
-        old.displacement, trial.displacement, trial.history[b]);
+        old.displacement, trial.displacement,
+        {.history = trial.history[b], .elements = b < trial.elements.size() ? &trial.elements[b] : nullptr});
     total.work += change.work;
     total.flows = total.flows || change.flows;
     if (!change.found) failed = std::min(failed, static_cast<double>(mesh_.blocks[b].body));
@@ -312,23 +313,28 @@ FlowChange MechanicalPhase::restart_flow(const MechanicalState& old, const Mecha
 
 BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,
                                   std::vector<BlockHistory>& history, std::vector<BlockHistory>* stress,
-                                  std::vector<StressAtWork>* at_work) {
+                                  std::vector<StressAtWork>* at_work,
+                                  std::vector<SharedElementValues>* elements) {
   const profile::Part part("history");
   const std::span<const double> u = x.first(n_displacements());
   BlockWork total;
   history.resize(blocks_.size());
   if (at_work != nullptr) at_work->resize(blocks_.size());
+  if (elements != nullptr) elements->resize(blocks_.size());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     history[b].n_components = old.history[b].n_components;
     history[b].n_points = old.history[b].n_points;
-    if (active_.body(mesh_.blocks[b].body))
+    if (active_.body(mesh_.blocks[b].body)) {
       history[b].values.resize(old.history[b].values.size());
-    else  // of the layout that a checkpoint knows
+    } else {  // of the layout that a checkpoint knows
       history[b].values.assign(old.history[b].values.size(), Lane(0.0));
+      if (elements != nullptr) (*elements)[b].reset();
+    }
     total += blocks_[b]->finish(old.displacement, u,
                                 {.history = history[b],
                                  .stress = stress != nullptr ? &(*stress)[b] : nullptr,
-                                 .at_work = at_work != nullptr ? &(*at_work)[b] : nullptr});
+                                 .at_work = at_work != nullptr ? &(*at_work)[b] : nullptr,
+                                 .elements = elements != nullptr ? &(*elements)[b] : nullptr});
   }
   return total;
 }
@@ -337,7 +343,10 @@ MechanicalReport MechanicalPhase::conclude(const MechanicalState& old, const Mec
                                            std::vector<double> x, MechanicalState& trial) {
   MechanicalState next;
   // Most of a state is its history: the storage of the one that is overwritten serves again.
-  if (&trial != &old) next.history = std::move(trial.history);
+  if (&trial != &old) {
+    next.history = std::move(trial.history);
+    next.elements = std::move(trial.elements);
+  }
   const bool remembers = inertia_ && inertia_->motion().remembers();
   if (remembers)
     next.stress = old.stress;  // of the right size
@@ -345,7 +354,7 @@ MechanicalReport MechanicalPhase::conclude(const MechanicalState& old, const Mec
     for (const BlockHistory& history : old.history) next.stress.push_back(no_stress(history));
   std::vector<StressAtWork> at_work;
   const BlockWork total = finish(old, x, next.history, next.stress.empty() ? nullptr : &next.stress,
-                                 pass.returns_at_work ? &at_work : nullptr);
+                                 pass.returns_at_work ? &at_work : nullptr, &next.elements);
   MechanicalReport report = measure(old, pass, x, total, next);
   report.at_work.stress = std::move(at_work);
   x.resize(n_displacements());

@@ -191,8 +191,8 @@ void StateFields::add_elements() {
     if (field.which == ElementField::intermediate_temperature && !isentropic) continue;
     if (field.which == ElementField::pore_fraction && phases_.coherency == nullptr)
       continue;  // nothing melts
-    const auto compute = [phase = phases_.mechanics, which = field.which] {
-      return phase->element_field(which);
+    const auto compute = [this, which = field.which] {
+      return mechanics::element_field(mesh_, shown_, which);
     };
     values_.push_back(std::make_unique<Values>(Values{field.name,
                                                       field.unit,
@@ -223,7 +223,7 @@ void StateFields::add_heat_flux() {
 void StateFields::add_nodal_stress() {
   const auto nodal = [this](int body) {
     if (!recovery_) recovery_ = std::make_unique<StressRecovery>(mesh_, kind_);
-    return recovery_->at_nodes(phases_.mechanics->element_field(ElementField::stress), body);
+    return recovery_->at_nodes(mechanics::element_field(mesh_, shown_, ElementField::stress), body);
   };
   const auto add = [this](const char* name, int components,
                           const std::function<std::vector<double>(int body)>& compute) {
@@ -294,7 +294,7 @@ void StateFields::update(const coupling::State& state) {
       std::copy(state.mechanics.acceleration.begin(), state.mechanics.acceleration.end(),
                 by_name_["acceleration"]->begin());
     }
-    phases_.mechanics->keep_fields();
+    shown_.elements = state.mechanics.elements;
   }
   if (!phases_.contacts.empty()) update_contacts(state.heat.temperature);
 }

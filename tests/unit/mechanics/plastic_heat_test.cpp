@@ -135,7 +135,7 @@ TEST(PlasticHeat, TheEnergyStoredIsThatOfTheStateReached) {
     const material::Viscoplastic law(p.body.materials[0]);
     const auto flow = law.properties_at(320.0 + 2 * 15, 320.0).flow;  // at which the back stress was found
     double energy = -1e300;
-    for (const auto& fields : test::element_fields(*phase))
+    for (const auto& fields : test::element_fields(phase->mesh(), state))
       for (std::size_t e = 0; e < fields.strain.size(); ++e) {
         const Sym<double> plastic{fields.plastic_strain[e]}, back{fields.back_stress[e]};
         material::StateVariables<double> v{
