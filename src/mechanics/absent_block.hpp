@@ -4,15 +4,11 @@
 
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/coupled_kernel.hpp"
-#include "mechanics/structural_points.hpp"
 
 namespace solidus::mechanics {
 
 class AbsentBlock final : public BlockKernel, public CoupledKernel {
  public:
-  AbsentBlock(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind,
-              const material::Material& material);
-
   bool symmetric() const override { return true; }
   void bind(const linear::BlockMatrix&) override {}
   BlockHistory initial_history() const override { return {}; }
@@ -24,25 +20,18 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
                           const BlockEnd&) override {
     return {};
   }
-  void hold_deformation(const StepStart&) override {}
+  std::shared_ptr<const StructuralPoints> held_deformation(const StepStart&) override { return {}; }
   std::string failure(std::span<const double>) const override { return {}; }
   FlowingVolume flowing(std::span<const double>) const override { return {}; }
   void add_nodal_volume(double, std::span<double>) const override {}
 
   void spread_heat_as_stored(const PackVector<Lane>&) override {}
-  void add_structural_heat(StructuralForm, std::span<const double>, bool, std::span<double>) const override {}
-  void begin_heat_stage(const linear::RungeKuttaStage&, std::span<const double>) override {}
-  const StructuralPoints& structural_points() const override { return points_; }
   std::size_t bytes() const override { return 0; }
 
   void bind_heat(const linear::BlockMatrix&) override {}
   void add_coupling(const CoupledIterate&, linear::CoupledMatrix&) override {}
-  void carry(double, std::span<const double>) override {}
-  void drop_carried() override {}
-
- private:
-  mesh::BlockGeometry nowhere_;  ///< of no element
-  StructuralPoints points_;      ///< there: none
+  void carry(double, const StructuralPoints*, std::span<const double>) override {}
+  std::shared_ptr<const StructuralPoints> drop_carried() override { return {}; }
 };
 
 }  // namespace solidus::mechanics

@@ -84,7 +84,7 @@ void MechanicalPhase::create_blocks(const std::vector<material::Material>& mater
   for (const mesh::ElementBlock& block : mesh_.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
     if (!active_.body(block.body)) {
-      blocks_.push_back(std::make_unique<AbsentBlock>(mesh_, block, kind_, material));
+      blocks_.push_back(std::make_unique<AbsentBlock>());
       continue;
     }
     plastic_ = plastic_ || material.flow.has_value() || external_law(material) != nullptr;
@@ -124,8 +124,7 @@ void MechanicalPhase::remove_bodies(const linear::ActiveSet& active) {
           make_kernel(mesh_, block, kind_, materials_[static_cast<std::size_t>(block.body)], options_);
       continue;
     }
-    blocks_[b] =
-        std::make_unique<AbsentBlock>(mesh_, block, kind_, materials_[static_cast<std::size_t>(block.body)]);
+    blocks_[b] = std::make_unique<AbsentBlock>();
   }
   active_ = active;
   balance_ = BodyBalance(mesh_, active_, components_);

@@ -39,6 +39,7 @@ class BlockKernel;
 class Loads;
 class NodalPressure;
 class SaddleSolver;
+class StructuralPoints;
 struct BlockWork;
 struct FlowChange;
 
@@ -90,6 +91,11 @@ struct MechanicalWork {
   double numerical = 0;
 };
 
+/// The deformation of a pass at the points, one per block of the mesh, null where there is none: what the
+/// heat of deformation and the audit follow from (structural_heat.hpp). Later passes leave it as it is; while
+/// it is kept, they take new storage. Valid until set_conditions().
+using StepDeformation = std::vector<std::shared_ptr<const StructuralPoints>>;
+
 /// Result of a pass, besides the state.
 struct MechanicalReport {
   linear::NewtonReport newton;
@@ -97,6 +103,7 @@ struct MechanicalReport {
   std::vector<double> reactions;  ///< support forces [owned node][component] [N], zero where free
   std::vector<double> applied;    ///< forces of loads and contact [owned node][component] [N]
   ForcesAtWork at_work;           ///< those at the end of the pass, if it is asked for them
+  StepDeformation deformation;
 };
 
 /// Input of one pass of the mechanical phase. The fields of an iterate belong to schemes that solve the phase
@@ -176,21 +183,21 @@ class MechanicalPhase {
   }
 
   /// The return mapping of the thermal phase (4.45, 4.49, 4.54): finds the flow of solid metal anew at the
-  /// temperatures of the step's end, from the internal variables at t_n, at the strain of the last solve(),
-  /// and hands StructuralHeat and the fields what follows. Melt and mush keep the flow of that solve, of
-  /// whose stress the work also stays; may be repeated. Throws StepRejected on all processes where a law
-  /// finds no state. Collective.
-  /// @param old, pass    those of the last solve()
+  /// temperatures of the step's end, from the internal variables at t_n, at the strain that solve() has
+  /// found. Melt and mush keep the flow of that solve, of whose stress the work also stays; may be repeated.
+  /// Throws StepRejected on all processes where a law finds no state. Collective.
+  /// @param old, pass    those of the solve
   /// @param temperature  Θ_{n+1} [K], [local node], ghosts up to date
-  /// @param trial        the state that the solve has found; its history is replaced
+  /// @param trial        the state that the solve has found; its history and fields of elements are replaced
+  /// @param deformation  that of the solve; replaced
   /// @return differences to the mechanical phase, over all processes
   FlowChange restart_flow(const MechanicalState& old, const MechanicalPass& pass,
-                          std::span<const double> temperature, MechanicalState& trial);
+                          std::span<const double> temperature, MechanicalState& trial,
+                          StepDeformation& deformation);
 
-  /// Holds the deformation of `state` for StructuralHeat, so that a thermal phase of bodies that do not move
-  /// can follow.
-  void hold_deformation(const MechanicalState& state, std::span<const double> temperature,
-                        std::span<const double> plateau_share = {});
+  /// The deformation of bodies that stay as they are in `state`, for a thermal phase of its own.
+  StepDeformation held_deformation(const MechanicalState& state, std::span<const double> temperature,
+                                   std::span<const double> plateau_share = {});
 
   // The pieces of solve(), for an iteration that has further unknowns (coupling/simultaneous.hpp).
   /// Loads, state at t_n and properties at the temperature of the pass; `old` must live until conclude().
@@ -213,13 +220,15 @@ class MechanicalPhase {
                        std::span<const double> d) const;
   /// The matrix of the tangent, with its fixed degrees of freedom and multi-point constraints.
   linear::BlockMatrix& matrix() { return *matrix_; }
-  /// Passes the deformation at x to StructuralHeat and writes the history at x.
+  /// Writes the history at x.
   /// @param stress    at the points at x, of the right size; null: not asked for
   /// @param at_work   of every block; null: not asked for
   /// @param elements  MechanicalState::elements; null: not asked for
+  /// @param deformation  at x; null: not asked for
   BlockWork finish(const MechanicalState& old, std::span<const double> x, std::vector<BlockHistory>& history,
                    std::vector<BlockHistory>* stress = nullptr, std::vector<StressAtWork>* at_work = nullptr,
-                   std::vector<SharedElementValues>* elements = nullptr);
+                   std::vector<SharedElementValues>* elements = nullptr,
+                   StepDeformation* deformation = nullptr);
   /// finish() at the solution; the state and the report that follow from it, the latter without that of
   /// Newton's iteration.
   MechanicalReport conclude(const MechanicalState& old, const MechanicalPass& pass, std::vector<double> x,

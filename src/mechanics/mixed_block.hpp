@@ -174,6 +174,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       tally.stabilisation_work += this->counted(batch) * left_over;
       this->keep(batch, average, averages);
     }
+    this->hand_out_deformation(end);
     return this->total(tally);
   }
 
@@ -188,7 +189,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   FlowChange restart_flow(const StepStart& start, std::span<const double> old_u, std::span<const double> u,
                           const BlockEnd& end) override {
     BlockHistory& trial = end.history;
-    auto* const averages = this->begin_finish(end);
+    auto* const averages = this->begin_restart(end);
     typename Base::Restart restart;
     Workspace<Law> space(this->law_);
     for (Index batch = 0; batch < n_batches(); ++batch) {
@@ -200,15 +201,17 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       this->keep(batch, average, averages);
       keep_pores(batch, kept_pores(trial, batch), averages);
     }
+    this->hand_out_deformation(end);
     return this->total(restart);
   }
 
-  void hold_deformation(const StepStart& start) override {
+  std::shared_ptr<const StructuralPoints> held_deformation(const StepStart& start) override {
     prepare(start);
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Sym<Lane> gradient = at_point(batch).strain(gather(start.held_displacement, batch));
       this->hold_point(batch, 0, strain(gradient, volume_[at(batch)]));
     }
+    return this->deformation_found();
   }
 
   std::string failure(std::span<const double> u) const override {

@@ -46,7 +46,8 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
     at_work_ = start.at_work;
   }
   /// @return the values of the elements, to be written; null: not asked for
-  Averages* begin_finish(const BlockEnd& end) const {
+  Averages* begin_finish(const BlockEnd& end) {
+    this->own_points();
     if (end.at_work != nullptr) end.at_work->stress.resize(properties_.size());
     if (end.elements == nullptr) return nullptr;
     return &averages_to_write<Values>(*end.elements, geometry_.n_elements, geometry_.n_batches);
@@ -79,9 +80,9 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
     if (end.at_work != nullptr) end.at_work->stress[index(batch, q)] = at_work;
     if (at_work_ != nullptr) at_work = at_work_->stress[index(batch, q)];
     const Lane work = dot(at_work, strain - old_strain);
-    if (points_.kept()) {
+    if (points_->kept()) {
       const LaneMask solid = elastic_part(law_, p).solid_fraction >= Lane(1.0);
-      auto& point = points_.at(batch, q);
+      auto& point = points_->at(batch, q);
       if constexpr (HoldsEntropy<Properties>) point.pass_temperature = response.temperature;
       const State old = old_state(batch, q);
       point.now = deformation(strain, response.state, solid);
@@ -89,8 +90,8 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
       point.dissipated = Lane(dt_) * response.dissipation;
       point.work = work;
       const StructuralBase base = old_base(batch, q);
-      points_.set_old(batch, q, deformation(old_strain, old, base.solid > Lane(0.0)), base);
-      if (this->keeps_base_) this->keep_base(trial, batch, q, points_.base(batch, q, solid));
+      points_->set_old(batch, q, deformation(old_strain, old, base.solid > Lane(0.0)), base);
+      if (this->keeps_base_) this->keep_base(trial, batch, q, points_->base(batch, q, solid));
     }
 
     const PlasticPower power = plastic_power(law_, response);
@@ -113,6 +114,14 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
     Values mean{};
     add_weighted(mean, inverse, average.sums);
     averages->set(batch, mean);
+  }
+
+  /// Hands the deformation out; null without structural heat.
+  std::shared_ptr<const StructuralPoints> deformation_found() const {
+    return points_->kept() ? points_ : nullptr;
+  }
+  void hand_out_deformation(const BlockEnd& end) const {
+    if (end.deformation != nullptr) *end.deformation = deformation_found();
   }
 
   BlockWork total(const Tally& tally) const {
