@@ -29,7 +29,7 @@ class SchemeDataFlow : public ::testing::TestWithParam<Scheme> {};
 
 verification::Coupled hot_on_cold() {
   verification::Coupled c;
-  c.mesh = test::two_blocks(Shape::quad4);
+  c.mesh = test::two_blocks(mesh::Shape::quad4);
   c.materials = {test::plastic_material(), test::plastic_material()};
   c.start = {320, 420};
   c.contact = test::rubbing_interface();
