@@ -35,7 +35,8 @@ struct PhaseChangeData {
   SourceLocation where;
 };
 
-/// What the values of `expansion` are in a material file. Material::expansion is always the mean.
+/// The meanings that the values of `expansion` may have in a material file. Material::expansion is always the
+/// mean.
 enum class ExpansionAs {
   mean,          ///< e(Θ)/(Θ − Θ_ref), the secant of the curve of thermal strain
   instantaneous  ///< de/dΘ, its tangent

@@ -49,8 +49,8 @@ class ElementAverages final : public ElementValues {
   PackVector<Lane> pores_;        ///< θ, [batch]; empty where there are none
 };
 
-/// Takes the values of a block over for writing: those at hand where no other state has them, else new ones.
-/// What is at hand afterwards is the same object.
+/// Returns the values of a block for writing: those at hand where no other state has them, else new ones,
+/// which are at hand from then on.
 template <class Values>
 ElementAverages<Values>& averages_to_write(SharedElementValues& at_hand, Index n_elements, Index n_batches) {
   // Made here and never shared with this state alone as its owner: writing to it is seen by nobody else.

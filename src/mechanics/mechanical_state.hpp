@@ -21,7 +21,8 @@ struct BlockHistory {
 /// The stress of one mesh block whose product with a later increment is work.
 struct StressAtWork {
   PackVector<Sym<Lane>> stress;  ///< [batch][point] [Pa]
-  // Of mixed elements: ζ div u̇ where melt flows, [batch], and p_a − p̄ where there is a hoop, [batch][node].
+  // Mixed elements also have ζ div u̇ where melt flows, [batch], and p_a − p̄ where there is a hoop,
+  // [batch][node].
   PackVector<Lane> compaction, variation;  ///< [Pa]
 };
 
@@ -41,7 +42,7 @@ struct MechanicalState {
   /// with backward Euler.
   std::vector<BlockHistory> before;
   double dt_before = 0;
-  /// What results show of the elements, one per block of the mesh: of the pass that has led to this state.
+  /// Values of the elements for results, one per block of the mesh, of the pass that has led to this state.
   /// Empty where there was none, after a restart too.
   std::vector<SharedElementValues> elements;
   // With inertia, else empty (mechanics/motion.hpp); [local node][component], prescribed ones included.

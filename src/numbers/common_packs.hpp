@@ -53,7 +53,7 @@ class CommonPacks {
   std::size_t bytes() const { return values_.capacity() * sizeof(Lane); }
 
  private:
-  /// Of zeros of different signs too, so that what is read is what was set, whatever was set before.
+  /// Zeros of different signs differ too, so that a point reads as it was set, whatever was set before.
   static bool same_bits(const Lane& a, const Lane& b) { return std::memcmp(&a, &b, sizeof(Lane)) == 0; }
 
   /// Makes places for the lanes that have come to differ.
