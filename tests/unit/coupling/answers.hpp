@@ -72,7 +72,7 @@ inline void add(const mechanics::MechanicalReport& report, Answers& to) {
                 w.kinetic,       w.numerical,           w.least_dissipation, w.largest_dissipation};
 }
 
-/// What the heat balance and the audit read of a deformation.
+/// The numbers of a deformation that the heat balance and the audit read.
 /// @param heat         of the phase that has found it; is given this deformation
 /// @param temperature  at the end of the step [K], [local node]
 inline void add(mechanics::StructuralHeat& heat, const mechanics::StepDeformation& deformation,
