@@ -55,7 +55,7 @@ struct StepStart {
   }
 };
 
-/// What finish() writes, of the block's size.
+/// The results that finish() writes, of the block's size.
 struct BlockEnd {
   BlockHistory& history;
   BlockHistory* stress = nullptr;   ///< at the points at t_{n+1}; null: not asked for

@@ -19,7 +19,7 @@ namespace solidus::mechanics {
 
 namespace {
 
-/// Of the linear solver: Newmark's first step takes a_0 for exact.
+/// Tolerance of the linear solver: Newmark's first step takes a_0 for exact.
 constexpr double k_initial_acceleration = 1e-13;
 
 linear::LinearSolverOptions linear_options(const MechanicsOptions& options) {

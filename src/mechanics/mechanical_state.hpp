@@ -20,7 +20,8 @@ struct BlockHistory {
 /// The stress of one mesh block whose product with a later increment is work.
 struct StressAtWork {
   PackVector<Sym<Lane>> stress;  ///< [batch][point] [Pa]
-  // Of mixed elements: ζ div u̇ where melt flows, [batch], and p_a − p̄ where there is a hoop, [batch][node].
+  // Mixed elements also have ζ div u̇ where melt flows, [batch], and p_a − p̄ where there is a hoop,
+  // [batch][node].
   PackVector<Lane> compaction, variation;  ///< [Pa]
 };
 

@@ -54,14 +54,14 @@ constexpr ElementFieldName k_elements[] = {
     {"strain", "1", ElementField::strain, false, true},
     {"intermediate_temperature", "K", ElementField::intermediate_temperature, false, true}};
 
-/// Of the recovered stress, the largest first.
+/// Names of the principal values of the recovered stress, the largest first.
 constexpr const char* k_principal[] = {"principal_stress_1", "principal_stress_2", "principal_stress_3"};
 
 bool rubs(const contact::ContactPair* pair) {
   return pair->spec().friction.has_value();
 }
 
-/// Of ζ_c: work per area, or a slip; a mere number where pairs differ.
+/// The unit of ζ_c, which is a work per area or a slip; one, as of a number, where pairs differ.
 const char* internal_variable_unit(const coupling::Phases& phases) {
   bool works = false, slips = false;
   for (const contact::ContactPair* pair : phases.contacts) {
@@ -331,7 +331,7 @@ void StateFields::update_contacts(std::span<const double> temperature) {
   ghosts_.update(covered_, 1);
 }
 
-// Of the closest partner.
+// Shows the heat of the pair with the closest partner.
 void StateFields::update_heat(const contact::ContactNodalFields& fields, std::span<const char> closest) {
   const auto show = [&](const char* name, const std::vector<double>& values) {
     const auto found = by_name_.find(name);

@@ -197,7 +197,7 @@ TEST(EnergyOfAStep, ClosesWithEveryMethodMassLoadAndMovingSupport) {
     }
 }
 
-/// Of the whole run, over the energy at its start.
+/// The energy that the method dissipates in the whole run, over the energy at its start.
 double dissipated(const Motion& motion, int n_steps) {
   const Body body = cantilever(motion, MassKind::consistent, false);
   const March run(body, k_end, n_steps);

@@ -9,7 +9,7 @@
 
 namespace solidus::test {
 
-/// Of one mesh block: [element].
+/// The fields of one mesh block, [element].
 struct ElementFields {
   using Tensors = std::vector<std::array<double, 6>>;
   Tensors stress, strain, viscous_strain, plastic_strain, back_stress;
