@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
                  c.mapping = Mapping::simultaneous;
                  c.simultaneous.integration = coupling::SimultaneousOptions::Integration::sdirk2;
                }}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& chosen) { return std::string(chosen.param.name); });
 
 }  // namespace
 }  // namespace solidus
