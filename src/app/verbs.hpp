@@ -10,7 +10,7 @@
 
 namespace solidus::app {
 
-/// Exit codes of the program (design.md section 6).
+/// Exit codes of the program (docs/guide/command_line.md).
 enum ExitCode { k_done = 0, k_bad_input = 1, k_cannot_continue = 2, k_our_bug = 3, k_interrupted = 130 };
 
 struct CaseArguments {

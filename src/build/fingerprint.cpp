@@ -79,7 +79,7 @@ std::uint64_t sum_of(std::uint64_t own) {
   return own;
 }
 
-/// Of every node with its place, and every element with its nodes, by their numbers in the input.
+/// A hash of every node with its place, and every element with its nodes, by their numbers in the input.
 std::uint64_t mesh_hash(const mesh::Mesh& mesh) {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(mesh.n_owned_nodes); ++i) {

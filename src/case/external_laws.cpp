@@ -13,7 +13,7 @@ namespace solidus::model {
 
 namespace {
 
-/// Of the moduli, from which on the energies of the program are not those of the law.
+/// The difference of moduli, relative, from which on the energies of the program are not those of the law.
 constexpr double k_moduli = 0.01;
 
 /// Advises on other schemes: those that hold the temperature by themselves, and those that can be told to.

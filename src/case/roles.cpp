@@ -28,7 +28,8 @@ constexpr std::array<std::pair<std::string_view, Role>, 24> k_words = {{
     {"runner", Role::casting},     {"gate", Role::casting}, {"sprue", Role::casting},
 }};
 
-/// Of letters alone, so that "die" is no part of "diesel".
+/// Whether a text has a word: a short one stands alone ("die" is no part of "diesel"), one of more than four
+/// letters may begin or end another.
 bool has_word(const std::string& text, std::string_view word) {
   const auto letter = [&](std::size_t i) { return std::isalpha(static_cast<unsigned char>(text[i])) != 0; };
   for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {

@@ -59,7 +59,7 @@ void check_stage(const CaseSpec& spec, const StageSpec& s) {
                      "adaptive = true, or no max_step");
 }
 
-/// Of the search for the periodic state.
+/// Checks the keys of the search for the periodic state.
 void check_periodic(const CaseSpec& spec, const CycleSpec& cycle) {
   if (!cycle.periodic) {
     if (cycle.search != CycleSpec::Search::anderson)

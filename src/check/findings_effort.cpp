@@ -10,7 +10,7 @@ namespace solidus::model {
 
 namespace {
 
-/// Of the machine [bytes]; zero where the system does not tell.
+/// The memory of the machine [bytes]; zero where the system does not tell.
 double machine_memory() {
   const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGE_SIZE);
   return pages > 0 && size > 0 ? static_cast<double>(pages) * static_cast<double>(size) : 0.0;

@@ -50,7 +50,7 @@ mesh::SkinFace measured(const mesh::Mesh& mesh, const BoundaryFace& face) {
 
 using Skins = std::vector<std::vector<mesh::SkinFace>>;  ///< [body][face], of this process
 
-/// What of the skins of castings has no role and is no face of another body.
+/// Returns the faces of the skins of castings that have no role and are no face of another body.
 Skins bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
   const std::set<Key> roles = faces_with_a_role(spec, a.mesh);
   Skins skins(spec.bodies.size());

@@ -17,7 +17,7 @@ namespace solidus::model {
 
 namespace {
 
-/// Of a face that bodies share, and of a skin whose temperature is prescribed [W/(m² K)].
+/// The conductance of a face that bodies share, and of a skin whose temperature is prescribed [W/(m² K)].
 constexpr double k_no_resistance = 1e6;
 
 /// A part of the skin of a body that something cools, heats or holds.
@@ -258,7 +258,7 @@ const StageRun* stage_of_pour(const CaseSpec& spec, const Assembly& a, std::size
   return stage != a.stages.end() ? &*stage : nullptr;
 }
 
-/// Of the parts of the skin those that count as cooled, and the problem in one dimension. Metal that is
+/// Finds the parts of the skin that count as cooled, and the problem in one dimension. Metal that is
 /// poured with it, as a riser is with its casting, neither cools nor heats it: Chvorinov's rule counts each
 /// by the skin that its mould cools.
 void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Pour& pour) {

@@ -13,7 +13,7 @@ namespace {
 /// Values of points that have a partner, on both sides: opening, pressure, conductance, heat in all and by
 /// friction, status and the three components of the traction.
 constexpr std::size_t k_met = 9;
-/// Of all points, on the slave: slip, ζ_c, μ, dissipation, wear, Θ_c.
+/// Number of fields that are means over all points, on the slave: slip, ζ_c, μ, dissipation, wear, Θ_c.
 constexpr std::size_t k_kept = 6;
 
 /// Weighted sums around the owned nodes, and averages.

@@ -57,7 +57,8 @@ struct BlockIterative::Iterate {
   std::vector<double> interface;  ///< Θ_c that friction holds in it; empty in the first iteration [K]
   /// Θ⁽ⁱ⁾ that the mechanical pass sees, and Θ⁽ⁱ⁻¹⁾ [K], [local node].
   std::vector<double> temperature, before;
-  bool solved = false;   ///< both passes reached the tolerances of their phases
+  mechanics::StepDeformation deformation;  ///< of the last mechanical pass
+  bool solved = false;                     ///< both passes reached the tolerances of their phases
   bool at_rest = false;  ///< the last mechanical pass set out within the tolerance of its forces
   double damping = 1;    ///< of relaxation
   int turns = 0;         ///< of the augmented Lagrangian, in all mechanical passes
@@ -117,6 +118,7 @@ void BlockIterative::solve(const State& old, State& trial, const Attempt& attemp
              .interface = {},
              .temperature = old.heat.temperature,
              .before = {},
+             .deformation = {},
              .effort = effort};
   iterate_until_agreement(old, it);
   effort.coupling_iterations = it.number;
@@ -128,7 +130,7 @@ void BlockIterative::solve(const State& old, State& trial, const Attempt& attemp
   trial.heat = std::move(it.now.heat);
   trial.mechanics = std::move(it.now.mechanics);
   trial.contacts = std::move(it.now.contacts);
-  effort.stability = stability_audit(phases_, old, trial, effort, Booking::mechanical);
+  effort.stability = stability_audit(phases_, old, trial, it.deformation, effort, Booking::mechanical);
   summarise(phases_, trial, effort);
 }
 
@@ -157,8 +159,11 @@ bool BlockIterative::mechanical(const State& old, Iterate& it, int newton_steps)
   }
   const std::vector<contact::ContactState> before = it.number > 1 ? it.now.contacts : old.contacts;
   const int turns = it.turns;
-  const linear::NewtonReport newton =
-      mechanical_pass(phases_, old, it.now, pass, it.effort, before, &it.turns).newton;
+  it.deformation.clear();  // its storage serves again
+  mechanics::MechanicalReport report =
+      mechanical_pass(phases_, old, it.now, pass, it.effort, before, &it.turns);
+  it.deformation = std::move(report.deformation);
+  const linear::NewtonReport& newton = report.newton;
   it.at_rest = it.turns == turns + 1 && !newton.residuals.empty() &&
                newton.residuals.front() <= phases_.mechanics->options().newton.tolerance;
   return newton.converged;
@@ -167,7 +172,7 @@ bool BlockIterative::mechanical(const State& old, Iterate& it, int newton_steps)
 bool BlockIterative::thermal(const State& old, Iterate& it, int newton_steps) const {
   const heat::ThermalPass pass{
       .time = it.attempt.time, .dt = it.attempt.dt, .iterate = &it.now.heat, .newton_steps = newton_steps};
-  return thermal_pass(phases_, old, it.now, pass, it.effort);
+  return thermal_pass(phases_, old, it.now, it.deformation, pass, it.effort);
 }
 
 // A pass of each phase (4.2, 4.3), and how much they changed.

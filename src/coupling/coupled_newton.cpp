@@ -102,6 +102,7 @@ std::size_t CoupledNewton::n_owned_displacements() const {
 
 CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
                                         const mechanics::MechanicalPass& pass, std::span<const double> x) {
+  release_deformation();
   mechanics_.prepare(old, pass);
   set_contact_temperatures();
   for (contact::ContactPair* pair : phases_.contacts) pair->update(x.first(mechanics_.n_displacements()));
@@ -115,9 +116,15 @@ CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
   for (const double r : force_) squares += r * r;
   norm_ = std::sqrt(parallel::global_sum(squares));
 
-  mechanics_.finish(old, x, history_);
+  mechanics_.finish(old, x, history_, nullptr, nullptr, nullptr, &deformation_);
+  if (phases_.structural != nullptr) phases_.structural->set_deformation(deformation_);
   thermal_->evaluate();
   return present();
+}
+
+void CoupledNewton::release_deformation() {
+  deformation_.clear();
+  if (phases_.structural != nullptr) phases_.structural->release();
 }
 
 void CoupledNewton::set_contact_temperatures() {
@@ -293,6 +300,7 @@ void CoupledNewton::equilibrate(const mechanics::MechanicalState& old, mechanics
     for (double& p : iterate.pressure) p *= mechanics_.pressure()->unit();
   }
   pass.iterate = &iterate;
+  release_deformation();
   try {
     mechanics_.solve(old, iterate, pass);
     x = mechanics_.start(old, pass);

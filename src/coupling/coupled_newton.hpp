@@ -80,6 +80,8 @@ class CoupledNewton {
   /// The tangent there.
   linear::CoupledMatrix& assemble(const mechanics::MechanicalState& old, std::span<const double> x,
                                   int iteration);
+  /// Lets go of the deformation of the last evaluation, whose storage the next pass may then take.
+  void release_deformation();
   /// That tangent times a direction, which is local as x and Θ are; on owned entries as the residuals are,
   /// forces that are prescribed or tied as they come.
   void multiply(std::span<const double> x, std::span<const double> temperature, std::span<double> force,
@@ -126,14 +128,16 @@ class CoupledNewton {
   linear::CoupledMatrix matrix_;
   parallel::GhostExchange ghosts_;
   std::unique_ptr<linear::CoupledTangentSolver> solver_;
-  std::vector<mechanics::BlockHistory> history_;  ///< of the last residual
-  std::vector<double> force_;                     ///< r_u and −unit × r_p, on owned nodes
-  std::vector<double> owned_step_;                ///< of displacement and pressure, on owned nodes
-  std::vector<double> step_u_, start_u_;          ///< the same on local nodes
-  std::vector<double> step_t_, further_;          ///< [local node], [owned node]
-  std::vector<double> work_;                      ///< scratch
-  double norm_ = 0, reference_ = 0;               ///< of r_u
-  double next_step_ = 0;                          ///< its estimated size, MechanicalPhase::relative_step
+  // At the last evaluation: scratch, and what the heat of deformation there follows from.
+  std::vector<mechanics::BlockHistory> history_;
+  mechanics::StepDeformation deformation_;
+  std::vector<double> force_;             ///< r_u and −unit × r_p, on owned nodes
+  std::vector<double> owned_step_;        ///< of displacement and pressure, on owned nodes
+  std::vector<double> step_u_, start_u_;  ///< the same on local nodes
+  std::vector<double> step_t_, further_;  ///< [local node], [owned node]
+  std::vector<double> work_;              ///< scratch
+  double norm_ = 0, reference_ = 0;       ///< of r_u
+  double next_step_ = 0;                  ///< its estimated size, MechanicalPhase::relative_step
   double shifted_heat_ = 0;  ///< Σ|K_Θu δu| of the last step, where it set out from forces in balance [W]
   bool in_equilibrium_ = false;  ///< every iterate is brought there
 };

@@ -63,41 +63,42 @@ StepEffort DoublePass::advance(const State& old, State& trial, double time, doub
   return effort;
 }
 
-mechanics::ForcesAtWork DoublePass::mechanical_half(const State& start, State& end,
-                                                    mechanics::MechanicalPass pass,
-                                                    const std::function<void(State& led)>& answer,
-                                                    StepEffort& effort) const {
+void DoublePass::mechanical_half(const State& start, State& end, mechanics::MechanicalPass& pass,
+                                 const Answer& answer, Half& half, StepEffort& effort) const {
   int turns = 0;
-  mechanics::ForcesAtWork at_work = mechanical_pass(phases_, start, end, pass, effort, {}, &turns).at_work;
-  if (!repeats()) return at_work;
+  half.report = mechanical_pass(phases_, start, end, pass, effort, {}, &turns);
+  if (!repeats()) return;
   std::vector<double> held(pass.iterate_temperature.begin(), pass.iterate_temperature.end());
   if (held.empty()) held.assign(pass.temperature.begin(), pass.temperature.end());
+  half.held = std::move(held);
   double first = 0, change = 0;
   for (int turn = 1; turn <= k_turns; ++turn) {
     State led;
-    answer(led);
-    change = largest_difference(led.heat.temperature, held);
+    answer(half.report.deformation, led);
+    change = largest_difference(led.heat.temperature, half.held);
     if (turn == 1) first = change;
-    if (!(change > k_settled * first)) return at_work;
-    held = std::move(led.heat.temperature);
-    pass.iterate_temperature = held;
+    if (!(change > k_settled * first)) return;
+    half.held = std::move(led.heat.temperature);
+    pass.iterate_temperature = half.held;
     pass.iterate = &end.mechanics;
     const std::vector<contact::ContactState> contacts = end.contacts;
-    at_work = mechanical_pass(phases_, start, end, pass, effort, contacts, &turns).at_work;
+    half.report.deformation.clear();  // its storage serves again
+    half.report = mechanical_pass(phases_, start, end, pass, effort, contacts, &turns);
   }
-  if (change <= k_falls * first) return at_work;
+  if (change <= k_falls * first) return;
   throw StepRejected(fmt::format("coupling: isothermal passes do not settle: the change of temperature went "
                                  "from {:.3g} K to {:.3g} K in {} turns",
                                  first, change, k_turns),
                      "the coupling is too strong for passes that hold the temperature");
 }
 
-void DoublePass::thermal_half(const State& start, State& end, const heat::ThermalPass& heat,
-                              const mechanics::MechanicalPass& moved, StepEffort& effort) const {
+void DoublePass::thermal_half(const State& start, State& end, mechanics::StepDeformation& deformation,
+                              const heat::ThermalPass& heat, const mechanics::MechanicalPass& moved,
+                              StepEffort& effort) const {
   if (flow_ == ThermalFlow::kept)
-    thermal_pass(phases_, start, end, heat, effort);
+    thermal_pass(phases_, start, end, deformation, heat, effort);
   else
-    thermal_pass_with_flow(phases_, start, end, heat, start.mechanics, moved, effort);
+    thermal_pass_with_flow(phases_, start, end, deformation, heat, start.mechanics, moved, effort);
 }
 
 StepEffort DoublePass::first_half(const State& old, State& half, double time, double dt,
@@ -107,29 +108,37 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
   const bool moves = phases_.mechanics->dynamic();
   ContactWork contact(phases_);
   const std::vector<double> share = plateau_share(phases_, old.heat);
-  phases_.mechanics->hold_deformation(old.mechanics, old.heat.temperature, share);
+  if (phases_.structural != nullptr) phases_.structural->release();
+  mechanics::StepDeformation held =
+      phases_.mechanics->held_deformation(old.mechanics, old.heat.temperature, share);
   for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
   State predicted;
-  thermal_pass(phases_, old, predicted, {.time = middle, .dt = 0.5 * dt}, effort);
-  const mechanics::MechanicalPass pass{.time = middle,
-                                       .dt = 0.5 * dt,
-                                       .temperature = old.heat.temperature,
-                                       .plateau_share = share,
-                                       .iterate_temperature = predicted.heat.temperature,
-                                       .returns_at_work = !moves};
-  in_middle = mechanical_half(
+  thermal_pass(phases_, old, predicted, held, {.time = middle, .dt = 0.5 * dt}, effort);
+  held.clear();  // its storage serves again
+  mechanics::MechanicalPass pass{.time = middle,
+                                 .dt = 0.5 * dt,
+                                 .temperature = old.heat.temperature,
+                                 .plateau_share = share,
+                                 .iterate_temperature = predicted.heat.temperature,
+                                 .returns_at_work = !moves};
+  Half moved;
+  mechanical_half(
       old, half, pass,
-      [&](State& led) { thermal_pass(phases_, old, led, {.time = middle, .dt = 0.5 * dt}, effort); }, effort);
+      [&](const mechanics::StepDeformation& deformation, State& led) {
+        thermal_pass(phases_, old, led, deformation, {.time = middle, .dt = 0.5 * dt}, effort);
+      },
+      moved, effort);
+  in_middle = std::move(moved.report.at_work);
   contact.add(phases_.mechanics->work_share());
   contact.book(effort.energy);
   for (contact::ContactPair* pair : phases_.contacts) pair->predict_heat();
   // The deformation of the whole step acts at once before it: temperatures that leave their range by it come
   // back in step 4.
-  thermal_half(old, half,
+  thermal_half(old, half, moved.report.deformation,
                {.time = time, .dt = dt, .stepping = heat::ThermalStepping::sdirk2, .within_range = false},
                pass, effort);
   book_interface(effort.energy, phases_.structural != nullptr);
-  effort.stability = stability_audit(phases_, old, half, effort);
+  effort.stability = stability_audit(phases_, old, half, moved.report.deformation, effort);
   return effort;
 }
 
@@ -140,20 +149,25 @@ StepEffort DoublePass::second_half(const State& half, State& trial, double time,
   const heat::ThermalPass adiabatic{.time = time, .dt = dt, .adiabatic = true};
   ContactWork contact(phases_);
   const std::vector<double> share = plateau_share(phases_, half.heat);
-  const mechanics::MechanicalPass pass{.time = time,
-                                       .dt = 0.5 * dt,
-                                       .temperature = half.heat.temperature,
-                                       .plateau_share = share,
-                                       .at_work = moves ? nullptr : &in_middle};
+  mechanics::MechanicalPass pass{.time = time,
+                                 .dt = 0.5 * dt,
+                                 .temperature = half.heat.temperature,
+                                 .plateau_share = share,
+                                 .at_work = moves ? nullptr : &in_middle};
+  Half moved;
   mechanical_half(
-      half, trial, pass, [&](State& led) { thermal_pass(phases_, half, led, adiabatic, effort); }, effort);
+      half, trial, pass,
+      [&](const mechanics::StepDeformation& deformation, State& led) {
+        thermal_pass(phases_, half, led, deformation, adiabatic, effort);
+      },
+      moved, effort);
   // In quasi-statics the work of the pressure in the middle, as that of the stress.
   contact.add(moves ? phases_.mechanics->work_share() : 0);
   contact.book(effort.energy);
-  thermal_half(half, trial, adiabatic, pass, effort);
+  thermal_half(half, trial, moved.report.deformation, adiabatic, pass, effort);
   book_interface(effort.energy, phases_.structural != nullptr);
   effort.energy.heat_exchanged = 0;  // what deformation and heat exchange within a point
-  effort.stability = stability_audit(phases_, half, trial, effort);
+  effort.stability = stability_audit(phases_, half, trial, moved.report.deformation, effort);
   return effort;
 }
 

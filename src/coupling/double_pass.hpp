@@ -52,18 +52,25 @@ class DoublePass final : public CouplingScheme {
                         mechanics::ForcesAtWork& in_middle);
   StepEffort second_half(const State& half, State& trial, double time, double dt,
                          const mechanics::ForcesAtWork& in_middle);
-  /// Step 1 or 3. `pass` begins at the temperature that is held first.
-  /// @param answer  finds the temperatures to which the deformation that was found last leads
-  /// @return MechanicalReport::at_work of the last pass
-  mechanics::ForcesAtWork mechanical_half(const State& start, State& end, mechanics::MechanicalPass pass,
-                                          const std::function<void(State& led)>& answer,
-                                          StepEffort& effort) const;
+  /// Finds the temperatures to which a deformation leads.
+  using Answer = std::function<void(const mechanics::StepDeformation& deformation, State& led)>;
+  /// A mechanical half that has been solved.
+  struct Half {
+    mechanics::MechanicalReport report;  ///< of its last pass
+    std::vector<double> held;            ///< the temperature of that pass, where it was found; else empty
+  };
+  /// Step 1 or 3.
+  /// @param pass  begins at the temperature that is held first; becomes the last pass, which refers to `half`
+  void mechanical_half(const State& start, State& end, mechanics::MechanicalPass& pass, const Answer& answer,
+                       Half& half, StepEffort& effort) const;
   /// Whether a mechanical pass is repeated at the temperature that it leads to.
   bool repeats() const;
 
   /// Step 2 or 4 after a mechanical pass from `start`.
-  void thermal_half(const State& start, State& end, const heat::ThermalPass& heat,
-                    const mechanics::MechanicalPass& moved, StepEffort& effort) const;
+  /// @param deformation  of that pass; replaced where metal flows anew
+  void thermal_half(const State& start, State& end, mechanics::StepDeformation& deformation,
+                    const heat::ThermalPass& heat, const mechanics::MechanicalPass& moved,
+                    StepEffort& effort) const;
 
   Phases phases_;
   ThermalFlow flow_;

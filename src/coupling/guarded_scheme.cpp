@@ -37,8 +37,8 @@ heat::TemperatureRange including(const heat::TemperatureRange& a, const heat::Te
 }
 
 /// Beyond which nothing heats or cools; without end where something does.
-heat::TemperatureRange range_around(const Phases& phases) {
-  heat::TemperatureRange around = phases.heat->ambient_range(false);
+heat::TemperatureRange range_around(const Phases& phases, double time) {
+  heat::TemperatureRange around = phases.heat->ambient_range(time, false);
   for (const contact::ContactPair* pair : phases.contacts) {
     if (pair->spec().friction) around.highest = HUGE_VAL;
     const std::optional<double> tool = pair->tool_temperature();
@@ -66,10 +66,11 @@ std::vector<double> by_deformation(const Phases& phases, const State& trial, dou
 
 }  // namespace
 
-void require_continued(const Phases& phases, const State& old, const State& trial, double dt) {
+void require_continued(const Phases& phases, const State& old, const State& trial, double time, double dt) {
   if (phases.heat == nullptr) return;
   const heat::ThermalPhase& phase = *phases.heat;
-  const heat::TemperatureRange start = range_of(phase, old), range = including(start, range_around(phases));
+  const heat::TemperatureRange start = range_of(phase, old),
+                               range = including(start, range_around(phases, time));
   // A side without a bound is replaced by the extreme temperature that was found.
   const heat::TemperatureRange found = including(start, range_of(phase, trial));
   const double lowest = std::isfinite(range.lowest) ? range.lowest : found.lowest,
@@ -109,7 +110,7 @@ StepEffort GuardedScheme::advance(const State& old, State& trial, double time, d
 std::optional<StepEffort> GuardedScheme::advance_unless(const State& old, State& trial, double time,
                                                         double dt, const HeatJudge& stop) {
   std::optional<StepEffort> effort = scheme_->advance_unless(old, trial, time, dt, stop);
-  if (effort) require_continued(phases_, old, trial, dt);
+  if (effort) require_continued(phases_, old, trial, time, dt);
   return effort;
 }
 

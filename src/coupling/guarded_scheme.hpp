@@ -28,8 +28,9 @@ namespace solidus::coupling {
 
 /// Throws StepRejected on all processes where the temperatures of `trial` cannot follow from `old`.
 /// Collective.
-/// @param phases  whose last step of dt [s] led to `trial`
-void require_continued(const Phases& phases, const State& old, const State& trial, double dt);
+/// @param phases    which have taken this step: contributions as it has left them
+/// @param time, dt  end and length of the step [s]
+void require_continued(const Phases& phases, const State& old, const State& trial, double time, double dt);
 
 class GuardedScheme final : public CouplingScheme {
  public:

@@ -19,8 +19,9 @@ bool has_internal_energy(const Phases& phases) {
 
 double internal_energy(const Phases& phases, const State& state) {
   double energy = phases.heat->enthalpy(state.heat);
-  energy += phases.structural->energy(*phases.mechanics, state.mechanics, state.heat.temperature,
-                                      plateau_share(phases, state.heat));
+  phases.structural->release();  // of the step that is over: its storage serves again
+  energy += mechanics::structural_energy(*phases.mechanics, state.mechanics, state.heat.temperature,
+                                         plateau_share(phases, state.heat));
   for (const contact::ContactPair* pair : phases.contacts) energy += contact::sums(pair->view(), {}).energy;
   return energy;
 }

@@ -17,8 +17,8 @@ namespace solidus::coupling {
 bool has_internal_energy(const Phases& phases);
 
 /// U of a committed state [J] (axisymmetric: of the whole revolution; plane strain: per metre), from a zero
-/// that is the same in all states of a run. The contact pairs must stand at that state. Holds its
-/// deformation, so not between the passes of a step. Collective.
+/// that is the same in all states of a run. The contact pairs must stand at that state. Lets
+/// go of the deformation of the step before, so not between the passes of a step. Collective.
 double internal_energy(const Phases& phases, const State& state);
 
 }  // namespace solidus::coupling

@@ -98,8 +98,8 @@ struct StepEffort {
   EnergyAudit energy;
   StabilityAudit stability;
   std::vector<ContactSummary> contacts;
-  /// Of schemes that conduct heat before they solve deformation: the heat that passed through other gaps than
-  /// the mean ones of the step, [contact]; else empty.
+  /// The heat that passed through other gaps than the mean ones of the step, [contact], in schemes that
+  /// conduct heat before they solve deformation; else empty.
   std::vector<contact::GapHeat> gap_heat;
   /// The least and the largest D_mech at any point and zero [W/m³]: the least is zero but for rounding.
   double least_dissipation = 0, largest_dissipation = 0;

@@ -40,15 +40,19 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
   const std::vector<double> coherency =
       phases.contacts.empty() ? std::vector<double>{} : coherency_of(phases, old.heat);
   begin_contacts(phases, old.contacts, old.mechanics, pass, coherency, contacts);
+  if (phases.structural != nullptr) phases.structural->release();
   mechanics::MechanicalReport report;
   mechanics::MechanicalPass turn = pass;
   mechanics::MechanicalState next;
   // Most of a state is its history: the storage of the one that is overwritten serves again.
-  if (pass.iterate != &trial.mechanics && &old.mechanics != &trial.mechanics)
+  if (pass.iterate != &trial.mechanics && &old.mechanics != &trial.mechanics) {
     next.history = std::move(trial.mechanics.history);
+    next.elements = std::move(trial.mechanics.elements);
+  }
   const int earlier = turns != nullptr ? *turns : 0;
   for (int n_turns = 1;; ++n_turns) {
     if (turns != nullptr) *turns = earlier + n_turns;
+    report.deformation.clear();  // its storage serves again
     try {
       report = phases.mechanics->solve(old.mechanics, next, turn);
       add(report.newton, report.newton.effort, 0, effort.mechanics);
@@ -90,12 +94,14 @@ void book_work(const mechanics::MechanicalReport& report, StepEffort& effort) {
 }
 
 // Γ stays as the mechanical phase left it.
-bool thermal_pass(const Phases& phases, const State& old, State& trial, const heat::ThermalPass& pass,
+bool thermal_pass(const Phases& phases, const State& old, State& trial,
+                  const mechanics::StepDeformation& deformation, const heat::ThermalPass& pass,
                   StepEffort& effort) {
   const profile::Part part("heat");
   const double start = processes::wall_time();
   if (phases.mechanics == nullptr) rest_contacts(phases, old, pass.time, pass.dt);
   for (contact::ContactPair* pair : phases.contacts) pair->begin_heat(pass.dt, pass.adiabatic);
+  if (phases.structural != nullptr) phases.structural->set_deformation(deformation);
   heat::ThermalReport report = phases.heat->solve(old.heat, trial.heat, pass);
 
   effort.energy.stored_heat = report.balance.stored;
@@ -105,7 +111,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
     effort.energy.heat_in += condition.heat;
   effort.energy.heat_exchanged = report.balance.exchanged;
   if (phases.structural != nullptr) {
-    effort.energy.structural = phases.structural->change(trial.heat.temperature).energy;
+    effort.energy.structural = mechanics::structural_change(deformation, trial.heat.temperature).energy;
   } else {
     keep_heat_alone(effort.energy);
   }
@@ -119,17 +125,19 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
   return report.newton.converged;
 }
 
-bool thermal_pass_with_flow(const Phases& phases, const State& old, State& trial, heat::ThermalPass heat,
+bool thermal_pass_with_flow(const Phases& phases, const State& old, State& trial,
+                            mechanics::StepDeformation& deformation, heat::ThermalPass heat,
                             const mechanics::MechanicalState& started, const mechanics::MechanicalPass& pass,
                             StepEffort& effort) {
-  bool converged = thermal_pass(phases, old, trial, heat, effort);
+  bool converged = thermal_pass(phases, old, trial, deformation, heat, effort);
   double change = 0;
   for (int turn = 1; turn <= k_flow_turns; ++turn) {
     const std::vector<double> led = trial.heat.temperature;
-    const mechanics::FlowChange flow = phases.mechanics->restart_flow(started, pass, led, trial.mechanics);
+    const mechanics::FlowChange flow =
+        phases.mechanics->restart_flow(started, pass, led, trial.mechanics, deformation);
     if (turn == 1 && !flow.flows) return converged;
     heat.iterate = &trial.heat;
-    converged = thermal_pass(phases, old, trial, heat, effort);
+    converged = thermal_pass(phases, old, trial, deformation, heat, effort);
     change = largest_difference(trial.heat.temperature, led);
     if (change > k_flow_settled * largest_difference(trial.heat.temperature, old.heat.temperature)) continue;
     effort.energy.viscous_dissipation += flow.work.dissipation - flow.work.plastic_dissipation;

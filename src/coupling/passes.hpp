@@ -33,18 +33,22 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
 /// Enters the work and the support forces of a solved mechanical phase in the report of the step.
 void book_work(const mechanics::MechanicalReport& report, StepEffort& effort);
 
-/// The balance of energy at the configuration of the last mechanical pass (4.43, 4.53); otherwise the same.
-/// Returns whether the iteration reached its tolerance.
-bool thermal_pass(const Phases& phases, const State& old, State& trial, const heat::ThermalPass& pass,
+/// The balance of energy at a deformation (4.43, 4.53); otherwise the same. Returns whether the iteration
+/// reached its tolerance.
+/// @param deformation  MechanicalReport::deformation, or held; empty where deformation does no heat
+bool thermal_pass(const Phases& phases, const State& old, State& trial,
+                  const mechanics::StepDeformation& deformation, const heat::ThermalPass& pass,
                   StepEffort& effort);
 
 /// thermal_pass() with the return mapping that the monograph prints for the thermal phase (4.45, 4.49, 4.54):
 /// the flow of solid metal at Θ_{n+1} from the internal variables at t_n, at the strain of the mechanical
 /// phase. The two are solved in turns until the temperatures stay; what the one does to the other is about
 /// 1e-3, so that two or three turns do. Throws StepRejected where they do not.
-/// @param started  the mechanical state that the last mechanical pass started from
-/// @param pass     that pass
-bool thermal_pass_with_flow(const Phases& phases, const State& old, State& trial, heat::ThermalPass heat,
+/// @param deformation  that of the mechanical pass; replaced
+/// @param started      the mechanical state that the pass started from
+/// @param pass         that pass
+bool thermal_pass_with_flow(const Phases& phases, const State& old, State& trial,
+                            mechanics::StepDeformation& deformation, heat::ThermalPass heat,
                             const mechanics::MechanicalState& started, const mechanics::MechanicalPass& pass,
                             StepEffort& effort);
 

@@ -99,13 +99,15 @@ std::optional<StepEffort> SequentialSplit::advance_unless(const State& old, Stat
 
 StepEffort SequentialSplit::mechanics_first(const State& old, State& trial, double time, double dt) {
   StepEffort effort;
+  mechanics::StepDeformation deformation;
   if (phases_.mechanics != nullptr)
-    mechanical_phase(old, old, trial, time, dt, extrapolated(old, dt), effort);
+    deformation = mechanical_phase(old, old, trial, time, dt, extrapolated(old, dt), effort);
   if (phases_.heat != nullptr)
-    thermal_phase(old, old, trial, {.time = time, .dt = dt, .stepping = phases_.heat->stepping()}, effort);
+    thermal_phase(old, old, trial, deformation,
+                  {.time = time, .dt = dt, .stepping = phases_.heat->stepping()}, effort);
   book_interface(effort.energy, phases_.structural != nullptr);
   const profile::Part part("audit");
-  effort.stability = stability_audit(phases_, old, trial, effort);
+  effort.stability = stability_audit(phases_, old, trial, deformation, effort);
   return effort;
 }
 
@@ -137,7 +139,8 @@ std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, Sta
   StepEffort effort = heat_at_rest(old, warm, time, dt, used, false);
   if (stop && stop(warm, effort.fields.flows)) return {};
   StepEffort deformed;
-  mechanical_phase(old, warm, trial, time, dt, extrapolated(old, dt), deformed);
+  mechanics::StepDeformation deformation =
+      mechanical_phase(old, warm, trial, time, dt, extrapolated(old, dt), deformed);
   TurnWatch watch;
   while (true) {
     Gaps right = middle(start, gaps());
@@ -151,19 +154,20 @@ std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, Sta
     ++turns;
     const PhaseEffort heat = effort.heat, mechanics = deformed.mechanics;
     restore_contacts(phases_, old);
+    deformation.clear();  // its storage serves again
     effort = heat_at_rest(old, warm, time, dt, right, true);
     const Start before{trial.mechanics.displacement, trial.mechanics.pressure};
     deformed = {};
-    mechanical_phase(old, warm, trial, time, dt, before, deformed);
+    deformation = mechanical_phase(old, warm, trial, time, dt, before, deformed);
     add_effort(heat, effort.heat);
     add_effort(mechanics, deformed.mechanics);
     deformed.coupling_iterations = turns;
     used = std::move(right);
   }
   const contact::InterfaceSums conducted = effort.energy.interface;
-  thermal_phase(old, warm, trial, {.time = time, .dt = dt, .adiabatic = true}, deformed);
+  thermal_phase(old, warm, trial, deformation, {.time = time, .dt = dt, .adiabatic = true}, deformed);
   book_interface(deformed.energy, phases_.structural != nullptr);
-  deformed.stability = stability_audit(phases_, warm, trial, deformed);
+  deformed.stability = stability_audit(phases_, warm, trial, deformation, deformed);
   effort += deformed;
   effort.energy.interface.add(conducted);
   return effort;
@@ -221,28 +225,31 @@ bool SequentialSplit::misplaces_much(const contact::GapHeat& all, double dt,
 StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double time, double dt,
                                          const Gaps& through, bool again) {
   StepEffort effort;
-  phases_.mechanics->hold_deformation(old.mechanics, old.heat.temperature, plateau_share(phases_, old.heat));
+  if (phases_.structural != nullptr) phases_.structural->release();
+  const mechanics::StepDeformation held = phases_.mechanics->held_deformation(
+      old.mechanics, old.heat.temperature, plateau_share(phases_, old.heat));
   find_interface_temperatures(phases_, old, time - dt);
   for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
   for (std::size_t i = 0; i < through.size(); ++i) phases_.contacts[i]->conduct_through(through[i]);
   thermal_pass(
-      phases_, old, warm,
+      phases_, old, warm, held,
       {.time = time, .dt = dt, .iterate = again ? &warm.heat : nullptr, .stepping = phases_.heat->stepping()},
       effort);
   book_interface(effort.energy, phases_.structural != nullptr);
-  effort.stability = stability_audit(phases_, old, warm, effort);
+  effort.stability = stability_audit(phases_, old, warm, held, effort);
   return effort;
 }
 
 void SequentialSplit::thermal_phase(const State& old, const State& warm, State& trial,
-                                    const heat::ThermalPass& pass, StepEffort& effort) {
+                                    mechanics::StepDeformation& deformation, const heat::ThermalPass& pass,
+                                    StepEffort& effort) {
   if (options_.flow == ThermalFlow::kept || phases_.mechanics == nullptr) {
-    thermal_pass(phases_, warm, trial, pass, effort);
+    thermal_pass(phases_, warm, trial, deformation, pass, effort);
     return;
   }
   const std::vector<double> share = plateau_share(phases_, warm.heat);
   thermal_pass_with_flow(
-      phases_, warm, trial, pass, old.mechanics,
+      phases_, warm, trial, deformation, pass, old.mechanics,
       {.time = pass.time, .dt = pass.dt, .temperature = warm.heat.temperature, .plateau_share = share},
       effort);
 }
@@ -253,24 +260,27 @@ SequentialSplit::Start SequentialSplit::extrapolated(const State& old, double dt
 }
 
 // From the temperature of t_n (4.40, 4.46), or from the one that conduction has left.
-void SequentialSplit::mechanical_phase(const State& old, const State& warm, State& trial, double time,
-                                       double dt, const Start& start, StepEffort& effort) {
+mechanics::StepDeformation SequentialSplit::mechanical_phase(const State& old, const State& warm,
+                                                             State& trial, double time, double dt,
+                                                             const Start& start, StepEffort& effort) {
   ContactWork contact(phases_);
   const std::vector<double>& temperature =
       phases_.heat != nullptr ? warm.heat.temperature : phases_.temperature;
   const std::vector<double> share = plateau_share(phases_, warm.heat);
-  mechanical_pass(phases_, {old.mechanics, warm.contacts, warm.heat}, trial,
-                  {.time = time,
-                   .dt = dt,
-                   .temperature = temperature,
-                   .plateau_share = share,
-                   .guess = start.displacement,
-                   .guessed_pressure = start.pressure},
-                  effort);
+  mechanics::MechanicalReport report =
+      mechanical_pass(phases_, {old.mechanics, warm.contacts, warm.heat}, trial,
+                      {.time = time,
+                       .dt = dt,
+                       .temperature = temperature,
+                       .plateau_share = share,
+                       .guess = start.displacement,
+                       .guessed_pressure = start.pressure},
+                      effort);
   trial.displacement_rate = rate(old.mechanics.displacement, trial.mechanics.displacement, dt);
   trial.pressure_rate = rate(old.mechanics.pressure, trial.mechanics.pressure, dt);
   contact.add(phases_.mechanics->work_share());
   contact.book(effort.energy);
+  return std::move(report.deformation);
 }
 
 }  // namespace solidus::coupling

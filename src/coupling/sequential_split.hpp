@@ -80,11 +80,13 @@ class SequentialSplit : public CouplingScheme {
     std::vector<double> displacement, pressure;
   };
   static Start extrapolated(const State& old, double dt);
-  /// Equilibrium at t_{n+1}, and the works of contact.
-  void mechanical_phase(const State& old, const State& warm, State& trial, double time, double dt,
-                        const Start& start, StepEffort& effort);
-  /// Heat at the configuration found, from `warm`, with the flow of the mechanical phase or a new one.
-  void thermal_phase(const State& old, const State& warm, State& trial, const heat::ThermalPass& pass,
+  /// Equilibrium at t_{n+1}, and the works of contact. Returns the deformation.
+  mechanics::StepDeformation mechanical_phase(const State& old, const State& warm, State& trial, double time,
+                                              double dt, const Start& start, StepEffort& effort);
+  /// Heat at the deformation found, from `warm`, with the flow of the mechanical phase or a new one, which
+  /// replaces it.
+  void thermal_phase(const State& old, const State& warm, State& trial,
+                     mechanics::StepDeformation& deformation, const heat::ThermalPass& pass,
                      StepEffort& effort);
 
   Phases phases_;

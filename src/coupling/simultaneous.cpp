@@ -80,49 +80,56 @@ void SimultaneousScheme::forget() {
   for (contact::ContactPair* pair : phases_.contacts) pair->forget();
 }
 
-void SimultaneousScheme::drop_carried() {
-  for (mechanics::CoupledKernel* kernel : newton_->kernels()) kernel->drop_carried();
+mechanics::StepDeformation SimultaneousScheme::drop_carried() {
+  mechanics::StepDeformation deformation;
+  for (mechanics::CoupledKernel* kernel : newton_->kernels()) deformation.push_back(kernel->drop_carried());
+  return deformation;
 }
 
 StepEffort SimultaneousScheme::advance(const State& old, State& trial, double time, double dt) {
   drop_carried();  // of a step that failed
+  mechanics::StepDeformation deformation;
   std::optional<ContactWork> contact(std::in_place, phases_);
   StepEffort effort;
   if (options_.integration == SimultaneousOptions::Integration::backward_euler) {
-    effort = backward_euler(old, trial, time, dt);
-  } else if (const std::optional<StepEffort> found = two_stages(old, trial, time, dt, true, *contact)) {
+    effort = backward_euler(old, trial, time, dt, deformation);
+  } else if (const std::optional<StepEffort> found =
+                 two_stages(old, trial, time, dt, true, *contact, deformation)) {
     effort = *found;
   } else {
     logging::debug("both fields: the step to t = {:g} s would overshoot; it is of first order", time);
     drop_carried();
+    deformation.clear();  // its storage serves again
     restore_contacts(phases_, old);
     contact.emplace(phases_);
-    effort = *two_stages(old, trial, time, dt, false, *contact);
+    effort = *two_stages(old, trial, time, dt, false, *contact, deformation);
   }
   if (phases_.structural != nullptr) {
     contact->add(phases_.mechanics->work_share());
     contact->book(effort.energy);
-    effort.energy.structural = phases_.structural->change(trial.heat.temperature).energy;
+    effort.energy.structural = mechanics::structural_change(deformation, trial.heat.temperature).energy;
   } else {
     keep_heat_alone(effort.energy);
   }
   book_interface(effort.energy, phases_.structural != nullptr);
-  effort.stability = stability_audit(phases_, old, trial, effort, Booking::mechanical);
+  effort.stability = stability_audit(phases_, old, trial, deformation, effort, Booking::mechanical);
   summarise(phases_, trial, effort);
   return effort;
 }
 
-StepEffort SimultaneousScheme::backward_euler(const State& old, State& trial, double time, double dt) {
+StepEffort SimultaneousScheme::backward_euler(const State& old, State& trial, double time, double dt,
+                                              mechanics::StepDeformation& deformation) {
   newton_->thermal().begin(old.heat, time, dt);
   const std::vector<double> share = plateau_share(phases_, old.heat);
   PhaseIterate fractions(phases_, old.heat);
   return stage(old.mechanics, old.contacts, coherency_of(phases_, old.heat),
                {.time = time, .dt = dt, .temperature = old.heat.temperature, .plateau_share = share}, trial,
-               &fractions);
+               deformation, &fractions);
 }
 
 std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State& trial, double time,
-                                                         double dt, bool extrapolated, ContactWork& contact) {
+                                                         double dt, bool extrapolated, ContactWork& contact,
+                                                         mechanics::StepDeformation& deformation) {
   const double first_dt = material::k_sdirk_share * dt, middle = time - dt + first_dt;
   const std::vector<double> share = plateau_share(phases_, old.heat);
   const mechanics::MechanicalPass to_middle{
@@ -131,22 +138,25 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
   heat::ThermalIteration& thermal = newton_->thermal();
   thermal.begin(old.heat, middle, first_dt);
   const std::vector<double> coherency = coherency_of(phases_, old.heat);
-  const StepEffort of_first = stage(old.mechanics, old.contacts, coherency, to_middle, first);
+  const StepEffort of_first = stage(old.mechanics, old.contacts, coherency, to_middle, first, deformation);
 
   extrapolated = extrapolated && thermal.may_extrapolate(old.heat, first.heat, time);
   const double carried = extrapolated ? material::k_sdirk_carried : 1.0;
   contact.add(1, carried);
-  for (mechanics::CoupledKernel* kernel : newton_->kernels()) kernel->carry(carried, first.heat.temperature);
+  for (std::size_t b = 0; b < deformation.size(); ++b)
+    newton_->kernels()[b]->carry(carried, deformation[b].get(), first.heat.temperature);
+  deformation.clear();  // its storage serves again
   const mechanics::MechanicalState start = second_start(old.mechanics, first.mechanics, carried);
   mechanics::MechanicalPass to_end = to_middle;
   to_end.time = time;
   to_end.dt = extrapolated ? first_dt : dt - first_dt;
   to_end.iterate = &first.mechanics;
   thermal.begin_stage(old.heat, first.heat, carried, time, to_end.dt);
-  StepEffort effort =
-      stage(start, second_start(phases_, old.contacts, first.contacts, carried), coherency, to_end, trial);
+  StepEffort effort = stage(start, second_start(phases_, old.contacts, first.contacts, carried), coherency,
+                            to_end, trial, deformation);
   if (extrapolated && thermal.overshoots(trial.heat)) return std::nullopt;
-  drop_carried();
+  deformation = drop_carried();
+  if (phases_.structural != nullptr) phases_.structural->set_deformation(deformation);
   effort.energy.add_first_stage(of_first.energy, carried);
   effort.mechanics.iterations += of_first.mechanics.iterations;
   effort.mechanics.linear_iterations += of_first.mechanics.linear_iterations;
@@ -176,7 +186,8 @@ bool SimultaneousScheme::settled(const PhaseIterate& fractions, int turn) {
 StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
                                      const std::vector<contact::ContactState>& contacts,
                                      std::span<const double> coherency, mechanics::MechanicalPass pass,
-                                     State& trial, PhaseIterate* fractions) {
+                                     State& trial, mechanics::StepDeformation& deformation,
+                                     PhaseIterate* fractions) {
   const profile::Part part("both fields");
   const double start = processes::wall_time();
   pass.iterate_temperature = newton_->thermal().temperature();
@@ -210,8 +221,10 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
     fractions->advance(newton_->thermal().state(), std::ldexp(1.0, -fraction_turns / k_whole_turns));
     fractions->hold(pass);
   }
-  const mechanics::MechanicalReport solved =
-      phases_.mechanics->conclude(old, pass, std::move(x), trial.mechanics);
+  newton_->release_deformation();
+  mechanics::MechanicalReport solved = phases_.mechanics->conclude(old, pass, std::move(x), trial.mechanics);
+  if (phases_.structural != nullptr) phases_.structural->set_deformation(solved.deformation);
+  deformation = std::move(solved.deformation);
   const heat::HeatBalance balance = newton_->thermal().conclude(trial.heat);
 
   StepEffort effort;

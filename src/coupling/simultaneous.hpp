@@ -47,22 +47,27 @@ class SimultaneousScheme final : public CouplingScheme {
   const CoupledReport& report() const { return report_; }
 
  private:
-  StepEffort backward_euler(const State& old, State& trial, double time, double dt);
+  /// @param deformation  that of the whole step, written
+  StepEffort backward_euler(const State& old, State& trial, double time, double dt,
+                            mechanics::StepDeformation& deformation);
   /// @param extrapolated  the second stage may start from y*; otherwise it starts from Y_1
   /// @return  nothing where the second stage started from y* and should not have: `trial` is of no use then
   std::optional<StepEffort> two_stages(const State& old, State& trial, double time, double dt,
-                                       bool extrapolated, ContactWork& contact);
+                                       bool extrapolated, ContactWork& contact,
+                                       mechanics::StepDeformation& deformation);
   /// Mechanics from `old`, heat as thermal() has begun.
-  /// @param coherency  at t_n
-  /// @param fractions  of phase changes, which follow the temperatures; null: those of `pass` are held
+  /// @param coherency    at t_n
+  /// @param deformation  of the stage, written
+  /// @param fractions    of phase changes, which follow the temperatures; null: those of `pass` are held
   StepEffort stage(const mechanics::MechanicalState& old, const std::vector<contact::ContactState>& contacts,
                    std::span<const double> coherency, mechanics::MechanicalPass pass, State& trial,
-                   PhaseIterate* fractions = nullptr);
+                   mechanics::StepDeformation& deformation, PhaseIterate* fractions = nullptr);
   /// Says once in a run that a step holds fractions that its temperatures do not lead to.
   void warn_of_held_fractions(double time);
   /// Whether the solution found agrees with the fractions that it was found with.
   bool settled(const PhaseIterate& fractions, int turn);
-  void drop_carried();
+  /// Returns the deformation of the last stage, counted over the whole step.
+  mechanics::StepDeformation drop_carried();
 
   Phases phases_;
   SimultaneousOptions options_;

@@ -5,13 +5,15 @@
 namespace solidus::coupling {
 
 StabilityAudit stability_audit(const Phases& phases, const State& old, const State& trial,
-                               const StepEffort& effort, Booking booking) {
+                               const mechanics::StepDeformation& deformation, const StepEffort& effort,
+                               Booking booking) {
   StabilityAudit r;
   if (!phases.audits_stability()) return r;
   const EnergyAudit& energy = effort.energy;
   const double ambient = *phases.ambient_temperature;
   const heat::EntropyChange stored = phases.heat->entropy_change(old.heat, trial.heat);
-  const mechanics::StructuralChange structural = phases.structural->change(trial.heat.temperature);
+  const mechanics::StructuralChange structural =
+      mechanics::structural_change(deformation, trial.heat.temperature);
   const contact::InterfaceSums& interface = energy.interface;
   r.entropy = stored.change + structural.entropy + interface.entropy;
   r.frictional_entropy = interface.plastic_entropy;
@@ -20,7 +22,7 @@ StabilityAudit stability_audit(const Phases& phases, const State& old, const Sta
       energy.kinetic + energy.contact - energy.work;  // changes in the mechanical phase only
   const double whole = energy.stored_heat + energy.structural + outside - ambient * r.entropy;
   if (booking == Booking::by_phase) {
-    const mechanics::StructuralChange phase = phases.structural->mechanical_change();
+    const mechanics::StructuralChange phase = mechanics::mechanical_change(deformation);
     const double later = interface.energy - interface.mechanical_energy;  // in the thermal phase
     r.mechanical = phase.energy + outside - later - ambient * (phase.entropy + interface.mechanical_entropy);
     r.thermal = whole - r.mechanical;

@@ -20,8 +20,10 @@ enum class Booking {
 
 /// After both phases of a step. Zero where heat and deformation do not exchange energy, or without an ambient
 /// temperature. Collective.
-/// @param effort  energies and residuals of the step, complete
+/// @param deformation  of the step (MechanicalReport::deformation); empty without structural heat
+/// @param effort       energies and residuals of the step, complete
 StabilityAudit stability_audit(const Phases& phases, const State& old, const State& trial,
-                               const StepEffort& effort, Booking booking = Booking::by_phase);
+                               const mechanics::StepDeformation& deformation, const StepEffort& effort,
+                               Booking booking = Booking::by_phase);
 
 }  // namespace solidus::coupling

@@ -350,7 +350,8 @@ void Freezing::fill(const CriterionInput& /*now*/, const CriterionRecord& record
 }
 
 std::vector<CriterionResult> Freezing::findings(const CriterionRecord& record) const {
-  // Of every field least and greatest over the nodes that have it: value, number of the node, place.
+  // The least and the greatest value of every field over the nodes that have it, with the number of the node
+  // and its place.
   struct Extreme {
     double value = 0, number = -1;
     mesh::Point where{};

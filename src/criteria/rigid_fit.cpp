@@ -17,7 +17,7 @@ double dot(const Point& a, const Point& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Of a symmetric positive definite matrix, by rows.
+/// Inverts a symmetric positive definite matrix, given by rows.
 std::array<Point, 3> inverse(const std::array<Point, 3>& m) {
   const std::array<Point, 3> adjugate{cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
   const double determinant = dot(m[0], adjugate[0]);

@@ -7,8 +7,8 @@ namespace solidus::heat {
 
 namespace {
 
-/// What rounding may leave of a temperature: a body that rests at its temperature of ignition is lit, by
-/// whatever processor.
+/// The rounding of a temperature, as a share of it: a body that rests at its temperature of ignition is lit,
+/// by whatever processor.
 constexpr double k_rounding = 1e-12;
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace solidus::heat {
 
 /// A transient step is diagonally strong and CG + incomplete Cholesky serves, unless the step is so long that
-/// the matrix is nearly that of the steady state. Then the steady solver of design.md section 4 takes over
+/// the matrix is nearly that of the steady state. Then the solver of the steady state takes over
 /// (MUMPS or multigrid) until the end of the step. A kind that the user chose is used alone.
 class HeatSolver {
  public:

@@ -124,7 +124,8 @@ double ThermalPhase::seconds_solver() const {
   return solver_->seconds();
 }
 
-TemperatureRange ThermalPhase::ambient_range(bool with_contributions) const {
+TemperatureRange ThermalPhase::ambient_range(double time, bool with_contributions) const {
+  system_->set_time(time);
   return system_->ambient_range(with_contributions);
 }
 

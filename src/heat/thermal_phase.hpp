@@ -159,7 +159,8 @@ class ThermalPhase {
   /// what time_error() of the next step asks for. Collective.
   std::vector<double> flow_at_end(const StageFlows& flows) const;
   /// The error in time of the step that ended in `now`, whose flows must be known: the heat of
-  /// heat::time_error(), spread for as long as its last stage is. [local node] [K]. Collective.
+  /// heat::time_error(), spread for as long as its last stage is, through contributions as they stand.
+  /// [local node] [K]. Collective.
   /// @param flow_before  flow_at_end() of the step before
   std::vector<double> time_error(const ThermalState& now, const StageFlows& flows,
                                  std::span<const double> flow_before);
@@ -177,11 +178,10 @@ class ThermalPhase {
   /// The step piece by piece, for an iteration that has further unknowns; refers to this phase.
   std::unique_ptr<ThermalIteration> iteration();
 
-  /// The temperatures around the bodies at the time of the last solve, prescribed, of films and of radiation,
-  /// beyond which nothing is heated or cooled; without end where fluxes, sources or contributions can.
-  /// Collective.
+  /// The temperatures around the bodies at a time, prescribed, of films and of radiation, beyond which
+  /// nothing is heated or cooled; without end where fluxes, sources or contributions can. Collective.
   /// @param with_contributions  false: the caller knows whether contributions heat
-  TemperatureRange ambient_range(bool with_contributions = true) const;
+  TemperatureRange ambient_range(double time, bool with_contributions = true) const;
 
   /// Plateau shares: the shares of isothermal changes that are done at the nodes at their temperature, from 0
   /// (cold) to 1 (hot); one at other nodes. Temperature and plateau share together determine how much of

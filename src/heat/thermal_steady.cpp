@@ -26,8 +26,8 @@ namespace {
 
 constexpr int k_one_component[] = {1};
 
-/// Of the steady state: how often the limits of conduction are found anew, and the change of flows by them,
-/// over the heat moved, that stays out.
+/// In the steady state the limits of conduction are found anew so often at most; a change of flows by them of
+/// this share of the heat moved stays out.
 constexpr int k_steady_revisions = 20;
 constexpr double k_limit_change = 1e-6;
 

@@ -68,7 +68,10 @@ ThermalReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, 
     if (flows) report.flows.last = flow(old, next, {pass.dt});
   }
   set_latent(report.balance, old, next);
-  if (flows) report.flows.dt = pass.dt;
+  if (flows) {
+    report.flows.time = pass.time;
+    report.flows.dt = pass.dt;
+  }
   trial = std::move(next);
   return report;
 }
@@ -236,7 +239,8 @@ std::vector<double> ThermalPhase::flow_at_end(const StageFlows& flows) const {
 
 std::vector<double> ThermalPhase::time_error(const ThermalState& now, const StageFlows& flows,
                                              std::span<const double> flow_before) {
-  system_->exchange(true);  // an adiabatic pass may have been the last one
+  system_->exchange(true);
+  system_->set_time(flows.time);
   return (*spread_)(heat::time_error(flows, flow_before), now.temperature, flows.last_share * flows.dt);
 }
 

@@ -18,6 +18,7 @@ namespace solidus::heat {
 
 /// Flows of heat in a step in which the nodes hold the heat.
 struct StageFlows {
+  double time = 0;            ///< t_{n+1} [s]
   double dt = 0;              ///< the step [s]; zero: nothing is known
   double share = 1;           ///< of the step that lies before the end of the first stage; 1: the only one
   double last_share = 1;      ///< of the step over which the last stage solves

@@ -1,4 +1,4 @@
-/// Block-CSR accumulation of element entries and their hand-over to PETSc (design.md section 4).
+/// Block-CSR accumulation of element entries and their hand-over to PETSc.
 ///
 /// Rows are the owned nodes, columns the local nodes, blocks block_size × block_size, row-major. A symmetric
 /// matrix may be kept by half: its blocks on and above the diagonal, and all of ghost columns. Element

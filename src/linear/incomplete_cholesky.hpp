@@ -1,12 +1,12 @@
 /// Incomplete Cholesky factors without fill, in single precision, of a process's part of a symmetric matrix:
 /// the preconditioner of a step of transient heat, which is diagonally strong.
 ///
-/// Of the fill f_i of a row that has no place in the pattern, what exceeds 0.3 of the row's sum s_i = Σ_j
-/// A_ij goes to its diagonal, f_i − 0.3 s_i where that is positive. The factors then act on smooth functions
-/// as the matrix does but for such a share, and iterations grow with the root of the number of nodes along a
-/// side, not with that number (I. Gustafsson, BIT 18 (1978) 142, who takes all of f_i less a perturbation). A
-/// row that is diagonally dominant by more than its fill stays as it is: there nothing is smooth, and fill on
-/// the diagonal would be in the way.
+/// The fill f_i of a row that has no place in the pattern goes to its diagonal as far as it exceeds 0.3 of
+/// the row's sum s_i = Σ_j A_ij, f_i − 0.3 s_i where that is positive. The factors then act on smooth
+/// functions as the matrix does but for such a share, and iterations grow with the root of the number of
+/// nodes along a side, not with that number (I. Gustafsson, BIT 18 (1978) 142, who takes all of f_i less a
+/// perturbation). A row that is diagonally dominant by more than its fill stays as it is: there nothing is
+/// smooth, and fill on the diagonal would be in the way.
 ///
 /// Made from half a BlockMatrix as it stands, whose pattern the factors share: a sixth of the memory of
 /// PETSc's copy and factors. Meijerink and van der Vorst, Math. Comp. 31 (1977) 148.

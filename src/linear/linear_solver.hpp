@@ -11,7 +11,7 @@
 namespace solidus::linear {
 
 enum class SolverKind {
-  automatic,   ///< the default of the phase and size (design.md section 4)
+  automatic,   ///< the default of the phase and size (docs/reference/case_file.md)
   direct,      ///< MUMPS, LDLᵀ for symmetric matrices
   multigrid,   ///< CG + multigrid (GMRES when unsymmetric), GAMG for tied unknowns
   jacobi,      ///< CG + Jacobi

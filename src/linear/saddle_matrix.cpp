@@ -16,7 +16,7 @@ struct Sizes {
   constexpr int fields() const { return n_fields > 0 ? n_fields : any_fields; }
 };
 
-/// What of the borders a product is with.
+/// The part of the matrix that a product is with.
 enum class Part {
   all,         ///< y_u += B p, y_p += Bᵀ u − C p
   gradient,    ///< y_u += B p

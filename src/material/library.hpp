@@ -35,7 +35,7 @@ struct PhaseChangeData {
   SourceLocation where;
 };
 
-/// What the values of `expansion` are in a material file. Material::expansion is always the mean.
+/// The meanings of the values of `expansion` in a material file. Material::expansion is always the mean.
 enum class ExpansionAs {
   mean,          ///< e(Θ)/(Θ − Θ_ref), the secant of the curve of thermal strain
   instantaneous  ///< de/dΘ, its tangent

@@ -84,7 +84,7 @@ struct MushViscosity {
   }
 };
 
-/// Of a material with a solidification and mechanical properties; zero if its coherency_fraction is 1.
+/// The viscosity of the mush of a material that solidifies and deforms; zero if its coherency_fraction is 1.
 MushViscosity mush_viscosity(const Material& material);
 
 /// Modulus of a melt, with the quantity that it was chosen in proportion to.

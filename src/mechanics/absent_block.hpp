@@ -1,21 +1,14 @@
 /// A mesh block that takes no part in mechanics: of a body that only conducts heat or that has been removed.
-/// No stiffness, stress, history, weight or structural heat; its fields are zero.
+/// No stiffness, stress, history, weight or structural heat; results show zero in its elements.
 #pragma once
-
-#include <memory>
 
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/coupled_kernel.hpp"
-#include "mechanics/structural_points.hpp"
 
 namespace solidus::mechanics {
 
 class AbsentBlock final : public BlockKernel, public CoupledKernel {
  public:
-  /// @param kept  of the body when it was there, whose fields are shown until keep_fields(); may be null
-  AbsentBlock(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind,
-              const material::Material& material, std::unique_ptr<BlockKernel> kept = nullptr);
-
   bool symmetric() const override { return true; }
   void bind(const linear::BlockMatrix&) override {}
   BlockHistory initial_history() const override { return {}; }
@@ -24,31 +17,21 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
   void add_tangent(std::span<const double>, linear::BlockMatrix&) override {}
   BlockWork finish(std::span<const double>, std::span<const double>, const BlockEnd&) override { return {}; }
   FlowChange restart_flow(const StepStart&, std::span<const double>, std::span<const double>,
-                          BlockHistory&) override {
+                          const BlockEnd&) override {
     return {};
   }
-  void hold_deformation(const StepStart&) override {}
+  std::shared_ptr<const StructuralPoints> held_deformation(const StepStart&) override { return {}; }
   std::string failure(std::span<const double>) const override { return {}; }
   FlowingVolume flowing(std::span<const double>) const override { return {}; }
-  void get_field(ElementField which, std::span<double> out) const override;
-  void keep_fields() override { kept_.reset(); }
   void add_nodal_volume(double, std::span<double>) const override {}
 
   void spread_heat_as_stored(const PackVector<Lane>&) override {}
-  void add_structural_heat(StructuralForm, std::span<const double>, bool, std::span<double>) const override {}
-  void begin_heat_stage(const linear::RungeKuttaStage&, std::span<const double>) override {}
-  const StructuralPoints& structural_points() const override { return points_; }
   std::size_t bytes() const override { return 0; }
 
   void bind_heat(const linear::BlockMatrix&) override {}
   void add_coupling(const CoupledIterate&, linear::CoupledMatrix&) override {}
-  void carry(double, std::span<const double>) override {}
-  void drop_carried() override {}
-
- private:
-  mesh::BlockGeometry nowhere_;  ///< of no element
-  StructuralPoints points_;      ///< there: none
-  std::unique_ptr<BlockKernel> kept_;
+  void carry(double, const StructuralPoints*, std::span<const double>) override {}
+  std::shared_ptr<const StructuralPoints> drop_carried() override { return {}; }
 };
 
 }  // namespace solidus::mechanics

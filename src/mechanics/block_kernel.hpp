@@ -55,11 +55,15 @@ struct StepStart {
   }
 };
 
-/// What finish() writes, of the block's size.
+/// The results that finish() writes, of the block's size.
 struct BlockEnd {
   BlockHistory& history;
   BlockHistory* stress = nullptr;   ///< at the points at t_{n+1}; null: not asked for
   StressAtWork* at_work = nullptr;  ///< of this step, for a later one; null: not asked for
+  /// Values of the elements for results; null: not asked for. Storage that no other state has serves again.
+  SharedElementValues* elements = nullptr;
+  /// The deformation at the points for the heat balance; null: not asked for.
+  std::shared_ptr<const StructuralPoints>* deformation = nullptr;
 };
 
 /// Sums over the counted elements of a block.
@@ -114,38 +118,28 @@ class BlockKernel {
   virtual double add_forces(std::span<const double> u, std::span<double> forces) = 0;
   /// matrix += ∫ B̄ᵀ C B̄ dV at u.
   virtual void add_tangent(std::span<const double> u, linear::BlockMatrix& matrix) = 0;
-  /// Writes the new history and what else `end` asks for, and stores the data for the thermal phase.
+  /// Writes the new history and what else `end` asks for.
   virtual BlockWork finish(std::span<const double> old_u, std::span<const double> u, const BlockEnd& end) = 0;
-  /// Finds the flow of solid metal anew at `pass_temperature`, the strains being those of the last finish()
-  /// and the flow that of t_n (4.45, 4.49, 4.54): history, values for results and what the thermal phase
-  /// needs. Melt and mush keep their flow, and the stress power stays that of the last finish().
+  /// Finds the flow of solid metal anew at `pass_temperature`, the strains being those at `u` and the flow
+  /// that of t_n (4.45, 4.49, 4.54). Melt and mush keep the flow of the mechanical phase, and the stress
+  /// power stays. Follows prepare() with the arguments of that phase.
   /// @param start  temperatures, phases and melt
+  /// @param end    history and deformation as the mechanical phase has left them, which are brought up to
+  /// date,
+  ///               and values for results
   virtual FlowChange restart_flow(const StepStart& start, std::span<const double> old_u,
-                                  std::span<const double> u, BlockHistory& trial) = 0;
-  /// Holds the deformation: has the effect of prepare() and finish() for a body that stays at the held
-  /// displacement and history.
-  virtual void hold_deformation(const StepStart& start) = 0;
+                                  std::span<const double> u, const BlockEnd& end) = 0;
+  /// The deformation of a body that stays at the held displacement and history.
+  virtual std::shared_ptr<const StructuralPoints> held_deformation(const StepStart& start) = 0;
   /// The first element whose law finds no state at u, with its inputs; empty if there is none.
   virtual std::string failure(std::span<const double> u) const = 0;
   /// Volume of the block that flows plastically at u; counted elements only.
   virtual FlowingVolume flowing(std::span<const double> u) const = 0;
-  /// out[element][component]: averages over the elements. The values are those of the last finish(), or those
-  /// stored by keep_fields().
-  virtual void get_field(ElementField which, std::span<double> out) const = 0;
-  /// Stores the values of the last finish(), which get_field() returns until the next call.
-  virtual void keep_fields() = 0;
   /// out_i += weight × ∫ N_i dV, [local node].
   virtual void add_nodal_volume(double weight, std::span<double> out) const = 0;
 
   /// StructuralPoints::spread_as_stored.
   virtual void spread_heat_as_stored(const PackVector<Lane>& weights) = 0;
-  /// StructuralHeat: out += its residual, or (tangent) its lumped diagonal; [local node].
-  virtual void add_structural_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
-                                   std::span<double> out) const = 0;
-  virtual void begin_heat_stage(const linear::RungeKuttaStage& stage,
-                                std::span<const double> temperature) = 0;
-  /// Returns the data of the deformation that the heat balance and the audit need, as of the last finish().
-  virtual const StructuralPoints& structural_points() const = 0;
   virtual std::size_t bytes() const = 0;
 };
 

@@ -19,8 +19,8 @@ template <class Law, AnalysisKind kind>
 std::unique_ptr<BlockKernel> make_block(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                         const material::Material& material, bool b_bar);
 
-/// Of the simultaneous scheme (coupled_kernel.hpp). Throws std::invalid_argument for a shape that the kind
-/// does not have.
+/// Makes a kernel for the simultaneous scheme (coupled_kernel.hpp). Throws std::invalid_argument for a shape
+/// that the kind does not have.
 template <AnalysisKind kind>
 std::unique_ptr<BlockKernel> make_coupled_block(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                                 const material::Material& material, bool b_bar);

@@ -30,7 +30,7 @@ class CoupledBlock final : public CoupledPoints<LawBlock<material::Viscoplastic,
         const Lane theta = temperature_at(this->geometry_, batch, q, at.temperature);
         const Sym<Lane> strain = b.strain(displacement);
         const Rates d = this->rates(at.form, batch, q, theta, strain, strain - b.strain(old_displacement));
-        element.add(b, this->values_at(q), this->points_.spread(batch), this->geometry_.weight_at(batch, q),
+        element.add(b, this->values_at(q), this->points_->spread(batch), this->geometry_.weight_at(batch, q),
                     d);
       }
       scatter(element, batch, matrix);

@@ -30,10 +30,14 @@ class CoupledKernel {
   /// prepare() and finish().
   virtual void add_coupling(const CoupledIterate& at, linear::CoupledMatrix& matrix) = 0;
   /// The second stage of a two-stage method begins: until drop_carried() structural heat counts from
-  /// S* = S_n + factor (S − S_n), E* likewise, S and E being those of the last finish() at `temperature`.
-  virtual void carry(double factor, std::span<const double> temperature) = 0;
-  /// From now on it counts from S_n and E_n again: over the whole step.
-  virtual void drop_carried() = 0;
+  /// S* = S_n + factor (S − S_n), E* likewise.
+  /// @param first        the deformation of the first stage, of which S and E are at `temperature`; null: of
+  /// a
+  ///                     body that takes no part
+  virtual void carry(double factor, const StructuralPoints* first, std::span<const double> temperature) = 0;
+  /// From now on it counts from S_n and E_n again.
+  /// @return the deformation of the last finish(), over the whole step
+  virtual std::shared_ptr<const StructuralPoints> drop_carried() = 0;
 };
 
 }  // namespace solidus::mechanics

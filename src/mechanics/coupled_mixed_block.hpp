@@ -55,7 +55,7 @@ class CoupledMixedBlock final : public CoupledPoints<MixedBlock<material::Viscop
            const Lane& pressing, const Lane& warming, linear::CoupledMatrix& matrix) const {
     const Nodal mass = this->masses(batch), mean = this->mean_shares(batch);
     const double* const values = this->values_at(0);
-    const Lane* const spread = this->points_.spread(batch);
+    const Lane* const spread = this->points_->spread(batch);
     const linear::BlockMatrix::Slot *const slots = this->slots_of(batch), *const heat_slots =
                                                                               this->heat_slots_of(batch);
     const auto field = static_cast<std::size_t>(this->field_.field);

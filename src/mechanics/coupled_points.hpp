@@ -27,26 +27,29 @@ class CoupledPoints : public Kernel, public CoupledKernel {
 
   double prepare(const StepStart& start) override {
     initial_temperature_ = start.initial_temperature;
-    this->points_.keep();
+    this->points_->keep();
     // Every iterate is a new start here, and the other parts of the tangent are the consistent ones.
     this->follows_directions_ = false;
     return Kernel::prepare(start);
   }
 
   BlockWork finish(std::span<const double> old_u, std::span<const double> u, const BlockEnd& end) override {
-    const BlockWork work = Kernel::finish(old_u, u, end);
+    BlockEnd kept = end;
+    kept.deformation = nullptr;
+    const BlockWork work = Kernel::finish(old_u, u, kept);
     count_from(carried_);
+    this->hand_out_deformation(end);
     return work;
   }
 
-  void carry(double factor, std::span<const double> temperature) override {
+  void carry(double factor, const StructuralPoints* first, std::span<const double> temperature) override {
     PackVector<StructuralDensities> next(this->properties_.size());
     before_.resize(next.size());
     for (Index batch = 0; batch < this->geometry_.n_batches; ++batch)
       for (int q = 0; q < this->geometry_.n_points; ++q) {
-        const auto& point = this->points_.at(batch, q);
+        const auto& point = first->at(batch, q);
         const StructuralDensities now =
-            this->points_.densities(batch, q, temperature_at(this->geometry_, batch, q, temperature));
+            first->densities(batch, q, temperature_at(this->geometry_, batch, q, temperature));
         const std::size_t i = this->index(batch, q);
         before_[i] = {point.old_entropy, point.old_energy};
         next[i] = {point.old_entropy + Lane(factor) * (now.entropy - point.old_entropy),
@@ -54,10 +57,12 @@ class CoupledPoints : public Kernel, public CoupledKernel {
       }
     carried_ = std::move(next);
   }
-  void drop_carried() override {
+  std::shared_ptr<const StructuralPoints> drop_carried() override {
+    this->own_points();
     count_from(before_);
     before_.clear();
     carried_.clear();
+    return this->points_;
   }
 
   std::size_t bytes() const override {
@@ -75,7 +80,7 @@ class CoupledPoints : public Kernel, public CoupledKernel {
     const auto p = jets(batch, q, theta);
     const auto r = this->update(batch, q, strain);
     const Sym<Lane> at_work = this->mean_stress(batch, q, r.stress);
-    return coupled_rates({this->law_, p, start, r, strain, increment, at_work, this->points_.at(batch, q),
+    return coupled_rates({this->law_, p, start, r, strain, increment, at_work, this->points_->at(batch, q),
                           theta, this->dt_, this->effective_dt_, this->stress_share_},
                          form);
   }
@@ -95,7 +100,7 @@ class CoupledPoints : public Kernel, public CoupledKernel {
     if (densities.empty()) return;
     for (Index batch = 0; batch < this->geometry_.n_batches; ++batch)
       for (int q = 0; q < this->geometry_.n_points; ++q) {
-        auto& point = this->points_.at(batch, q);
+        auto& point = this->points_->at(batch, q);
         point.old_entropy = densities[this->index(batch, q)].entropy;
         point.old_energy = densities[this->index(batch, q)].energy;
       }

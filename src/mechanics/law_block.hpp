@@ -113,7 +113,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
   }
 
   BlockWork finish(std::span<const double> old_u, std::span<const double> u, const BlockEnd& end) override {
-    this->begin_finish(end);
+    auto* const averages = this->begin_finish(end);
     typename Base::Tally tally;
     Workspace<Law> space(this->law_);
     if constexpr (KeepsStateInPlace<Law>) space.wants_tangent = false;
@@ -126,13 +126,15 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
         this->record(batch, q, b.strain(old_displacement), strain, this->update(batch, q, strain, space), end,
                      average, tally);
       }
-      this->keep(batch, average);
+      this->keep(batch, average, averages);
     }
+    this->hand_out_deformation(end);
     return this->total(tally);
   }
 
   FlowChange restart_flow(const StepStart& start, std::span<const double> old_u, std::span<const double> u,
-                          BlockHistory& trial) override {
+                          const BlockEnd& end) override {
+    auto* const averages = this->begin_restart(end);
     typename Base::Restart restart;
     Workspace<Law> space(this->law_);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
@@ -140,21 +142,23 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
       typename Base::Average average;
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
-        this->restart_point(start, batch, q, b.strain(old_displacement), b.strain(displacement), space, trial,
-                            average, restart);
+        this->restart_point(start, batch, q, b.strain(old_displacement), b.strain(displacement), space,
+                            end.history, average, restart);
       }
-      this->keep(batch, average);
+      this->keep(batch, average, averages);
     }
+    this->hand_out_deformation(end);
     return this->total(restart);
   }
 
-  void hold_deformation(const StepStart& start) override {
+  std::shared_ptr<const StructuralPoints> held_deformation(const StepStart& start) override {
     prepare(start);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors displacement = gather(start.held_displacement, batch);
       for (int q = 0; q < geometry_.n_points; ++q)
         this->hold_point(batch, q, at_point(batch, q).strain(displacement));
     }
+    return this->deformation_found();
   }
 
   std::string failure(std::span<const double> u) const override {

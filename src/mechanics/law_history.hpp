@@ -36,7 +36,7 @@ class LawHistory : public BlockKernel {
   LawHistory(const mesh::Mesh& mesh, const mesh::ElementBlock& block, const material::Material& material)
       : geometry_(mesh, block, kind, mesh::stiffness_rule(block.shape)),
         law_(material),
-        points_(geometry_, material),
+        points_(std::make_shared<StructuralPoints>(geometry_, material)),
         kept_(kept_lanes(law_)),
         n_state_(kept_.size()),
         n_kept_(n_state_ + n_extra),
@@ -71,20 +71,13 @@ class LawHistory : public BlockKernel {
       n_state_ += k_base_lanes;
       n_kept_ += k_base_lanes;
     }
-    points_.keep();
-    points_.spread_as_stored(weights);
+    own_points();
+    points_->keep();
+    points_->spread_as_stored(weights);
   }
-  void add_structural_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
-                           std::span<double> out) const override {
-    points_.add_heat(form, temperature, tangent, out);
-  }
-  void begin_heat_stage(const linear::RungeKuttaStage& stage, std::span<const double> temperature) override {
-    points_.begin_stage(stage, temperature);
-  }
-  const StructuralPoints& structural_points() const override { return points_; }
 
   std::size_t bytes() const override {
-    return geometry_.bytes() + points_.bytes() + properties_.bytes() + slots_.bytes();
+    return geometry_.bytes() + points_->bytes() + properties_.bytes() + slots_.bytes();
   }
 
  protected:
@@ -138,7 +131,8 @@ class LawHistory : public BlockKernel {
     temperature_ = start.temperature;
     initial_temperature_ = start.initial_temperature;
     old_displacement_ = start.old_displacement;
-    points_.set_dt(start.dt);
+    own_points();
+    points_->set_dt(start.dt);
   }
 
   /// Properties for the temperature of this step, and the entropy that an isentropic law holds.
@@ -153,7 +147,7 @@ class LawHistory : public BlockKernel {
         law_.properties_at(theta, temperature_at(geometry_, batch, q, start.initial_temperature), phase);
     if (start.melt_modulus() > 0) set_melt_viscosity(start.melt_viscosity(phase.solid_fraction), properties);
     const auto& p = elastic_part(law_, properties);
-    points_.set_temperature(batch, q, old_theta, theta, p.thermal_strain);
+    points_->set_temperature(batch, q, old_theta, theta, p.thermal_strain);
     if constexpr (HoldsEntropy<Properties>) {
       const State held = state_of(*start.held_history, batch, q);
       properties.entropy = law_.entropy(properties, held_strain, held);
@@ -161,7 +155,7 @@ class LawHistory : public BlockKernel {
       if (start.held_history == start.old_history && keeps_base_) {
         const StructuralBase base = old_base(batch, q);
         properties.entropy +=
-            points_.entropy_ahead(batch, q, deformation(held_strain, held, base.solid > Lane(0.0)), base);
+            points_->entropy_ahead(batch, q, deformation(held_strain, held, base.solid > Lane(0.0)), base);
       }
     }
     properties_.set(index(batch, q), properties);
@@ -187,17 +181,22 @@ class LawHistory : public BlockKernel {
   /// The base of the state at t_n, behind its law's history; zero where nothing has been solved yet. Where
   /// energy is evaluated anew, or nobody asked for structural heat, that of this step.
   StructuralBase old_base(Index batch, int q) const {
-    if (!keeps_base_ || !points_.carries_energy()) return points_.base(batch, q, is_solid(batch, q));
+    if (!keeps_base_ || !points_->carries_energy()) return points_->base(batch, q, is_solid(batch, q));
     const Lane* from = base_of(*old_history_, batch, q);
     StructuralBase base{from[0], from[1], from[2]};
     const LaneMask known = base.line_temperature > Lane(0.0);
     if (!any(!known)) return base;
     const StructuralBase initial =
-        points_.initial_base(temperature_at(geometry_, batch, q, initial_temperature_));
+        points_->initial_base(temperature_at(geometry_, batch, q, initial_temperature_));
     for (Lane StructuralBase::*part :
          {&StructuralBase::line_temperature, &StructuralBase::strain_offset, &StructuralBase::solid})
       base.*part = select(known, base.*part, initial.*part);
     return base;
+  }
+
+  /// Takes a copy of the deformation where others have it, so that it stays with them as it is.
+  void own_points() {
+    if (points_.use_count() > 1) points_ = std::make_shared<StructuralPoints>(*points_);
   }
 
   LaneMask is_solid(Index batch, int q) const {
@@ -206,10 +205,10 @@ class LawHistory : public BlockKernel {
 
   /// Holds the deformation of the state at t_n in a point.
   void hold_point(Index batch, int q, const Sym<Lane>& strain) {
-    if (!points_.kept()) return;
+    if (!points_->kept()) return;
     const StructuralBase base = old_base(batch, q);
-    points_.hold_deformation(batch, q, deformation(strain, old_state(batch, q), base.solid > Lane(0.0)),
-                             base);
+    points_->hold_deformation(batch, q, deformation(strain, old_state(batch, q), base.solid > Lane(0.0)),
+                              base);
   }
 
   static constexpr std::size_t k_base_lanes = sizeof(StructuralBase) / sizeof(Lane);
@@ -238,7 +237,8 @@ class LawHistory : public BlockKernel {
 
   mesh::BlockGeometry geometry_;
   Law law_;
-  StructuralPoints points_;
+  /// The deformation of the pass that runs. Passes hand it out: own_points() before it is written to.
+  std::shared_ptr<StructuralPoints> points_;
   std::vector<std::size_t> kept_;       ///< lanes of the state that the material can change, rising
   std::size_t n_state_;                 ///< of them, with structural heat also those of StructuralBase
   std::size_t n_kept_;                  ///< with n_extra: lanes of a point's history

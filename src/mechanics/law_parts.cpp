@@ -70,7 +70,7 @@ std::vector<std::size_t> one_at_least(std::vector<std::size_t> lanes) {
   return lanes;
 }
 
-/// Of the state that both viscoplastic laws share.
+/// Returns the lanes of the state that both viscoplastic laws share.
 std::vector<std::size_t> kept_lanes(const material::Material& material) {
   using State = material::Viscoplastic::State<Lane>;
   std::vector<std::size_t> lanes;

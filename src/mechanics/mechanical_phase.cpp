@@ -19,7 +19,7 @@ namespace solidus::mechanics {
 
 namespace {
 
-/// Of the linear solver: Newmark's first step takes a_0 for exact.
+/// Tolerance of the linear solver: Newmark's first step takes a_0 for exact.
 constexpr double k_initial_acceleration = 1e-13;
 
 linear::LinearSolverOptions linear_options(const MechanicsOptions& options) {
@@ -84,7 +84,7 @@ void MechanicalPhase::create_blocks(const std::vector<material::Material>& mater
   for (const mesh::ElementBlock& block : mesh_.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
     if (!active_.body(block.body)) {
-      blocks_.push_back(std::make_unique<AbsentBlock>(mesh_, block, kind_, material));
+      blocks_.push_back(std::make_unique<AbsentBlock>());
       continue;
     }
     plastic_ = plastic_ || material.flow.has_value() || external_law(material) != nullptr;
@@ -113,8 +113,7 @@ void MechanicalPhase::find_weight(const std::array<double, 3>& gravity) {
     for (std::size_t i = 0; i < n; ++i) weight_[node * n + i] = mass[node] * gravity[i];
 }
 
-/// Frees the memory of the elements of removed bodies: at once, or, if results show fields of the last step,
-/// once a step without them is committed. Bodies that come back get new kernels.
+/// Frees the memory of the elements of removed bodies. Bodies that come back get new kernels.
 void MechanicalPhase::remove_bodies(const linear::ActiveSet& active) {
   if (inertia_) throw std::invalid_argument("bodies can leave in quasi-statics only");
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -125,10 +124,7 @@ void MechanicalPhase::remove_bodies(const linear::ActiveSet& active) {
           make_kernel(mesh_, block, kind_, materials_[static_cast<std::size_t>(block.body)], options_);
       continue;
     }
-    // Fields that are kept for results are shown until the next step is committed.
-    std::unique_ptr<BlockKernel> kept = keeps_fields_ ? std::move(blocks_[b]) : nullptr;
-    blocks_[b] = std::make_unique<AbsentBlock>(
-        mesh_, block, kind_, materials_[static_cast<std::size_t>(block.body)], std::move(kept));
+    blocks_[b] = std::make_unique<AbsentBlock>();
   }
   active_ = active;
   balance_ = BodyBalance(mesh_, active_, components_);
@@ -297,24 +293,6 @@ void MechanicalPhase::set_in_motion(MechanicalState& state) {
   std::copy(net.begin(), net.end(), state.net_force.begin());
   std::copy(external_.begin(), external_.end(), state.load.begin());
   for (const BlockHistory& history : state.history) state.stress.push_back(no_stress(history));
-}
-
-std::vector<double> MechanicalPhase::element_field(ElementField which) const {
-  const auto n = static_cast<std::size_t>(component_count(which));
-  std::size_t n_elements = 0, first = 0;
-  for (const mesh::ElementBlock& block : mesh_.blocks) n_elements += static_cast<std::size_t>(block.size());
-  std::vector<double> values(n_elements * n);
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const std::size_t size = static_cast<std::size_t>(mesh_.blocks[b].size()) * n;
-    blocks_[b]->get_field(which, std::span(values).subspan(first, size));
-    first += size;
-  }
-  return values;
-}
-
-void MechanicalPhase::keep_fields() {
-  keeps_fields_ = true;
-  for (const auto& block : blocks_) block->keep_fields();
 }
 
 double MechanicalPhase::seconds_solver() const {

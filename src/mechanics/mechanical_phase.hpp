@@ -25,7 +25,6 @@
 #include "material/melt.hpp"
 #include "material/time_integration.hpp"
 #include "mechanics/balance.hpp"
-#include "mechanics/element_field.hpp"
 #include "mechanics/inertial_forces.hpp"
 #include "mechanics/mechanical_conditions.hpp"
 #include "mechanics/mechanical_state.hpp"
@@ -40,6 +39,7 @@ class BlockKernel;
 class Loads;
 class NodalPressure;
 class SaddleSolver;
+class StructuralPoints;
 struct BlockWork;
 struct FlowChange;
 
@@ -91,6 +91,11 @@ struct MechanicalWork {
   double numerical = 0;
 };
 
+/// The deformation of a pass at the points, one per block of the mesh, null where there is none: what the
+/// heat of deformation and the audit follow from (structural_heat.hpp). Later passes leave it as it is; while
+/// it is kept, they take new storage. Valid until set_conditions().
+using StepDeformation = std::vector<std::shared_ptr<const StructuralPoints>>;
+
 /// Result of a pass, besides the state.
 struct MechanicalReport {
   linear::NewtonReport newton;
@@ -98,6 +103,7 @@ struct MechanicalReport {
   std::vector<double> reactions;  ///< support forces [owned node][component] [N], zero where free
   std::vector<double> applied;    ///< forces of loads and contact [owned node][component] [N]
   ForcesAtWork at_work;           ///< those at the end of the pass, if it is asked for them
+  StepDeformation deformation;
 };
 
 /// Input of one pass of the mechanical phase. The fields of an iterate belong to schemes that solve the phase
@@ -177,21 +183,21 @@ class MechanicalPhase {
   }
 
   /// The return mapping of the thermal phase (4.45, 4.49, 4.54): finds the flow of solid metal anew at the
-  /// temperatures of the step's end, from the internal variables at t_n, at the strain of the last solve(),
-  /// and hands StructuralHeat and the fields what follows. Melt and mush keep the flow of that solve, of
-  /// whose stress the work also stays; may be repeated. Throws StepRejected on all processes where a law
-  /// finds no state. Collective.
-  /// @param old, pass    those of the last solve()
+  /// temperatures of the step's end, from the internal variables at t_n, at the strain that solve() has
+  /// found. Melt and mush keep the flow of that solve, of whose stress the work also stays; may be repeated.
+  /// Throws StepRejected on all processes where a law finds no state. Collective.
+  /// @param old, pass    those of the solve
   /// @param temperature  Θ_{n+1} [K], [local node], ghosts up to date
-  /// @param trial        the state that the solve has found; its history is replaced
+  /// @param trial        the state that the solve has found; its history and fields of elements are replaced
+  /// @param deformation  that of the solve; replaced
   /// @return differences to the mechanical phase, over all processes
   FlowChange restart_flow(const MechanicalState& old, const MechanicalPass& pass,
-                          std::span<const double> temperature, MechanicalState& trial);
+                          std::span<const double> temperature, MechanicalState& trial,
+                          StepDeformation& deformation);
 
-  /// Holds the deformation of `state` for StructuralHeat, so that a thermal phase of bodies that do not move
-  /// can follow.
-  void hold_deformation(const MechanicalState& state, std::span<const double> temperature,
-                        std::span<const double> plateau_share = {});
+  /// The deformation of bodies that stay as they are in `state`, for a thermal phase of its own.
+  StepDeformation held_deformation(const MechanicalState& state, std::span<const double> temperature,
+                                   std::span<const double> plateau_share = {});
 
   // The pieces of solve(), for an iteration that has further unknowns (coupling/simultaneous.hpp).
   /// Loads, state at t_n and properties at the temperature of the pass; `old` must live until conclude().
@@ -214,11 +220,15 @@ class MechanicalPhase {
                        std::span<const double> d) const;
   /// The matrix of the tangent, with its fixed degrees of freedom and multi-point constraints.
   linear::BlockMatrix& matrix() { return *matrix_; }
-  /// Passes the deformation at x to StructuralHeat and writes the history at x.
-  /// @param stress   at the points at x, of the right size; null: not asked for
-  /// @param at_work  of every block; null: not asked for
+  /// Writes the history at x.
+  /// @param stress    at the points at x, of the right size; null: not asked for
+  /// @param at_work   of every block; null: not asked for
+  /// @param elements  MechanicalState::elements; null: not asked for
+  /// @param deformation  at x; null: not asked for
   BlockWork finish(const MechanicalState& old, std::span<const double> x, std::vector<BlockHistory>& history,
-                   std::vector<BlockHistory>* stress = nullptr, std::vector<StressAtWork>* at_work = nullptr);
+                   std::vector<BlockHistory>* stress = nullptr, std::vector<StressAtWork>* at_work = nullptr,
+                   std::vector<SharedElementValues>* elements = nullptr,
+                   StepDeformation* deformation = nullptr);
   /// finish() at the solution; the state and the report that follow from it, the latter without that of
   /// Newton's iteration.
   MechanicalReport conclude(const MechanicalState& old, const MechanicalPass& pass, std::vector<double> x,
@@ -232,12 +242,6 @@ class MechanicalPhase {
   /// A residual that is rounding [N].
   double round_off() const { return round_off_; }
 
-  /// Values of the last solve, or of the one stored by keep_fields(): [block of the
-  /// mesh][element][component].
-  std::vector<double> element_field(ElementField which) const;
-  /// Stores the fields of the last, committed solution: element_field() returns them until the next call,
-  /// whatever is tried and rejected in between.
-  void keep_fields();
   /// True when a material can flow plastically: then there are plastic fields to show.
   bool plastic() const { return plastic_; }
   /// Fixed degrees of freedom, and multi-point constraints (Loads).
@@ -309,7 +313,6 @@ class MechanicalPhase {
   std::vector<double> initial_temperature_;
   NodalPhases nodal_phases_;
   std::vector<BlockHistory> start_;  ///< z* of the two-step method, one per block
-  bool keeps_fields_ = false;        ///< keep_fields() has been called
   double round_off_ = 0;             ///< residual that is rounding [N]
   std::vector<double> x_;            ///< unknowns of the last residual
   std::vector<double> residual_;     ///< there

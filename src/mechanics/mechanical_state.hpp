@@ -1,9 +1,10 @@
-/// State of the mechanical phase between steps. It is complete: a checkpoint of the phase is this and nothing
-/// else.
+/// State of the mechanical phase between steps. It is complete: a step reads nothing else, and a checkpoint
+/// of the phase is this without `elements`, which no step reads.
 #pragma once
 
 #include <vector>
 
+#include "mechanics/element_values.hpp"
 #include "numbers/simd.hpp"
 #include "numbers/tensor.hpp"
 
@@ -20,7 +21,8 @@ struct BlockHistory {
 /// The stress of one mesh block whose product with a later increment is work.
 struct StressAtWork {
   PackVector<Sym<Lane>> stress;  ///< [batch][point] [Pa]
-  // Of mixed elements: ζ div u̇ where melt flows, [batch], and p_a − p̄ where there is a hoop, [batch][node].
+  // Mixed elements also have ζ div u̇ where melt flows, [batch], and p_a − p̄ where there is a hoop,
+  // [batch][node].
   PackVector<Lane> compaction, variation;  ///< [Pa]
 };
 
@@ -40,6 +42,9 @@ struct MechanicalState {
   /// with backward Euler.
   std::vector<BlockHistory> before;
   double dt_before = 0;
+  /// Values of the elements for results, one per block of the mesh, of the pass that has led to this state.
+  /// Empty where there was none, after a restart too.
+  std::vector<SharedElementValues> elements;
   // With inertia, else empty (mechanics/motion.hpp); [local node][component], prescribed ones included.
   std::vector<double> velocity;      ///< [m/s]
   std::vector<double> acceleration;  ///< [m/s²]

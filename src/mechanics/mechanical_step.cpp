@@ -249,26 +249,34 @@ std::vector<double> MechanicalPhase::start(const MechanicalState& old, const Mec
   return x;
 }
 
-void MechanicalPhase::hold_deformation(const MechanicalState& state, std::span<const double> temperature,
-                                       std::span<const double> plateau_share) {
+StepDeformation MechanicalPhase::held_deformation(const MechanicalState& state,
+                                                  std::span<const double> temperature,
+                                                  std::span<const double> plateau_share) {
+  StepDeformation deformation;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
-    blocks_[b]->hold_deformation({.temperature = temperature,
-                                  .pass_temperature = temperature,
-                                  .initial_temperature = initial_temperature_,
-                                  .old_displacement = state.displacement,
-                                  .held_displacement = state.displacement,
-                                  .held_history = &state.history[b],
-                                  .old_history = &state.history[b],
-                                  .start_history = &state.history[b],
-                                  .dt = 1,
-                                  .effective_dt = 1,
-                                  .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
-                                  .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
+    deformation.push_back(
+        blocks_[b]->held_deformation({.temperature = temperature,
+                                      .pass_temperature = temperature,
+                                      .initial_temperature = initial_temperature_,
+                                      .old_displacement = state.displacement,
+                                      .held_displacement = state.displacement,
+                                      .held_history = &state.history[b],
+                                      .old_history = &state.history[b],
+                                      .start_history = &state.history[b],
+                                      .dt = 1,
+                                      .effective_dt = 1,
+                                      .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
+                                      .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]}));
+  residual_is_known_ = false;
+  return deformation;
 }
 
 FlowChange MechanicalPhase::restart_flow(const MechanicalState& old, const MechanicalPass& pass,
-                                         std::span<const double> temperature, MechanicalState& trial) {
+                                         std::span<const double> temperature, MechanicalState& trial,
+                                         StepDeformation& deformation) {
   const profile::Part part("history");
+  prepare(old, pass);
+  deformation.resize(blocks_.size());
   FlowChange total;
   auto failed = static_cast<double>(mesh_.bodies.size());  // the first body whose law finds no state
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -287,7 +295,10 @@ FlowChange MechanicalPhase::restart_flow(const MechanicalState& old, const Mecha
              b, pass.phase_temperature.empty() ? pass.temperature : pass.phase_temperature,
              pass.plateau_share),
          .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]},
-        old.displacement, trial.displacement, trial.history[b]);
+        old.displacement, trial.displacement,
+        {.history = trial.history[b],
+         .elements = b < trial.elements.size() ? &trial.elements[b] : nullptr,
+         .deformation = &deformation[b]});
     total.work += change.work;
     total.flows = total.flows || change.flows;
     if (!change.found) failed = std::min(failed, static_cast<double>(mesh_.blocks[b].body));
@@ -312,23 +323,30 @@ FlowChange MechanicalPhase::restart_flow(const MechanicalState& old, const Mecha
 
 BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,
                                   std::vector<BlockHistory>& history, std::vector<BlockHistory>* stress,
-                                  std::vector<StressAtWork>* at_work) {
+                                  std::vector<StressAtWork>* at_work,
+                                  std::vector<SharedElementValues>* elements, StepDeformation* deformation) {
   const profile::Part part("history");
   const std::span<const double> u = x.first(n_displacements());
   BlockWork total;
   history.resize(blocks_.size());
   if (at_work != nullptr) at_work->resize(blocks_.size());
+  if (elements != nullptr) elements->resize(blocks_.size());
+  if (deformation != nullptr) deformation->resize(blocks_.size());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     history[b].n_components = old.history[b].n_components;
     history[b].n_points = old.history[b].n_points;
-    if (active_.body(mesh_.blocks[b].body))
+    if (active_.body(mesh_.blocks[b].body)) {
       history[b].values.resize(old.history[b].values.size());
-    else  // of the layout that a checkpoint knows
+    } else {  // of the layout that a checkpoint knows
       history[b].values.assign(old.history[b].values.size(), Lane(0.0));
+      if (elements != nullptr) (*elements)[b].reset();
+    }
     total += blocks_[b]->finish(old.displacement, u,
                                 {.history = history[b],
                                  .stress = stress != nullptr ? &(*stress)[b] : nullptr,
-                                 .at_work = at_work != nullptr ? &(*at_work)[b] : nullptr});
+                                 .at_work = at_work != nullptr ? &(*at_work)[b] : nullptr,
+                                 .elements = elements != nullptr ? &(*elements)[b] : nullptr,
+                                 .deformation = deformation != nullptr ? &(*deformation)[b] : nullptr});
   }
   return total;
 }
@@ -337,17 +355,22 @@ MechanicalReport MechanicalPhase::conclude(const MechanicalState& old, const Mec
                                            std::vector<double> x, MechanicalState& trial) {
   MechanicalState next;
   // Most of a state is its history: the storage of the one that is overwritten serves again.
-  if (&trial != &old) next.history = std::move(trial.history);
+  if (&trial != &old) {
+    next.history = std::move(trial.history);
+    next.elements = std::move(trial.elements);
+  }
   const bool remembers = inertia_ && inertia_->motion().remembers();
   if (remembers)
     next.stress = old.stress;  // of the right size
   else if (pass.stores_stress)
     for (const BlockHistory& history : old.history) next.stress.push_back(no_stress(history));
   std::vector<StressAtWork> at_work;
+  StepDeformation deformation;
   const BlockWork total = finish(old, x, next.history, next.stress.empty() ? nullptr : &next.stress,
-                                 pass.returns_at_work ? &at_work : nullptr);
+                                 pass.returns_at_work ? &at_work : nullptr, &next.elements, &deformation);
   MechanicalReport report = measure(old, pass, x, total, next);
   report.at_work.stress = std::move(at_work);
+  report.deformation = std::move(deformation);
   x.resize(n_displacements());
   next.displacement = std::move(x);
   // If the last body with a pressure has been removed, the old values are kept, because checkpoints have room

@@ -143,7 +143,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   }
 
   BlockWork finish(std::span<const double> old_u, std::span<const double> u, const BlockEnd& end) override {
-    this->begin_finish(end);
+    auto* const averages = this->begin_finish(end);
     BlockHistory& trial = end.history;
     typename Base::Tally tally;
     for (Index batch = 0; batch < n_batches(); ++batch) {
@@ -157,7 +157,9 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Sym<Lane> at_work = this->record(batch, 0, strain(old_gradient, old_volume), point.strain,
                                              point.response, end, average, tally);
       keep_volume(trial, batch, point.volume);
-      trial.values[at(batch) * n_kept_ + n_state_ + 1] = pores_.finish(batch, mean_pressure);
+      const Lane pores = pores_.fraction(batch, mean_pressure);
+      trial.values[at(batch) * n_kept_ + n_state_ + 1] = pores;
+      keep_pores(batch, pores, averages);
       keep_flow(trial, batch);
       // The work of the pressure on the difference of the volumes is taken up by the sub-scales, the pores
       // and the flow of melt; that of compaction by its viscosity.
@@ -170,8 +172,9 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
                                         compacting * (trace(gradient) - old_divergence_[at(batch)]));
       for (std::size_t a = 0; a < n_nodes; ++a) left_over += (pressure + variation[a]) * (now[a] - before[a]);
       tally.stabilisation_work += this->counted(batch) * left_over;
-      this->keep(batch, average);
+      this->keep(batch, average, averages);
     }
+    this->hand_out_deformation(end);
     return this->total(tally);
   }
 
@@ -183,19 +186,10 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     return filled;
   }
 
-  void get_field(ElementField which, std::span<double> out) const override {
-    if (which == ElementField::pore_fraction)
-      pores_.get(Base::geometry_.n_elements, out);
-    else
-      Base::get_field(which, out);
-  }
-  void keep_fields() override {
-    Base::keep_fields();
-    pores_.keep();
-  }
-
   FlowChange restart_flow(const StepStart& start, std::span<const double> old_u, std::span<const double> u,
-                          BlockHistory& trial) override {
+                          const BlockEnd& end) override {
+    BlockHistory& trial = end.history;
+    auto* const averages = this->begin_restart(end);
     typename Base::Restart restart;
     Workspace<Law> space(this->law_);
     for (Index batch = 0; batch < n_batches(); ++batch) {
@@ -204,17 +198,20 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       this->restart_point(
           start, batch, 0, strain(b.strain(gather(old_u, batch)), kept_volume(*this->old_history_, batch)),
           strain(b.strain(gather(u, batch)), kept_volume(trial, batch)), space, trial, average, restart);
-      this->keep(batch, average);
+      this->keep(batch, average, averages);
+      keep_pores(batch, kept_pores(trial, batch), averages);
     }
+    this->hand_out_deformation(end);
     return this->total(restart);
   }
 
-  void hold_deformation(const StepStart& start) override {
+  std::shared_ptr<const StructuralPoints> held_deformation(const StepStart& start) override {
     prepare(start);
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Sym<Lane> gradient = at_point(batch).strain(gather(start.held_displacement, batch));
       this->hold_point(batch, 0, strain(gradient, volume_[at(batch)]));
     }
+    return this->deformation_found();
   }
 
   std::string failure(std::span<const double> u) const override {
@@ -358,6 +355,9 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     const Nodal p = this->gather_pressure(this->field_.pressure, batch);
     const auto q = this->liquid_flow(this->pressure_gradient(p, batch), batch);
     std::copy(q.begin(), q.end(), history.values.begin() + static_cast<std::ptrdiff_t>(flow_place(batch)));
+  }
+  void keep_pores(Index batch, const Lane& fraction, typename Base::Averages* averages) const {
+    if (averages != nullptr && pores_.may_open()) averages->set_pores(batch, fraction);
   }
   void keep_volume(BlockHistory& history, Index batch, const Lane& volume) const {
     history.values[at(batch) * n_kept_ + n_state_] = volume;

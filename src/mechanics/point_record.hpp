@@ -1,11 +1,11 @@
-/// The record of a step at the points: the trial history, values for results, sums over the block and the
+/// The record of a step at the points: the trial history, values for results, sums over the block, and the
 /// deformation that the thermal phase needs.
 #pragma once
 
 #include <algorithm>
 #include <cstring>
-#include <optional>
 
+#include "mechanics/element_averages.hpp"
 #include "mechanics/law_history.hpp"
 
 namespace solidus::mechanics {
@@ -18,30 +18,9 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
   using typename Base::Lanes, typename Base::Properties, typename Base::Response, typename Base::State;
   using Values = decltype(values_of(std::declval<Law>(), std::declval<Properties>(), std::declval<Response>(),
                                     Sym<Lane>{}));
+  using Averages = ElementAverages<Values>;
 
-  PointRecord(const mesh::Mesh& mesh, const mesh::ElementBlock& block, const material::Material& material)
-      : Base(mesh, block, material), averages_(static_cast<std::size_t>(Base::geometry_.n_batches)) {}
-
-  void get_field(ElementField which, std::span<double> out) const override {
-    const int n_components = component_count(which);
-    const CommonPacks<Values>& averages = kept_averages_ ? *kept_averages_ : averages_;
-    double* to = out.data();
-    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
-      const Values values = averages[static_cast<std::size_t>(batch)];
-      for (int lane = 0; lane < k_lanes && batch * k_lanes + lane < geometry_.n_elements; ++lane) {
-        put(which, element_of<typename Values::OfOne>(values, lane), to);
-        to += n_components;
-      }
-    }
-  }
-  void keep_fields() override {
-    kept_averages_.reset();
-    keeps_averages_ = true;
-  }
-
-  std::size_t bytes() const override {
-    return Base::bytes() + averages_.bytes() + (kept_averages_ ? kept_averages_->bytes() : 0);
-  }
+  using Base::Base;
 
  protected:
   using Base::counted, Base::deformation, Base::dt_, Base::geometry_, Base::index, Base::is_solid,
@@ -66,8 +45,12 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
     stress_share_ = start.stress_share;
     at_work_ = start.at_work;
   }
-  void begin_finish(const BlockEnd& end) const {
+  /// @return the values of the elements, to be written; null: not asked for
+  Averages* begin_finish(const BlockEnd& end) {
+    this->own_points();
     if (end.at_work != nullptr) end.at_work->stress.resize(properties_.size());
+    if (end.elements == nullptr) return nullptr;
+    return &averages_to_write<Values>(*end.elements, geometry_.n_elements, geometry_.n_batches);
   }
 
   /// Keeps the answer of a point at the end of a step: history, values for results, what the thermal phase
@@ -85,8 +68,10 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
       const auto lanes = std::bit_cast<Lanes>(response.state);
       for (const std::size_t lane : kept_) *to++ = lanes[lane];
     }
-    average.volume += w;
-    add_weighted(average.sums, w, values_of(law_, p, response, strain));
+    if (end.elements != nullptr) {
+      average.volume += w;
+      add_weighted(average.sums, w, values_of(law_, p, response, strain));
+    }
 
     if (end.stress != nullptr)
       std::memcpy(static_cast<void*>(end.stress->values.data() + index(batch, q) * k_stress_lanes),
@@ -95,9 +80,9 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
     if (end.at_work != nullptr) end.at_work->stress[index(batch, q)] = at_work;
     if (at_work_ != nullptr) at_work = at_work_->stress[index(batch, q)];
     const Lane work = dot(at_work, strain - old_strain);
-    if (points_.kept()) {
+    if (points_->kept()) {
       const LaneMask solid = elastic_part(law_, p).solid_fraction >= Lane(1.0);
-      auto& point = points_.at(batch, q);
+      auto& point = points_->at(batch, q);
       if constexpr (HoldsEntropy<Properties>) point.pass_temperature = response.temperature;
       const State old = old_state(batch, q);
       point.now = deformation(strain, response.state, solid);
@@ -105,8 +90,8 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
       point.dissipated = Lane(dt_) * response.dissipation;
       point.work = work;
       const StructuralBase base = old_base(batch, q);
-      points_.set_old(batch, q, deformation(old_strain, old, base.solid > Lane(0.0)), base);
-      if (this->keeps_base_) this->keep_base(trial, batch, q, points_.base(batch, q, solid));
+      points_->set_old(batch, q, deformation(old_strain, old, base.solid > Lane(0.0)), base);
+      if (this->keeps_base_) this->keep_base(trial, batch, q, points_->base(batch, q, solid));
     }
 
     const PlasticPower power = plastic_power(law_, response);
@@ -121,13 +106,22 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
     return at_work;
   }
 
-  void keep(Index batch, const Average& average) {
-    if (std::exchange(keeps_averages_, false)) kept_averages_ = averages_;
+  /// @param averages  null: not asked for
+  static void keep(Index batch, const Average& average, Averages* averages) {
+    if (averages == nullptr) return;
     const Lane inverse = select(average.volume > Lane(0.0), Lane(1.0) / average.volume,
                                 Lane(0.0));  // padding has no volume
     Values mean{};
     add_weighted(mean, inverse, average.sums);
-    averages_.set(static_cast<std::size_t>(batch), mean);
+    averages->set(batch, mean);
+  }
+
+  /// Hands the deformation out; null without structural heat.
+  std::shared_ptr<const StructuralPoints> deformation_found() const {
+    return points_->kept() ? points_ : nullptr;
+  }
+  void hand_out_deformation(const BlockEnd& end) const {
+    if (end.deformation != nullptr) *end.deformation = deformation_found();
   }
 
   BlockWork total(const Tally& tally) const {
@@ -171,11 +165,6 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
 
  private:
   static constexpr std::size_t k_stress_lanes = sizeof(Sym<Lane>) / sizeof(Lane);
-
-  CommonPacks<Values> averages_;  ///< [batch], of the last finish()
-  /// Those that are kept, from the next finish() until the one after it is committed.
-  std::optional<CommonPacks<Values>> kept_averages_;
-  bool keeps_averages_ = false;  ///< the next finish() sets them aside
 };
 
 }  // namespace solidus::mechanics

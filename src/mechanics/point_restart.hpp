@@ -19,7 +19,7 @@ class PointRestart : public PointRecord<Law, n_nodes, kind, b_bar, n_extra> {
   using Base::counted, Base::deformation, Base::dt_, Base::effective_dt_, Base::geometry_, Base::index,
       Base::kept_, Base::law_, Base::n_kept_, Base::old_state, Base::points_, Base::properties_,
       Base::start_state, Base::update;
-  using typename Base::Average, typename Base::Tally;
+  using typename Base::Average, typename Base::Averages, typename Base::Tally;
 
   /// FlowChange of a block, lane by lane.
   struct Restart {
@@ -57,9 +57,9 @@ class PointRestart : public PointRecord<Law, n_nodes, kind, b_bar, n_extra> {
     average.volume += w;
     add_weighted(average.sums, w, values);
     replace_state(anew.state, solid, batch, q, trial);
-    if (points_.kept()) {
-      points_.keep_of_mechanics(batch, q, of_mechanics.now);
-      auto& point = points_.at(batch, q);
+    if (points_->kept()) {
+      points_->keep_of_mechanics(batch, q, of_mechanics.now);
+      auto& point = points_->at(batch, q);
       point.now = now.now;
       point.change = now.change;
       point.dissipated = Lane(dt_) * now.dissipation;
@@ -73,6 +73,13 @@ class PointRestart : public PointRecord<Law, n_nodes, kind, b_bar, n_extra> {
     change.largest = max(change.largest, counted(batch) * now.dissipation);
     restart.flows = restart.flows | (abs(now.dissipation - of_mechanics.dissipation) > Lane(0.0)) |
                     (abs(now.now.elastic_squared - of_mechanics.now.elastic_squared) > Lane(0.0));
+  }
+
+  /// Takes the deformation of the mechanical phase over, to bring it up to date.
+  Averages* begin_restart(const BlockEnd& end) {
+    if (end.deformation != nullptr && *end.deformation)
+      points_ = std::make_shared<StructuralPoints>(**end.deformation);
+    return this->begin_finish(end);
   }
 
   using Base::total;

@@ -7,21 +7,12 @@ Pores::Pores(const material::Material& material, Index n_batches)
       critical_pressure_drop_(material.casting.critical_pressure_drop),
       coherency_(material.casting.coherency_fraction) {
   if (!material.chooses_viscosity()) return;
-  for (PackVector<Lane>* values : {&softness_, &threshold_, &held_, &full_, &now_})
+  for (PackVector<Lane>* values : {&softness_, &threshold_, &held_, &full_})
     values->resize(static_cast<std::size_t>(n_batches), Lane(0.0));
 }
 
-void Pores::get(Index n_elements, std::span<double> out) const {
-  const PackVector<Lane>& values = kept_.empty() ? now_ : kept_;
-  for (Index e = 0; e < n_elements; ++e)
-    out[static_cast<std::size_t>(e)] =
-        values.empty() ? 0.0 : values[static_cast<std::size_t>(e / k_lanes)][static_cast<int>(e % k_lanes)];
-}
-
 std::size_t Pores::bytes() const {
-  return (softness_.capacity() + threshold_.capacity() + held_.capacity() + full_.capacity() +
-          now_.capacity() + kept_.capacity()) *
-         sizeof(Lane);
+  return (softness_.capacity() + threshold_.capacity() + held_.capacity() + full_.capacity()) * sizeof(Lane);
 }
 
 }  // namespace solidus::mechanics

@@ -27,7 +27,6 @@
 #pragma once
 
 #include <algorithm>
-#include <span>
 #include <vector>
 
 #include "material/material.hpp"
@@ -92,15 +91,8 @@ class Pores {
     full_[at(batch)] = select(filled, Lane(1.0), full_[at(batch)]);
     return any(filled);
   }
-  /// Keeps θ at the end of a step for get() and returns it.
-  Lane finish(Index batch, const Lane& pressure) {
-    if (held_.empty()) return Lane(0.0);
-    return now_[at(batch)] = fraction(batch, pressure);
-  }
-
-  /// BlockKernel::keep_fields() and get_field().
-  void keep() { kept_ = now_; }
-  void get(Index n_elements, std::span<double> out) const;
+  /// Whether the metal of the block can have pores.
+  bool may_open() const { return !held_.empty(); }
 
   std::size_t bytes() const;
 
@@ -111,7 +103,6 @@ class Pores {
   PackVector<Lane> softness_, threshold_,
       held_;               ///< dθ/dp, its threshold, and θ_n of what was coherent
   PackVector<Lane> full_;  ///< 1 in elements that are full, else 0
-  PackVector<Lane> now_, kept_;
 };
 
 }  // namespace solidus::mechanics

@@ -8,21 +8,35 @@
 
 namespace solidus::mechanics {
 
+struct StructuralHeat::Stages {
+  std::vector<StructuralPoints::Stage> of_block;
+};
+
 StructuralHeat::StructuralHeat(const MechanicalPhase& phase, StructuralForm form, bool closed)
-    : phase_(phase), form_(form), closed_(closed) {
+    : phase_(phase), form_(form), closed_(closed), stages_(std::make_unique<Stages>()) {
   spread_heat_as_stored(phase, closed);
+}
+
+StructuralHeat::~StructuralHeat() = default;
+
+void StructuralHeat::set_deformation(StepDeformation deformation) {
+  deformation_ = std::move(deformation);
+  stages_->of_block.clear();
+  for (const auto& points : deformation_) stages_->of_block.push_back({{points ? points->dt() : 0.0, 0}, {}});
 }
 
 void StructuralHeat::add_residual(std::span<const double> temperature, std::span<double> r) {
   work_.assign(temperature.size(), 0.0);
-  for (const auto& block : phase_.blocks()) block->add_structural_heat(form_, temperature, false, work_);
+  for (std::size_t b = 0; b < deformation_.size(); ++b)
+    if (deformation_[b]) deformation_[b]->add_heat(form_, stages_->of_block[b], temperature, false, work_);
   for (std::size_t i = 0; i < r.size(); ++i) r[i] += work_[i];
 }
 
 void StructuralHeat::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) {
   if (!has_tangent_) return;
   work_.assign(temperature.size(), 0.0);
-  for (const auto& block : phase_.blocks()) block->add_structural_heat(form_, temperature, true, work_);
+  for (std::size_t b = 0; b < deformation_.size(); ++b)
+    if (deformation_[b]) deformation_[b]->add_heat(form_, stages_->of_block[b], temperature, true, work_);
   for (Index node = 0; node < phase_.mesh().n_owned_nodes; ++node) {
     const double entry = work_[static_cast<std::size_t>(node)];
     *matrix.diagonal_block(node) += closed_ ? entry : std::max(entry, 0.0);
@@ -30,13 +44,15 @@ void StructuralHeat::add_tangent(std::span<const double> temperature, linear::Bl
 }
 
 void StructuralHeat::begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> temperature) {
-  for (const auto& block : phase_.blocks()) block->begin_heat_stage(stage, temperature);
+  for (std::size_t b = 0; b < deformation_.size(); ++b)
+    if (deformation_[b]) stages_->of_block[b] = deformation_[b]->stage(stage, temperature);
 }
 
-StructuralChange StructuralHeat::change(std::span<const double> temperature) const {
+StructuralChange structural_change(const StepDeformation& deformation, std::span<const double> temperature) {
   StructuralChange total;
-  for (const auto& block : phase_.blocks()) {
-    const StructuralChange part = block->structural_points().change(temperature);
+  for (const auto& points : deformation) {
+    if (!points) continue;
+    const StructuralChange part = points->change(temperature);
     total.energy += part.energy;
     total.entropy += part.entropy;
     total.transformed += part.transformed;
@@ -45,23 +61,23 @@ StructuralChange StructuralHeat::change(std::span<const double> temperature) con
           parallel::global_sum(total.transformed)};
 }
 
-double StructuralHeat::energy(MechanicalPhase& phase, const MechanicalState& state,
-                              std::span<const double> temperature,
-                              std::span<const double> plateau_share) const {
-  phase.hold_deformation(state, temperature, plateau_share);
-  double total = 0;
-  for (const auto& block : phase.blocks()) total += block->structural_points().energy(temperature);
-  return parallel::global_sum(total);
-}
-
-StructuralChange StructuralHeat::mechanical_change() const {
+StructuralChange mechanical_change(const StepDeformation& deformation) {
   StructuralChange total;
-  for (const auto& block : phase_.blocks()) {
-    const StructuralChange part = block->structural_points().mechanical_change();
+  for (const auto& points : deformation) {
+    if (!points) continue;
+    const StructuralChange part = points->mechanical_change();
     total.energy += part.energy;
     total.entropy += part.entropy;
   }
   return {parallel::global_sum(total.energy), parallel::global_sum(total.entropy)};
+}
+
+double structural_energy(MechanicalPhase& phase, const MechanicalState& state,
+                         std::span<const double> temperature, std::span<const double> plateau_share) {
+  double total = 0;
+  for (const auto& points : phase.held_deformation(state, temperature, plateau_share))
+    if (points) total += points->energy(temperature);
+  return parallel::global_sum(total);
 }
 
 }  // namespace solidus::mechanics

@@ -2,8 +2,8 @@
 /// 2.127b).
 ///
 /// With S = −(W_Θ + M_Θ + K_Θ) the structural entropy and E = W + M + K + Θ S the structural energy per
-/// volume (K: what hardening stores), the thermal phase (at the configuration of the last mechanical solve)
-/// receives, weighted with each node's basis function,
+/// volume (K: what hardening stores), the thermal phase (at the deformation that it is given) receives,
+/// weighted with each node's basis function,
 ///
 ///   entropy form:  Θ_{n+1} [S(ε_{n+1}, Θ_{n+1}) − S(ε_n, Θ_n)]/Δt − D_mech          (4.43a, 4.48a)
 ///   energy form:   [E(ε_{n+1}, Θ_{n+1}) − E(ε_n, Θ_n) − σ_{n+1} : Δε]/Δt
@@ -33,6 +33,7 @@
 
 #include "linear/contribution.hpp"
 #include "mechanics/mechanical_phase.hpp"
+#include "numbers/simd.hpp"
 
 namespace solidus::mechanics {
 
@@ -52,12 +53,18 @@ struct StructuralChange {
 /// consistent capacity a lumped difference of the two would make the matrix indefinite.
 class StructuralHeat : public linear::Contribution {
  public:
-  /// @param phase   must outlive this object; its last
-  ///                solve() is the configuration; from now
-  ///                on it keeps what is needed, not before
+  /// @param phase   must outlive this object; from now on its reports have the deformation, not before
   /// @param closed  the thermal phase stores heat by the closed rule; bodies with isothermal changes do
-  /// anyway
+  ///                anyway
   StructuralHeat(const MechanicalPhase& phase, StructuralForm form, bool closed = true);
+
+  ~StructuralHeat() override;
+
+  /// The deformation whose heat is added from here on, in one stage that is as long as its pass until
+  /// begin_stage() says otherwise.
+  void set_deformation(StepDeformation deformation);
+  /// No deformation from here on, and no heat of it: a mechanical pass that follows may take the storage.
+  void release() { set_deformation({}); }
 
   void add_to_graph(linear::NodeGraph&) const override {}
   void bind(const linear::BlockMatrix&) override {}
@@ -69,22 +76,27 @@ class StructuralHeat : public linear::Contribution {
   void leave_tangent() { has_tangent_ = false; }
   StructuralForm form() const { return form_; }
 
-  /// Over the step, with the temperature at its end; over all processes. Collective.
-  StructuralChange change(std::span<const double> temperature) const;
-  /// StructuralPoints::mechanical_change of the last solve of the mechanical phase. Collective.
-  StructuralChange mechanical_change() const;
-  /// The structural energy E of a state, computed from its fields [J]: free of stress and without hardening
-  /// it is zero at constant pressure. Holds the deformation of that state as
-  /// MechanicalPhase::hold_deformation does, so not between the passes of a step. Collective.
-  double energy(MechanicalPhase& phase, const MechanicalState& state, std::span<const double> temperature,
-                std::span<const double> plateau_share) const;
-
  private:
+  struct Stages;
+
   const MechanicalPhase& phase_;
   StructuralForm form_;
   bool closed_;  ///< heat is stored by the closed rule
   bool has_tangent_ = true;
-  std::vector<double> work_;  ///< [local node]; ghost rows are scrap
+  StepDeformation deformation_;
+  std::unique_ptr<Stages> stages_;  ///< [block]
+  std::vector<double> work_;        ///< [local node]; ghost rows are scrap
 };
+
+/// The change over a step, with the temperature at its end [local node]; over all processes. Collective.
+StructuralChange structural_change(const StepDeformation& deformation, std::span<const double> temperature);
+/// The change up to the end of the mechanical pass, where points have temperatures of their own
+/// (StructuralPoints::mechanical_change). Collective.
+StructuralChange mechanical_change(const StepDeformation& deformation);
+/// The structural energy E of a state, computed from its fields [J]: free of stress and without hardening it
+/// is zero at constant pressure. Of a phase with structural heat; the phase takes the state's deformation as
+/// MechanicalPhase::held_deformation does. Collective.
+double structural_energy(MechanicalPhase& phase, const MechanicalState& state,
+                         std::span<const double> temperature, std::span<const double> plateau_share);
 
 }  // namespace solidus::mechanics

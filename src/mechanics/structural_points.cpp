@@ -128,14 +128,11 @@ void StructuralPoints::hold_deformation(Index batch, int point, const Deformatio
   set_old(batch, point, deformation, base);
 }
 
-void StructuralPoints::begin_stage(const linear::RungeKuttaStage& stage,
-                                   std::span<const double> temperature) {
-  stage_ = stage;
-  if (stage.carried == 0) {
-    carried_.clear();
-    return;
-  }
-  carried_.resize(points_.size());
+StructuralPoints::Stage StructuralPoints::stage(const linear::RungeKuttaStage& stage,
+                                                std::span<const double> temperature) const {
+  Stage result{stage, {}};
+  if (stage.carried == 0) return result;
+  result.carried.resize(points_.size());
   const Lane carried(stage.carried);
   for (Index batch = 0; batch < geometry_.n_batches; ++batch)
     for (int q = 0; q < geometry_.n_points; ++q) {
@@ -144,9 +141,10 @@ void StructuralPoints::begin_stage(const linear::RungeKuttaStage& stage,
       const Lane theta = temperature_at(geometry_, batch, q, temperature);
       const State now = state(at, at.now, theta);
       const Lane entropy = at.old_entropy + at.dissipated / theta, energy = at.old_energy + at.work;
-      carried_[i] = {entropy + carried * (now.entropy - entropy),
-                     energy + carried * (now.internal_energy - energy)};
+      result.carried[i] = {entropy + carried * (now.entropy - entropy),
+                           energy + carried * (now.internal_energy - energy)};
     }
+  return result;
 }
 
 /// H^ep Δt at t_{n+1} [J/m³] (2.127b).
@@ -174,11 +172,12 @@ StructuralPoints::Sloped StructuralPoints::structural_heating(const Point& at, L
 }
 
 /// Computes the heat that the stage stores at a point [J/m³]; the slope without third derivatives.
-StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, std::size_t point,
+StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, const Stage& stage, std::size_t point,
                                                 Lane temperature) const {
   const Point& at = points_[point];
-  const bool first = carried_.empty();  // the deformation comes before the stages, with its work and heat
-  const Start start = first ? Start{at.old_entropy, at.old_energy + at.work} : carried_[point];
+  const bool first =
+      stage.carried.empty();  // the deformation comes before the stages, with its work and heat
+  const Start start = first ? Start{at.old_entropy, at.old_energy + at.work} : stage.carried[point];
   const Lane dissipated = first ? at.dissipated : Lane(0.0);
   if (form == StructuralForm::temperature) {
     const Lane capacity = state(at, at.now, temperature).capacity;
@@ -232,16 +231,16 @@ void StructuralPoints::spread_as_stored(const PackVector<Lane>& weights) {
   if (largest < k_rounding) correction_.clear();
 }
 
-void StructuralPoints::add_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
-                                std::span<double> out) const {
-  const Lane rate(1.0 / stage_.dt);
+void StructuralPoints::add_heat(StructuralForm form, const Stage& stage, std::span<const double> temperature,
+                                bool tangent, std::span<double> out) const {
+  const Lane rate(1.0 / stage.stage.dt);
   for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
     const Index* nodes =
         geometry_.nodes.data() + static_cast<std::ptrdiff_t>(batch) * geometry_.n_nodes * k_lanes;
     Lane total(0.0);
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Lane theta = temperature_at(geometry_, batch, q, temperature);
-      const Sloped stored = heat(form, index(batch, q), theta);
+      const Sloped stored = heat(form, stage, index(batch, q), theta);
       Lane density = rate * (tangent ? stored.slope : stored.value);
       density *= geometry_.weight_at(batch, q);
       total += density;

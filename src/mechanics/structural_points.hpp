@@ -1,5 +1,5 @@
-/// Data of the deformation that the thermal phase needs, stored at the quadrature points of a block (see
-/// structural_heat.hpp).
+/// The deformation of a step at the quadrature points of a block, as far as the heat balance needs it (see
+/// structural_heat.hpp). A mechanical pass returns it (StepDeformation, mechanical_phase.hpp).
 #pragma once
 
 #include <span>
@@ -36,6 +36,16 @@ struct StructuralDensities {
 
 class StructuralPoints {
  public:
+  /// The start of a stage of the thermal phase: S*, E* of the second one, [batch][point]; empty: S and E at
+  /// t_n.
+  struct Start {
+    Lane entropy, energy;
+  };
+  struct Stage {
+    linear::RungeKuttaStage stage;
+    PackVector<Start> carried;
+  };
+
   struct Point {
     Lane
         line_temperature;  ///< Θ of the lines: Θ_n, or as in StructuralBase where the deformation is held [K]
@@ -52,7 +62,7 @@ class StructuralPoints {
     Lane transformed;    ///< magnitude of the energy that the new base has brought at fixed S and ε [J/m³]
   };
 
-  /// Keeps a reference to the geometry.
+  /// Keeps a reference to the geometry, which is the kernel's.
   StructuralPoints(const mesh::BlockGeometry& geometry, const material::Material& material);
 
   /// Until this is called nothing is stored, and only the functions that say so may be called: nothing is
@@ -66,19 +76,20 @@ class StructuralPoints {
   }
   Point& at(Index batch, int point) { return points_[index(batch, point)]; }
   const Point& at(Index batch, int point) const { return points_[index(batch, point)]; }
-  /// A step of one stage begins, kept or not.
+  /// A step begins, kept or not.
   void set_dt(double dt) {
-    stage_ = {dt};
-    carried_.clear();
+    dt_ = dt;
     of_mechanics_.clear();
   }
+  /// That of the mechanical pass [s].
+  double dt() const { return dt_; }
   /// Stores the deformation with the flow of the mechanical phase, before another one is put into Point::now.
   void keep_of_mechanics(Index batch, int point, const Deformation& deformation) {
     of_mechanics_.resize(n_points_);
     of_mechanics_[index(batch, point)] = deformation;
   }
-  /// StructuralHeat::begin_stage.
-  void begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> temperature);
+  /// The start of a stage whose predecessor has ended at `temperature` (StructuralHeat::begin_stage).
+  Stage stage(const linear::RungeKuttaStage& stage, std::span<const double> temperature) const;
   /// Heat of the points is spread over the nodes by the basis functions; its mean over an element by these
   /// weights, with which the thermal phase stores heat: [batch][node] [m³]. So uniform heating warms every
   /// node of an element alike whatever the shape and rule.
@@ -106,8 +117,8 @@ class StructuralPoints {
                                : correction_.data() + static_cast<std::ptrdiff_t>(batch) * geometry_.n_nodes;
   }
 
-  /// BlockKernel::add_structural_heat.
-  void add_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
+  /// out += the residual of StructuralHeat in a stage, or (tangent) its lumped diagonal; [local node].
+  void add_heat(StructuralForm form, const Stage& stage, std::span<const double> temperature, bool tangent,
                 std::span<double> out) const;
   /// Over the step, with the nodal temperature at its end; sums over the counted elements.
   StructuralChange change(std::span<const double> temperature) const;
@@ -117,8 +128,7 @@ class StructuralPoints {
   /// The structural energy of the deformation at the nodal temperature, over the counted elements [J].
   double energy(std::span<const double> temperature) const;
   std::size_t bytes() const {
-    return points_.capacity() * sizeof(Point) + carried_.capacity() * sizeof(Start) +
-           of_mechanics_.capacity() * sizeof(Deformation);
+    return points_.capacity() * sizeof(Point) + of_mechanics_.capacity() * sizeof(Deformation);
   }
 
  private:
@@ -142,7 +152,7 @@ class StructuralPoints {
     Lane value, slope;
   };
   Sloped structural_heating(const Point& at, Lane temperature) const;
-  Sloped heat(StructuralForm form, std::size_t point, Lane temperature) const;
+  Sloped heat(StructuralForm form, const Stage& stage, std::size_t point, Lane temperature) const;
 
   const mesh::BlockGeometry& geometry_;
   material::Material material_;  ///< without phase changes: their fraction and straining are held
@@ -151,11 +161,7 @@ class StructuralPoints {
   /// Point::now of the mechanical phase, where the thermal phase maps the flow anew; else empty.
   PackVector<Deformation> of_mechanics_;
   PackVector<Lane> correction_;  ///< share of a node less that of the points, [batch][node]; empty: none
-  linear::RungeKuttaStage stage_;
-  struct Start {
-    Lane entropy, energy;
-  };
-  PackVector<Start> carried_;  ///< S*, E* of the second stage, [batch][point]; empty: S and E at t_n
+  double dt_ = 0;
 };
 
 /// The temperature at a point of a batch from nodal values. Where all nodes of an element have one value it

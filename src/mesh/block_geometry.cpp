@@ -12,7 +12,7 @@ namespace solidus::mesh {
 
 namespace {
 
-/// Of J_ij = ∂x_i/∂ξ_j.
+/// The determinant and the inverse of J_ij = ∂x_i/∂ξ_j.
 template <std::size_t dim>
 struct Jacobian {
   std::array<std::array<Lane, dim>, dim> inverse;

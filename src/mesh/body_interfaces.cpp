@@ -67,8 +67,8 @@ bool lies_in(const std::optional<HalfSpace>& plane, const SkinFace& face) {
          k_near * std::sqrt(face.area);
 }
 
-/// Of each face of the skins the body whose face has the same corners, as those of bodies have that were
-/// meshed together; −1 of others. [body][face]
+/// Finds for each face of the skins the body whose face has the same corners, as faces of bodies have that
+/// were meshed together; −1 where there is none. [body][face]
 std::vector<std::vector<int>> coincident(const std::vector<std::vector<SkinFace>>& skins) {
   std::map<std::vector<Point>, std::pair<std::size_t, std::size_t>> first;  // by sorted corners
   std::vector<std::vector<int>> partner;

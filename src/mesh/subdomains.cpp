@@ -105,7 +105,7 @@ std::vector<Index> Subdomains::nodes_of(int process) const {
   return nodes;
 }
 
-/// Of the elements and faces of a process in the message.
+/// Returns the bytes that the elements and faces of a process take in the message.
 std::size_t Subdomains::element_bytes(int process) const {
   std::size_t bytes = 0;
   const auto add = [&](const RawBlock& block, const std::vector<Elements>& of_process) {

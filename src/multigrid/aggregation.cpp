@@ -182,7 +182,8 @@ void smooth(const MatrixView& a, const std::vector<Index>& of_row, Index n_coars
 /// The columns of this process's part of Pᵀ A P, sorted; rows of other processes too.
 void galerkin_pattern(const MatrixView& a, const BlockRows<float>& p, Index n_local,
                       BlockRows<double>& coarse) {
-  // What every fine row reaches, and the fine rows of every coarse one: their union is its pattern.
+  // The coarse rows that every fine row reaches, and the fine rows of every coarse one: their union is its
+  // pattern.
   std::vector<std::int64_t> start_of_reach{0}, start_of_rows(at(n_local) + 1, 0);
   std::vector<Index> reach;
   RowSum reached(n_local, 0);

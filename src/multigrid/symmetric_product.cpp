@@ -24,8 +24,8 @@ Type load(const Number* from) {
   return v;
 }
 
-/// Of vectors with a register for each row: y is read back soon after it has been written, which is slow
-/// where the two do not cover the same bytes.
+/// The product for vectors with a register for each row: y is read back soon after it has been written, which
+/// is slow where the two do not cover the same bytes.
 template <class Number, int size>
 void multiply_registers(std::span<const std::int64_t> start, const Index* column, const Number* blocks,
                         const Number* x, Number* y) {

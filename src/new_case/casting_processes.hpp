@@ -20,7 +20,7 @@ struct CastingProcess {
   double film;                    ///< outside [W/(m² K)]
   const char* film_source;
   bool layers;  ///< of thin elements of the mould on the casting
-  /// Of shots: stages besides solidify [s], the film of the spray [W/(m² K)] and where that comes from.
+  /// Shots have stages besides solidify [s], and a spray with its film [W/(m² K)] and the source of that.
   double pour = 0, open = 0, eject = 0, spray = 0, close = 0, spray_film = 0;
   const char* spray_source = "";
 };

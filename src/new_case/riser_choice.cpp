@@ -13,8 +13,8 @@ namespace {
 constexpr double k_nearly = 0.8;  ///< radius of a place that is nearly the thickest, of that of the thickest
 constexpr double k_slender_riser = 1.5;  ///< height of a riser, of its diameter
 
-/// Of the places that are nearly as thick as the thickest of all the one with the least metal above its
-/// centre; null where none is.
+/// Chooses, of the places that are nearly as thick as the thickest of all, the one with the least metal above
+/// its centre; null where there is none.
 const mesh::InscribedSphere* place_to_feed(const PartMeasures& part, const mesh::ViewFromAbove& view,
                                            const std::vector<mesh::InscribedSphere>& places) {
   const mesh::InscribedSphere* best = nullptr;
@@ -31,7 +31,7 @@ const mesh::InscribedSphere* place_to_feed(const PartMeasures& part, const mesh:
 /// @param metal   volume that it feeds [m³]
 double diameter_for(const PartMeasures& part, double radius, double metal, double shrinkage) {
   constexpr double k_safety = 1.2;
-  // Of an upright cylinder that is 1.5 diameters high, cooled at side and top: V/A = 0.214 D.
+  // An upright cylinder that is 1.5 diameters high and cooled at side and top has V/A = 0.214 D.
   constexpr double k_modulus = 0.375 / 1.75;
   const double by_modulus = k_safety * std::max(part.volume / part.area, radius / 3) / k_modulus;
   // It may give 14 % of its volume (Wlodawer's figure for open cylinders), and feeds itself as well.

@@ -8,6 +8,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -39,7 +40,7 @@ class CommonPacks {
     any_set_ = true;
     bool differs = false;
     for (std::size_t i = 0; i < n_lanes; ++i) {
-      const bool here = !is_own_[i] && !all(lanes[i] == common_[i]);
+      const bool here = !is_own_[i] && !same_bits(lanes[i], common_[i]);
       differs = differs || here;
       is_own_[i] = is_own_[i] || here;
     }
@@ -52,6 +53,9 @@ class CommonPacks {
   std::size_t bytes() const { return values_.capacity() * sizeof(Lane); }
 
  private:
+  /// Zeros of different signs differ too, so that a point reads as it was set, whatever was set before.
+  static bool same_bits(const Lane& a, const Lane& b) { return std::memcmp(&a, &b, sizeof(Lane)) == 0; }
+
   /// Makes places for the lanes that have come to differ.
   void widen() {
     std::vector<std::size_t> own;

@@ -42,7 +42,7 @@ void RowExchange::add_to_owners(std::span<float> values, int components) const {
 void RowExchange::exchange(bool to_owners, const Pack& pack, const Unpack& unpack) const {
   const std::vector<Neighbour>& neighbours = neighbours_;
   std::vector<MPI_Request> requests(2 * neighbours.size());
-  // Of each neighbour: the length of every row, and the row.
+  // The message to each neighbour holds the length of every row, and the row.
   std::vector<std::vector<double>> out(neighbours.size()), in(neighbours.size());
   std::vector<int> n_out(neighbours.size()), n_in(neighbours.size());
   std::size_t request = 0;

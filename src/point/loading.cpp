@@ -9,7 +9,7 @@ namespace {
 
 /// Relative difference below which a target is there already: the accuracy of stresses found by iteration.
 constexpr double k_same = 1e-9;
-/// Of the duration, the rounding of a sum of steps.
+/// The rounding of a sum of steps, as a share of the duration.
 constexpr double k_rounding = 1e-12;
 
 /// The time that a ramp with target and rate takes; the sign of the rate follows from the target.

@@ -15,11 +15,12 @@ using Law = material::Viscoplastic;
 
 constexpr int k_max_iterations = 60;
 constexpr int k_max_halvings = 8;
-/// Of the stress; Newton's last correction lies far below.
+/// Tolerance as a share of the stress; Newton's last correction lies far below.
 constexpr double k_tolerance = 1e-10;
-/// Of the bulk modulus: the rounding of the pressure, k times a difference of strains.
+/// The rounding of the pressure, k times a difference of strains, as a share of the bulk modulus.
 constexpr double k_rounding = 1e-14;
-/// Of the bulk modulus, added to the shear stiffness: a liquid without any leaves the free strains open.
+/// The share of the bulk modulus that is added to the shear stiffness: a liquid without any leaves the free
+/// strains open.
 constexpr double k_least_stiffness = 1e-12;
 
 std::vector<int> free_components(const Target& target) {
@@ -57,7 +58,7 @@ bool correction(const std::vector<int>& free, const Target& target, const Answer
   return true;
 }
 
-/// Of an adiabatic step [K].
+/// Tolerance of the temperature of an adiabatic step [K].
 constexpr double k_temperature_tolerance = 1e-9;
 
 }  // namespace

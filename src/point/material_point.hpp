@@ -32,7 +32,7 @@ struct MaterialPointState {
   double time = 0;  ///< [s]
   double temperature = 0;
   Sym<double> strain, stress;  ///< total strain, σ [Pa]
-  /// Of a law from outside: what follows from its stress (material/external_law.hpp).
+  /// The history; with a law from outside it is what follows from the stress (material/external_law.hpp).
   material::Viscoplastic::State<double> history;
   std::vector<double> outside;  ///< the numbers of a law from outside
 };
@@ -55,7 +55,7 @@ struct Stored {
 
 /// Stress, history and tangent of a law at a strain.
 struct Answer {
-  /// Of a law from outside without what is of plastic flow alone.
+  /// The answer of the law; one from outside leaves out what belongs to plastic flow alone.
   material::Viscoplastic::Response<double> response;
   Sym4<double> tangent;         ///< ∂σ/∂ε on engineering shears [Pa]
   std::vector<double> outside;  ///< MaterialPointState::outside

@@ -33,7 +33,7 @@ class Formatter {
   std::string temperature(double kelvin) const {
     return fmt::format("{:.4g} {}", units::to_display(kelvin, "K", units_.temperature), units_.temperature);
   }
-  /// Of a change of temperature [K].
+  /// Writes a change of temperature, given in kelvin.
   std::string change(double kelvin) const {
     constexpr auto k_difference = units::Temperature::difference;
     const std::string unit = units_.temperature == "degC" ? "K" : units_.temperature;
@@ -103,7 +103,7 @@ std::string shot_lines(const std::vector<ShotRow>& shots, const Formatter& forma
   return text;
 }
 
-/// Of each riser: whether it fed the castings to the end.
+/// Says of each riser whether it fed the castings to the end.
 std::string riser_lines(const Answers& answers) {
   bool part_solid = true, any_part = false;
   double part = 0;

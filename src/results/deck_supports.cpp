@@ -147,7 +147,7 @@ std::vector<Index> missing_supports(const mesh::Mesh& mesh, const linear::Active
     for (const Index node : part.nodes)
       for (std::size_t k = 0; k < components && held.size() < motions.count(); ++k)
         if (fixed[static_cast<std::size_t>(node) * components + k] != 0) held.add(motions.row(node, k));
-    // Of degrees of freedom that move as one the differences are held; those of other parts hold nothing
+    // Where degrees of freedom move as one, their differences are held; those of other parts hold nothing
     // here.
     for (const std::vector<Index>& group : constraints) {
       const auto n = static_cast<Index>(components);

@@ -135,7 +135,7 @@ class FoamFile {
 
 struct PolyMesh {
   std::vector<Point> points;  ///< [m]
-  /// Of face f the points first[f] … first[f + 1] − 1 of `corners`, counter-clockwise seen from behind it:
+  /// Face f has the points first[f] … first[f + 1] − 1 of `corners`, counter-clockwise seen from behind it:
   /// the normal points out of its owner.
   std::vector<std::size_t> first = {0};
   std::vector<Index> corners;

@@ -334,7 +334,10 @@ void Recorder::write_summary_file(const std::string& outcome, const coupling::St
     s.seconds.emplace_back("mechanics_assembly", phases_.mechanics->seconds_assembly());
     s.seconds.emplace_back("mechanics_residual", phases_.mechanics->seconds_residual());
     s.seconds.emplace_back("mechanics_solver", phases_.mechanics->seconds_solver());
-    s.table_bytes.emplace_back("mechanics", phases_.mechanics->bytes());
+    std::size_t bytes = phases_.mechanics->bytes();
+    for (const mechanics::SharedElementValues& values : state.mechanics.elements)
+      if (values) bytes += values->bytes();
+    s.table_bytes.emplace_back("mechanics", bytes);
   }
   for (const contact::ContactPair* pair : phases_.contacts)
     s.table_bytes.emplace_back("contact " + pair->spec().name, pair->bytes());

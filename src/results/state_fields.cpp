@@ -54,14 +54,14 @@ constexpr ElementFieldName k_elements[] = {
     {"strain", "1", ElementField::strain, false, true},
     {"intermediate_temperature", "K", ElementField::intermediate_temperature, false, true}};
 
-/// Of the recovered stress, the largest first.
+/// Names of the principal values of the recovered stress, the largest first.
 constexpr const char* k_principal[] = {"principal_stress_1", "principal_stress_2", "principal_stress_3"};
 
 bool rubs(const contact::ContactPair* pair) {
   return pair->spec().friction.has_value();
 }
 
-/// Of ζ_c: work per area, or a slip; a mere number where pairs differ.
+/// The unit of ζ_c, which is a work per area or a slip; one, as of a number, where pairs differ.
 const char* internal_variable_unit(const coupling::Phases& phases) {
   bool works = false, slips = false;
   for (const contact::ContactPair* pair : phases.contacts) {
@@ -191,8 +191,8 @@ void StateFields::add_elements() {
     if (field.which == ElementField::intermediate_temperature && !isentropic) continue;
     if (field.which == ElementField::pore_fraction && phases_.coherency == nullptr)
       continue;  // nothing melts
-    const auto compute = [phase = phases_.mechanics, which = field.which] {
-      return phase->element_field(which);
+    const auto compute = [this, which = field.which] {
+      return mechanics::element_field(mesh_, shown_, which);
     };
     values_.push_back(std::make_unique<Values>(Values{field.name,
                                                       field.unit,
@@ -223,7 +223,7 @@ void StateFields::add_heat_flux() {
 void StateFields::add_nodal_stress() {
   const auto nodal = [this](int body) {
     if (!recovery_) recovery_ = std::make_unique<StressRecovery>(mesh_, kind_);
-    return recovery_->at_nodes(phases_.mechanics->element_field(ElementField::stress), body);
+    return recovery_->at_nodes(mechanics::element_field(mesh_, shown_, ElementField::stress), body);
   };
   const auto add = [this](const char* name, int components,
                           const std::function<std::vector<double>(int body)>& compute) {
@@ -294,7 +294,7 @@ void StateFields::update(const coupling::State& state) {
       std::copy(state.mechanics.acceleration.begin(), state.mechanics.acceleration.end(),
                 by_name_["acceleration"]->begin());
     }
-    phases_.mechanics->keep_fields();
+    shown_.elements = state.mechanics.elements;
   }
   if (!phases_.contacts.empty()) update_contacts(state.heat.temperature);
 }
@@ -331,7 +331,7 @@ void StateFields::update_contacts(std::span<const double> temperature) {
   ghosts_.update(covered_, 1);
 }
 
-// Of the closest partner.
+// Shows the heat of the pair with the closest partner.
 void StateFields::update_heat(const contact::ContactNodalFields& fields, std::span<const char> closest) {
   const auto show = [&](const char* name, const std::vector<double>& values) {
     const auto found = by_name_.find(name);

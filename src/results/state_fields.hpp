@@ -28,9 +28,8 @@ class StateFields {
  public:
   StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases, AnalysisKind kind);
 
-  /// Takes the values of a state that the phases have just reached and committed (stresses and gaps are those
-  /// of their last solve). Fields of elements are computed when they are read, and stay those of this moment
-  /// until the next call. Collective.
+  /// Takes the values of a committed state; gaps are those of the pairs as they stand, which must be at that
+  /// state. Fields of elements are computed from the state when they are read. Collective.
   void update(const coupling::State& state);
   /// The same for the fields of criteria, which cost more and are needed less often. Collective.
   void update_criteria(const coupling::State& state);
@@ -75,7 +74,8 @@ class StateFields {
   /// Nodal areas of the sides of each pair, slave and master: ∫ N_a dA, [local node], owned ones complete
   /// [m²].
   std::vector<std::array<std::vector<double>, 2>> side_area_;
-  std::vector<double> covered_;  ///< Field::covered of tractions and fluxes of contact
+  mechanics::MechanicalState shown_;  ///< of the state of the last update(), its values of elements alone
+  std::vector<double> covered_;       ///< Field::covered of tractions and fluxes of contact
   FieldSet bodies_;
   std::map<std::string, FieldSet> surfaces_;
 };

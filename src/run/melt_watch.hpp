@@ -21,7 +21,7 @@ class MeltWatch final : public coupling::Observer {
   void stopped(const coupling::Stop&, const coupling::State&) override {}
   void end(const coupling::State&) override {}
 
-  /// What has run out, how far, and since when; empty: nothing has.
+  /// Says which melt has run out, how far, and since when; empty: none has.
   const std::string& ran_out() const { return ran_out_; }
 
  private:

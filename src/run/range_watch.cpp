@@ -22,7 +22,7 @@ double margin(const material::LeftRange& range) {
   return range.refused ? 0.0 : std::max(10.0, 0.05 * (range.valid_to - range.valid_from));
 }
 
-/// Of the properties that act in this body at these temperatures, those that leave their data.
+/// Returns the properties that act in this body and leave their data at these temperatures.
 std::vector<material::LeftRange> left_ranges(const CaseSpec& spec, std::size_t body,
                                              const material::Material& material, double low, double high) {
   std::vector<material::LeftRange> left;

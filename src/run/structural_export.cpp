@@ -248,7 +248,7 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
   report.supports = deck.supports.size();
   if (options.deformed) deck.displacement = still.mechanics.displacement;
   const std::vector<double> plastic_strain =
-      a.mechanics->element_field(mechanics::ElementField::equivalent_plastic_strain);
+      mechanics::element_field(a.mesh, still.mechanics, mechanics::ElementField::equivalent_plastic_strain);
   auto of_block = plastic_strain.begin();
   for (std::size_t b = 0; b < a.mesh.blocks.size(); ++b) {
     const mesh::ElementBlock& block = a.mesh.blocks[b];

@@ -48,7 +48,7 @@ TEST(AluminiumCylinder, ShowsWhatTheMonographShows) {
   EXPECT_GT(at(h, "T_mould_surface[degC]", 10), 300);
   EXPECT_LT(at(h, "T_casting_surface[degC]", 90) - at(h, "T_mould_surface[degC]", 90),
             0.3 * (at(h, "T_casting_surface[degC]", 10) - at(h, "T_mould_surface[degC]", 10)));
-  // Of order 0.08 mm at 90 s.
+  // The gap is of order 0.08 mm at 90 s.
   EXPECT_GE(at(h, "gap[mm]", 90), 0.06);
   EXPECT_LE(at(h, "gap[mm]", 90), 0.10);
   EXPECT_NEAR(h.at("solid_fraction[1]").back(), 1.0, 1e-12);

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 const std::array<fs::path, 1> k_library{fs::path(SOLIDUS_SOURCE_DIR) / "materials"};
 
-/// Of a material's tables, written into a folder of their own.
+/// The files of a material's tables, written into a folder of their own.
 class MaterialTables : public ::testing::TestWithParam<std::string> {
  protected:
   fs::path folder_ = fs::temp_directory_path() / ("solidus_tables_" + GetParam());

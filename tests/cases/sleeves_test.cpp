@@ -55,7 +55,7 @@ exponent = 0
 gap_law = "constant"
 )";
 
-/// Of 40 x 10 mm, a metre deep [J].
+/// The heat of 40 x 10 mm, a metre deep [J].
 constexpr double k_heat = 200e6 * 0.04 * 0.01;
 
 /// @param stages  a line for the body that burns, or nothing

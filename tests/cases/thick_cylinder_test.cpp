@@ -92,7 +92,7 @@ TEST(ThickCylinder, TheDefaultIsTheElasticWallByTheIsentropicSplit) {
             solidus::to_toml(solidus::model::load_case(k_folder.string() + ":te_x1_isentropic").document));
 }
 
-// cases.md: Δt = 10 s, 50 elements, elastic.
+// The control values of the case: Δt = 10 s, 50 elements, elastic.
 TEST(ThickCylinder, SimultaneousSchemesMeetTheControlValues) {
   for (const char* variant : {"te_x1_simultaneous", "te_x1_block_iterative"}) {
     const CaseRun& r = run(variant);

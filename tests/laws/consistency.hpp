@@ -1,6 +1,6 @@
-/// What every law of isotropic hardening must pass, built in or added: its stress is the derivative of its
-/// energy and its slope that of its stress, it answers alike on all number types, and the tangents of both
-/// mappings are the derivatives of their stresses, by automatic differentiation.
+/// Checks that every law of isotropic hardening must pass, built in or added: its stress is the derivative of
+/// its energy and its slope that of its stress, it answers alike on all number types, and the tangents of
+/// both mappings are the derivatives of their stresses, by automatic differentiation.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace solidus {
 
-/// What the laws ask of a number beside exp and log.
+/// Functions of a number that the laws need beside exp and log.
 inline Jet<double> sqrt(const Jet<double>& a) {
   const double root = std::sqrt(a.v);
   return Jet<double>::chain(a, {root, 0.5 / root, -0.25 / (root * a.v)});

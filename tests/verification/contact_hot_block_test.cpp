@@ -164,7 +164,7 @@ class Differences {
   Grid base_, block_;
 };
 
-/// Of the base's surface: where it is hottest, and the largest change ahead of the block.
+/// The place where the base's surface is hottest, and the largest change ahead of the block.
 struct Spot {
   double hottest = 0, at = 0, ahead = 0;
 };

@@ -68,7 +68,7 @@ Deviation press(const mesh::Mesh& mesh, AnalysisKind kind, contact::ContactParam
     d.left = std::max(d.left, std::abs(point.penetration));
   }
   const std::size_t axis = mesh.dimension == 2 ? 1 : 2;
-  for (const auto& block : test::element_fields(run.phase))
+  for (const auto& block : test::element_fields(mesh, run.state))
     for (const auto& sigma : block.stress) d.stress = std::max(d.stress, std::abs(sigma[axis] / p + 1));
   for (double* value : {&d.pressure, &d.stress, &d.penetration, &d.left})
     *value = parallel::global_max(*value);

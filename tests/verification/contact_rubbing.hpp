@@ -125,7 +125,7 @@ class Rubbing {
   }
 
   contact::ContactSums sums() const { return contact::sums(pair.view(), {}); }
-  /// Of a point field, ∫ f dA over the slave, all processes.
+  /// The integral ∫ f dA of a point field over the slave, all processes.
   double integral(const std::function<double(const contact::ContactPointState&)>& f) const {
     double sum = 0;
     for (std::size_t p = 0; p < contact.points.size(); ++p) {

@@ -41,7 +41,7 @@ struct Coupled {
   bool double_pass = false;                       ///< with either mapping of a split
   coupling::PhaseOrder order = coupling::PhaseOrder::mechanics_first;  ///< of the sequential splits
   double gap_tolerance = 1;                                            ///< of them with heat first
-  /// Of them and of the double pass.
+  /// The same of the sequential splits and of the double pass.
   coupling::ThermalFlow thermal_flow = coupling::ThermalFlow::kept;
   /// Present: passes of `mapping` in turn until they agree.
   std::optional<coupling::IterationOptions> iteration;

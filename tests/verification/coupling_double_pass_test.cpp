@@ -32,7 +32,7 @@ Coupled wall(int factor, bool double_pass, bool plastic = false) {
   return c;
 }
 
-/// Of two fields over the nodes, which are evenly spaced.
+/// The difference of two fields over the nodes, which are evenly spaced.
 struct Difference {
   double mean = 0, largest = 0;  ///< root of the mean square; at any node
 };

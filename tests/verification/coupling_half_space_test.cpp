@@ -141,7 +141,7 @@ const std::vector<double> k_couplings{0, 0.05, 0.36, 1};
 
 constexpr double k_one_percent = 0.01;  // of the largest value
 
-/// Of the split, for the pictures.
+/// Results of the split, for the pictures.
 class Curves {
  public:
   void add(const History& exact, const History& computed) {

@@ -30,7 +30,7 @@ constexpr double k_temperature = 1;      // of a disturbance [K]
 constexpr double k_displacement = 1e-6;  // [m], about what 1 K expands the wall by
 const std::vector<double> k_steps{1e-3, 1e-2, 0.1, 1, 10, 100, 1000, 2000};  // [s]
 
-/// Of an eigenvalue: Θ̄ is found to 1e-8 K or better, the reference has nine digits.
+/// Tolerance of an eigenvalue: Θ̄ is found to 1e-8 K or better, the reference has nine digits.
 constexpr double k_rounding = 1e-8;
 
 struct Scheme {

@@ -61,7 +61,7 @@ Impact impact(const Method& m) {
     if (2 * n <= k_steps)
       result.numerical += report.work.numerical / (0.5 * k_density * k_length * k_height * k_speed * k_speed);
     if (2 * n != k_steps) continue;
-    const test::ElementFields fields = test::element_fields(*phase).front();
+    const test::ElementFields fields = test::element_fields(phase->mesh(), state).front();
     const mesh::ElementBlock& block = body.mesh.blocks.front();
     for (Index e = 0; e < block.n_counted; ++e)
       result.stress[static_cast<std::size_t>(block.input_element[static_cast<std::size_t>(e)] - 1)] =

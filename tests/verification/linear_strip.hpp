@@ -88,7 +88,8 @@ inline StripFields strip_fields(const Coupled& c, const Assembly& assembly, cons
     f.temperature[i] = (state.heat.temperature[node] - LinearSolid::k_start) / LinearSolid::k_rise;
     f.displacement[i] = state.mechanics.displacement[2 * node] / solid.displacement();
   }
-  const test::ElementFields elements = test::element_fields(assembly.mechanics()).front();
+  const test::ElementFields elements =
+      test::element_fields(assembly.mechanics().mesh(), state.mechanics).front();
   for (std::size_t e = 0; e < n; ++e)
     f.stress[static_cast<std::size_t>(block.input_element[e] - 1)] = elements.stress[e][0] / solid.stress();
   return f;

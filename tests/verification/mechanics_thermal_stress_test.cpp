@@ -65,8 +65,8 @@ Spread spread(const Body& body, const std::vector<std::vector<std::array<double,
 
 struct Fields {
   std::vector<std::vector<std::array<double, 6>>> stress, strain;
-  explicit Fields(const mechanics::MechanicalPhase& phase) {
-    for (auto& block : test::element_fields(phase)) {
+  explicit Fields(const test::Solved& solved) {
+    for (auto& block : test::element_fields(solved)) {
       stress.push_back(block.stress);
       strain.push_back(block.strain);
     }
@@ -82,7 +82,7 @@ void heat_up(Body& body, Look look) {
     const double t = k_start + (k_end - k_start) * step / 10;
     body.temperature.assign(body.mesh.x.size(), t);
     solved.step(body, step, 1);
-    look(static_cast<std::size_t>(step - 1), t, Fields(*solved.phase));
+    look(static_cast<std::size_t>(step - 1), t, Fields(solved));
   }
 }
 

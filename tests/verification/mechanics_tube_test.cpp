@@ -105,7 +105,7 @@ TEST(Tube, StressesThroughTheWallFollowLame) {
   const Solved solved(body);
   auto out = verification::table("mechanics_tube_stress",
                                  "radius[mm],exact_radial[MPa],exact_hoop[MPa],radial[MPa],hoop[MPa]");
-  const auto fields = test::element_fields(*solved.phase);
+  const auto fields = test::element_fields(solved);
   const mesh::ElementBlock& block = body.mesh.blocks[0];
   for (Index e = 0; e < block.size(); ++e) {
     double r = 0;

@@ -47,7 +47,7 @@ class March {
   double time() const { return time_; }
   const mechanics::MechanicalState& state() const { return state_; }
   const mechanics::MechanicalReport& report() const { return report_; }
-  std::vector<test::ElementFields> fields() const { return test::element_fields(*phase_); }
+  std::vector<test::ElementFields> fields() const { return test::element_fields(phase_->mesh(), state_); }
   double u(Index node, int component) const {
     return state_
         .displacement[static_cast<std::size_t>(node * displacement_components(body_.kind) + component)];

@@ -85,7 +85,7 @@ History cool(const Element& element, mechanics::Mapping mapping) {
       force += effort.fields.reactions[static_cast<std::size_t>(node) * components];
     history.pull.push_back(force / (components == 3 ? k_width * k_width : k_width));
     std::vector<double> axial;
-    const test::ElementFields fields = test::element_fields(assembly.mechanics())[0];
+    const test::ElementFields fields = test::element_fields(assembly.mechanics().mesh(), state.mechanics)[0];
     for (const auto& stress : fields.stress) axial.push_back(stress[0]);
     history.mean_stress.push_back(cells.mean(axial));
     history.solid.push_back(assembly.heat().mean_solid_fraction(state.heat));

@@ -113,10 +113,10 @@ inline double roughness(const mesh::ElementBlock& block, const Cells& cells,
   return std::sqrt(oscillation / total) / cells.spread(field);
 }
 
-/// Of the pressure of a solved body.
-inline double roughness(const test::Body& body, const mechanics::MechanicalPhase& phase) {
+/// The roughness of the pressure of a solved body.
+inline double roughness(const test::Body& body, const test::Solved& solved) {
   const mesh::ElementBlock& block = body.mesh.blocks[0];
-  return roughness(block, Cells(body.mesh, block, body.kind), test::element_fields(phase)[0].pressure);
+  return roughness(block, Cells(body.mesh, block, body.kind), test::element_fields(solved)[0].pressure);
 }
 
 }  // namespace solidus::verification

@@ -53,7 +53,7 @@ double rise(const Body& body, const Solved& solved) {
 Panel solve(const Element& element, int n) {
   const Body body = panel(element, n);
   const Solved solved(body);
-  return {rise(body, solved), verification::roughness(body, *solved.phase)};
+  return {rise(body, solved), verification::roughness(body, solved)};
 }
 
 const std::vector<Element> k_elements{verification::k_quad4,          verification::k_tri3,

@@ -67,7 +67,7 @@ Errors rest(const Element& element, AnalysisKind kind, double viscosity, mechani
     errors.iterations += solved.report.newton.iterations;
   }
   const verification::Cells cells(body.mesh, body.mesh.blocks[0], kind);
-  const std::vector<double> pressure = test::element_fields(*solved.phase)[0].pressure;
+  const std::vector<double> pressure = test::element_fields(solved)[0].pressure;
   for (std::size_t e = 0; e < pressure.size(); ++e)
     errors.pressure = std::max(errors.pressure,
                                std::abs(pressure[e] / k_weight - (k_height - cells.centre[e][1])) / k_height);
@@ -169,7 +169,7 @@ struct ClosedBox {
   Pores pores() const {
     const verification::Cells cells(body.mesh, body.mesh.blocks[0], body.kind);
     std::vector<double> fraction(cells.centre.size());
-    solved.phase->blocks()[0]->get_field(mechanics::ElementField::pore_fraction, fraction);
+    solved.state.elements[0]->get(mechanics::ElementField::pore_fraction, fraction);
     Pores p;
     double volume = 0, upper = 0;
     for (std::size_t e = 0; e < fraction.size(); ++e) {
@@ -238,7 +238,7 @@ TEST(ClosedMelt, OpensNoMorePoresThanAnElementHasRoomFor) {
     box.go_to(ClosedBox::k_poured);
     EXPECT_EQ(box.pores().least, mechanics::k_most_pores);
     EXPECT_EQ(box.pores().most, mechanics::k_most_pores);
-    const std::vector<double> pressures = test::element_fields(*box.solved.phase)[0].pressure;
+    const std::vector<double> pressures = test::element_fields(box.solved)[0].pressure;
     for (const double pressure : pressures)
       EXPECT_NEAR(-pressure, (1.2 - mechanics::k_most_pores) * k_bulk, 0.01 * k_bulk);
   }
@@ -284,7 +284,7 @@ TEST(ClosedMush, IsFedByMeltThatFlowsBetweenItsDendrites) {
     const auto before = box.pores();
     cool_to(k_mush - k_cooling);
     const verification::Cells cells(box.body.mesh, box.body.mesh.blocks[0], c.kind);
-    const std::vector<double> pressure = test::element_fields(*box.solved.phase)[0].pressure;
+    const std::vector<double> pressure = test::element_fields(box.solved)[0].pressure;
     const double rate = 3 * ClosedBox::k_expansion * k_cooling,
                  mobility = material::Permeability(box.body.materials[0].casting)
                                 .mobility(box.body.materials[0].solid_fraction(k_mush));

@@ -66,7 +66,7 @@ Errors solve(const Element& element, int n) {
   body.hold_boundary(exact);
   const Solved solved(body);
   const verification::Cells cells(body.mesh, body.mesh.blocks[0], body.kind);
-  const std::vector<double> computed = test::element_fields(*solved.phase)[0].pressure;
+  const std::vector<double> computed = test::element_fields(solved)[0].pressure;
   std::vector<double> closed, error;
   for (std::size_t e = 0; e < computed.size(); ++e) {
     closed.push_back(pressure(cells.centre[e], solid));

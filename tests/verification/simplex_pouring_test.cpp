@@ -74,7 +74,8 @@ Pour pour(const Element& element, mechanics::Mapping mapping, const Table& visco
       if (metal.solid_fraction(last[e]) < metal.casting.coherency_fraction) at_coherency[e] = last[e];
     }
     if (n == 1) {
-      const std::vector<double> pressure = test::element_fields(assembly.mechanics())[0].pressure;
+      const std::vector<double> pressure =
+          test::element_fields(assembly.mechanics().mesh(), trial.mechanics)[0].pressure;
       const double weight = metal.density * k_gravity;
       for (std::size_t e = 0; e < n_elements; ++e)
         result.early_pressure = std::max(

@@ -135,7 +135,7 @@ inline SlabResult freeze(const Strip& strip, const SlabRun& run) {
     auto out = run.table.empty() ? std::ofstream{}
                                  : table(run.table + "_" + std::to_string(std::lround(time)) + "s",
                                          "distance[mm],exact_stress[MPa],stress[MPa]");
-    const auto fields = test::element_fields(mechanics);
+    const auto fields = test::element_fields(strip.mesh, state.mechanics);
     double squares = 0;
     int n = 0;
     for (Index e = 0; e < block.size(); ++e) {

@@ -17,7 +17,7 @@ class CurveCoefficient final : public CoefficientLaw {
   explicit CurveCoefficient(std::vector<FrictionCurve> curves);
   CoefficientValue value(const InternalValue& at, double theta) const override;
   CoefficientPoint point(const InternalValue& at, double theta) const override;
-  /// Of one curve they are sharp.
+  /// The bounds of one curve are sharp.
   CoefficientBounds slopes(double from, double to, double theta) const override;
   bool constant() const override { return false; }
   bool hardening_depends_on_temperature() const override { return curves_.size() > 1; }

@@ -15,7 +15,7 @@ namespace solidus::report {
 
 struct ReportedRun {
   std::filesystem::path folder;
-  /// Of each body's material what the library says now (the results folder does not keep it).
+  /// The present text of the library on the material of each body (the results folder does not keep it).
   results::Json::Array materials = {};
 };
 

@@ -167,7 +167,7 @@ TEST(AddedLaws, OfATakenNameOrAnotherDeclarationOfAKeyAreRefused) {
   EXPECT_EQ(refused("wide", twin.info()), "");
 }
 
-/// What every formula of the coefficient must pass.
+/// Checks that every formula of the coefficient must pass.
 template <class Law>
 void expect_consistent(const Law& data, double unit) {
   const FrictionCoefficient mu({.law = coefficient_law(data), .unit = unit});

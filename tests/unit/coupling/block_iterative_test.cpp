@@ -82,7 +82,7 @@ std::vector<BlockIterative::Change> changes(double coupling_number, double film_
   return scheme.changes();
 }
 
-/// Of the change of temperature over `span` iterations, once it is that of the mode.
+/// The factor of the change of temperature over `span` iterations, once it is that of the mode.
 double ratio(const std::vector<BlockIterative::Change>& changes, std::size_t span = 1) {
   constexpr std::size_t k_first = 2;
   return changes.at(k_first + span).temperature / changes.at(k_first).temperature;

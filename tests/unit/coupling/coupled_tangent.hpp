@@ -25,7 +25,7 @@ inline double global_norm(std::span<const double> a) {
   return std::sqrt(parallel::global_sum(s));
 }
 
-/// Of forces, of heat, and of the volumes of mixed elements where there are any.
+/// A number for forces, one for heat, and one for the volumes of mixed elements where there are any.
 template <class Of>
 struct OfAll {
   Of force{}, heat{}, volume{};

@@ -190,7 +190,7 @@ class Iterate {
     newton.thermal().move(1.0);
     newton.evaluate(old, pass_, u_);
   }
-  /// Of the tangent here along a direction.
+  /// Errors of the tangent here along a direction.
   OfAll<double> tangent_errors(std::span<const double> du, std::vector<double> dt, double h) {
     const mechanics::MechanicalState& old = blocks_.state.mechanics;
     linear::CoupledMatrix& a = newton.assemble(old, u_, 0);

@@ -1,4 +1,4 @@
-/// What processes tell each other (system/processes.hpp); on one and on two.
+/// Messages of processes to each other (system/processes.hpp); on one and on two.
 #include "system/processes.hpp"
 
 #include <gtest/gtest.h>

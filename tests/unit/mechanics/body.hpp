@@ -98,4 +98,9 @@ struct Solved {
   }
 };
 
+/// The fields of elements after its last step, [block].
+inline std::vector<ElementFields> element_fields(const Solved& solved) {
+  return element_fields(solved.phase->mesh(), solved.state);
+}
+
 }  // namespace solidus::test

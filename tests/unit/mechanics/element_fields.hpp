@@ -5,11 +5,11 @@
 #include <array>
 #include <vector>
 
-#include "mechanics/mechanical_phase.hpp"
+#include "mechanics/mechanical_state.hpp"
 
 namespace solidus::test {
 
-/// Of one mesh block: [element].
+/// The fields of one mesh block, [element].
 struct ElementFields {
   using Tensors = std::vector<std::array<double, 6>>;
   Tensors stress, strain, viscous_strain, plastic_strain, back_stress;
@@ -18,12 +18,13 @@ struct ElementFields {
 };
 
 /// [block]
-inline std::vector<ElementFields> element_fields(const mechanics::MechanicalPhase& phase) {
+inline std::vector<ElementFields> element_fields(const mesh::Mesh& mesh,
+                                                 const mechanics::MechanicalState& state) {
   using mechanics::ElementField;
-  const std::vector<mesh::ElementBlock>& blocks = phase.mesh().blocks;
+  const std::vector<mesh::ElementBlock>& blocks = mesh.blocks;
   std::vector<ElementFields> fields(blocks.size());
   const auto take = [&](ElementField which, auto ElementFields::*member, const auto& copy) {
-    const std::vector<double> values = phase.element_field(which);
+    const std::vector<double> values = mechanics::element_field(mesh, state, which);
     const double* from = values.data();
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       auto& to = fields[b].*member;

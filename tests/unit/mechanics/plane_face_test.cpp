@@ -96,7 +96,7 @@ TEST(PlaneFace, APlateThatCannotBendHasTheThermalStressOfTheClosedForm) {
   body.conditions.plane_faces = {{"top"}, {"front"}};
   for (std::size_t i = 0; i < body.temperature.size(); ++i) body.temperature[i] += 80 * body.mesh.x[i][0];
   const Solved solved(body);
-  const auto fields = test::element_fields(*solved.phase);
+  const auto fields = test::element_fields(solved);
   for (Index e = 0; e < body.mesh.blocks[0].size(); ++e) {
     double x = 0;
     for (int a = 0; a < 8; ++a)

@@ -86,9 +86,10 @@ struct Setting {
     const mechanics::BlockHistory history = kernel.initial_history();
     mechanics::BlockHistory trial = history;
     kernel.prepare({temperature, temperature, temperature, u, u, &history, &history, &history, 0.5, 0.5});
-    kernel.finish(u, u, {trial});
+    mechanics::SharedElementValues values;
+    kernel.finish(u, u, {.history = trial, .elements = &values});
     std::vector<double> xi(static_cast<std::size_t>(mesh.blocks[0].size()));
-    kernel.get_field(mechanics::ElementField::equivalent_plastic_strain, xi);
+    values->get(mechanics::ElementField::equivalent_plastic_strain, xi);
     return static_cast<double>(std::count_if(xi.begin(), xi.end(), [](double x) { return x > 0; })) /
            static_cast<double>(xi.size());
   }

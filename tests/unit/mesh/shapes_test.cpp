@@ -27,7 +27,7 @@ const GroupReport& group(const QualityReport& report, const std::string& name) {
   throw std::out_of_range(name);
 }
 
-// The measures of monograph 7.3 as cases.md of the project fills its missing figure.
+// The measures of monograph 7.3, whose figure is missing, as cases/aluminium_cylinder/README.md has them.
 const CylinderInMould k_cylinder{0.015, 0.07, 0.02, 0.02, 0.09, 0.001, 0.002};
 
 TEST(CylinderInMould, HasTheGroupsAndLengthsOfItsDrawing) {

@@ -25,7 +25,7 @@ struct Halved {
     }
   }
   static bool coupled(Index row, Index j) { return row == j || (row + j) % 3 == 0 || j - row == 1; }
-  /// Of the whole matrix: symmetric where both are rows.
+  /// An entry of the whole matrix, which is symmetric where both are rows.
   double entry(Index row, int a, Index j, int b) const {
     const int i = row * size + a, k = j * size + b;
     return std::cos(1.0 + std::min(i, k) * 0.7) * std::sin(0.3 + std::max(i, k));

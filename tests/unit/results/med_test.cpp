@@ -23,7 +23,7 @@ namespace {
 using mesh::Shape;
 using Edges = std::vector<std::array<std::size_t, 2>>;
 
-/// What MED says of a kind of cells: its number, its corners, and between which corners its mid nodes lie.
+/// A kind of cells in MED: its number, its corners, and between which corners its mid nodes lie.
 struct MedCells {
   med_geometry_type type;
   std::size_t corners;
