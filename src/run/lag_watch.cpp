@@ -54,7 +54,8 @@ void LagWatch::end(const coupling::State&) {
 FrictionLagWatch::FrictionLagWatch(const std::vector<contact::ContactPair*>& contacts)
     : contacts_(contacts), pairs_(contacts.size()) {
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (const auto& friction = contacts[i]->spec().friction) pairs_[i].coefficient.emplace(friction->coefficient);
+    if (const auto& friction = contacts[i]->spec().friction)
+      pairs_[i].coefficient.emplace(friction->coefficient);
 }
 
 void FrictionLagWatch::begin(const coupling::State& state) {
@@ -90,14 +91,15 @@ void FrictionLagWatch::report() const {
     const double late = parallel::global_sum(pairs_[i].late), all = parallel::global_sum(pairs_[i].all);
     if (!(late > k_worth_saying * all)) continue;
     say(late / all,
-        fmt::format("contact '{}': friction slips with the coefficient of the temperature before each step; "
-                    "its tractions are {:.3g} % off that of their own time, on average over its work; less in "
-                    "shorter steps, not at all with thermal_return_mapping in [contact.friction] or with "
-                    "coupling.scheme = {}",
-                    contacts_[i]->spec().name, 100 * late / all,
-                    coupling::names_of_schemes([](const coupling::SchemeTraits& t) {
-                      return t.iterates || t.mapping == mechanics::Mapping::simultaneous;
-                    })));
+        fmt::format(
+            "contact '{}': friction slips with the coefficient of the temperature before each step; "
+            "its tractions are {:.3g} % off that of their own time, on average over its work; less in "
+            "shorter steps, not at all with thermal_return_mapping in [contact.friction] or with "
+            "coupling.scheme = {}",
+            contacts_[i]->spec().name, 100 * late / all,
+            coupling::names_of_schemes([](const coupling::SchemeTraits& t) {
+              return t.iterates || t.mapping == mechanics::Mapping::simultaneous;
+            })));
   }
 }
 
@@ -110,11 +112,14 @@ void StressWorkWatch::step(const coupling::StepRecord& record, const coupling::S
 }
 
 void StressWorkWatch::report() const {
-  constexpr double k_much_heat = 0.01;  // of what moved in the run: deformation that heats less matters little
+  constexpr double k_much_heat =
+      0.01;  // of what moved in the run: deformation that heats less matters little
   if (!(excess_ > k_worth_saying * dissipated_ && excess_ > k_much_heat * moved_)) return;
   logging::info(
-      "the stresses of the ends of steps do the work of whole steps: {:.3g} J of the heat of deformation, beside "
-      "{:.3g} J of dissipation, come of that; half as much with half the step, but of loads that act at once, "
+      "the stresses of the ends of steps do the work of whole steps: {:.3g} J of the heat of deformation, "
+      "beside "
+      "{:.3g} J of dissipation, come of that; half as much with half the step, but of loads that act at "
+      "once, "
       "half of whose work is heat",
       excess_, dissipated_);
 }

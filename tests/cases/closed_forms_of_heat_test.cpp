@@ -19,8 +19,8 @@ using solidus::testing::at;
 using solidus::testing::CaseFolder;
 using solidus::testing::CaseRun;
 
-/// A ball of the radius R that a film cools: T by Fourier's series (H. S. Carslaw, J. C. Jaeger, Conduction of
-/// Heat in Solids, 1959, § 9.4), the hoop stress in its middle and at its skin (S. P. Timoshenko, J. N.
+/// A ball of the radius R that a film cools: T by Fourier's series (H. S. Carslaw, J. C. Jaeger, Conduction
+/// of Heat in Solids, 1959, § 9.4), the hoop stress in its middle and at its skin (S. P. Timoshenko, J. N.
 /// Goodier, Theory of Elasticity, 1951, § 136):
 ///
 ///   2/3 E α/(1 − ν) (mean of T − T_middle),   E α/(1 − ν) (mean of T − T_skin).
@@ -61,8 +61,9 @@ struct Ball {
 
 std::string probe(const std::string& name, const std::string& field, const std::string& component, int radius,
                   const std::string& unit) {
-  return fmt::format("[[probe]]\nname = \"{}\"\nfield = \"{}\"\n{}point = [\"{} mm\", \"0 mm\"]\nunit = \"{}\"\n",
-                     name, field, component, radius, unit);
+  return fmt::format(
+      "[[probe]]\nname = \"{}\"\nfield = \"{}\"\n{}point = [\"{} mm\", \"0 mm\"]\nunit = \"{}\"\n", name,
+      field, component, radius, unit);
 }
 
 CaseRun quenched_ball(const CaseFolder& folder, const std::string& name, double size, double step) {
@@ -142,12 +143,13 @@ TEST(ClosedFormsOfHeat, AQuenchedBallHasTheTemperaturesAndStressesOfItsSeries) {
                                       worst[1][0], worst[0][1], worst[1][1]));
   EXPECT_LT(worst[1][0], 0.3);
   EXPECT_LT(worst[1][1], 0.15);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(worst[1][i], 0.45 * worst[0][i]) << i;  // mesh and step halved
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_LT(worst[1][i], 0.45 * worst[0][i]) << i;  // mesh and step halved
 }
 
 /// The frozen part of a square of the width `width`, of which two sides that meet are kept cold: that behind
-/// the front y = [λ^m + C/(x^m − λ^m)]^(1/m), lengths over √(4 a t), with λ = 0.70766, C = 0.159, m = 5.02 for
-/// L/(c ΔT) = 0.25 and a superheat of 0.3 ΔT, a fit of its authors (K. A. Rathjen, L. M. Jiji, J. Heat
+/// the front y = [λ^m + C/(x^m − λ^m)]^(1/m), lengths over √(4 a t), with λ = 0.70766, C = 0.159, m = 5.02
+/// for L/(c ΔT) = 0.25 and a superheat of 0.3 ΔT, a fit of its authors (K. A. Rathjen, L. M. Jiji, J. Heat
 /// Transfer 93 (1971) 101).
 double frozen_part(double width, double diffusivity, double time) {
   constexpr double k_lambda = 0.70766, k_fit = 0.159, k_power = 5.02;

@@ -1,5 +1,5 @@
-/// What a run with defaults lags in first order of the step is said with its number: by `check` before it, and
-/// by the run at its end. Each number is that of a closed form.
+/// What a run with defaults lags in first order of the step is said with its number: by `check` before it,
+/// and by the run at its end. Each number is that of a closed form.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -53,8 +53,9 @@ std::string condition(const std::string& kind, const std::string& group, const s
   return fmt::format("[[{0}_condition]]\nname = \"{0} {1}\"\ngroup = \"{1}\"\n{2}\n", kind, group, values);
 }
 std::string ramp(const std::string& unit, double from, double to, double end) {
-  return fmt::format("{{ of = \"time\", argument_unit = \"s\", unit = \"{}\", points = [[0, {}], [{}, {}]] }}",
-                     unit, from, end, to);
+  return fmt::format(
+      "{{ of = \"time\", argument_unit = \"s\", unit = \"{}\", points = [[0, {}], [{}, {}]] }}", unit, from,
+      end, to);
 }
 
 /// A block is drawn over another one while both are warmed from 20 to 120 degC in ten steps; their friction
@@ -97,8 +98,9 @@ coefficient = { of = "temperature", argument_unit = "degC", points = [[20, 0.45]
     text += condition("thermal", group, "kind = \"temperature\"\ntemperature = " + ramp("degC", 20, 120, 10));
   text += condition("mechanical", "upper_y_max", "kind = \"pressure\"\npressure = \"10 MPa\"");
   text += condition("mechanical", "lower_y_min", "kind = \"displacement\"\nux = \"0 mm\"\nuy = \"0 mm\"");
-  text += "[[mechanical_condition]]\nname = \"drawn\"\ngroup = \"upper_y_max\"\nkind = \"displacement\"\nux = " +
-          ramp("mm", 0, 0.2, 10) + "\n";
+  text +=
+      "[[mechanical_condition]]\nname = \"drawn\"\ngroup = \"upper_y_max\"\nkind = \"displacement\"\nux = " +
+      ramp("mm", 0, 0.2, 10) + "\n";
   return text;
 }
 
@@ -174,17 +176,15 @@ unit = "degC"
                    "kind = \"displacement\"\nuy = \"0 mm\"\nux = " + ramp("mm", 0, 3, 1));
 }
 
-/// The shear stress of the block and its plastic strain at a shear of `strain`, and the work until then by the
-/// stresses of the ends of `steps` [Pa], [1], [J/m³].
+/// The shear stress of the block and its plastic strain at a shear of `strain`, and the work until then by
+/// the stresses of the ends of `steps` [Pa], [1], [J/m³].
 struct Sheared {
   static constexpr double k_yield = 3e8, k_slope = 2e9, k_modulus = 200e9 / 2.6;
   static double plastic(double strain) {
     const double root3 = std::sqrt(3.0);
     return std::max(0.0, (strain - k_yield / (root3 * k_modulus)) / (root3 + k_slope / (root3 * k_modulus)));
   }
-  static double stress(double strain) {
-    return k_modulus * (strain - std::sqrt(3.0) * plastic(strain));
-  }
+  static double stress(double strain) { return k_modulus * (strain - std::sqrt(3.0) * plastic(strain)); }
   static double work_of_ends(double strain, int steps) {
     double work = 0;
     for (int n = 1; n <= steps; ++n) work += stress(strain * n / steps) * strain / steps;
@@ -197,9 +197,10 @@ struct Sheared {
 TEST(Lag, OfTheWorkOfStressesIsSaidByTheRunAndHalvesWithTheStep) {
   const CaseFolder folder("lag_shear");
   constexpr double strain = 0.3, volume = 1e-4, capacity = 7800 * 500;  // [m³] of a metre, [J/(m³ K)]
-  folder.write("hardening.toml", steel(1e-12, "[plasticity]\nflow_stress = \"300 MPa\"\n"
-                                              "isotropic_hardening = \"linear\"\n"
-                                              "hardening_modulus = \"2 GPa\"\n"));
+  folder.write("hardening.toml", steel(1e-12,
+                                       "[plasticity]\nflow_stress = \"300 MPa\"\n"
+                                       "isotropic_hardening = \"linear\"\n"
+                                       "hardening_modulus = \"2 GPa\"\n"));
   const double xi = Sheared::plastic(strain), heat = Sheared::k_yield * xi;
   const double stored = Sheared::stress(strain) * Sheared::stress(strain) / (2 * Sheared::k_modulus) +
                         Sheared::k_slope * xi * xi / 2;
