@@ -15,7 +15,6 @@
 
 namespace {
 
-using namespace solidus;
 using solidus::testing::CaseFolder;
 using solidus::testing::CaseRun;
 using ::testing::Contains;
@@ -26,9 +25,10 @@ using ::testing::Not;
 class Printed {
  public:
   Printed() {
-    logging::set_sink([this](logging::Level, std::string_view text) { lines.emplace_back(text); });
+    solidus::logging::set_sink(
+        [this](solidus::logging::Level, std::string_view text) { lines.emplace_back(text); });
   }
-  ~Printed() { logging::set_sink({}); }
+  ~Printed() { solidus::logging::set_sink({}); }
   Printed(const Printed&) = delete;
   Printed& operator=(const Printed&) = delete;
   /// The number behind a text in one of the lines; NaN where no line has it.
@@ -108,7 +108,7 @@ TEST(Lag, OfMechanicsFirstIsSaidByCheckAndByTheRun) {
   const CaseFolder folder("lag_friction");
   folder.write("steel.toml", steel(1e-9));
   const std::string file = folder.write("rubbing.toml", rubbing_blocks());
-  EXPECT_THAT(results::text(model::check_run(model::load_case(file)).overview),
+  EXPECT_THAT(solidus::results::text(solidus::model::check_run(solidus::model::load_case(file)).overview),
               HasSubstr("displacements and stresses belong to the temperatures a step before "
                         "(mechanics_first): 1 s of 10 s, 10 % of what changes evenly"));
   const Printed printed;
