@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "coupling/energy_scale.hpp"
-#include "parallel/parallel.hpp"
 #include "system/log.hpp"
 
 namespace solidus::model {
@@ -57,31 +55,6 @@ void FirstLawWatch::report() const {
                 scale == sum_.heat_exchanged ? "heat exchanged" : "energy at hand", sum_.defect(),
                 printed ? "structural_heating = \"energy\" in [coupling] closes it, smaller steps lose less"
                         : "smaller steps lose less");
-}
-
-void LagWatch::begin(const coupling::State& state) {
-  first_ = before_ = now_ = state.mechanics.displacement;
-}
-
-void LagWatch::step(const coupling::StepRecord& record, const coupling::State& state) {
-  before_ = std::exchange(now_, state.mechanics.displacement);
-  dt_ = record.dt;
-}
-
-void LagWatch::end(const coupling::State&) {
-  constexpr double k_worth_saying = 0.001;
-  double last = 0, all = 0;
-  for (std::size_t i = 0; i < now_.size(); ++i) {
-    last = std::max(last, std::abs(now_[i] - before_[i]));
-    all = std::max(all, std::abs(now_[i] - first_[i]));
-  }
-  last = parallel::global_max(last);
-  all = parallel::global_max(all);
-  if (!(last > k_worth_saying * all)) return;
-  logging::info(
-      "displacements and stresses belong to the temperatures one step before (coupling.order = "
-      "\"mechanics_first\"): in the last step, {:g} s, displacements changed by {:.2g} % of all their change",
-      dt_, 100 * last / all);
 }
 
 void WallWatch::step(const coupling::StepRecord& record, const coupling::State&) {

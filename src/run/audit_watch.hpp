@@ -51,20 +51,6 @@ class FirstLawWatch : public coupling::Observer {
   double unsolved_ = 0;      ///< imbalance by residuals, summed [J]
 };
 
-/// Reports at the end of a run whose displacements and stresses lag by a step (lags_a_step) how large the lag
-/// is: the change of displacements in the last step as a part of all their change.
-class LagWatch : public coupling::Observer {
- public:
-  void begin(const coupling::State& state) override;
-  void step(const coupling::StepRecord& record, const coupling::State& state) override;
-  void stopped(const coupling::Stop&, const coupling::State& state) override { end(state); }
-  void end(const coupling::State& state) override;
-
- private:
-  std::vector<double> first_, before_, now_;  ///< displacements at the start and at the last two times [m]
-  double dt_ = 0;
-};
-
 /// Reports at the end of a run that liquid metal has left its wall, and where
 /// (contact::ContactParameters::leaving_gap).
 class WallWatch : public coupling::Observer {

@@ -46,6 +46,15 @@ coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
   return coupling::Simulation(coupling_scheme(spec, a.phases), std::move(times), std::move(estimate));
 }
 
+/// Deformation heats by the stresses of the ends of steps, and the mechanical phase has an increment of 𝓛 of
+/// its own that says by how much: the isentropic split in the energy form, without inertia.
+bool heats_by_end_stresses(const CaseSpec& spec, const Assembly& a) {
+  if (!a.phases.audits_stability() || spec.dynamics || !spec.exchanges_heat()) return false;
+  const coupling::SchemeTraits traits = spec.coupling.scheme->traits();
+  return traits.mapping == mechanics::Mapping::isentropic && !traits.iterates && !traits.second_order &&
+         structural_form(spec) == mechanics::StructuralForm::energy;
+}
+
 }  // namespace
 
 Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& a,
@@ -58,6 +67,7 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
       stability_(spec, a.coldest_start()),
       first_law_(spec, a.heat.get()),
       walls_(a.phases.contacts),
+      friction_lag_(a.phases.contacts),
       gaps_(a.phases.contacts) {
   simulation_.add(range_);
   if (a.heat) simulation_.add(bounds_.emplace(spec, *a.heat));
@@ -66,6 +76,8 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
     simulation_.add(melts_.emplace(spec, a));
   }
   if (lags_a_step(spec, a.phases.coherency != nullptr)) simulation_.add(lag_);
+  simulation_.add(friction_lag_);
+  if (heats_by_end_stresses(spec, a)) simulation_.add(stress_work_);
   simulation_.add(gaps_);
   simulation_.add(dissipation_);
   if (a.phases.audits_stability()) simulation_.add(stability_);

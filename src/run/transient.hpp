@@ -13,6 +13,7 @@
 #include "run/bounds_watch.hpp"
 #include "run/dissipation_watch.hpp"
 #include "run/gap_watch.hpp"
+#include "run/lag_watch.hpp"
 #include "run/melt_watch.hpp"
 #include "run/range_watch.hpp"
 #include "run/session.hpp"
@@ -63,6 +64,8 @@ class Transient {
   FirstLawWatch first_law_;
   WallWatch walls_;
   LagWatch lag_;
+  FrictionLagWatch friction_lag_;
+  StressWorkWatch stress_work_;
   GapWatch gaps_;
   std::unique_ptr<coupling::ShotMap> shots_;
   StopReason why_;

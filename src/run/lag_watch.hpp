@@ -1,0 +1,73 @@
+/// Observers that report at the end of a run by how much results lag behind their own time, or heat of
+/// deformation behind its limit for short steps: errors of first order in the step, each with its number.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "contact/friction_coefficient.hpp"
+#include "contact/pair.hpp"
+#include "coupling/observer.hpp"
+
+namespace solidus::model {
+
+/// Reports at the end of a run whose displacements and stresses lag by a step (lags_a_step) how large the lag
+/// is: the change of displacements in the last step as a part of all their change.
+class LagWatch : public coupling::Observer {
+ public:
+  void begin(const coupling::State& state) override;
+  void step(const coupling::StepRecord& record, const coupling::State& state) override;
+  void stopped(const coupling::Stop&, const coupling::State& state) override { end(state); }
+  void end(const coupling::State& state) override;
+
+ private:
+  std::vector<double> first_, before_, now_;  ///< displacements at the start and at the last two times [m]
+  double dt_ = 0;
+};
+
+/// Reports at the end of a run how far tractions of sliding surfaces are from the coefficient of friction at
+/// the temperature of their own time,
+///
+///   ∑ |‖T‖/(μ(ζ_c, Θ_c) t_N) − 1| ΔW / ∑ ΔW   over all points that slip and all steps,
+///
+/// ΔW the work of friction per area in the step. A split slips with the coefficient of the temperature that
+/// its mechanical phase starts from (docs/theory/friction.md).
+class FrictionLagWatch : public coupling::Observer {
+ public:
+  /// @param contacts  kept by reference
+  explicit FrictionLagWatch(const std::vector<contact::ContactPair*>& contacts);
+  void begin(const coupling::State& state) override;
+  void step(const coupling::StepRecord& record, const coupling::State& state) override;
+  void stopped(const coupling::Stop&, const coupling::State&) override { report(); }
+  void end(const coupling::State&) override { report(); }
+
+ private:
+  void report() const;
+
+  struct Pair {
+    std::optional<contact::FrictionCoefficient> coefficient;  ///< absent without friction
+    std::vector<double> work;                                 ///< of friction until now, [point] [J/m²]
+    double late = 0, all = 0;                                 ///< the two sums on this process [J/m²]
+  };
+  const std::vector<contact::ContactPair*>& contacts_;
+  std::vector<Pair> pairs_;  ///< [contact]
+};
+
+/// Reports at the end of a run by the isentropic split how much of the heat of deformation there is because
+/// the stresses of the ends of steps do the work of whole steps (backward Euler): what the mechanical phases
+/// lose of 𝓛 beyond their dissipation (docs/theory/coupling_stability.md, 3 (c)), which the energy form gives
+/// back as heat. It halves with the step; of a load that acts at once it is the true half of its work.
+class StressWorkWatch : public coupling::Observer {
+ public:
+  void begin(const coupling::State&) override {}
+  void step(const coupling::StepRecord& record, const coupling::State& state) override;
+  void stopped(const coupling::Stop&, const coupling::State&) override { report(); }
+  void end(const coupling::State&) override { report(); }
+
+ private:
+  void report() const;
+
+  double excess_ = 0, dissipated_ = 0, moved_ = 0;  ///< of the run [J]
+};
+
+}  // namespace solidus::model
