@@ -8,7 +8,9 @@ namespace solidus::model {
 Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
   Findings found;
   find_in_interfaces(spec, a, found);
+  find_in_interface_laws(spec, a, m, found);
   find_in_materials(spec, a, found);
+  find_in_alloys(spec, a, found);
   find_in_pour(spec, a, found);
   find_in_conditions(spec, a, m, found);
   find_in_geometry(spec, a, m, found);

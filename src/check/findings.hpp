@@ -32,8 +32,13 @@ inline bool always_on(const ThermalConditionSpec& c) {
 /// Contacts that are given twice, that no heat passes, or that are missing; films on surfaces in contact and
 /// several films on one surface; conductances. Collective.
 void find_in_interfaces(const CaseSpec& spec, const Assembly& a, Findings& findings);
+/// Cards of the library of interface laws that were chosen by name and are for other bodies.
+void find_in_interface_laws(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+                            Findings& findings);
 /// Properties that no metal, mould or gas has.
 void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findings);
+/// Latent heat, strength and criteria of what freezes.
+void find_in_alloys(const CaseSpec& spec, const Assembly& a, Findings& findings);
 /// Pouring temperature, and bodies that are poured.
 void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings);
 /// Surroundings, coefficients and gravity; the length of the run in steps. Collective: size of the mesh.

@@ -116,6 +116,7 @@ TEST_F(FindingsTest, ThePressureOfTheAirIsNamed) {
   };
   EXPECT_THAT(said_of(pressed("101325 Pa")),
               Contains(HasSubstr("'air' presses with 101325 Pa, as the air does")));
+  EXPECT_THAT(said_of(pressed("1 bar")), Contains(HasSubstr("as the air does")));
   EXPECT_THAT(said_of(pressed("5 kPa")), IsEmpty());
 }
 

@@ -1,0 +1,73 @@
+// Findings on the data of what freezes: numbers that each alone could be those of some metal.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "build/body_input.hpp"
+#include "check/findings.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+void warn(const BodySpec& body, const std::string& what, const char* usual, Findings& findings) {
+  findings.push_back({false, body.where,
+                      fmt::format("body '{}', material '{}': {}", body.name, body.material, what), usual});
+}
+
+/// Richards' rule (J. W. Richards, 1897): metals gain about the gas constant in entropy, per mole, as they
+/// melt. Per volume, which needs no molar mass, L ρ/Θ_L is 0.43 for lead, 0.7 for magnesium, 1.1 to 1.2 for
+/// aluminium, iron and zinc, 1.65 for aluminium with 12 % silicon and 2.5 for silicon itself [MJ/(m³ K)].
+void compare_entropy_of_melting(const BodySpec& body, const material::Material& m, Findings& findings) {
+  constexpr double k_least = 0.3e6, k_most = 2.6e6;
+  const material::PhaseChange& freezing = *m.solidification();
+  const double entropy = freezing.latent_heat * m.density / freezing.fraction.liquidus();
+  if (entropy >= k_least && entropy <= k_most) return;
+  warn(body,
+       fmt::format("a latent heat of {:.4g} kJ/kg at {:.4g} kg/m3 and a liquidus of {:.4g} K: {:.3g} MJ/m3 "
+                   "for each kelvin of it",
+                   1e-3 * freezing.latent_heat, m.density, freezing.fraction.liquidus(), 1e-6 * entropy),
+       "metals have 0.4 to 1.7 MJ/m3/K; is the latent heat one of a kilogram, in kJ/kg?", findings);
+}
+
+/// Metal at its solidus has next to nothing of its strength when cold.
+void compare_softening(const BodySpec& body, const material::Material& m, Findings& findings) {
+  if (!m.flow) return;
+  constexpr double k_cold = 293.15, k_softened = 0.5;  // [K], [1]
+  const double cold = m.flow->flow_stress.value(k_cold),
+               hot = m.flow->flow_stress.value(m.solidification()->fraction.solidus());
+  if (hot <= k_softened * cold) return;
+  warn(body,
+       fmt::format("a flow_stress of {:.3g} MPa at 20 degC and of {:.3g} MPa at its solidus", 1e-6 * cold,
+                   1e-6 * hot),
+       "metals have a tenth of their strength left there, and less: a table of temperature", findings);
+}
+
+/// Data of the criteria.
+void compare_casting(const BodySpec& body, const material::Material& m, Findings& findings) {
+  constexpr double k_minute = 60, k_finest = 1e-6, k_coarsest = 1e-3;  // [s], [m], [m]
+  if (const auto arms = m.casting.secondary_arm_spacing(k_minute);
+      arms && (*arms < k_finest || *arms > k_coarsest))
+    warn(body, fmt::format("secondary arms are {:.3g} um apart where it freezes for a minute", 1e6 * *arms),
+         "20 to 200 um; arm_spacing is that after one second, 7 to 50 um", findings);
+  constexpr double k_thinnest = 2e-4, k_thickest = 3e-2;  // [Pa s]
+  if (const auto viscosity = m.casting.melt_viscosity;
+      viscosity && (*viscosity < k_thinnest || *viscosity > k_thickest))
+    warn(body, fmt::format("a melt_viscosity of {:.3g} mPa s", 1e3 * *viscosity),
+         "melts of metals have 0.5 to 10 mPa s", findings);
+}
+
+}  // namespace
+
+void find_in_alloys(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const material::Material& m = a.materials[b];
+    if (m.solidification() == nullptr) continue;
+    if (spec.has_heat()) compare_entropy_of_melting(spec.bodies[b], m, findings);
+    if (spec.has_heat()) compare_casting(spec.bodies[b], m, findings);
+    if (spec.has_mechanics() && !only_conducts(spec.bodies[b]))
+      compare_softening(spec.bodies[b], m, findings);
+  }
+}
+
+}  // namespace solidus::model
