@@ -102,7 +102,9 @@ class Mesher {
       gmsh::model::mesh::removeSizeCallback();
       gmsh::model::mesh::setOrder(source_.element_order);
     } catch (const std::string& complaint) {
-      refuse("Gmsh could not mesh the geometry: " + complaint + place_of_complaints(parts_));
+      const std::string place = place_of_complaints(parts_);
+      const bool has_it = place.find(complaint) != std::string::npos;
+      refuse("Gmsh could not mesh the geometry" + (has_it ? "" : ": " + complaint) + place);
     }
     for (const GeometryBody& part : parts_)
       for (const auto& volume : part.volumes) {

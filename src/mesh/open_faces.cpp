@@ -61,15 +61,16 @@ std::string open_faces_text(double unit) {
     ++n_open;
     if (length > longest) longest = length, where = curve;
   }
-  const std::string text =
-      counted(faces.size(), "face", "faces") + " in " + counted(count_pieces(faces.size(), of), "piece", "pieces");
+  const std::string text = counted(faces.size(), "face", "faces") + " in " +
+                           counted(count_pieces(faces.size(), of), "piece", "pieces");
   if (n_open == 0) return text + ", which have no open curve, yet the CAD kernel makes no solid of them";
   double low[3], high[3];
   gmsh::model::getBoundingBox(1, where, low[0], low[1], low[2], high[0], high[1], high[2]);
   const double mm = 1e3 * unit / 2;
   char place[160];
   std::snprintf(place, sizeof place, " only, the longest of %.3g mm around (%.4g, %.4g, %.4g) mm",
-                1e3 * unit * longest, mm * (low[0] + high[0]), mm * (low[1] + high[1]), mm * (low[2] + high[2]));
+                1e3 * unit * longest, mm * (low[0] + high[0]), mm * (low[1] + high[1]),
+                mm * (low[2] + high[2]));
   return text + "; " + counted(n_open, "curve bounds", "curves bound") + " one face" + place;
 }
 

@@ -63,8 +63,8 @@ SurfaceNode::SurfaceNode(const Tetrahedra& mesh, Index node)
 
 std::vector<Point> SurfaceNode::places(double step) const {
   if (mesh_.is_locked(node_)) return {};
-  if (!faces_.empty()) return importance() == 0 ? on_surface(step) : importance() == 1 ? on_curve(step)
-                                                                                       : std::vector<Point>{};
+  if (!faces_.empty())
+    return importance() == 0 ? on_surface(step) : importance() == 1 ? on_curve(step) : std::vector<Point>{};
   std::vector<Point> all;
   for (std::size_t i = 0; i < 3; ++i)
     for (const double sign : {-1.0, 1.0}) {
@@ -97,7 +97,8 @@ std::vector<Point> SurfaceNode::on_surface(double step) const {
 
 std::vector<Point> SurfaceNode::on_curve(double step) const {
   const Point& here = mesh_.x(node_);
-  const Point first = minus(mesh_.x(*on_curves_.begin()), here), second = minus(mesh_.x(*on_curves_.rbegin()), here);
+  const Point first = minus(mesh_.x(*on_curves_.begin()), here),
+              second = minus(mesh_.x(*on_curves_.rbegin()), here);
   if (dot(unit(first), unit(second)) > -k_sharp) return {};
   std::vector<Point> all;
   constexpr double k_most = 0.7;  // of the edge

@@ -87,7 +87,8 @@ std::string worst_tetrahedron_text(RawMesh mesh) {
   if (sharpest < k_sharp)
     text += fmt::format(", where its faces meet at {:.2g} degrees", sharpest);
   else if (shortest < k_short * mean)
-    text += fmt::format(", at an edge of {:.2g} mm between elements of {:.2g} mm", 1e3 * shortest, 1e3 * mean);
+    text +=
+        fmt::format(", at an edge of {:.2g} mm between elements of {:.2g} mm", 1e3 * shortest, 1e3 * mean);
   return text;
 }
 
