@@ -6,6 +6,7 @@
 
 #include "mesh/casting_parts.hpp"
 #include "mesh/geometry_groups.hpp"
+#include "mesh/open_faces.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -46,7 +47,7 @@ class PartMaker {
 
  private:
   [[noreturn]] void refuse(const std::string& what, const std::string& allowed = {}) const {
-    throw InputError({source_.path}, what, allowed);
+    throw UnusableGeometry({source_.path}, what, allowed);
   }
 
   /// Shells without a solid are sewn and filled.
@@ -54,14 +55,21 @@ class PartMaker {
     if (!all_volumes().empty()) return;
     gmsh::vectorpair surfaces, made;
     occ::getEntities(surfaces, 2);
-    if (surfaces.empty()) refuse("the geometry has no surfaces");
+    if (surfaces.empty()) {
+      gmsh::vectorpair curves;
+      occ::getEntities(curves, 1);
+      refuse("the geometry has " + std::to_string(curves.size()) + " curves, and neither faces nor a solid",
+             "a file with solids");
+    }
     const double tolerance = 1e-4 * extent_of(surfaces).diagonal();
     occ::healShapes(made, surfaces, tolerance, true, true, true, true, true);
     occ::remove(surfaces, true);
     occ::synchronize();
     if (all_volumes().empty())
-      refuse("the geometry has surfaces but no solid, and they do not close to one",
-             "a file with solids, or closed shells with gaps below 0.01 % of the extent");
+      refuse("the geometry has no solid, and its faces do not close to one: " + open_faces_text(unit_),
+             "a file with solids: close these openings in the CAD program and join the faces to a solid "
+             "(stitch, "
+             "sew, make solid); here they are joined where they meet within 0.01 % of the extent");
   }
 
   void heal() {
@@ -78,7 +86,7 @@ class PartMaker {
     for (const auto& volume : before)
       if (healed_label_.size() == before.size()) occ::remove({volume}, true);
     occ::synchronize();
-    if (all_volumes().empty()) refuse("healing the geometry left no solid");
+    if (all_volumes().empty()) throw InputError({source_.path}, "healing the geometry left no solid");
   }
 
   std::string label_of(int volume) const {

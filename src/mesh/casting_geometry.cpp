@@ -15,6 +15,7 @@
 #include "mesh/reader_process.hpp"
 #include "mesh/shape.hpp"
 #include "mesh/smoothing.hpp"
+#include "mesh/worst_tetrahedron.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
 
@@ -79,6 +80,8 @@ RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double 
       }
       if (best_quality >= enough) return;
       complaints.push_back(attempt_text(way) + ": least quality " + std::to_string(quality).substr(0, 5));
+    } catch (const UnusableGeometry&) {
+      throw;
     } catch (const InputError& error) {
       complaints.push_back(attempt_text(way) + ": " + complaint_of(error, source.path));
     }
@@ -110,7 +113,8 @@ RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double 
     if (way >= n_cheap && best_quality >= k_usable_quality) break;
     if (way != first) attempt(way);
   }
-  if (best && kept != nullptr) kept->keep_way({best_way, best_quality, best_quality < enough});
+  const std::string worst = best && best_quality < k_sound_quality ? worst_tetrahedron_text(*best) : "";
+  if (best && kept != nullptr) kept->keep_way({best_way, best_quality, best_quality < enough, worst});
   if (!best) {
     std::string all;
     for (const std::string& complaint : complaints) all += "\n    " + complaint;
@@ -118,11 +122,12 @@ RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double 
                      "a geometry whose faces neither cross nor nearly touch there; other element sizes");
   }
   if (best_quality < enough && geometry.only_way == best_way)
-    logging::warn("meshing '{}' in way {} ({}) gives elements of quality {:.2g}; 0.15 is sound", source.path,
-                  best_way + 1, attempt_text(best_way), best_quality);
+    logging::warn("meshing '{}' in way {} ({}) gives elements of quality {:.2g}, the worst {}; 0.15 is sound",
+                  source.path, best_way + 1, attempt_text(best_way), best_quality, worst);
   else if (best_quality < enough)
-    logging::warn("the best of {} ways to mesh '{}' has elements of quality {:.2g}; 0.15 is sound", tried,
-                  source.path, best_quality);
+    logging::warn(
+        "the best of {} ways to mesh '{}' has elements of quality {:.2g}, the worst {}; 0.15 is sound", tried,
+        source.path, best_quality, worst);
   else if (best_way > 0 && enough > 0 && !complaints.empty())
     logging::info("meshed in way {} ({}), after: {}", best_way + 1, attempt_text(best_way),
                   complaints.back());

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mesh/raw_mesh.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 
@@ -48,6 +49,12 @@ struct CastingGeometry {
   int attempt = 0;
   /// The attempt that mesh_casting() makes first, and the only one where it gives a mesh.
   std::optional<int> only_way;
+};
+
+/// A geometry that no way of meshing helps, as it is or with what the case says of it: it has no solid, its
+/// bodies overlap, the riser lies beyond the plane of symmetry. mesh_casting() tries no other way after it.
+class UnusableGeometry : public InputError {
+  using InputError::InputError;
 };
 
 /// Least quality (mesh/quality.hpp) of a mesh that is taken at once.

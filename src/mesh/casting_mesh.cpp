@@ -52,8 +52,9 @@ class Mesher {
                        [&](const GeometryBody& p) { return p.name == s.body; })) {
         std::vector<std::string> names;
         for (const GeometryBody& part : parts_) names.push_back(part.name);
-        refuse("[[mesh.size]] is of the body '" + s.body + "', which the geometry does not have",
-               one_of(names, s.body));
+        throw UnusableGeometry(
+            {source_.path}, "[[mesh.size]] is of the body '" + s.body + "', which the geometry does not have",
+            one_of(names, s.body));
       }
   }
 
@@ -77,7 +78,7 @@ class Mesher {
     try {
       setNumber("Mesh.MeshSizeMin", coarse);
       setNumber("Mesh.MeshSizeMax", coarse);
-      gmsh::model::mesh::generate(2);
+      generate_mesh(2);
       const std::vector<SizeSample> sampled = sizes.samples();
       std::map<double, SizeField> fields;
       for (const auto& [volume, growth] : sizes.growth())
@@ -93,7 +94,7 @@ class Mesher {
       setNumber("Mesh.MeshSizeMin", 0);
       setNumber("Mesh.MeshSizeMax", 1e22);
       gmsh::model::mesh::clear();
-      gmsh::model::mesh::generate(3);
+      generate_mesh(3);
       for (int round = 0; round < way_.rounds; ++round) {
         gmsh::model::mesh::optimize("Relocate3D", true);
         gmsh::model::mesh::optimize("", true);
@@ -101,7 +102,9 @@ class Mesher {
       gmsh::model::mesh::removeSizeCallback();
       gmsh::model::mesh::setOrder(source_.element_order);
     } catch (const std::string& complaint) {
-      refuse("Gmsh could not mesh the geometry: " + complaint + place_of_complaints(parts_));
+      const std::string place = place_of_complaints(parts_);
+      const bool has_it = place.find(complaint) != std::string::npos;
+      refuse("Gmsh could not mesh the geometry" + (has_it ? "" : ": " + complaint) + place);
     }
     for (const GeometryBody& part : parts_)
       for (const auto& volume : part.volumes) {

@@ -42,6 +42,18 @@ std::vector<int> boundary_of(int volume) {
   return tags;
 }
 
+void generate_mesh(int dimension) {
+  constexpr double k_warnings = 2, k_stop_meshing = 1, k_throw = 2;
+  gmsh::option::setNumber("General.Verbosity", k_warnings);  // for the log that place_of_complaints() reads
+  std::string before, after;
+  gmsh::logger::getLastError(before);
+  gmsh::option::setNumber("General.AbortOnError", k_stop_meshing);
+  gmsh::model::mesh::generate(dimension);
+  gmsh::option::setNumber("General.AbortOnError", k_throw);
+  gmsh::logger::getLastError(after);
+  if (after != before) throw after;
+}
+
 std::string place_of_complaints(const std::vector<GeometryBody>& parts) {
   std::vector<std::string> log;
   gmsh::logger::get(log);

@@ -39,6 +39,10 @@ struct GeometryBody {
 std::vector<GeometryBody> make_parts(const MeshSource& source, const CastingGeometry& geometry,
                                      double healing);
 
+/// gmsh::model::mesh::generate(), whose errors come as std::string also where several threads mesh surfaces:
+/// Gmsh itself would end the process there.
+void generate_mesh(int dimension);
+
 /// The last error of Gmsh, and the surfaces that it complained of by their owners and places:
 /// " (Error: …); at fault: a face of 'casting' around (1, 2, 3), 4 long"; empty where it has said nothing.
 std::string place_of_complaints(const std::vector<GeometryBody>& parts);

@@ -7,7 +7,7 @@
 #include <map>
 #include <unordered_map>
 
-#include "system/errors.hpp"
+#include "mesh/casting_geometry.hpp"
 
 namespace solidus::mesh {
 
@@ -103,15 +103,16 @@ class Neighbours {
       if (list.size() > 2 && crowded++ == 0) first_crowded = &edge;
     }
     if (open > 0)
-      throw InputError({path},
-                       "the skin is not closed: " + std::to_string(open) +
-                           " edges belong to one triangle alone, the first near " + place(*first_open),
-                       "skins without holes: most CAD programs and mesh tools close them");
+      throw UnusableGeometry({path},
+                             "the skin is not closed: " + std::to_string(open) +
+                                 " edges belong to one triangle alone, the first near " + place(*first_open),
+                             "skins without holes: most CAD programs and mesh tools close them");
     if (crowded > 0)
-      throw InputError({path},
-                       std::to_string(crowded) + " edges belong to more than two triangles, the first near " +
-                           place(*first_crowded) + ": bodies touch there, or a face lies inside of a body",
-                       "closed skins that neither touch nor cross; a STEP file where bodies touch");
+      throw UnusableGeometry(
+          {path},
+          std::to_string(crowded) + " edges belong to more than two triangles, the first near " +
+              place(*first_crowded) + ": bodies touch there, or a face lies inside of a body",
+          "closed skins that neither touch nor cross; a STEP file where bodies touch");
   }
   std::size_t beyond(std::size_t triangle, const Edge& edge) const {
     const std::vector<std::size_t>& two = of_.at(edge);
@@ -165,7 +166,7 @@ Shell shell_from(std::size_t first, std::vector<Triangle>& triangles, const Neig
       const bool turned = has_edge(triangles[next], from, to);
       if (taken[next] != 0) {
         if (turned)
-          throw InputError(
+          throw UnusableGeometry(
               {path}, "the skin has but one side, as a Möbius strip has, near " + neighbours.place(edge));
         continue;
       }
@@ -206,7 +207,7 @@ std::vector<std::array<Point, 3>> corners_of(const ClosedShells& all, const Shel
 
 ClosedShells closed_shells(const std::vector<Facets>& parts, const std::string& path) {
   const double extent = extent_of(parts);
-  if (!(extent > 0)) throw InputError({path}, "the skin has no triangles, or no extent");
+  if (!(extent > 0)) throw UnusableGeometry({path}, "the skin has no triangles, or no extent");
   Welder welder(k_weld * extent);
   std::vector<Triangle> triangles;
   for (std::size_t p = 0; p < parts.size(); ++p)

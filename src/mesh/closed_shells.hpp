@@ -23,8 +23,8 @@ struct ClosedShells {
 };
 
 /// Corners that lie within 1e-6 of the extent are one; triangles whose corners are not three fall away.
-/// Throws InputError with the number of faults and the place of the first where an edge has one triangle, or
-/// more than two, and where a skin has but one side.
+/// Throws UnusableGeometry with the number of faults and the place of the first where an edge has one
+/// triangle, or more than two, and where a skin has but one side.
 /// @param path  for the message
 ClosedShells closed_shells(const std::vector<Facets>& parts, const std::string& path);
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
+
+#include "mesh/surface_node.hpp"
 
 namespace solidus::mesh {
 
@@ -29,39 +30,6 @@ bool has(const SurfaceFace& face, Index node) {
   return std::find(face.nodes.begin(), face.nodes.end(), node) != face.nodes.end();
 }
 
-/// The normal of a face, out of the body of the lower number, times twice the area.
-Point normal_of(const Tetrahedra& mesh, const SurfaceFace& face) {
-  const Point& a = mesh.x(face.nodes[0]);
-  const Point n = cross(minus(mesh.x(face.nodes[1]), a), minus(mesh.x(face.nodes[2]), a));
-  return face.outside < 0 || face.inside < face.outside ? n : Point{-n[0], -n[1], -n[2]};
-}
-
-/// Neighbours of a node in the surfaces, and along the curves in which surfaces meet or turn sharply.
-struct Surroundings {
-  std::set<Index> on_surface, on_curves;
-
-  Surroundings(const Tetrahedra& mesh, const std::vector<SurfaceFace>& faces, Index node) {
-    std::map<Index, std::vector<const SurfaceFace*>> at;
-    for (const SurfaceFace& face : faces)
-      for (const Index other : face.nodes)
-        if (other != node) at[other].push_back(&face);
-    const auto sides = [](const SurfaceFace& f) { return std::minmax(f.inside, f.outside); };
-    for (const auto& [other, of] : at) {
-      on_surface.insert(other);
-      bool sharp = of.size() != 2 || sides(*of[0]) != sides(*of[1]);
-      if (!sharp) {
-        constexpr double k_sharp = 0.866;  // the cosine of 30 degrees
-        const Point m = normal_of(mesh, *of[0]), n = normal_of(mesh, *of[1]);
-        sharp = dot(m, n) < k_sharp * std::sqrt(dot(m, m) * dot(n, n));
-      }
-      if (sharp) on_curves.insert(other);
-    }
-  }
-
-  /// 0: on no curve, 1: on one, 2: where curves meet or end.
-  int importance() const { return on_curves.empty() ? 0 : on_curves.size() == 2 ? 1 : 2; }
-};
-
 template <class T>
 std::set<T> common(const std::set<T>& a, const std::set<T>& b) {
   std::set<T> both;
@@ -81,7 +49,8 @@ std::set<Edge> link_edges(const Tetrahedra& mesh, Index node, Index without) {
 }
 
 bool keeps_topology(const Tetrahedra& mesh, Index from, Index to, const std::vector<std::size_t>& between,
-                    const std::vector<SurfaceFace>& faces) {
+                    const SurfaceNode& here) {
+  const std::vector<SurfaceFace>& faces = here.faces();
   std::set<Index> ring;
   std::set<Edge> ring_edges;
   for (const std::size_t t : between) {
@@ -92,18 +61,18 @@ bool keeps_topology(const Tetrahedra& mesh, Index from, Index to, const std::vec
   if (common(mesh.neighbours(from), mesh.neighbours(to)) != ring) return false;
   if (common(link_edges(mesh, from, to), link_edges(mesh, to, from)) != ring_edges) return false;
   if (faces.empty()) return true;
-  const Surroundings here(mesh, faces, from), there(mesh, mesh.surface(to), to);
-  if (there.on_surface.empty()) return false;
-  if (here.on_surface.count(to) == 0) return false;
+  const SurfaceNode there(mesh, to);
+  if (there.on_surface().empty()) return false;
+  if (here.on_surface().count(to) == 0) return false;
   std::set<Index> thirds;  // of the faces with both
   for (const SurfaceFace& face : faces)
     if (has(face, to))
       for (const Index node : face.nodes)
         if (node != from && node != to) thirds.insert(node);
-  if (common(here.on_surface, there.on_surface) != thirds) return false;
+  if (common(here.on_surface(), there.on_surface()) != thirds) return false;
   if (here.importance() > there.importance()) return false;  // the other way round, then
-  if (here.on_curves.empty()) return true;
-  return here.on_curves.count(to) > 0 && common(here.on_curves, there.on_curves).empty();
+  if (here.on_curves().empty()) return true;
+  return here.on_curves().count(to) > 0 && common(here.on_curves(), there.on_curves()).empty();
 }
 
 /// Whether the faces that go along with the node stay about where they are.
@@ -156,11 +125,11 @@ Change with_node_on(const Tetrahedra& mesh, Index from, Index to) {
     if (!(change.quality > 0)) return {};
     change.made.push_back(tet);
   }
-  const std::vector<SurfaceFace> faces = mesh.surface(from);
-  if (!keeps_topology(mesh, from, to, between, faces)) return {};
+  const SurfaceNode here(mesh, from);
+  if (!keeps_topology(mesh, from, to, between, here)) return {};
   constexpr double k_short = 0.25;  // of the mean of the edges around
   const bool is_short = length(from, to) < k_short * sum / static_cast<double>(mesh.neighbours(from).size());
-  if (!is_short && !keeps_shape(mesh, from, to, faces)) return {};
+  if (!is_short && !keeps_shape(mesh, from, to, here.faces())) return {};
   return change;
 }
 

@@ -117,10 +117,19 @@ bool may_turn(const Tetrahedra& mesh, Index a, Index b, Index c, Index d) {
   const double area = std::sqrt(dot(across, across)), least = std::sqrt(std::min(dot(ab, ab), dot(cd, cd)));
   constexpr double k_flat = 0.05;  // of the shorter diagonal
   if (!(area > 0) || std::abs(dot(across, edge(a, c))) > k_flat * least * area) return false;
-  // The diagonals have to cross: all four triangles look the same way.
-  const Point normal = cross(ab, edge(a, c));
-  for (const Point& n :
-       {cross(edge(b, a), edge(b, d)), cross(edge(a, d), edge(a, c)), cross(edge(b, c), edge(b, d))})
+  // The diagonals have to cross: all four triangles look the same way. Where c lies as good as on (a, b) the
+  // side to which (a, b, c) looks means nothing, as that of a step of a hundredth of an element.
+  const auto is_cap = [&](Index node) {
+    const Point to = edge(a, node), n = cross(ab, to);
+    const double share = dot(ab, to) / dot(ab, ab);
+    return std::sqrt(dot(n, n)) < k_flat * least * std::sqrt(dot(ab, ab)) && share > 0 && share < 1;
+  };
+  const Point of_c = cross(ab, edge(a, c)), of_d = cross(edge(b, a), edge(b, d));
+  const bool flat_c = is_cap(c), flat_d = is_cap(d);
+  if (flat_c && flat_d) return false;
+  const Point& normal = flat_c ? of_d : of_c;
+  if (!flat_c && !flat_d && !(dot(of_c, of_d) > 0)) return false;
+  for (const Point& n : {cross(edge(a, d), edge(a, c)), cross(edge(b, c), edge(b, d))})
     if (!(dot(normal, n) > 0)) return false;
   return true;
 }

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "input/keys.hpp"
+#include "mesh/casting_parts.hpp"
 #include "mesh/closed_shells.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/size_field.hpp"
@@ -85,7 +86,7 @@ class FacetedMaker {
 
  private:
   [[noreturn]] void refuse(const std::string& what, const std::string& allowed = {}) const {
-    throw InputError({source_.path}, what, allowed);
+    throw UnusableGeometry({source_.path}, what, allowed);
   }
 
   void check() const {
@@ -133,7 +134,7 @@ class FacetedMaker {
       std::vector<double> x, parametric;
       gmsh::model::mesh::getNodes(tags, x, parametric, 2, face, true);
       const auto shell = x.size() < 3 ? shell_at.end() : shell_at.find({x[0], x[1], x[2]});
-      if (shell == shell_at.end()) refuse("a face of the skin was lost on the way");
+      if (shell == shell_at.end()) throw InputError({source_.path}, "a face of the skin was lost on the way");
       faces_[shell->second].push_back(face);
     }
   }
@@ -294,7 +295,7 @@ class FacetedMaker {
       const SizeField& field = dimension == 3 && growth != growth_.end() ? fields.at(growth->second) : least;
       return std::min(size, field.at({x, y, z}));
     });
-    gmsh::model::mesh::generate(3);
+    generate_mesh(3);
     gmsh::model::mesh::optimize("Relocate3D", true);
     gmsh::model::mesh::optimize("", true);
     gmsh::model::mesh::removeSizeCallback();
@@ -303,7 +304,8 @@ class FacetedMaker {
       std::vector<int> types;
       std::vector<std::vector<std::size_t>> elements, nodes;
       gmsh::model::mesh::getElements(types, elements, nodes, 3, region.volume);
-      if (types.empty()) refuse("Gmsh made no elements in the body '" + region.body + "'");
+      if (types.empty())
+        throw InputError({source_.path}, "Gmsh made no elements in the body '" + region.body + "'");
     }
   }
 

@@ -28,12 +28,13 @@ class KeptMesh {
   void be_content_with(double quality) { most_wanted_ = quality; }
   double most_wanted() const { return most_wanted_; }
 
-  /// One of the ways to mesh, the least quality of elements that it gave, and whether all ways have been
-  /// tried for a better one.
+  /// One of the ways to mesh, the least quality of elements that it gave, whether all ways have been tried
+  /// for a better one, and where the worst element is (mesh/worst_tetrahedron.hpp; empty where it is sound).
   struct Way {
     int number = 0;
     double quality = 0;
     bool best_of_all = false;
+    std::string worst;
   };
   /// The way of the last mesh, which had nearly the same sizes; none before the first.
   std::optional<Way> way() const { return way_; }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "mesh/edge_collapse.hpp"
+#include "mesh/surface_node.hpp"
 
 namespace solidus::mesh {
 
@@ -74,39 +74,9 @@ class Repair {
     return true;
   }
 
-  /// The directions in which a node may go: all of a body, those within a flat face; none at its edges.
-  std::vector<Point> directions(Index node) const {
-    if (tets_.is_locked(node)) return {};
-    const std::vector<SurfaceFace> faces = tets_.surface(node);
-    if (faces.empty()) return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    const auto cross = [](const Point& u, const Point& v) {
-      return Point{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    };
-    const auto unit = [](Point v) {
-      const double length = std::hypot(v[0], v[1], v[2]);
-      for (double& component : v) component /= length;
-      return v;
-    };
-    std::optional<Point> normal;
-    for (const SurfaceFace& face : faces) {
-      if (face.inside != faces.front().inside && face.inside != faces.front().outside) return {};
-      if (face.outside != faces.front().inside && face.outside != faces.front().outside) return {};
-      const Point &a = tets_.x(face.nodes[0]), &b = tets_.x(face.nodes[1]), &c = tets_.x(face.nodes[2]);
-      const Point n =
-          unit(cross({b[0] - a[0], b[1] - a[1], b[2] - a[2]}, {c[0] - a[0], c[1] - a[1], c[2] - a[2]}));
-      if (!normal) normal = n;
-      constexpr double k_flat = 0.9998;  // the cosine of one degree
-      if (std::abs(n[0] * (*normal)[0] + n[1] * (*normal)[1] + n[2] * (*normal)[2]) < k_flat) return {};
-    }
-    const Point axis = std::abs((*normal)[0]) < 0.6 ? Point{1, 0, 0} : Point{0, 1, 0};
-    const Point first = unit(cross(*normal, axis));
-    return {first, cross(*normal, first)};
-  }
-
-  /// Moves a node to where the worst element around it is better, by a search along its directions.
+  /// Moves a node to where the worst element around it is better, by a search along its ways.
   void move(Index node) {
-    const std::vector<Point> ways = directions(node);
-    if (ways.empty()) return;
+    const SurfaceNode ways(tets_, node);
     double size = 0;
     for (const std::size_t t : tets_.around(node)) {
       const auto& n = tets_[t].nodes;
@@ -115,17 +85,15 @@ class Repair {
     }
     double worst = tets_.quality_around(node);
     for (double step = 0.3 * size; step > 0.01 * size; step /= 2)
-      for (const Point& way : ways)
-        for (const double sign : {-1.0, 1.0}) {
-          const Point before = tets_.x(node);
-          Point there = before;
-          for (std::size_t i = 0; i < 3; ++i) there[i] += sign * step * way[i];
-          tets_.move(node, there);
-          if (const double quality = tets_.quality_around(node); quality > worst * (1 + 1e-9))
-            worst = quality;
-          else
-            tets_.move(node, before);
-        }
+      for (std::size_t k = 0; k < ways.places(step).size(); ++k) {
+        const Point before = tets_.x(node);
+        tets_.move(node, ways.places(step)[k]);
+        const double quality = tets_.quality_around(node);
+        if (quality > worst * (1 + 1e-9) && ways.keeps_surface())
+          worst = quality;
+        else
+          tets_.move(node, before);
+      }
   }
 
   Tetrahedra tets_;

@@ -38,7 +38,7 @@ namespace {
 
 constexpr const char* k_verb = "--read-mesh-for-parent";
 constexpr int k_request = 3, k_answer = 4;  ///< descriptors of the reader
-enum class Answer : int { mesh, input_error, memory, internal };
+enum class Answer : int { mesh, unusable_geometry, input_error, memory, internal };
 
 #if defined(__SANITIZE_ADDRESS__)
 #define SOLIDUS_SHADOW_MEMORY
@@ -102,6 +102,9 @@ int serve() {
     const RawMesh mesh = read_mesh_here(source, casting ? &*casting : nullptr);
     say(Answer::mesh);
     put_mesh(mesh, put);
+  } catch (const UnusableGeometry& error) {
+    say(Answer::unusable_geometry);
+    put_text(error.what(), put);
   } catch (const InputError& error) {
     say(Answer::input_error);
     put_text(error.what(), put);
@@ -267,6 +270,8 @@ RawMesh read_in_own_process(const MeshSource& source, const CastingGeometry* cas
   switch (answer) {
     case Answer::mesh:
       return take_mesh(take, limits.memory);
+    case Answer::unusable_geometry:
+      throw UnusableGeometry({}, take_text(take));
     case Answer::input_error:
       throw InputError({}, take_text(take));
     case Answer::memory:

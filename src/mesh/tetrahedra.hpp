@@ -49,6 +49,10 @@ class Tetrahedra {
   bool is_alive(std::size_t t) const { return alive_[t] != 0; }
   const Tetrahedron& operator[](std::size_t t) const { return tets_[t]; }
   const std::vector<std::size_t>& around(Index node) const { return around_[static_cast<std::size_t>(node)]; }
+  /// The name of the body that a tetrahedron belongs to.
+  const std::string& body_name(std::size_t t) const {
+    return bodies_[static_cast<std::size_t>(tets_[t].body)];
+  }
   bool is_locked(Index node) const { return locked_[static_cast<std::size_t>(node)] != 0; }
 
   const Point& x(Index node) const { return mesh_.x[static_cast<std::size_t>(node)]; }

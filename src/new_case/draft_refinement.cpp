@@ -55,6 +55,10 @@ class Refinement {
         draft_.way = way->number + 1;
         write_draft(draft_);
       }
+      if (const auto way = kept.way(); way && way->quality < mesh::k_sound_quality) {
+        estimate_.least_quality = way->quality;
+        estimate_.worst_element = way->worst;
+      }
       if (draft_.coupled) check_run(load_case(draft_.folder / "case.toml", {}, Physics::thermomechanical));
     } catch (...) {
       logging::set_level(level);

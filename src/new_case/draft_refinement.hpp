@@ -2,6 +2,8 @@
 /// nodes and the freezing time, from which bodies, films, sizes, walls and the end of the run follow.
 #pragma once
 
+#include <string>
+
 #include "material/material.hpp"
 #include "new_case/casting_processes.hpp"
 #include "new_case/new_case_text.hpp"
@@ -11,7 +13,9 @@ namespace solidus::model {
 /// The last draft as it was built.
 struct DraftEstimate {
   double nodes = 0, metal_nodes = 0;
-  double freezing = 0;  ///< [s]
+  double freezing = 0;        ///< [s]
+  double least_quality = 1;   ///< of elements where no way of meshing gave sound ones, else 1
+  std::string worst_element;  ///< its place (mesh/worst_tetrahedron.hpp)
 };
 
 /// Writes the folder of the draft: case.toml and a copy of the geometry. Throws InputError.

@@ -9,6 +9,7 @@
 #include "case/roles.hpp"
 #include "input/keys.hpp"
 #include "material/library.hpp"
+#include "mesh/casting_geometry.hpp"
 #include "new_case/casting_processes.hpp"
 #include "new_case/draft_choice.hpp"
 #include "new_case/draft_refinement.hpp"
@@ -111,6 +112,16 @@ std::string twin_riser_text(const Draft& draft) {
       1e3 * beside);
 }
 
+/// A note where no way of meshing gave sound elements; empty where one did.
+std::string poor_mesh_text(const DraftEstimate& estimate) {
+  if (estimate.least_quality >= mesh::k_sound_quality) return "";
+  return fmt::format(
+      "\n  note        the least quality of elements is {:.2g} ({} is sound), the worst {}: results there "
+      "are "
+      "rough",
+      estimate.least_quality, mesh::k_sound_quality, estimate.worst_element);
+}
+
 std::string report(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate,
                    const NewCaseOptions& options) {
   std::string out = fmt::format("{}: {} at {:.0f} degC, process {}", draft.geometry.filename().string(),
@@ -155,6 +166,7 @@ std::string report(const Draft& draft, const PartMeasures& part, const DraftEsti
     out +=
         fmt::format("\n  cooling     {:g} W/m2/K outside the die take what the castings bring, an estimate",
                     draft.shots->cooling);
+  out += poor_mesh_text(estimate);
   out += twin_riser_text(draft);
   out += doubtful_unit_text(options, part);
   out += unknown_bodies_text(draft, options.as);

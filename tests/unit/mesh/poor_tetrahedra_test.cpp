@@ -4,10 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 
+#include "mesh/edge_collapse.hpp"
+#include "mesh/edge_removal.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/surface_node.hpp"
 #include "mesh/tetrahedra.hpp"
+#include "mesh/worst_tetrahedron.hpp"
 #include "split_block.hpp"
 
 namespace solidus::test {
@@ -107,10 +113,14 @@ TEST(PoorTetrahedra, EdgesMuchShorterThanTheirNeighboursGoAndBodiesKeepTheirShap
                                                       {{{4, 3, 3}, {4, 2, 3}}}}};
   for (const auto& [a, b] : edges) divide_edge(raw, node_at(raw, a), node_at(raw, b), 0.02);
   ASSERT_LT(least_quality(raw), 0.1);
+  for (std::size_t e = 0; e < edges.size(); ++e) {  // each could be drawn together
+    const mesh::Tetrahedra tets(raw);
+    const auto between = static_cast<Index>(n_nodes + e);
+    EXPECT_GT(mesh::with_node_on(tets, between, node_at(raw, edges[e][0])).quality, 0.18) << e;
+  }
   const double least = mesh::repair_poor_tetrahedra(raw, 0.18);
   EXPECT_GT(least, 0.18);
   EXPECT_NEAR(least, least_quality(raw), 1e-12);  // none is turned inside out either
-  EXPECT_LT(raw.x.size(), n_nodes + edges.size());
   EXPECT_EQ(raw.input_node.size(), raw.x.size());
   EXPECT_EQ(faces(raw).rbegin()->first, 2U);
   EXPECT_NEAR(volume(raw, "left"), 18, 1e-9);
@@ -134,6 +144,62 @@ TEST(PoorTetrahedra, AFlatElementBetweenTwoBodiesIsTurnedOutOfTheSurface) {
   EXPECT_EQ(raw.groups.at("mould").blocks.front().input_element.size(), 2U);
   EXPECT_NEAR(volume(raw, "casting") + volume(raw, "mould"), 4.0 / 3, 0.05);
   EXPECT_NEAR(volume(raw, "mould"), 2.0 / 3, 0.03);
+}
+
+TEST(PoorTetrahedra, AnOverhangingStepOfAHundredthOfAnElementIsTurnedOutOfTheSurface) {
+  RawMesh raw;
+  raw.dimension = 3;
+  raw.x = {{-1, 0, 0}, {1, 0, 0}, {0, -0.005, 0.02}, {0, -1, 0}, {0, 0.5, -1}, {0, -0.6, 1}};
+  raw.input_node = {1, 2, 3, 4, 5, 6};
+  const Index a = 0, b = 1, c = 2, d = 3, low = 4, high = 5;
+  raw.groups["casting"] = {3, {{Shape::tet4, {a, b, d, low, a, b, low, c}, {1, 2}}}};
+  raw.groups["mould"] = {3, {{Shape::tet4, {a, b, c, high, a, b, high, d}, {3, 4}}}};
+  mesh::validate_and_orient(raw, "four");
+  EXPECT_NE(mesh::worst_tetrahedron_text(raw).find("in 'casting' around"), std::string::npos);
+  ASSERT_LT(least_quality(raw), 0.15);
+  EXPECT_GT(mesh::without_edge(mesh::Tetrahedra(raw), a, b).quality, 0.3);
+  const double whole = volume(raw, "casting") + volume(raw, "mould");
+  EXPECT_GT(mesh::repair_poor_tetrahedra(raw, 0.3), 0.3);
+  EXPECT_NEAR(volume(raw, "casting") + volume(raw, "mould"), whole, 0.02);
+}
+
+TEST(PoorTetrahedra, NodesMayMoveWithinCurvedSurfacesAndAlongCurvedEdgesAndNotFromCorners) {
+  constexpr int k_around = 24;
+  RawMesh raw = split_block(Shape::tet4, {1, 1, 1}, {k_around, 3, 2}, 0.5);
+  std::erase_if(raw.groups, [](const auto& group) { return group.second.dimension < 3; });
+  // A quarter of a pipe of radius 1 to 1.2.
+  const auto bent = [](const Point& x) {
+    const double angle = 0.5 * std::numbers::pi * x[0], radius = 1 + 0.2 * x[2];
+    return Point{radius * std::cos(angle), 0.2 * x[1], radius * std::sin(angle)};
+  };
+  for (Point& x : raw.x) x = bent(x);
+  mesh::validate_and_orient(raw, "pipe");
+  const mesh::Tetrahedra tets(raw);
+  constexpr double k_step = 0.01;
+  const double sagitta = 1.2 * (1 - std::cos(0.5 * std::numbers::pi / k_around));
+  const auto places = [&](const Point& x) {
+    const Index node = node_at(raw, bent(x));
+    const mesh::SurfaceNode surface(tets, node);
+    EXPECT_TRUE(surface.keeps_surface());
+    std::vector<Point> all = surface.places(k_step);
+    for (const Point& p : all) {
+      const Point& from = raw.x[static_cast<std::size_t>(node)];
+      EXPECT_NEAR(std::hypot(p[0] - from[0], p[1] - from[1], p[2] - from[2]), k_step, 0.05 * k_step);
+    }
+    return all;
+  };
+  EXPECT_EQ(places({0.25, 1.0 / 3, 0.5}).size(), 6u);  // within
+  const std::vector<Point> outside = places({0.25, 1.0 / 3, 1}), edge = places({0.25, 0, 1});
+  ASSERT_EQ(outside.size(), 4u);
+  ASSERT_EQ(edge.size(), 2u);
+  for (const std::vector<Point>& some : {outside, edge})
+    for (const Point& p : some) {
+      EXPECT_LE(std::hypot(p[0], p[2]), 1.2 + 1e-12);
+      EXPECT_GT(std::hypot(p[0], p[2]), 1.2 - sagitta);
+    }
+  for (const Point& p : edge) EXPECT_NEAR(p[1], 0, 1e-12);
+  EXPECT_EQ(places({0, 0, 1}).size(), 0u);    // a corner
+  EXPECT_EQ(places({0.5, 0, 1}).size(), 0u);  // where two bodies meet an edge
 }
 
 TEST(PoorTetrahedra, AMeshWithoutPoorElementsAndOneWhoseNodesOthersHoldStayAsTheyAre) {

@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 
+#include "mesh/casting_geometry.hpp"
 #include "mesh/gmsh_curved_faces.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/raw_mesh.hpp"
@@ -179,6 +180,36 @@ TEST_F(StepFile, WhatAGroupCannotFindIsSaid) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("the body 1 is in two groups"));
   }
+}
+
+TEST_F(StepFile, FacesThatDoNotCloseToASolidAreToldOnceWithTheirOpenCurves) {
+  const std::string file = (std::filesystem::path(SOLIDUS_BINARY_DIR) / "open_box.step").string();
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  const int box = gmsh::model::occ::addBox(0, 0, 0, 20, 10, 5);
+  gmsh::model::occ::synchronize();
+  gmsh::vectorpair faces;
+  gmsh::model::getEntities(faces, 2);
+  gmsh::model::occ::remove({{3, box}});
+  for (const auto& face : faces) {
+    std::vector<double> centre(3);
+    gmsh::model::occ::getCenterOfMass(2, face.second, centre[0], centre[1], centre[2]);
+    if (centre[2] > 4.9) gmsh::model::occ::remove({face});
+  }
+  gmsh::model::occ::synchronize();
+  gmsh::write(file);
+  gmsh::finalize();
+  std::string text;
+  try {
+    mesh_casting({file, k_mm}, {}, 0);
+  } catch (const InputError& error) {
+    text = error.what();
+  }
+  EXPECT_THAT(text,
+              HasSubstr("no solid, and its faces do not close to one: 5 faces in 1 piece; 4 curves bound "
+                        "one face only, the longest of 20 mm around (10, "));
+  EXPECT_THAT(text, HasSubstr("a file with solids: close these openings in the CAD program"));
+  EXPECT_EQ(text.find("in any of these ways"), std::string::npos);
 }
 
 }  // namespace
