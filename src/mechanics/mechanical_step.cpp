@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mechanics/block_kernel.hpp"
+#include "mechanics/held_equilibrium.hpp"
 #include "mechanics/loads.hpp"
 #include "mechanics/mechanical_phase.hpp"
 #include "mechanics/nodal_pressure.hpp"
@@ -189,6 +190,12 @@ MechanicalReport MechanicalPhase::solve(const MechanicalState& old, MechanicalSt
     x = start(old, pass);
     report.newton = linear::newton(equilibrium, *solver_, ghosts_, fields_, x, newton_options);
     report.newton.add_solves(from_guess);
+  }
+  if (!report.newton.converged && pass.newton_steps == 0 && !contributions_.empty()) {
+    const linear::NewtonReport failed = std::move(report.newton);
+    x = start(old, pass);
+    report.newton = attempt_again(*this, old, *solver_, ghosts_, fields_, x, newton_options);
+    report.newton.add_solves(failed);
   }
   for (int turn = 1; report.newton.converged && pressure_ &&
                      pressure_->fill_pores(std::span<const double>(x).subspan(n_displacements()), turn);
