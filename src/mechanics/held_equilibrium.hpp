@@ -1,4 +1,4 @@
-/// Equilibrium for a second attempt of Newton's iteration, which holds what has just lost its contact.
+/// A second attempt of Newton's iteration for equilibrium, which holds what has just lost its contact.
 ///
 /// Beside a melt, or a body that contact alone holds, the springs of contact are 10⁶ to 10⁸ times as stiff as
 /// all else: a step that opens some of them leaves next to nothing that holds these points, and the next one
@@ -12,120 +12,22 @@
 /// and rises where the line search had to shorten one. Forces, and with them the solution, do not know it.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "linear/newton.hpp"
-#include "mechanics/mechanical_phase.hpp"
-#include "mechanics/saddle_solver.hpp"
-#include "parallel/parallel.hpp"
+#include "mechanics/mechanical_state.hpp"
 
 namespace solidus::mechanics {
 
-/// Keeps references.
-class HeldEquilibrium final : public linear::NonlinearSystem {
- public:
-  HeldEquilibrium(MechanicalPhase& phase, const MechanicalState& old) : phase_(phase), old_(old) {}
-  double residual(std::span<const double> x, std::span<double> r) override { return phase_.residual(x, r); }
-  linear::BlockMatrix& tangent(std::span<const double> x) override;
-  double relative_step(std::span<const double> x, std::span<const double> d) override {
-    return phase_.relative_step(old_, x, d);
-  }
-  void accept(std::span<const double> x, std::span<const double> d, double alpha) override;
-
- private:
-  static constexpr double k_shortened =
-      0.25;  ///< a step that the line search takes less of says that s is too small
-  static constexpr double k_fall = 0.1, k_rise = 100;
-
-  MechanicalPhase& phase_;
-  const MechanicalState& old_;
-  double share_ = 1;
-  std::vector<double> largest_;  ///< max K_ii, [owned node][component] [N/m]
-};
-
-inline linear::BlockMatrix& HeldEquilibrium::tangent(std::span<const double> x) {
-  linear::BlockMatrix& matrix = phase_.tangent(x);
-  const auto n = static_cast<std::size_t>(matrix.block_size());
-  const auto n_owned = static_cast<std::size_t>(phase_.mesh().n_owned_nodes);
-  largest_.resize(n_owned * n, 0.0);
-  for (std::size_t node = 0; node < n_owned; ++node) {
-    double* const block = matrix.diagonal_block(static_cast<Index>(node));
-    for (std::size_t c = 0; c < n; ++c) {
-      double& largest = largest_[node * n + c];
-      largest = std::max(largest, block[c * n + c]);
-      block[c * n + c] += share_ * (largest - block[c * n + c]);
-    }
-  }
-  if (phase_.saddle() != nullptr) phase_.saddle()->assemble();
-  return matrix;
-}
-
-inline void HeldEquilibrium::accept(std::span<const double>, std::span<const double>, double alpha) {
-  share_ = alpha < k_shortened ? std::min(1.0, k_rise * share_) : k_fall * share_;
-}
-
-/// A solver whose steps take no node farther than a given way. Keeps references.
-class ShortSteps final : public linear::TangentSolver {
- public:
-  /// @param displacements  leading entries of a step that are displacements, [owned node][component]
-  /// @param longest        way of a node [m]
-  ShortSteps(linear::TangentSolver& solver, std::size_t displacements, int components, double longest)
-      : solver_(solver), n_(displacements), components_(components), longest_(longest) {}
-  linear::LinearReport solve(linear::BlockMatrix& a, std::span<const double> b, std::span<double> x,
-                             double forcing) override {
-    return shorten(solver_.solve(a, b, x, forcing), x);
-  }
-  linear::LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing) override {
-    return shorten(solver_.solve_again(b, x, forcing), x);
-  }
-  void forget() override { solver_.forget(); }
-  void reset() override { solver_.reset(); }
-  double seconds_setup() const override { return solver_.seconds_setup(); }
-  double seconds_solve() const override { return solver_.seconds_solve(); }
-
- private:
-  linear::LinearReport shorten(linear::LinearReport report, std::span<double> x) const {
-    const auto n = static_cast<std::size_t>(components_);
-    double squares = 0;
-    for (std::size_t i = 0; i + n <= n_; i += n) {
-      double of_node = 0;
-      for (std::size_t c = 0; c < n; ++c) of_node += x[i + c] * x[i + c];
-      squares = std::max(squares, of_node);
-    }
-    const double way = std::sqrt(parallel::global_max(squares));
-    if (way > longest_)
-      for (double& value : x) value *= longest_ / way;
-    return report;
-  }
-
-  linear::TangentSolver& solver_;
-  std::size_t n_;
-  int components_;
-  double longest_;
-};
+class MechanicalPhase;
 
 /// The second attempt: twice as many iterations as the first may take, and no node farther than a hundredth
-/// of the mesh's diagonal in each of them.
-inline linear::NewtonReport attempt_again(MechanicalPhase& phase, const MechanicalState& old,
-                                          linear::TangentSolver& solver,
-                                          const parallel::GhostExchange& ghosts, std::span<const int> fields,
-                                          std::vector<double>& x, linear::NewtonOptions options) {
-  constexpr double k_longest_way = 0.01;
-  double diagonal = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-    for (const mesh::Point& p : phase.mesh().x) low = std::min(low, p[i]), high = std::max(high, p[i]);
-    diagonal = std::hypot(diagonal, parallel::global_max(high) - parallel::global_min(low));
-  }
-  options.max_iterations *= 2;
-  HeldEquilibrium held(phase, old);
-  const auto n = static_cast<std::size_t>(phase.mesh().n_owned_nodes * phase.components());
-  ShortSteps short_steps(solver, n, phase.components(), k_longest_way * diagonal);
-  return linear::newton(held, short_steps, ghosts, fields, x, options);
-}
+/// of the mesh's diagonal in each of them. Collective.
+/// @param x  where the iteration starts, and its result
+linear::NewtonReport attempt_again(MechanicalPhase& phase, const MechanicalState& old,
+                                   linear::TangentSolver& solver, const parallel::GhostExchange& ghosts,
+                                   std::span<const int> fields, std::vector<double>& x,
+                                   linear::NewtonOptions options);
 
 }  // namespace solidus::mechanics
