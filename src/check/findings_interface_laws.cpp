@@ -13,7 +13,7 @@ namespace solidus::model {
 
 namespace {
 
-/// Of the conductance of two cards: less is a choice.
+/// Conductances that differ by less than this factor are a choice among coatings, not another interface.
 constexpr double k_alike = 3;
 
 double closed_conductance(const contact::HeatTransferSpec& heat, double temperature) {

@@ -1,5 +1,5 @@
-/// What keeps the faces of a geometry from closing to a solid. In the reader's process, while Gmsh has the
-/// geometry open.
+/// Looks for the open curves that keep the faces of a geometry from closing to a solid. In the reader's
+/// process, while Gmsh has the geometry open.
 #pragma once
 
 #include <string>

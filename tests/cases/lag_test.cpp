@@ -1,4 +1,4 @@
-/// What a run with defaults lags in first order of the step is said with its number: by `check` before it,
+/// The lag of a run with defaults, of first order in the step, is said with its number: by `check` before it,
 /// and by the run at its end. Each number is that of a closed form.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -117,7 +117,7 @@ TEST(Lag, OfMechanicsFirstIsSaidByCheckAndByTheRun) {
   EXPECT_NEAR(printed.number_after("in the last step, 1 s, displacements changed by "), 10, 0.5);
 }
 
-// Of the tractions of step n the coefficient is that of t_n, 0.03 more than that of t_{n+1}.
+// Tractions of step n have the coefficient of t_n, 0.03 more than that of t_{n+1}.
 TEST(Lag, OfFrictionThatFollowsTheTemperatureIsSaidByTheRunWithItsNumber) {
   const CaseFolder folder("lag_coefficient");
   folder.write("steel.toml", steel(1e-9));
