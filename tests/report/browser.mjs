@@ -96,8 +96,13 @@ export class Page {
   settle() {
     return this.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 30))))");
   }
-  async run(expression) {
-    const { result, exceptionDetails } = await this.send("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });
+  /** The value of an expression; asked again where the page, which follows a run, has loaded itself anew meanwhile. */
+  async run(expression, attempts = 5) {
+    const evaluate = () => this.send("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });
+    const { result, exceptionDetails } = await evaluate().catch((error) => {
+      if (attempts > 1 && /navigated|context/.test(error.message)) return { again: true };
+      throw error;
+    }).then(async (answer) => answer.again ? { result: { value: await this.run(expression, attempts - 1) } } : answer);
     if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
     return result.value;
   }
