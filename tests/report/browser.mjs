@@ -96,15 +96,20 @@ export class Page {
   settle() {
     return this.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 30))))");
   }
-  /** The value of an expression; asked again where the page, which follows a run, has loaded itself anew meanwhile. */
-  async run(expression, attempts = 5) {
-    const evaluate = () => this.send("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });
-    const { result, exceptionDetails } = await evaluate().catch((error) => {
-      if (attempts > 1 && /navigated|context/.test(error.message)) return { again: true };
-      throw error;
-    }).then(async (answer) => answer.again ? { result: { value: await this.run(expression, attempts - 1) } } : answer);
-    if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
-    return result.value;
+  /** The value of an expression; asked again where the page, which follows a run, loads itself anew meanwhile. */
+  async run(expression) {
+    for (let attempt = 1; ; ++attempt) {
+      let answer;
+      try {
+        answer = await this.send("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });
+      } catch (error) {
+        if (attempt === 5 || !/navigated|context/.test(error.message)) throw error;
+        continue;
+      }
+      const { result, exceptionDetails } = answer;
+      if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
+      return result.value;
+    }
   }
   async screenshot(options = {}) {
     const { data } = await this.send("Page.captureScreenshot", { format: "png", ...options });
