@@ -195,6 +195,7 @@ MechanicalReport MechanicalPhase::solve(const MechanicalState& old, MechanicalSt
     const linear::NewtonReport failed = std::move(report.newton);
     x = start(old, pass);
     report.newton = attempt_again(*this, old, *solver_, ghosts_, fields_, x, newton_options);
+    if (!report.newton.converged) report.newton.reason = failed.reason + ", nor in a second attempt";
     report.newton.add_solves(failed);
   }
   for (int turn = 1; report.newton.converged && pressure_ &&
