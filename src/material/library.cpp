@@ -54,7 +54,7 @@ void inherit(Value& own, const Value& base, const SectionInfo& keys) {
     const Key* key = keys.find(entry.key);
     if ((entry.key == "plasticity" && given.find("external") != nullptr) ||
         (entry.key == "external" && given.find("plasticity") != nullptr))
-      continue;  // one of them is the law of the solid
+      continue;                                 // one of them is the law of the solid
     if (entry.key == "designations") continue;  // a material that is like another has not its name
     Value* mine = own.find(entry.key);
     if (mine == nullptr) {
