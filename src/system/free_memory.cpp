@@ -11,10 +11,10 @@ namespace solidus {
 #ifdef __GLIBC__
 namespace {
 /// Smaller arrays come and go too often to be asked of the system every time. [bytes]
-constexpr int k_large = 32 << 20;
+constexpr int k_large = 4 << 20;
 /// The end of the heap grows and shrinks by this much at once: every page that comes anew has to be cleared
-/// by the system, which was a third of the time of cases of some thousand nodes. What is not written takes no
-/// memory.
+/// by the system, which was a quarter of the time of cases of some thousand nodes. What is not written takes
+/// no memory.
 constexpr int k_end_of_heap = 64 << 20;
 constexpr int k_most_arrays = 65536;  ///< the C library's own limit
 }  // namespace

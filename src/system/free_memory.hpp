@@ -7,7 +7,7 @@ namespace solidus {
 /// for. Without effect where the C library cannot do it.
 void return_free_memory();
 
-/// From here on arrays of more than 32 MiB go back to the system when they are freed, and smaller ones as
+/// From here on arrays of 4 MiB and more go back to the system when they are freed, and smaller ones as
 /// soon as 64 MiB are free at the end of the heap. SuperLU_DIST, which comes with PETSc, tells the C library
 /// as soon as it is loaded to keep whatever it ever had.
 void give_large_arrays_back();
