@@ -1,4 +1,4 @@
-/// What the thermal phase of a split takes from mechanics at a fixed configuration: the deformation that it
+/// The part of mechanics in the thermal phase of a split, at a fixed configuration: the deformation that it
 /// holds, and the return mapping at the temperatures of the end of the step (4.45, 4.49, 4.54).
 
 #include "mechanics/block_kernel.hpp"
