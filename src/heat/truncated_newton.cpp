@@ -173,12 +173,12 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
     linear::LinearReport linear = by_chords ? correct_by_chords(to) : correct(to);
     report.linear_iterations += linear.iterations;
     solver_.release();  // sweeps have copies of their own
-    if (linear.converged && !search(by_chords || !may_use_chords)) {
-      by_chords = true;
-      linear = correct_by_chords(to);
+    if (linear.converged && !search(by_chords ? 0 : may_use_chords ? k_short_step : k_stuck_step)) {
+      by_chords = may_use_chords;
+      linear = by_chords ? correct_by_chords(to) : correct_beside_kinks(to);
       solver_.release();
       report.linear_iterations += linear.iterations;
-      if (linear.converged) search(true);
+      if (linear.converged) search(0);
     }
     if (!linear.converged) {
       report.reason = "linear solver: " + linear.reason;
