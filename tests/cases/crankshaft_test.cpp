@@ -109,7 +109,7 @@ TEST(Crankshaft, IsAsSymmetricAsItsMesh) {
   const std::vector<double>& t = c.at("time[s]");
   // Mirror images of one another but for nose and flange, which are far. The mesh is not symmetric: the last
   // melt of one side freezes some seconds before that of the other, and where it has, temperatures fall by
-  // half a kelvin a second. That is one row: the mean is smaller.
+  // up to a kelvin a second. That is one row: the mean is smaller.
   for (const auto& [one, other] :
        {std::pair{"T_journal_2[degC]", "T_journal_4[degC]"}, std::pair{"T_pin[degC]", "T_pin_3[degC]"},
         std::pair{"T_web_above[degC]", "T_web_below[degC]"}}) {
