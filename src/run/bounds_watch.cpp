@@ -16,6 +16,8 @@ const char* remedy(const CaseSpec& spec) {
   if (spec.heat.integration == heat::HeatIntegration::open)
     return "the open rule over- and undershoots at sudden chills; the closed one does not";
   if (!spec.heat.bounds) return "heat.bounds = true keeps temperatures within their range";
+  if (spec.exchanges_heat())
+    return "deformation that cools or warms can be all of it; shorter steps help against the rest";
   return "shorter steps help";
 }
 
