@@ -72,10 +72,10 @@ class TruncatedNewton {
   /// `old_heat` is H*. Where the temperature is prescribed, `temperature` already holds it. Collective.
   /// Conduction is limited as it was before the call; where the iteration has converged the limits are found
   /// anew, and it goes on if that changes much. Not if `newton_steps` says when it ends.
-  /// @param range         temperatures that nothing should leave [K]
+  /// @param bounds        temperatures that conduction should not leave
   /// @param newton_steps  at most so many iterations; zero: the limit of the options
   linear::NewtonReport solve(std::span<const double> old_heat, double dt, std::span<double> temperature,
-                             std::span<double> heat, const TemperatureRange& range = {-HUGE_VAL, HUGE_VAL},
+                             std::span<double> heat, const ConductionBounds& bounds = {},
                              int newton_steps = 0);
   /// F at the end of the last solve, [owned node] [W]: where the temperature is prescribed, the heat that
   /// holds it.
@@ -105,7 +105,7 @@ class TruncatedNewton {
   void find_chords(std::span<double> chords) const;
   linear::LinearReport correct_by_chords(double forcing);
   linear::LinearReport correct_beside_kinks(double forcing);
-  bool revise_limits(const TemperatureRange& range);
+  bool revise_limits(const ConductionBounds& bounds);
   bool search(double least);
   bool find_length(double least);
   double minimise(double start, double longest, double (TruncatedNewton::*slope_at)(double));

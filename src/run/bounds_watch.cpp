@@ -35,7 +35,7 @@ void BoundsWatch::begin(const coupling::State& state) {
 
 void BoundsWatch::step(const coupling::StepRecord&, const coupling::State& state) {
   if (warned_) return;
-  const heat::TemperatureRange around = phase_.ambient_range(state.time);
+  const heat::TemperatureRange around = phase_.range_around(state.time, state.heat.temperature);
   range_.lowest = std::min(range_.lowest, around.lowest);
   range_.highest = std::max(range_.highest, around.highest);
   heat::WorstNode worst;
