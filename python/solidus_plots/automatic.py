@@ -80,8 +80,9 @@ def plan(run, times, summary, history, results, wishes):
     materials = {body["name"]: Path(body["material"]).stem for body in toml.get("body", [])}
     alloy = ", ".join(dict.fromkeys(materials[name] for name in cast if name in materials))
     title = summary.get("title") or results.resolve().parent.name
-    case = Case(" · ".join(filter(None, [title, alloy, summary.get("variant", ""), summary.get("solidus") and
-                                         f"Solidus {summary['solidus']}"])),
+    variant = summary.get("variant", "")
+    case = Case(" · ".join(filter(None, [title, alloy if alloy not in title else "", variant if variant != "default" else "",
+                                         summary.get("solidus") and f"Solidus {summary['solidus']}"])),
                 bool(np.isin(grid.cell_types, VOLUME).any()), ("r", "z") if kind == "axisymmetric" else ("x", "y"),
                 hot_spots.hottest(grid, mask), hot_spots.all_of(grid, mask))
     during, last = _moments(times, history)

@@ -139,7 +139,8 @@ def _march(parts, level):
 
 
 def isolines(place, triangles, values, level):
-    """Lines [line][2][2] along which values at the points of plane triangles have a level."""
+    """Lines [line][point][2] along which values at the points of plane triangles have a level, each through as many
+    triangles as it crosses: what is drawn in dashes has to be in one piece."""
     above = values[triangles] >= level
     crossed = above.any(axis=1) & ~above.all(axis=1)
     nodes, above = triangles[crossed], above[crossed]
@@ -147,4 +148,35 @@ def isolines(place, triangles, values, level):
     tip = np.take_along_axis(nodes, alone[:, None], axis=1)
     others = np.stack([nodes[np.arange(len(nodes)), (alone + shift) % 3] for shift in (1, 2)], axis=1)
     share = (level - values[tip]) / (values[others] - values[tip])
-    return place[tip] + share[..., None] * (place[others] - place[tip])
+    points = place[tip] + share[..., None] * (place[others] - place[tip])
+    sides = np.sort(np.stack([np.broadcast_to(tip, others.shape), others], axis=-1), axis=-1)
+    return [np.array(line) for line in _joined(sides.tolist(), points)]
+
+
+def _joined(sides, points):
+    """Pieces [piece][2 ends] whose ends lie on the same sides of triangles, joined to lines of points."""
+    ends = [[tuple(side) for side in piece] for piece in sides]
+    at = {}
+    for piece, pair in enumerate(ends):
+        for side in pair:
+            at.setdefault(side, []).append(piece)
+    free, lines = set(range(len(ends))), []
+
+    def follow(piece, end):
+        """The points beyond an end of a piece, as far as one piece after the other joins on."""
+        found = []
+        while True:
+            side = ends[piece][end]
+            piece = next((other for other in at[side] if other in free), None)
+            if piece is None:
+                return found
+            free.remove(piece)
+            end = 1 - ends[piece].index(side)
+            found.append(points[piece][end])
+
+    for piece in range(len(ends)):
+        if piece in free:
+            free.remove(piece)
+            ahead = follow(piece, 1)
+            lines.append(follow(piece, 0)[::-1] + [*points[piece]] + ahead)
+    return lines

@@ -42,7 +42,8 @@ def _place(point, names):
 
 
 def _extremes(grid, mask, spec, names):
-    """A line with the least and the largest value of the bodies shown, and where."""
+    """A line with the least and the largest value of the bodies shown, and where; where values are shown below a limit
+    alone, with the least one: the largest would be the limit."""
     kind, found = moments.values(grid, {key: value for key, value in spec.items() if key != "smooth"}, mask)
     if kind == "point_data":
         where = moments.nodes_of(grid, mask)
@@ -57,8 +58,10 @@ def _extremes(grid, mask, spec, names):
     low, high = where[found[where].argmin()], where[found[where].argmax()]
     if found[low] == found[high]:
         return f"{_number(found[low])}{unit} everywhere"
-    return (f"largest {_number(found[high])}{unit} at {_place(points[high], names)},  "
-            f"least {_number(found[low])}{unit} at {_place(points[low], names)}")
+    least = f"least {_number(found[low])}{unit} at {_place(points[low], names)}"
+    if "below" in spec:
+        return least
+    return f"largest {_number(found[high])}{unit} at {_place(points[high], names)},  {least}"
 
 
 class _Skin:
@@ -199,6 +202,8 @@ def draw(spec, run, case, folder):
     if spec.get("hot_spots") and case.spots:
         footer.append("hot spots: " + ";  ".join(f"{rank + 1}: {_number(spot.value)} s at {_place(spot.point, names)}"
                                                  for rank, spot in enumerate(case.spots)))
+    elif case.solid and not spec.get("skin_alone"):
+        footer.append(f"+: {_place(case.hottest, names)}, through which the cuts go")
     footer += [spec["remark"]] if "remark" in spec else []
     footer.append(case.corner)
     title = spec["title"] + (f", {times[0]}" if len(times) == 1 and not timeless else "")

@@ -8,6 +8,7 @@
 #include "mesh/casting_geometry.hpp"
 #include "mesh/casting_parts.hpp"
 #include "mesh/casting_sizes.hpp"
+#include "mesh/seam_cuts.hpp"
 #include "mesh/size_field.hpp"
 #include "system/errors.hpp"
 
@@ -23,15 +24,17 @@ struct Way {
   double scale = 1;               ///< of all sizes
   int rounds = 1;                 ///< of optimisation
   bool details = true;            ///< smaller elements at narrow faces and short curves
+  bool cuts = false;              ///< bodies are cut along the seams of faces that cannot be meshed
 };
 // Elements that become as small as a narrow face is may themselves be what is poor: the second way leaves
-// them out.
+// them out. Cutting helps where Gmsh finds no mesh of a closed face, and else gives what the first way gave.
 constexpr Way k_ways[] = {
     {"as the file is, Delaunay"},
     {"without smaller elements at narrow faces", 6, 1, 0, 1, 4, false},
     {"HXT", 6, 10},
     {"elements of 0.9 of the size", 6, 1, 0, 0.9, 4},
     {"healed, elements of 0.8 of the size", 6, 1, 1e-5, 0.8, 4},
+    {"bodies cut along the seams of closed faces", 6, 1, 0, 1, 4, true, true},
     {"healed more, surfaces by MeshAdapt, elements of 0.7 of the size", 1, 1, 1e-4, 0.7, 4},
     {"surfaces by Delaunay, HXT, elements of half the size", 5, 10, 0, 0.5, 4},
     {"healed much, elements of half the size", 6, 1, 1e-3, 0.5, 4}};
@@ -42,6 +45,7 @@ class Mesher {
       : source_(source), geometry_(geometry), way_(way), parts_(make_parts(source, geometry, way.healing)) {}
 
   void make_groups() {
+    gmsh::model::removePhysicalGroups();
     for (const GeometryBody& part : parts_) {
       std::vector<int> tags;
       for (const auto& volume : part.volumes) tags.push_back(volume.second);
@@ -58,7 +62,26 @@ class Mesher {
       }
   }
 
+  /// Meshes; where Gmsh complains of closed faces and the way has it so, cuts the bodies there and tries
+  /// again.
   void mesh() {
+    constexpr int k_most_cuts = 3;
+    for (int cuts = 0;; ++cuts) {
+      try {
+        mesh_once();
+        return;
+      } catch (const InputError&) {
+        if (!way_.cuts || cuts == k_most_cuts || !cut_along_seams(parts_, surfaces_at_fault())) throw;
+        gmsh::model::mesh::clear();
+        make_groups();
+        gmsh::logger::stop();  // what is complained of so far is mended
+        gmsh::logger::start();
+      }
+    }
+  }
+
+ private:
+  void mesh_once() {
     using gmsh::option::setNumber;
     setNumber("Mesh.MeshSizeFromPoints", 0);
     setNumber("Mesh.MeshSizeFromCurvature", 0);
@@ -116,7 +139,6 @@ class Mesher {
       }
   }
 
- private:
   [[noreturn]] void refuse(const std::string& what, const std::string& allowed = {}) const {
     throw InputError({source_.path}, what, allowed);
   }
@@ -143,8 +165,8 @@ int n_meshing_attempts() {
 
 int n_cheap_meshing_attempts() {
   constexpr double k_fine = 0.8;
-  return static_cast<int>(
-      std::count_if(std::begin(k_ways), std::end(k_ways), [](const Way& w) { return w.scale >= k_fine; }));
+  return static_cast<int>(std::count_if(std::begin(k_ways), std::end(k_ways),
+                                        [](const Way& w) { return w.scale >= k_fine && !w.cuts; }));
 }
 
 std::string meshing_attempt(int attempt) {

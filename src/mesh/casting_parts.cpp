@@ -45,29 +45,34 @@ std::vector<int> boundary_of(int volume) {
 void generate_mesh(int dimension) {
   constexpr double k_warnings = 2, k_stop_meshing = 1, k_throw = 2;
   gmsh::option::setNumber("General.Verbosity", k_warnings);  // for the log that place_of_complaints() reads
-  std::string before, after;
-  gmsh::logger::getLastError(before);
   gmsh::option::setNumber("General.AbortOnError", k_stop_meshing);
   gmsh::model::mesh::generate(dimension);
   gmsh::option::setNumber("General.AbortOnError", k_throw);
-  gmsh::logger::getLastError(after);
-  if (after != before) throw after;
+  std::string error;  // Gmsh forgets earlier ones when it begins
+  gmsh::logger::getLastError(error);
+  if (!error.empty()) throw error;
+}
+
+std::set<int> surfaces_at_fault() {
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  std::set<int> faces;
+  for (const std::string& line : log) {
+    if (!line.starts_with("Error") && !line.starts_with("Warning")) continue;
+    for (std::size_t at = line.find("urface "); at != std::string::npos; at = line.find("urface ", at + 1))
+      if (const int tag = std::atoi(line.c_str() + at + 7); tag > 0) faces.insert(tag);
+  }
+  return faces;
 }
 
 std::string place_of_complaints(const std::vector<GeometryBody>& parts) {
   std::vector<std::string> log;
   gmsh::logger::get(log);
-  std::set<int> faces;
-  std::string last;
-  for (const std::string& line : log) {
-    if (!line.starts_with("Error") && !line.starts_with("Warning")) continue;
-    if (line.starts_with("Error")) last = line;
-    for (std::size_t at = line.find("urface "); at != std::string::npos; at = line.find("urface ", at + 1))
-      if (const int tag = std::atoi(line.c_str() + at + 7); tag > 0) faces.insert(tag);
-  }
+  const auto last = std::find_if(log.rbegin(), log.rend(),
+                                 [](const std::string& line) { return line.starts_with("Error"); });
   std::string text;
   std::size_t said = 0;
-  for (const int face : faces) {
+  for (const int face : surfaces_at_fault()) {
     constexpr std::size_t k_most = 4;
     if (said == k_most) break;
     std::string owner;
@@ -87,7 +92,7 @@ std::string place_of_complaints(const std::vector<GeometryBody>& parts) {
                   std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]));
     text += place;
   }
-  return (last.empty() ? "" : " (" + last + ")") + text;
+  return (last == log.rend() ? "" : " (" + *last + ")") + text;
 }
 
 }  // namespace solidus::mesh

@@ -4,6 +4,7 @@
 
 #include <gmsh.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ std::vector<GeometryBody> make_parts(const MeshSource& source, const CastingGeom
 /// gmsh::model::mesh::generate(), whose errors come as std::string also where several threads mesh surfaces:
 /// Gmsh itself would end the process there.
 void generate_mesh(int dimension);
+
+/// The numbers of the surfaces that errors and warnings of Gmsh name.
+std::set<int> surfaces_at_fault();
 
 /// The last error of Gmsh, and the surfaces that it complained of by their owners and places:
 /// " (Error: …); at fault: a face of 'casting' around (1, 2, 3), 4 long"; empty where it has said nothing.

@@ -42,11 +42,15 @@ void CastingSizes::limit_entities() {
   }
 }
 
-/// Triangles of the first, coarse mesh of a volume's faces, outward.
-std::vector<std::array<Point, 3>> CastingSizes::skin_of(int volume) const {
+/// Triangles of the first, coarse mesh of a body's faces, outward, without those between two of its volumes.
+std::vector<std::array<Point, 3>> CastingSizes::skin_of(const GeometryBody& part) const {
+  std::map<int, int> volumes_beside;
+  for (const auto& volume : part.volumes)
+    for (const int face : boundary_of(volume.second)) ++volumes_beside[face];
   std::vector<std::array<Point, 3>> skin;
   std::vector<std::size_t> first{0};  // triangle of each face
-  for (const int face : boundary_of(volume)) {
+  for (const auto& [face, count] : volumes_beside) {
+    if (count > 1) continue;
     std::vector<std::size_t> elements, nodes;
     gmsh::model::mesh::getElementsByType(2, elements, nodes, face);
     for (std::size_t k = 0; k + 2 < nodes.size(); k += 3)
@@ -81,16 +85,14 @@ std::vector<SizeSample> CastingSizes::samples() {
   for (const GeometryBody& part : parts_) {
     const BodySize* size = size_of(geometry_, part.name);
     if (size == nullptr) continue;
-    for (const auto& volume : part.volumes) {
-      const auto skin = skin_of(volume.second);
-      const std::vector<double> thickness =
-          size->across > 0 ? wall_thickness(skin) : std::vector<double>(skin.size(), 0.0);
-      const double largest = scale_ * size->size / unit_, smallest = scale_ * size->smallest / unit_;
-      for (std::size_t t = 0; t < skin.size(); ++t)
-        all.push_back({skin[t], thickness[t] > 0
-                                    ? std::clamp(scale_ * thickness[t] / size->across, smallest, largest)
-                                    : largest});
-    }
+    const auto skin = skin_of(part);
+    const std::vector<double> thickness =
+        size->across > 0 ? wall_thickness(skin) : std::vector<double>(skin.size(), 0.0);
+    const double largest = scale_ * size->size / unit_, smallest = scale_ * size->smallest / unit_;
+    for (std::size_t t = 0; t < skin.size(); ++t)
+      all.push_back({skin[t], thickness[t] > 0
+                                  ? std::clamp(scale_ * thickness[t] / size->across, smallest, largest)
+                                  : largest});
   }
   if (details_) {
     sample_narrow_faces(all);

@@ -34,7 +34,7 @@ class CastingSizes {
 
  private:
   void limit_entities();
-  std::vector<std::array<Point, 3>> skin_of(int volume) const;
+  std::vector<std::array<Point, 3>> skin_of(const GeometryBody& part) const;
   void read_nodes();
   void sample_narrow_faces(std::vector<SizeSample>& all) const;
   void sample_short_curves(std::vector<SizeSample>& all) const;

@@ -115,11 +115,15 @@ class Refinement {
     return found == draft_.bodies.end() ? std::nullopt : std::optional(found->role);
   }
 
-  /// The longest estimate of the bodies of a role [s]; zero: there is none.
-  double longest_freezing(const CheckedRun& checked, Role role) const {
+  /// The longest estimate of the castings of whose skin half or more is cooled [s]; zero: there is none.
+  double longest_freezing(const CheckedRun& checked) const {
+    constexpr double k_half = 0.5;
     double longest = 0;
     for (const results::PourOverview& pour : checked.overview.pours)
-      if (role_of(pour.body) == role) longest = std::max(longest, pour.freezing_time.value_or(0));
+      for (const results::BodyOverview& body : checked.overview.bodies)
+        if (body.name == pour.body && role_of(pour.body) == Role::casting &&
+            body.volume > k_half * body.skin * pour.modulus)
+          longest = std::max(longest, pour.freezing_time.value_or(0));
     return longest;
   }
 
@@ -149,13 +153,14 @@ class Refinement {
   bool adapt(const CheckedRun& checked) {
     double time = 0, reach = 0;
     estimate_.nodes = estimate_.metal_nodes = 0;
-    // The estimate knows of no heat that a riser gives its part: one in a sleeve would be liquid for hours.
-    constexpr double k_riser_outlives = 2;
-    const double of_castings = longest_freezing(checked, Role::casting);
+    // The estimate knows of no heat that metal gives metal: a riser in a sleeve, or a casting that others enclose,
+    // would be liquid for hours.
+    constexpr double k_outlives = 2;
+    const double of_castings = longest_freezing(checked);
     for (const results::PourOverview& pour : checked.overview.pours) {
       double own = pour.freezing_time.value_or(0), deep = pour.mould_reach;
-      const double most = k_riser_outlives * of_castings;
-      if (role_of(pour.body) == Role::riser && of_castings > 0 && own > most)
+      const double most = k_outlives * of_castings;
+      if (of_castings > 0 && own > most)
         deep *= std::sqrt(most / own), own = most;
       time = std::max(time, own);
       reach = std::max(reach, deep);

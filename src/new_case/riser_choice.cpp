@@ -82,14 +82,30 @@ mesh::Point standing_place(const mesh::ViewFromAbove& view, const mesh::Point& p
   return best;
 }
 
+/// The lowest metal under a foot that is no deeper below its centre than a quarter of its diameter: a foot that
+/// stood above a recess would leave a sheet of sand in it that no pattern has.
+double lowest_under(const mesh::ViewFromAbove& view, const mesh::Point& centre, double diameter) {
+  constexpr double k_deepest = 0.25;  // of the diameter: what lies deeper is beside the place
+  constexpr int k_directions = 24;
+  double lowest = centre[2];
+  for (const double share : {0.25, 0.5, 0.75, 1.0})
+    for (int i = 0; i < k_directions; ++i) {
+      const double angle = 2 * std::numbers::pi * i / k_directions, r = 0.5 * diameter * share;
+      const double top = view.top({centre[0] + r * std::cos(angle), centre[1] + r * std::sin(angle), -1e3});
+      if (top > centre[2] - k_deepest * diameter) lowest = std::min(lowest, top);
+    }
+  return lowest;
+}
+
 /// @param fixed  see standing_place()
 DraftRiser cylinder_on(const mesh::ViewFromAbove& view, const mesh::Point& place, double diameter,
                        int fixed) {
   DraftRiser riser;
   riser.diameter = diameter;
   const mesh::Point centre = standing_place(view, {place[0], place[1], view.top(place)}, diameter, fixed);
-  riser.foot = {centre[0], centre[1], centre[2] - 0.05 * diameter};
-  riser.height = rounded_up(k_slender_riser * diameter, 1e-3) + 0.05 * diameter;
+  const double sunk = centre[2] - lowest_under(view, centre, diameter) + 0.05 * diameter;
+  riser.foot = {centre[0], centre[1], centre[2] - sunk};
+  riser.height = rounded_up(k_slender_riser * diameter, 1e-3) + sunk;
   return riser;
 }
 

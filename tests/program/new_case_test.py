@@ -163,6 +163,18 @@ class NewCase(ProgramTest):
         text = self.done("new", "pump.stl", *ALLOY, "--fineness", "0.5", "--as", "second=core", "-o", "said")
         self.assertNotIn("no name says", text)
 
+    def test_a_casting_that_others_enclose_does_not_stretch_the_estimate(self):
+        def cell(i, j, k, plug):
+            if not (2 <= i < 8 and 2 <= j < 8 and 2 <= k < 6):
+                return "mould"
+            return plug if 4 <= i < 6 and 4 <= j < 6 and k >= 3 else "casting"
+        times = []
+        for plug in ("casting", "plug"):
+            self.write("block.msh", grid((10, 10, 8), 0.01, lambda i, j, k: cell(i, j, k, plug)))
+            text = self.done("new", "block.msh", *ALLOY, "--unit", "m", "-o", plug)
+            times.append(float(re.search(r"freezes +in about ([\d.e+]+) s", text)[1]))
+        self.assertLess(times[1], 2.5 * times[0])
+
     def test_what_stl_files_cannot_is_said(self):
         closed = box((0, 0, 0), (60, 40, 40))
         self.write("open.stl", stl("open", closed[:-1]))

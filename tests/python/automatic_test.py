@@ -64,14 +64,14 @@ class Sheets(unittest.TestCase):
 
     def test_a_casting_gets_every_field_that_matters_without_plots_toml(self):
         run = Run(frozen(box(HEX, SIZE, (8, 4, 4))))
-        summary = {"title": "A block", "answers": {"castings": {"part": {}}}}
+        summary = {"title": "A block", "variant": "default", "answers": {"castings": {"part": {}}}}
         history = {"time[s]": np.array([0.0]), "solid_fraction[1]": np.array([1.0])}
         case, sheets = automatic.plan(run, np.array([0.0]), summary, history, self.folder, {})
         self.assertEqual([sheet["field"] for sheet in sheets],
                          ["temperature", "solidified_at", "niyama", "gap", "distortion", "von_mises"])
         niyama = sheets[2]
         self.assertEqual(niyama["below"], 0.775)
-        self.assertIn("A block", case.corner)
+        self.assertEqual(case.corner, "A block")
         for sheet in sheets:
             file, = overview.draw(sheet, run, case, self.folder)
             self.assertGreater(file.stat().st_size, 5_000, file)

@@ -65,5 +65,15 @@ TEST(RiserChoice, KeepsClearOfAWallBesideThePlaceAndHangsOverTheEdgeForThat) {
   EXPECT_NEAR(riser.foot[2], 0.014 - 0.05 * riser.diameter, 1e-12);
 }
 
+// As on the lug of a bearing cap, with a spot face of 3 mm for the head of the bolt: the foot stood 1 mm above it.
+TEST(RiserChoice, FillsAShallowRecessUnderItsFoot) {
+  Blocks lug;
+  lug.add("lug", {0, 0, 0}, {0.1, 0.06, 0.03});
+  lug.add("recess", {0.1, 0, 0}, {0.1, 0.06, 0.027});
+  const DraftRiser riser = lug.riser({{0.09, 0.03, 0.015}, 0.015}, 3e-4);
+  EXPECT_NEAR(riser.foot[2], 0.027 - 0.05 * riser.diameter, 1e-12);
+  EXPECT_NEAR(riser.foot[2] + riser.height, 0.03 + 1.5 * riser.diameter, 1e-3);
+}
+
 }  // namespace
 }  // namespace solidus::model

@@ -1,0 +1,110 @@
+/// Shapes that Gmsh cannot mesh as they are, or only with poor elements: what the program does, and what it says.
+#include <gmock/gmock.h>
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+
+#include "mesh/casting_geometry.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/reader_process.hpp"
+#include "new_case/new_case.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace mesh = solidus::mesh;
+namespace occ = gmsh::model::occ;
+using ::testing::HasSubstr;
+
+/// A STEP file of solids that `draw` makes by Gmsh's OpenCASCADE kernel, in mm.
+std::string step_file(const std::string& name, const std::function<void()>& draw) {
+  const fs::path folder = fs::path(SOLIDUS_BINARY_DIR) / "case_runs" / "difficult_shapes";
+  fs::create_directories(folder);
+  const std::string file = (folder / (name + ".step")).string();
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::model::add(name);
+  draw();
+  occ::synchronize();
+  gmsh::write(file);
+  gmsh::finalize();
+  return file;
+}
+
+/// A drum of 120 mm with an outlet whose side is tangent to it and a rib beside the seam of its face, which Gmsh
+/// 4.8 refuses: "Impossible to mesh periodic surface".
+std::string drum() {
+  return step_file("drum", [] {
+    const int drum = occ::addCylinder(0, 0, 0, 0, 0, 50, 60), outlet = occ::addCylinder(42, 0, 26, 0, 95, 0, 18),
+              rib = occ::addBox(40, -1, 0, 30, 2, 40);
+    occ::rotate({{3, rib}}, 0, 0, 0, 0, 0, 1, 0.13);
+    gmsh::vectorpair all;
+    std::vector<gmsh::vectorpair> map;
+    occ::fuse({{3, drum}}, {{3, outlet}, {3, rib}}, all, map);
+  });
+}
+
+double volume(const mesh::RawMesh& raw, const std::string& group) {
+  for (const mesh::GroupReport& report : mesh::assess(raw).groups)
+    if (report.name == group) return report.measure;
+  return 0;
+}
+
+mesh::CastingGeometry in_a_mould(int way) {
+  mesh::CastingGeometry geometry;
+  geometry.sizes = {{"body_1", 12e-3, 6e-3}, {"mould", 25e-3, 12e-3, 0}};
+  geometry.mould = mesh::MouldBlock{"mould", "core", {0.02, 0.02, 0.02, 0.02, 0.02, 0.02}};
+  geometry.attempt = way;
+  return geometry;
+}
+
+TEST(DifficultShapes, AnErrorOfGmshInASurfaceNamesTheFaceByItsBodyAndPlace) {
+  const mesh::MeshSource source{drum(), 1e-3};
+  const mesh::CastingGeometry geometry = in_a_mould(0);
+  try {
+    mesh::read_in_one_way(source, &geometry);
+    ADD_FAILURE() << "Gmsh can mesh it";
+  } catch (const solidus::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("Impossible to mesh periodic surface"));
+    EXPECT_THAT(error.what(), HasSubstr("at fault: a face of 'body_1' around (0, 0, 25)"));
+  }
+}
+
+TEST(DifficultShapes, BodiesAreCutAlongTheSeamOfAFaceThatCannotBeMeshed) {
+  const mesh::RawMesh raw = mesh::mesh_casting({drum(), 1e-3}, in_a_mould(0));
+  double least = 1;
+  for (const auto& [name, group] : raw.groups)
+    for (const mesh::RawBlock& block : group.blocks)
+      for (std::size_t e = 0; group.dimension == 3 && e < block.nodes.size(); e += 4)
+        least = std::min(least, mesh::element_quality(raw, mesh::Shape::tet4, block.nodes.data() + e));
+  EXPECT_GT(least, mesh::k_sound_quality);
+  const double farthest = 0.07 * std::cos(0.13) + 0.001 * std::sin(0.13);  // the corner of the rib
+  const double block = (0.06 + farthest + 0.04) * 0.195 * 0.09, drum_alone = std::numbers::pi * 0.06 * 0.06 * 0.05;
+  EXPECT_NEAR(volume(raw, "body_1") + volume(raw, "mould"), block, 1e-6 * block);
+  EXPECT_GT(volume(raw, "body_1"), drum_alone);
+  EXPECT_LT(volume(raw, "body_1"), 1.3 * drum_alone);
+}
+
+TEST(DifficultShapes, ANoteSaysWhereTheWorstElementIsAndWhy) {
+  solidus::model::NewCaseOptions options;
+  options.geometry = step_file("wedge", [] {
+    const std::vector<int> corners = {occ::addPoint(0, 0, 0), occ::addPoint(60, 0, 0), occ::addPoint(60, 0, 3)};
+    std::vector<int> sides;
+    for (std::size_t k = 0; k < 3; ++k) sides.push_back(occ::addLine(corners[k], corners[(k + 1) % 3]));
+    gmsh::vectorpair all;
+    occ::extrude({{2, occ::addPlaneSurface({occ::addCurveLoop(sides)})}}, 0, 40, 0, all);
+  });
+  options.alloy = "aluminium_alsi7mg";
+  options.fineness = 0.5;
+  options.folder = fs::path(options.geometry).parent_path() / "wedge";
+  fs::remove_all(options.folder);
+  const solidus::model::NewCaseReport report = solidus::model::make_new_case(options);
+  EXPECT_THAT(report.text, HasSubstr("the least quality of elements is"));
+  EXPECT_THAT(report.text, HasSubstr("where its faces meet at 2.9 degrees"));
+}
+
+}  // namespace
