@@ -72,9 +72,10 @@ void melts_open_below(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   if (!(down.all > 0) || up.free > k_closed * up.all || down.free < k_open * down.all) return;
   findings.push_back(
       {false, spec.analysis.where,
-       fmt::format("the melt is open below, as gravity acts: {:.0f} % of its skin that faces down has neither "
-                   "a contact nor a support, and all that faces up has one",
-                   100 * down.free / down.all),
+       fmt::format(
+           "the melt is open below, as gravity acts: {:.0f} % of its skin that faces down has neither "
+           "a contact nor a support, and all that faces up has one",
+           100 * down.free / down.all),
        "is gravity_direction right? A melt has its free surface on top"});
 }
 
@@ -92,9 +93,10 @@ void held_free_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures
     if (only_conducts(spec.bodies[body]) || surface.area < k_little * m.bodies[body].skin) continue;
     findings.push_back(
         {false, c.where,
-         fmt::format("'{}' holds the surface '{}' of '{}', {:.0f} % of its skin, in all directions: melt does "
-                     "not sink there, and metal cannot shrink",
-                     c.name, c.group, spec.bodies[body].name, 100 * surface.area / m.bodies[body].skin),
+         fmt::format(
+             "'{}' holds the surface '{}' of '{}', {:.0f} % of its skin, in all directions: melt does "
+             "not sink there, and metal cannot shrink",
+             c.name, c.group, spec.bodies[body].name, 100 * surface.area / m.bodies[body].skin),
          "supports along one axis, on planes of symmetry, or on a few nodes; the mould holds a casting by "
          "contact"});
   }

@@ -67,8 +67,8 @@ void find_in_stages(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
     for (const StageRun& stage : a.stages) {
       const StageSpec& its = *stage.stage;
       const double freezes = pour.freezing.time.value_or(0);
-      if (&stage == &a.stages.front() || !holds(spec.bodies[pour.body].stages, &stage) ||
-          !(freezes > 0) || its.duration < k_short * freezes || told.contains(its.name))
+      if (&stage == &a.stages.front() || !holds(spec.bodies[pour.body].stages, &stage) || !(freezes > 0) ||
+          its.duration < k_short * freezes || told.contains(its.name))
         continue;
       const std::vector<char> bodies = joined(spec, m, pour.body, stage);
       bool alone = true;

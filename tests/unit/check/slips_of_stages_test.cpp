@@ -21,8 +21,9 @@ name = "air"
 duration = "10 min"
 [[contact]]
 stages = ["mould"])");
-  const std::string shaken = changed(changed(stages, "name = \"lower\"", "name = \"lower\"\nstages = [\"mould\"]"),
-                                     "kind = \"film\"", "kind = \"film\"\nstages = [\"mould\"]");
+  const std::string shaken =
+      changed(changed(stages, "name = \"lower\"", "name = \"lower\"\nstages = [\"mould\"]"),
+              "kind = \"film\"", "kind = \"film\"\nstages = [\"mould\"]");
   EXPECT_THAT(said_of(shaken), Contains(HasSubstr("nothing cools 'upper' in the stage 'air'")));
   const std::string cooled = shaken + R"(
 [[thermal_condition]]
@@ -38,8 +39,10 @@ ambient = "20 degC"
 
 TEST_F(StagesTest, AFreeSkinThatIsHeldIsNamed) {
   const auto held = [](const std::string& motion) {
-    return deforming() + "[[mechanical_condition]]\nname = \"top\"\ngroup = \"upper_y_max\"\nkind = "
-                         "\"displacement\"\n" + motion;
+    return deforming() +
+           "[[mechanical_condition]]\nname = \"top\"\ngroup = \"upper_y_max\"\nkind = "
+           "\"displacement\"\n" +
+           motion;
   };
   EXPECT_THAT(said_of(held("ux = \"0 mm\"\nuy = \"0 mm\"\n")),
               Contains(HasSubstr("'top' holds the surface 'upper_y_max' of 'upper', 33 % of its skin")));
@@ -87,7 +90,8 @@ unit = "Pa s"
 points = )";
   write_own("aluminium_almg5", viscosity + "[[300, 9.3], [400, 300], [460, 300], [550, 23], [629, 0.72]]\n");
   EXPECT_THAT(said_of(of_own()), Contains(HasSubstr("at its solidus a rate of 0.001 1/s adds")));
-  write_own("aluminium_almg5", viscosity + "[[300, 9.3e7], [400, 3e9], [460, 3e9], [550, 2.3e8], [629, 7.2e6]]\n");
+  write_own("aluminium_almg5",
+            viscosity + "[[300, 9.3e7], [400, 3e9], [460, 3e9], [550, 2.3e8], [629, 7.2e6]]\n");
   EXPECT_THAT(said_of(of_own()), Not(Contains(HasSubstr("at its solidus a rate"))));
 }
 

@@ -63,8 +63,7 @@ class LiftedBlock : public ::testing::Test {
     state_ = old;
     std::vector<double> start(block_.mesh.x.size() * 2, 0.0);
     for (std::size_t y = 1; y < start.size(); y += 2) start[y] = k_lift;
-    return phase->solve(old, state_,
-                        {.time = 1, .dt = 1, .temperature = block_.temperature, .start = start});
+    return phase->solve(old, state_, {.time = 1, .dt = 1, .temperature = block_.temperature, .start = start});
   }
   std::string failure() {
     try {
@@ -74,7 +73,8 @@ class LiftedBlock : public ::testing::Test {
     }
     return {};
   }
-  test::Body block_{{.shape = mesh::Shape::quad4}, AnalysisKind::plane_strain, test::elastic_material(1e8, 0.0)};
+  test::Body block_{
+      {.shape = mesh::Shape::quad4}, AnalysisKind::plane_strain, test::elastic_material(1e8, 0.0)};
   mechanics::MechanicalState state_;
 };
 
