@@ -53,8 +53,7 @@ std::optional<Plane> seam_plane(int face, int seam) {
   gmsh::model::getParametrizationBounds(1, seam, low, high);
   constexpr int k_places = 5;
   std::vector<double> parameters;
-  for (int k = 0; k < k_places; ++k)
-    parameters.push_back(low[0] + (high[0] - low[0]) * k / (k_places - 1));
+  for (int k = 0; k < k_places; ++k) parameters.push_back(low[0] + (high[0] - low[0]) * k / (k_places - 1));
   gmsh::model::getValue(1, seam, parameters, x);
   std::vector<Point> arms;
   for (std::size_t k = 0; k + 2 < x.size(); k += 3) arms.push_back(minus({x[k], x[k + 1], x[k + 2]}, centre));

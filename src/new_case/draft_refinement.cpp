@@ -153,15 +153,14 @@ class Refinement {
   bool adapt(const CheckedRun& checked) {
     double time = 0, reach = 0;
     estimate_.nodes = estimate_.metal_nodes = 0;
-    // The estimate knows of no heat that metal gives metal: a riser in a sleeve, or a casting that others enclose,
-    // would be liquid for hours.
+    // The estimate knows of no heat that metal gives metal: a riser in a sleeve, or a casting that others
+    // enclose, would be liquid for hours.
     constexpr double k_outlives = 2;
     const double of_castings = longest_freezing(checked);
     for (const results::PourOverview& pour : checked.overview.pours) {
       double own = pour.freezing_time.value_or(0), deep = pour.mould_reach;
       const double most = k_outlives * of_castings;
-      if (of_castings > 0 && own > most)
-        deep *= std::sqrt(most / own), own = most;
+      if (of_castings > 0 && own > most) deep *= std::sqrt(most / own), own = most;
       time = std::max(time, own);
       reach = std::max(reach, deep);
     }

@@ -82,8 +82,8 @@ mesh::Point standing_place(const mesh::ViewFromAbove& view, const mesh::Point& p
   return best;
 }
 
-/// The lowest metal under a foot that is no deeper below its centre than a quarter of its diameter: a foot that
-/// stood above a recess would leave a sheet of sand in it that no pattern has.
+/// The lowest metal under a foot that is no deeper below its centre than a quarter of its diameter: a foot
+/// that stood above a recess would leave a sheet of sand in it that no pattern has.
 double lowest_under(const mesh::ViewFromAbove& view, const mesh::Point& centre, double diameter) {
   constexpr double k_deepest = 0.25;  // of the diameter: what lies deeper is beside the place
   constexpr int k_directions = 24;

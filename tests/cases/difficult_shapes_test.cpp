@@ -1,4 +1,5 @@
-/// Shapes that Gmsh cannot mesh as they are, or only with poor elements: what the program does, and what it says.
+/// Shapes that Gmsh cannot mesh as they are, or only with poor elements: what the program does, and what it
+/// says.
 #include <gmock/gmock.h>
 #include <gmsh.h>
 #include <gtest/gtest.h>
@@ -35,12 +36,12 @@ std::string step_file(const std::string& name, const std::function<void()>& draw
   return file;
 }
 
-/// A drum of 120 mm with an outlet whose side is tangent to it and a rib beside the seam of its face, which Gmsh
-/// 4.8 refuses: "Impossible to mesh periodic surface".
+/// A drum of 120 mm with an outlet whose side is tangent to it and a rib beside the seam of its face, which
+/// Gmsh 4.8 refuses: "Impossible to mesh periodic surface".
 std::string drum() {
   return step_file("drum", [] {
-    const int drum = occ::addCylinder(0, 0, 0, 0, 0, 50, 60), outlet = occ::addCylinder(42, 0, 26, 0, 95, 0, 18),
-              rib = occ::addBox(40, -1, 0, 30, 2, 40);
+    const int drum = occ::addCylinder(0, 0, 0, 0, 0, 50, 60),
+              outlet = occ::addCylinder(42, 0, 26, 0, 95, 0, 18), rib = occ::addBox(40, -1, 0, 30, 2, 40);
     occ::rotate({{3, rib}}, 0, 0, 0, 0, 0, 1, 0.13);
     gmsh::vectorpair all;
     std::vector<gmsh::vectorpair> map;
@@ -83,7 +84,8 @@ TEST(DifficultShapes, BodiesAreCutAlongTheSeamOfAFaceThatCannotBeMeshed) {
         least = std::min(least, mesh::element_quality(raw, mesh::Shape::tet4, block.nodes.data() + e));
   EXPECT_GT(least, mesh::k_sound_quality);
   const double farthest = 0.07 * std::cos(0.13) + 0.001 * std::sin(0.13);  // the corner of the rib
-  const double block = (0.06 + farthest + 0.04) * 0.195 * 0.09, drum_alone = std::numbers::pi * 0.06 * 0.06 * 0.05;
+  const double block = (0.06 + farthest + 0.04) * 0.195 * 0.09,
+               drum_alone = std::numbers::pi * 0.06 * 0.06 * 0.05;
   EXPECT_NEAR(volume(raw, "body_1") + volume(raw, "mould"), block, 1e-6 * block);
   EXPECT_GT(volume(raw, "body_1"), drum_alone);
   EXPECT_LT(volume(raw, "body_1"), 1.3 * drum_alone);
@@ -92,7 +94,8 @@ TEST(DifficultShapes, BodiesAreCutAlongTheSeamOfAFaceThatCannotBeMeshed) {
 TEST(DifficultShapes, ANoteSaysWhereTheWorstElementIsAndWhy) {
   solidus::model::NewCaseOptions options;
   options.geometry = step_file("wedge", [] {
-    const std::vector<int> corners = {occ::addPoint(0, 0, 0), occ::addPoint(60, 0, 0), occ::addPoint(60, 0, 3)};
+    const std::vector<int> corners = {occ::addPoint(0, 0, 0), occ::addPoint(60, 0, 0),
+                                      occ::addPoint(60, 0, 3)};
     std::vector<int> sides;
     for (std::size_t k = 0; k < 3; ++k) sides.push_back(occ::addLine(corners[k], corners[(k + 1) % 3]));
     gmsh::vectorpair all;

@@ -65,7 +65,8 @@ TEST(RiserChoice, KeepsClearOfAWallBesideThePlaceAndHangsOverTheEdgeForThat) {
   EXPECT_NEAR(riser.foot[2], 0.014 - 0.05 * riser.diameter, 1e-12);
 }
 
-// As on the lug of a bearing cap, with a spot face of 3 mm for the head of the bolt: the foot stood 1 mm above it.
+// As on the lug of a bearing cap, with a spot face of 3 mm for the head of the bolt: the foot stood 1 mm
+// above it.
 TEST(RiserChoice, FillsAShallowRecessUnderItsFoot) {
   Blocks lug;
   lug.add("lug", {0, 0, 0}, {0.1, 0.06, 0.03});
