@@ -3,7 +3,7 @@
 # compiler preprocess the source first, which would take the old header for the text of all that it holds, so that the result of other
 # headers came from the cache.
 for word in "$@"; do
-  case $last:$word in -o:*.gch) rm -f "$word" ;; esac
+  case $last:$word in -o:*.gch | -o:*.pch) rm -f "$word" ;; esac
   last=$word
 done
 # A header differs by its comments alone too: the compiler knows a file that must not be read twice by all of its text. So the result

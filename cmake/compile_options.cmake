@@ -23,7 +23,7 @@ endif()
 
 # gold, which comes with Debian's binutils, links a test program in 0.1 s where the default linker takes 0.8, and some thirty programs are
 # linked again whenever a room changes.
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT SOLIDUS_SANITIZE)
+if(NOT SOLIDUS_SANITIZE)
   include(CheckLinkerFlag)
   check_linker_flag(CXX -fuse-ld=gold SOLIDUS_LINKS_WITH_GOLD)
   if(SOLIDUS_LINKS_WITH_GOLD)

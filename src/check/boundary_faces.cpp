@@ -109,6 +109,20 @@ std::array<GlobalIndex, 4> face_key(const mesh::Mesh& mesh, std::span<const Inde
   return key;
 }
 
+std::set<std::array<GlobalIndex, 4>> face_keys(const mesh::Mesh& mesh,
+                                               const std::set<std::string>& surfaces) {
+  std::set<std::array<GlobalIndex, 4>> keys;
+  for (const std::string& name : surfaces) {
+    const auto surface = mesh.surfaces.find(name);
+    if (surface == mesh.surfaces.end()) continue;
+    for (const mesh::ElementBlock& faces : surface->second.faces)
+      for (Index f = 0; f < faces.size(); ++f)
+        keys.insert(face_key(
+            mesh, std::span(faces.element(f), static_cast<std::size_t>(mesh::vertex_count(faces.shape)))));
+  }
+  return keys;
+}
+
 // The vertices are taken in portions, each of which holds its faces, 275 bytes a node of tetrahedra. Elements
 // stand in the order of their lowest numbers, and those of a portion are found among their ranges.
 void each_boundary_face(

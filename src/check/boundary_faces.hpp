@@ -4,7 +4,9 @@
 
 #include <array>
 #include <functional>
+#include <set>
 #include <span>
+#include <string>
 
 #include "mesh/mesh.hpp"
 #include "numbers/types.hpp"
@@ -24,6 +26,9 @@ struct BoundaryFace {
 
 /// The key of a face with these vertices.
 std::array<GlobalIndex, 4> face_key(const mesh::Mesh& mesh, std::span<const Index> vertices);
+
+/// The keys of this process's faces of surfaces; groups that are no surfaces have none.
+std::set<std::array<GlobalIndex, 4>> face_keys(const mesh::Mesh& mesh, const std::set<std::string>& surfaces);
 
 /// Calls visit(face, same) for each face that one element alone of its body has; `same` are the faces with
 /// the same vertices, those of other bodies included. A face is visited by the process that owns its lowest

@@ -57,6 +57,11 @@ void find_turning_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeas
 /// Parts of the skin of a casting that lie on another body where neither a contact nor a common face passes
 /// heat on. Collective.
 void find_bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Free skins of what is poured: those that face down while none faces up, and those that supports hold in
+/// all directions. Collective.
+void find_in_free_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Stages in which nothing cools a casting. Collective.
+void find_in_stages(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Castings that shrink in elements without pores and feeding. Collective.
 void find_in_elements(const CaseSpec& spec, const Assembly& a, Findings& findings);
 /// Supports and loads. Collective.

@@ -5,6 +5,7 @@
 
 #include "build/body_input.hpp"
 #include "check/findings.hpp"
+#include "material/laws/rate_law.hpp"
 
 namespace solidus::model {
 
@@ -43,6 +44,35 @@ void compare_softening(const BodySpec& body, const material::Material& m, Findin
        "metals have a tenth of their strength left there, and less: a table of temperature", findings);
 }
 
+/// Metal at its solidus is softer than when cold: 0.02 (steel) to 0.65 (tin) of its stiffness is left.
+void compare_stiffness(const BodySpec& body, const material::Material& m, Findings& findings) {
+  constexpr double k_cold = 293.15, k_left = 0.9;  // [K], [1]
+  const double cold = m.young_modulus.value(k_cold),
+               hot = m.young_modulus.value(m.solidification()->fraction.solidus());
+  if (hot < k_left * cold || hot > 1.2 * cold) return;  // one that rises: findings_material.cpp
+  warn(body,
+       fmt::format("a young_modulus of {:.3g} GPa at 20 degC and of {:.3g} GPa at its solidus", 1e-9 * cold,
+                   1e-9 * hot),
+       "2 % (steel) to 65 % (tin) of it are left at the solidus: a table of temperature", findings);
+}
+
+/// Metal at its solidus flows by creep: what its rate adds is of the size of its flow stress. Where it is far
+/// below, the viscosity is one of other units.
+void compare_creep(const BodySpec& body, const material::Material& m, Findings& findings) {
+  if (!m.flow || m.flow->rate_independent()) return;
+  constexpr double k_rate = 1e-3, k_least = 0.2;  // [1/s], [1]
+  const double solidus = m.solidification()->fraction.solidus(),
+               strength = m.flow->flow_stress.value(solidus);
+  const double stress = material::rate_law(m.flow->rate_dependence)
+                            .overstress(material::flow_properties_at(*m.flow, solidus), k_rate)
+                            .stress;
+  if (!(strength > 0) || stress >= k_least * strength) return;
+  warn(body,
+       fmt::format("at its solidus a rate of 0.001 1/s adds {:.3g} MPa to a flow_stress of {:.3g} MPa",
+                   1e-6 * stress, 1e-6 * strength),
+       "half to three times the flow stress there; is the viscosity in its unit?", findings);
+}
+
 /// Data of the criteria.
 void compare_casting(const BodySpec& body, const material::Material& m, Findings& findings) {
   constexpr double k_minute = 60, k_finest = 1e-6, k_coarsest = 1e-3;  // [s], [m], [m]
@@ -65,8 +95,10 @@ void find_in_alloys(const CaseSpec& spec, const Assembly& a, Findings& findings)
     if (m.solidification() == nullptr) continue;
     if (spec.has_heat()) compare_entropy_of_melting(spec.bodies[b], m, findings);
     if (spec.has_heat()) compare_casting(spec.bodies[b], m, findings);
-    if (spec.has_mechanics() && !only_conducts(spec.bodies[b]))
-      compare_softening(spec.bodies[b], m, findings);
+    if (!spec.has_mechanics() || only_conducts(spec.bodies[b])) continue;
+    compare_softening(spec.bodies[b], m, findings);
+    compare_stiffness(spec.bodies[b], m, findings);
+    compare_creep(spec.bodies[b], m, findings);
   }
 }
 

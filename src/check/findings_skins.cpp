@@ -26,16 +26,7 @@ std::set<Key> faces_with_a_role(const CaseSpec& spec, const mesh::Mesh& mesh) {
   for (const ContactSpec& contact : spec.contacts)
     for (const std::string& side : contact.sides()) groups.insert(side);
   for (const ThermalConditionSpec& condition : spec.thermal_conditions) groups.insert(condition.group);
-  std::set<Key> keys;
-  for (const std::string& group : groups) {
-    const auto surface = mesh.surfaces.find(group);
-    if (surface == mesh.surfaces.end()) continue;
-    for (const mesh::ElementBlock& faces : surface->second.faces)
-      for (Index f = 0; f < faces.size(); ++f)
-        keys.insert(face_key(
-            mesh, std::span(faces.element(f), static_cast<std::size_t>(mesh::vertex_count(faces.shape)))));
-  }
-  return keys;
+  return face_keys(mesh, groups);
 }
 
 bool is_poured(const CaseMeasures& m, std::size_t body) {

@@ -26,6 +26,9 @@ struct ContactPointState {
   /// Pressure of the atmosphere in the step that led here, where liquid metal wets the wall; else zero
   /// (normal.hpp) [Pa].
   double suction = 0;
+  /// In the step that led here the metal at the point is below coherency: it does not rub. Known from the
+  /// start of a step on; checkpoints do without it.
+  bool molten = false;
   // Friction.
   Point traction{};       ///< t_T of 3.42b, a vector in the master's tangent plane (ContactKinematics) [Pa]
   Point anchor{};         ///< where slip is counted from: PointMotion::anchor [m]
@@ -41,11 +44,11 @@ struct ContactPointState {
   double plastic_entropy = 0;  ///< S^p_c [J/(m² K)] (3.53c)
 };
 
-/// The pressure with which a point rubs [Pa]: that of a coherent skin. Metal that wets its wall is below
-/// coherency and has no strength to rub with, and tension makes no friction.
-/// @param pressure, suction  of the step, as in ContactPointState
-inline double rubbing_pressure(double pressure, double suction) {
-  return suction > 0 || pressure < 0 ? 0.0 : pressure;
+/// The pressure with which a point rubs [Pa]: that of a coherent skin. Metal below coherency has no strength
+/// to rub with, and tension makes no friction.
+/// @param pressure, molten  of the step, as in ContactPointState
+inline double rubbing_pressure(double pressure, bool molten) {
+  return molten || pressure < 0 ? 0.0 : pressure;
 }
 
 /// History of a node of a master that wears. It moves with the master's surface, whichever slave points pass

@@ -91,7 +91,7 @@ HeatPoint ContactHeat::point(const ContactStep& step, const ContactPointState& f
   if (point_law_.friction && spec_.friction->thermal_return_mapping && step.coupled.law == nullptr &&
       step.iterate.empty() && forces.status != PointStatus::open) {
     point.friction = &*point_law_.friction;
-    point.slip = {forces.trial, rubbing_pressure(now.pressure, now.suction), from.internal_variable,
+    point.slip = {forces.trial, rubbing_pressure(now.pressure, now.molten), from.internal_variable,
                   from.temperature};
   }
   point.step = {step.dt, spec_.interface_heat_capacity, from.temperature, forces.friction.structural_entropy,
@@ -167,7 +167,7 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
     double made = 0;
     if (point_law_.friction)
       made = plastic_entropy_increment(*point_law_.friction, to.slip - from.slip,
-                                       rubbing_pressure(to.pressure, to.suction), to.temperature);
+                                       rubbing_pressure(to.pressure, to.molten), to.temperature);
     to.plastic_entropy = from.plastic_entropy + made;
     const ContactKinematics::Particle particle = geometry_.kinematics().particle(static_cast<Index>(p));
     if (!particle.counted) continue;

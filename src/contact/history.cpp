@@ -19,7 +19,7 @@ std::size_t at(Index i) {
 
 /// The metal at a point that has a partner.
 struct Skin {
-  bool wet = false;     ///< on either side it is below coherency in the mean of the nodes
+  bool molten = false;  ///< on either side it is below coherency in the mean of the nodes
   bool liquid = false;  ///< there no node of the face is coherent
 };
 
@@ -36,7 +36,7 @@ Skin skin_at(const PointMotion& motion, std::span<const double> coherency) {
   Skin skin;
   for (std::size_t of = 0; of < (motion.nodes.size() > n_slave ? 2 : 1); ++of) {
     if (side[of] >= k_coherent) continue;
-    skin.wet = true;
+    skin.molten = true;
     skin.liquid = skin.liquid || molten[of];
   }
   return skin;
@@ -119,7 +119,8 @@ void ContactHistory::set_out_from(const ContactState& state, ContactStep& step) 
 
 void ContactHistory::find_wet_points(std::span<const double> coherency, ContactStep& step) const {
   const auto molten = [](double c) { return c < k_coherent; };
-  const bool any = spec_.atmosphere > 0 && std::ranges::any_of(coherency, molten);
+  const bool wets = spec_.atmosphere > 0, rubs = law_.friction.has_value();
+  const bool any = (wets || rubs) && std::ranges::any_of(coherency, molten);
   if (any) geometry_.at(step.begun, step.displacement);
   const ContactKinematics& kinematics = geometry_.kinematics();
   step.liquid.assign(step.from.size(), 0);
@@ -127,11 +128,13 @@ void ContactHistory::find_wet_points(std::span<const double> coherency, ContactS
     ContactPointState& from = step.from[at(p)];
     const bool touched = from.status != PointStatus::open || from.suction > 0;
     from.suction = 0;
-    if (any && touched) {
+    from.molten = false;
+    if (any && (touched || rubs)) {
       const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::motion);
       const Skin skin = motion.partnered ? skin_at(motion, coherency) : Skin{};
-      if (skin.wet) from.suction = spec_.atmosphere;
-      step.liquid[at(p)] = skin.wet && skin.liquid;
+      from.molten = skin.molten;
+      if (wets && touched && skin.molten) from.suction = spec_.atmosphere;
+      step.liquid[at(p)] = from.suction > 0 && skin.liquid;
     }
     from.multiplier = std::max(from.multiplier, least_multiplier(from));
   }

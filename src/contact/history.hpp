@@ -26,9 +26,9 @@ class ContactHistory {
                        std::span<const double> displacement, double time) const;
   /// Makes a state (empty: initial()) the one that a step sets out from.
   void set_out_from(const ContactState& state, ContactStep& step) const;
-  /// Liquid metal that touches its wall wets it; it stays wet while the metal there is below coherency,
-  /// whatever gap opens. A gap that was there before, or that a coherent skin has left, holds air until it
-  /// closes.
+  /// Sets what metal below coherency does at a point: it does not rub there; and where it touches its wall it
+  /// wets it, if the pair knows an atmosphere, and stays so while it is below coherency, whatever gap opens.
+  /// A gap that was there before, or that a coherent skin has left, holds air until it closes.
   /// @param coherency  ContactPass::coherency; empty: nothing is wet
   void find_wet_points(std::span<const double> coherency, ContactStep& step) const;
   /// Sets the temperature of interface points that have none yet to that at rest between the two sides at

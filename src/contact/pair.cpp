@@ -18,6 +18,7 @@ void open_up(ContactPointState& point) {
   point.status = PointStatus::open;
   point.pressure = point.balance_pressure = point.multiplier = 0;
   point.suction = 0;
+  point.molten = false;
   point.traction = {};
   point.anchored = false;
 }

@@ -46,13 +46,13 @@ PointForces PointLaw::forces(const PointMotion& motion, const ContactPointState&
 
   const Point trial = add_scaled(motion.carried, friction->tangential_penalty(), motion.slip);
   f.trial = norm(trial);
-  const double pressing = rubbing_pressure(f.normal.pressure, from.suction);
+  const double pressing = rubbing_pressure(f.normal.pressure, from.molten);
   const FrictionInput in{f.trial, pressing, from.internal_variable, from.temperature, iterate};
   if (around)
     f.conductance =
         around->conductance(seen_by_heat(motion.penetration + from.offset, from.suction), f.normal.pressure);
   f.friction = respond(in, around, f.conductance.value, f.joint);
-  if (from.suction > 0) {  // whatever presses
+  if (from.molten) {  // whatever presses
     f.friction.pressure_slope = 0;
     if (f.joint) f.joint->source_by_pressure = 0;
   }
@@ -63,7 +63,7 @@ PointForces PointLaw::forces(const PointMotion& motion, const ContactPointState&
     beyond.trial = (1 + 2 * k_on_the_cone) * in.trial;
     const FrictionResponse slipping = respond(beyond, around, f.conductance.value, f.joint);
     f.friction.trial_slope = slipping.trial_slope;
-    f.friction.pressure_slope = from.suction > 0 ? 0.0 : slipping.pressure_slope;
+    f.friction.pressure_slope = from.molten ? 0.0 : slipping.pressure_slope;
   }
   const double radial = f.trial > 0 ? f.friction.traction / f.trial : 1.0;
   f.traction = scale(radial, trial);
@@ -101,7 +101,7 @@ ContactPointState PointLaw::next(const PointMotion& motion, const ContactPointSt
   to.work += f.friction.slip * f.friction.traction;
   if (wear)
     to.wear_depth +=
-        (1 - wear->master_share) * wear->depth_increment(rubbing_pressure(f.normal.pressure, from.suction),
+        (1 - wear->master_share) * wear->depth_increment(rubbing_pressure(f.normal.pressure, from.molten),
                                                          f.friction.slip, to.temperature);
   return to;
 }

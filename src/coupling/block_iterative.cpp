@@ -140,7 +140,11 @@ void BlockIterative::iterate_until_agreement(const State& old, Iterate& it) {
   while (true) {
     ++it.number;
     iterate(old, it);
-    if (agrees(old, it)) break;
+    if (agrees(old, it)) {
+      if (it.attempt.newton_steps == 0) break;
+      // Single steps of Newton's method do not look at the limits of conduction: whole passes follow.
+      it.attempt.newton_steps = 0;
+    }
     require_progress(it);
     damp(it);
     relax(it);

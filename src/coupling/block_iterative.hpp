@@ -32,7 +32,9 @@ struct IterationOptions {
   enum class Sweep { gauss_seidel, jacobi };
   enum class Loop {
     nested,  ///< every pass to the tolerance of its phase
-    single   ///< one Newton step a pass; nested in a step where that does not converge
+    /// One Newton step a pass until they agree, and whole passes from there; nested in a step where that does
+    /// not converge.
+    single
   };
   Sweep sweep = Sweep::gauss_seidel;
   Loop loop = Loop::nested;

@@ -150,6 +150,7 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
   mechanics::MechanicalPass to_end = to_middle;
   to_end.time = time;
   to_end.dt = extrapolated ? first_dt : dt - first_dt;
+  to_end.from_extrapolation = extrapolated;
   to_end.iterate = &first.mechanics;
   thermal.begin_stage(old.heat, first.heat, carried, time, to_end.dt);
   StepEffort effort = stage(start, second_start(phases_, old.contacts, first.contacts, carried), coherency,

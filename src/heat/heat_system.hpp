@@ -81,6 +81,11 @@ class HeatSystem {
   /// processes [K]; +∞ and −∞ where there is none. Friction, say, heats the nodes of its contact, and no node
   /// can be hotter than the hottest of these and of those at the start of a step. Collective.
   TemperatureRange range_of_contributions(std::span<const double> temperature);
+  /// `range`, but where contributions alone leave it open that of `start`, of surroundings and of the nodes
+  /// that contributions act on, at these temperatures. Collective.
+  /// @param range  ambient_range(), or more
+  TemperatureRange closed_range(const TemperatureRange& range, const TemperatureRange& start,
+                                std::span<const double> temperature);
   /// r on owned nodes [W]. Returns this process's share of the heat moved by surfaces, sources and
   /// contributions, magnitudes before they cancel.
   double residual(std::span<const double> temperature, std::span<double> r);

@@ -129,4 +129,15 @@ TemperatureRange HeatSystem::range_of_contributions(std::span<const double> temp
   return {parallel::global_min(range.lowest), parallel::global_max(range.highest)};
 }
 
+TemperatureRange HeatSystem::closed_range(const TemperatureRange& range, const TemperatureRange& start,
+                                          std::span<const double> temperature) {
+  if (std::isfinite(range.lowest) && std::isfinite(range.highest)) return range;
+  TemperatureRange closed = ambient_range(false);
+  for (const TemperatureRange& other : {start, range_of_contributions(temperature)}) {
+    closed.lowest = std::min(closed.lowest, other.lowest);
+    closed.highest = std::max(closed.highest, other.highest);
+  }
+  return closed;
+}
+
 }  // namespace solidus::heat

@@ -61,7 +61,7 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
     if (factor != 0) phase_.consistent_->begin_stage({dt, factor}, stage.temperature);
   }
   now_ = phase_.start(stage, time);
-  range_ = phase_.limit_conduction(stage, old);
+  range_ = phase_.limit_conduction(stage, old).range;
   at_start_ = range_of(old.temperature, stage.temperature);
   if (nodal()) {
     stored_from_ = old.enthalpy;
@@ -111,20 +111,8 @@ void ThermalIteration::evaluate() {
   unbalanced_ = parallel::global_sum(sum);
 }
 
-/// Where contributions alone leave the range open, it ends at the temperatures of the nodes they act on.
-TemperatureRange ThermalIteration::range_of_now() const {
-  if (std::isfinite(range_.lowest) && std::isfinite(range_.highest)) return range_;
-  TemperatureRange range = phase_.system_->ambient_range(false);
-  const TemperatureRange heated = phase_.system_->range_of_contributions(now_.temperature);
-  for (const TemperatureRange& other : {at_start_, heated}) {
-    range.lowest = std::min(range.lowest, other.lowest);
-    range.highest = std::max(range.highest, other.highest);
-  }
-  return range;
-}
-
 bool ThermalIteration::revise_limits() {
-  const TemperatureRange range = range_of_now();
+  const TemperatureRange range = phase_.system_->closed_range(range_, at_start_, now_.temperature);
   double beyond = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(phase_.mesh_.n_owned_nodes); ++i)
     beyond = std::max({beyond, range.lowest - now_.temperature[i], now_.temperature[i] - range.highest});

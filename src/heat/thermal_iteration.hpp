@@ -79,7 +79,6 @@ class ThermalIteration {
 
  private:
   bool nodal() const { return phase_.nodal(); }
-  TemperatureRange range_of_now() const;
 
   ThermalPhase& phase_;
   std::unique_ptr<EnthalpyNewton> newton_;  ///< where the enthalpy of the nodes is the unknown

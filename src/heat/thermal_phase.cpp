@@ -129,6 +129,12 @@ TemperatureRange ThermalPhase::ambient_range(double time, bool with_contribution
   return system_->ambient_range(with_contributions);
 }
 
+TemperatureRange ThermalPhase::range_around(double time, std::span<const double> temperature) const {
+  const TemperatureRange range = ambient_range(time);
+  const bool open = range.lowest == -HUGE_VAL || range.highest == HUGE_VAL;
+  return open ? system_->closed_range(range, {}, temperature) : range;
+}
+
 void ThermalPhase::begin_burning(const BurningState& state, double begin, double end) {
   system_->set_burning(state, begin, end);
 }

@@ -182,6 +182,9 @@ class ThermalPhase {
   /// nothing is heated or cooled; without end where fluxes, sources or contributions can. Collective.
   /// @param with_contributions  false: the caller knows whether contributions heat
   TemperatureRange ambient_range(double time, bool with_contributions = true) const;
+  /// The same with contributions that heat, whose nodes count with these temperatures, [local node]: friction
+  /// makes nothing hotter than what rubs. Collective.
+  TemperatureRange range_around(double time, std::span<const double> temperature) const;
 
   /// Plateau shares: the shares of isothermal changes that are done at the nodes at their temperature, from 0
   /// (cold) to 1 (hot); one at other nodes. Temperature and plateau share together determine how much of
@@ -234,7 +237,7 @@ class ThermalPhase {
                            const linear::RungeKuttaStage& stage) const;
   /// Tells the contributions that store.
   void begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> before);
-  TemperatureRange limit_conduction(const ThermalState& before, const ThermalState& old);
+  ConductionBounds limit_conduction(const ThermalState& before, const ThermalState& old);
   void set_latent(HeatBalance& balance, const ThermalState& old, const ThermalState& next) const;
   /// Measures a solved step, whose last residual is given.
   HeatBalance balance(const ThermalState& old, const ThermalState& next, std::span<const double> residual,

@@ -22,6 +22,12 @@ struct TemperatureRange {
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
 };
 
+/// What conduction keeps temperatures within [K].
+struct ConductionBounds {
+  TemperatureRange range{-HUGE_VAL, HUGE_VAL};  ///< of the start and of what is around; open where heated
+  TemperatureRange start;                       ///< of the start alone: HeatSystem::closed_range()
+};
+
 /// Heat that one condition brought into the bodies during a step (steady analysis: per second).
 struct ConditionHeat {
   std::string name;

@@ -54,7 +54,7 @@ ThermalReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState
   if (consistent_) consistent_->use(false);
   ThermalReport report;
   std::vector<double> residual(at(mesh_.n_owned_nodes));
-  const TemperatureRange range = limit_conduction({temperature, {}}, start);
+  const TemperatureRange range = limit_conduction({temperature, {}}, start).range;
   system_->clear_limits();  // a linear field, say, needs none
   report.newton = solve_temperature(temperature, residual);
   const double moved = temperature_system_->moved();

@@ -18,8 +18,9 @@ constexpr int k_chord_rounds = 8;  ///< linear solves for one such step
 constexpr double k_chord_change = 0.1;    ///< change of the heats by a round, over the heats, that ends them
 constexpr double k_chord_forcing = 0.01;  ///< of these linear solves, where the step is not worth less
 constexpr double k_chord_differs = 1.5;  ///< a chord that is not so much steeper than the tangent is not used
-constexpr double k_chord_holds = 1e8;    ///< times the diagonal: no chord is steeper
-constexpr int k_refinements = 8;         ///< directions at most
+constexpr double k_kink = 10;  ///< slope of a chord over the tangent's from which on a node stops the others
+constexpr double k_chord_holds = 1e8;  ///< times the diagonal: no chord is steeper
+constexpr int k_refinements = 8;       ///< directions at most
 constexpr double k_refined = 1e-2;  ///< residual of the linear system, over its right-hand side, that will do
 constexpr double k_refining = 0.1;  ///< of the systems that find their directions
 
@@ -179,6 +180,22 @@ linear::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
     if (parallel::global_sum(change) <= k_chord_change * parallel::global_sum(all)) break;
   }
   return report;
+}
+
+/// The tangents' step once more, where the line search cut it short, with those nodes held that pass a
+/// plateau or a bend within the first part of the step. A node that has come close to the end of a plateau
+/// and is driven on to it would stop all others there; what it lacks is left to the sweeps.
+linear::LinearReport TruncatedNewton::correct_beside_kinks(double forcing) {
+  std::vector<double> chords(r_.size());
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    if (step_[i] == 0 || curve_slope_[i] == 0) continue;
+    const double part = k_stuck_step * step_[i];
+    const StorageCurve::AtPotential at =
+        curves_.at_potential(static_cast<Index>(i), potential_[i] + part, temperature_[i]);
+    const double end = step_[i] < 0 ? at.upper : at.lower;
+    if ((end - heat_[i]) / part > k_kink / curve_slope_[i]) chords[i] = HUGE_VAL;
+  }
+  return correct(forcing, chords);
 }
 
 }  // namespace solidus::heat

@@ -93,14 +93,15 @@ void TruncatedNewton::assemble() {
 
 /// Looks at the limits of conduction at the temperatures reached. Returns whether the iteration has to go on
 /// with others: when flows change too much, and then when temperatures are out of range.
-bool TruncatedNewton::revise_limits(const TemperatureRange& range) {
+bool TruncatedNewton::revise_limits(const ConductionBounds& bounds) {
   if (revisions_ < k_revisions && system_.find_limits(temperature_, k_limit_change * moved_)) {
     ++revisions_;
     return true;
   }
   if (revisions_ >= k_revisions + k_holds) return false;
   using Held = ConductionLimiter::Held;
-  const Held held = system_.hold_nodes(temperature_, range);
+  const Held held =
+      system_.hold_nodes(temperature_, system_.closed_range(bounds.range, bounds.start, temperature_));
   if (held == Held::none || (held == Held::as_before && ++idle_ > k_idle)) return false;
   revisions_ = std::max(revisions_, k_revisions) + 1;
   system_.find_limits(temperature_);
@@ -109,7 +110,7 @@ bool TruncatedNewton::revise_limits(const TemperatureRange& range) {
 
 linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, double dt,
                                             std::span<double> temperature, std::span<double> heat,
-                                            const TemperatureRange& range, int newton_steps) {
+                                            const ConductionBounds& bounds, int newton_steps) {
   old_heat_ = old_heat;
   heat_ = heat;
   temperature_ = temperature;
@@ -140,7 +141,7 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
     if (converged()) {
       report.residuals.back() = moved_ > 0 ? norm_ / moved_ : norm_;
       report.converged = true;
-      if (newton_steps > 0 || !revise_limits(range)) break;
+      if (newton_steps > 0 || !revise_limits(bounds)) break;
       report.converged = false;
       revised = true;
       evaluate();
@@ -150,7 +151,7 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
     // end.
     if (!looked_ahead && newton_steps == 0 && norm_ <= k_nearly * moved_) {
       looked_ahead = true;
-      revised = revise_limits(range);
+      revised = revise_limits(bounds);
       if (revised) {
         evaluate();
         continue;
@@ -173,12 +174,12 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
     linear::LinearReport linear = by_chords ? correct_by_chords(to) : correct(to);
     report.linear_iterations += linear.iterations;
     solver_.release();  // sweeps have copies of their own
-    if (linear.converged && !search(by_chords || !may_use_chords)) {
-      by_chords = true;
-      linear = correct_by_chords(to);
+    if (linear.converged && !search(by_chords ? 0 : may_use_chords ? k_short_step : k_stuck_step)) {
+      by_chords = may_use_chords;
+      linear = by_chords ? correct_by_chords(to) : correct_beside_kinks(to);
       solver_.release();
       report.linear_iterations += linear.iterations;
-      if (linear.converged) search(true);
+      if (linear.converged) search(0);
     }
     if (!linear.converged) {
       report.reason = "linear solver: " + linear.reason;

@@ -24,7 +24,9 @@
 ///      node that passes one takes up its latent heat in the linear system, and the front of an isothermal
 ///      change moves by as many layers of nodes as the heat allows. For the kink of E that a plateau is, that
 ///      is iteratively reweighted least squares (I. Daubechies, R. DeVore, M. Fornasier and C. S. Güntürk,
-///      Comm. Pure Appl. Math. 63 (2010) 1).
+///      Comm. Pure Appl. Math. 63 (2010) 1). Where chords have just been used without gain and a step of
+///      tangents comes out shorter than 1e-3, it is found anew with those nodes held that cut it short: they
+///      lie next to a plateau and are driven on to it.
 /// No part lets E rise, and the sweeps alone converge, so the iteration converges from any start, for every
 /// step and curve; near the solution it is Newton's method. The number of iterations hardly depends on the
 /// mesh. C. Gräser and R. Kornhuber, J. Comput. Math. 27 (2009) 1; C. Gräser, U. Sack and O. Sander,
@@ -70,10 +72,10 @@ class TruncatedNewton {
   /// `old_heat` is H*. Where the temperature is prescribed, `temperature` already holds it. Collective.
   /// Conduction is limited as it was before the call; where the iteration has converged the limits are found
   /// anew, and it goes on if that changes much. Not if `newton_steps` says when it ends.
-  /// @param range         temperatures that nothing should leave [K]
+  /// @param bounds        temperatures that conduction should not leave
   /// @param newton_steps  at most so many iterations; zero: the limit of the options
   linear::NewtonReport solve(std::span<const double> old_heat, double dt, std::span<double> temperature,
-                             std::span<double> heat, const TemperatureRange& range = {-HUGE_VAL, HUGE_VAL},
+                             std::span<double> heat, const ConductionBounds& bounds = {},
                              int newton_steps = 0);
   /// F at the end of the last solve, [owned node] [W]: where the temperature is prescribed, the heat that
   /// holds it.
@@ -81,6 +83,9 @@ class TruncatedNewton {
   double moved() const { return moved_; }  ///< heat moved per time in the last residual, all processes [W]
 
  private:
+  static constexpr double k_short_step = 0.2;   ///< length below which a step is found anew by chords
+  static constexpr double k_stuck_step = 1e-3;  ///< or with those nodes held that cut it short
+
   /// The vectors of a solve live as long as it does: criteria and files need the memory in between.
   void allocate();
   void release();
@@ -99,9 +104,10 @@ class TruncatedNewton {
   void multiply_exactly(std::span<double> step, std::span<double> product, std::span<const char> held);
   void find_chords(std::span<double> chords) const;
   linear::LinearReport correct_by_chords(double forcing);
-  bool revise_limits(const TemperatureRange& range);
-  bool search(bool short_too);
-  bool find_length(bool short_too);
+  linear::LinearReport correct_beside_kinks(double forcing);
+  bool revise_limits(const ConductionBounds& bounds);
+  bool search(double least);
+  bool find_length(double least);
   double minimise(double start, double longest, double (TruncatedNewton::*slope_at)(double));
   double linear_slope(double alpha);
   double true_slope(double alpha);

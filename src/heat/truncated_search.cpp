@@ -13,7 +13,6 @@ namespace {
 constexpr double k_accept_rise = 0.5;   ///< the full step stands if E rises behind it by at most this share
 constexpr double k_accept_slope = 0.1;  ///< a shortened step ends where the slope of E is this share
 constexpr int k_search_trials = 20;
-constexpr double k_short = 0.2;  ///< length of a step below which it is found anew by chords
 
 }  // namespace
 
@@ -64,20 +63,20 @@ double TruncatedNewton::slope_along_step() const {
 }
 
 /// Goes to the least E along δ, to a tenth of its slope at the start; leaves F there.
-/// @param short_too  false: a short step is not taken; nothing has changed then but what the next step writes
+/// @param least  a shorter step is not taken; nothing has changed then but what the next step writes
 /// @return whether the step was taken
-bool TruncatedNewton::search(bool short_too) {
+bool TruncatedNewton::search(double least) {
   const profile::Part part("line search");
   from_heat_.assign(heat_.begin(), heat_.begin() + static_cast<std::ptrdiff_t>(r_.size()));
-  const bool taken = find_length(short_too);
+  const bool taken = find_length(least);
   std::vector<double>().swap(from_heat_);
   return taken;
 }
 
-bool TruncatedNewton::find_length(bool short_too) {
+bool TruncatedNewton::find_length(double least) {
   const double start = slope_along_step();
   double alpha = minimise(start, 1.0, &TruncatedNewton::linear_slope);
-  if (alpha < k_short && !short_too) {
+  if (alpha < least) {
     for (std::size_t i = 0; i < r_.size(); ++i) {
       if (step_[i] == 0) continue;
       heat_[i] = from_heat_[i];

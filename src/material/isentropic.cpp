@@ -14,8 +14,8 @@ template Lane Isentropic::entropy(const Properties<Lane>&, const Sym<Lane>&, con
 template double Isentropic::entropy(const Properties<double>&, const Sym<double>&,
                                     const State<double>&) const;
 template Isentropic::Response<double> Isentropic::update(const Properties<double>&, const State<double>&,
-                                                         const Sym<double>&, double) const;
+                                                         const Sym<double>&, const TimeStep&) const;
 template Isentropic::Response<Lane> Isentropic::update(const Properties<Lane>&, const State<Lane>&,
-                                                       const Sym<Lane>&, double) const;
+                                                       const Sym<Lane>&, const TimeStep&) const;
 
 }  // namespace solidus::material

@@ -80,9 +80,9 @@ class Isentropic {
   /// @param p      with its entropy set
   /// @param start  history at the start of the effective step (time_integration.hpp)
   /// @param strain total strain at t_{n+1}
-  /// @param dt     effective step [s], positive
   template <class T>
-  Response<T> update(const Properties<T>& p, const State<T>& start, const Sym<T>& strain, double dt) const;
+  Response<T> update(const Properties<T>& p, const State<T>& start, const Sym<T>& strain,
+                     const TimeStep& step) const;
 
   /// The law's properties along the lines.
   template <class T>

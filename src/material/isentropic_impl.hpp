@@ -256,16 +256,16 @@ T Isentropic::entropy(const Properties<T>& p, const Sym<T>& strain, const State<
 
 template <class T>
 Isentropic::Response<T> Isentropic::update(const Properties<T>& p, const State<T>& start,
-                                           const Sym<T>& strain, double dt) const {
+                                           const Sym<T>& strain, const TimeStep& step) const {
   const T zero(0.0), tolerance = T(detail::k_entropy_tolerance) * p.capacity.value;
-  const ReducedEntropy<T> reduced(law_, start, strain, dt);
+  const ReducedEntropy<T> reduced(law_, start, strain, step.dt);
   const detail::SensibleEntropy<T> sensible(p);
   T theta = p.temperature, low = p.lowest, high = p.highest;
   if constexpr (detail::is_plain<T>) theta = detail::first_temperature(material(), p, reduced, sensible);
   bool solved = false;
   for (int i = 0;; ++i) {
     const auto elastic = elastic_along(material(), p, theta);
-    auto r = law_.update<T>({elastic_values(p, elastic), flow_values(p, theta)}, start, strain, dt);
+    auto r = law_.update<T>({elastic_values(p, elastic), flow_values(p, theta)}, start, strain, step);
     const auto at = reduced.at(p, elastic, theta, r.flow_increment);
     const auto f = sensible.defect(
         theta, at.entropy,
@@ -309,8 +309,8 @@ extern template double Isentropic::entropy(const Properties<double>&, const Sym<
                                            const State<double>&) const;
 extern template Isentropic::Response<double> Isentropic::update(const Properties<double>&,
                                                                 const State<double>&, const Sym<double>&,
-                                                                double) const;
+                                                                const TimeStep&) const;
 extern template Isentropic::Response<Lane> Isentropic::update(const Properties<Lane>&, const State<Lane>&,
-                                                              const Sym<Lane>&, double) const;
+                                                              const Sym<Lane>&, const TimeStep&) const;
 
 }  // namespace solidus::material

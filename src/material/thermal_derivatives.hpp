@@ -6,7 +6,7 @@
 ///   a = ê − γ n,  s = 2Ĝ a,  n = β̂/‖β̂‖:  a_Θ = −γ_Θ n − γ n_Θ,  n_Θ = (I − n⊗n) β̂_Θ/‖β̂‖
 ///   S = −½ k_Θ tr² + (k e^θ)_Θ tr − R_Θ − Q a:a − K_Θ(ξ) − ⅓ K_Θ ζ:ζ                            (2.52b)
 ///   D_mech = [2Ĝ v a:a + γ (x + w √⅔ σ_0 + ⅔ K b ζ:ζ)]/Δt                               (2.114–2.117)
-/// or, with a Taylor–Quinney factor β, [2Ĝ v a:a + β γ s:n]/Δt.
+/// or, with a Taylor–Quinney factor β, [2Ĝ v a:a + β ⟨P⟩]/Δt, P = γ (x + …) + Δ(K + ⅓ K ζ:ζ).
 ///
 /// Q = W_Θ/(a:a) at fixed elastic strain: maxwell (f_S G_Θ − f_S,Θ G) (Ĝ/G)², otherwise Ḡ_Θ; nothing divides
 /// by f_S. With a Maxwell element whose solid fraction and viscosity are frozen it is Ĝ_Θ. v is the viscous
@@ -60,11 +60,11 @@ struct ThermalDerivatives {
 };
 
 /// @param p         thermal_properties, at the temperature of the update
-/// @param start, strain, dt  arguments of the update
+/// @param start, strain, step  arguments of the update
 /// @param response  what it returned
 template <class T>
 ThermalDerivatives<T> thermal_derivatives(const Viscoplastic& law, const Viscoplastic::Properties<Jet<T>>& p,
                                           const Viscoplastic::State<T>& start, const Sym<T>& strain,
-                                          double dt, const Viscoplastic::Response<T>& response);
+                                          const TimeStep& step, const Viscoplastic::Response<T>& response);
 
 }  // namespace solidus::material

@@ -1,6 +1,7 @@
 /// Bodies of the templates of thermal_derivatives.hpp. Included by thermal_derivatives.hpp only.
 #pragma once
 
+#include "material/hardening_heat.hpp"
 #include "material/thermal_derivatives.hpp"
 #include "material/viscoplastic_impl.hpp"
 
@@ -36,18 +37,20 @@ class Variation {
   using State = Viscoplastic::State<T>;
 
   [[gnu::always_inline]] Variation(const Viscoplastic& law, const Viscoplastic::Properties<J>& p,
-                                   const State& start, const Sym<T>& strain, double dt,
+                                   const State& start, const Sym<T>& strain, const TimeStep& step,
                                    const Viscoplastic::Response<T>& r)
       : law_(law),
         p_(p),
-        shear_(law.shear(p.elastic, dt)),
-        dt_(dt),
+        start_(start),
+        shear_(law.shear(p.elastic, step.dt)),
+        dt_(step.dt),
+        extrapolated_(step.extrapolated),
         trace_(trace(strain)),
         trial_(dev(strain) - start.plastic_strain - start.viscous_strain),
         elastic_(trial_),
         zeta_(r.state.back_strain),
         xi_(r.state.hardening) {
-    if (law.material().flow && any(r.flow_increment > T(0.0))) add_flow(start, r);
+    if (law.material().flow && any(r.flow_increment > T(0.0))) add_flow(r);
   }
 
   /// dσ/dΘ.
@@ -124,7 +127,8 @@ class Variation {
       return d;
     }
     const T rate(1.0 / dt_);
-    const Derivatives<T> plastic = law_.material().flow->heat_share ? shared_heat() : unstored();
+    const Derivatives<T> free = unstored();
+    const Derivatives<T> plastic = law_.material().flow->heat_share ? shared_heat(free) : free;
     d.value += rate * plastic.value;
     d.temperature += rate * plastic.temperature;
     d.strain = rate * plastic.strain + along_strain(by_elastic, zeros(), T(0.0));
@@ -134,7 +138,7 @@ class Variation {
   /// The energy of plastic work that is stored beside that of hardening, since the start of the step [J/m³];
   /// the material has a Taylor–Quinney factor.
   Derivatives<T> cold_work() const {
-    const Derivatives<T> free = unstored(), heat = shared_heat();
+    const Derivatives<T> free = unstored(), heat = shared_heat(free);
     return {free.value - heat.value, free.temperature - heat.temperature, free.strain - heat.strain};
   }
 
@@ -161,26 +165,50 @@ class Variation {
                          force + gamma_ * (overstress_gamma_ + gained))};
   }
 
-  /// β times the plastic work P = s γ (n : ê − γ) of the step.
-  Derivatives<T> shared_heat() const {
-    const T zero(0.0), along = dot(normal_, trial_), left = along - gamma_;
-    const J &s = shear_.twice_shear, &share = p_.flow.heat_share;
-    const T work = s.v * gamma_ * left;
-    const auto heats = work > zero;
+  /// β ⟨P⟩ of the plastic work P of the step.
+  /// @param free  unstored()
+  Derivatives<T> shared_heat(const Derivatives<T>& free) const {
+    const T zero(0.0);
+    const J& share = p_.flow.heat_share;
+    const Derivatives<T> work = plastic_work(free);
+    const auto heats = work.value > zero;
     const T beta = select(heats, share.v, zero), slope = select(heats, share.d, zero);
+    return {beta * work.value, beta * work.temperature + slope * work.value, beta * work.strain};
+  }
+
+  /// K + ⅓ K ζ:ζ at the end of the step less that at its start, both at Θ.
+  Derivatives<T> hardening_gain() const {
+    const Flow& flow = *law_.material().flow;
+    const J end = hardening_potential<J>(flow, p_.flow, J(xi_), J(dot(zeta_, zeta_)));
+    const J begin = hardening_potential<J>(flow, p_.flow, J(start_.hardening),
+                                           J(dot(start_.back_strain, start_.back_strain)));
+    const Sym<T> by_zeta = T(T(return_mapping::k_two_thirds) * p_.flow.kinematic_modulus.v) * zeta_;
+    return {end.v - begin.v, end.d - begin.d + stress_ * xi_theta_ + dot(by_zeta, zeta_theta_),
+            along_strain(zeros(), by_zeta, stress_ * radius().v)};
+  }
+
+  /// The plastic work P of the step: what is not stored and what hardening gains; from an extrapolated start
+  /// s γ (n : ê − γ).
+  Derivatives<T> plastic_work(const Derivatives<T>& free) const {
+    if (!extrapolated_) {
+      const Derivatives<T> gain = hardening_gain();
+      return {free.value + gain.value, free.temperature + gain.temperature, free.strain + gain.strain};
+    }
+    const T left = dot(normal_, trial_) - gamma_;
+    const J& s = shear_.twice_shear;
     const T by_gamma = s.v * (left - gamma_);
     const Sym<T> by_normal = T(s.v * gamma_) * across(trial_);
     const T work_theta = s.d * gamma_ * left + by_gamma * gamma_theta_ + dot(by_normal, normal_theta_);
     const T through_gamma = by_gamma + per_norm_ * dot(by_normal, drift_);
     const Sym<T> by_strain = T(s.v * gamma_) * normal_ + T(s.v * per_norm_) * by_normal +
                              T(through_gamma * inverse_ * s.v) * normal_;
-    return {beta * work, beta * work_theta + slope * work, beta * by_strain};
+    return {s.v * gamma_ * left, work_theta, by_strain};
   }
 
   /// a − n (n : a).
   Sym<T> across(const Sym<T>& a) const { return a - dot(normal_, a) * normal_; }
 
-  [[gnu::always_inline]] void add_flow(const State& start, const Viscoplastic::Response<T>& r) {
+  [[gnu::always_inline]] void add_flow(const Viscoplastic::Response<T>& r) {
     const T zero(0.0), one(1.0);
     const auto flows = r.flow_increment > zero;
     gamma_ = select(flows, r.flow_increment, zero);
@@ -194,7 +222,7 @@ class Variation {
     const J& stiff = shear_.twice_shear;
     const J& w = shear_.strength;
     const J modulus = J(T(return_mapping::k_two_thirds)) * w * p_.flow.kinematic_modulus;
-    const J xi = J(start.hardening) + radius() * J(gamma_);
+    const J xi = J(start_.hardening) + radius() * J(gamma_);
     J fading(one);
     T fading_gamma = zero;
     if (!law_.symmetric()) {
@@ -205,19 +233,20 @@ class Variation {
       recall_gamma_ = select(flows, T((b.fall.v - b.recall.v) / select(flows, gamma_, one)), zero);
     }
     const HardeningStress<J> k = hardening_stress<J>(flow.isotropic, flow.curves, p_.flow, xi);
+    stress_ = k.stress.v;
     stress_theta_ = k.stress.d - k.slope.v * xi.d;
 
     // Φ at the solution as a function of temperature, n held: Φ_n is zero.
     const J pull = modulus * fading;
-    const J phi = stiff * J(dot(normal_, trial_)) + pull * J(dot(normal_, start.back_strain)) -
+    const J phi = stiff * J(dot(normal_, trial_)) + pull * J(dot(normal_, start_.back_strain)) -
                   (stiff + w * pull) * J(gamma_) - radius() * (p_.flow.flow_stress + k.stress);
     rate_derivatives(flow);
     gamma_theta_ = inverse_ * (phi.d - overstress_theta_);
 
     // β̂ turns with temperature and, where back strain is recalled, with γ
     per_norm_ = inverse_norm;
-    drift_ = across(T(modulus.v * fading_gamma) * start.back_strain);
-    const Sym<T> turn = across(stiff.d * trial_ + pull.d * start.back_strain) + gamma_theta_ * drift_;
+    drift_ = across(T(modulus.v * fading_gamma) * start_.back_strain);
+    const Sym<T> turn = across(stiff.d * trial_ + pull.d * start_.back_strain) + gamma_theta_ * drift_;
     const Sym<T> normal_theta = inverse_norm * turn;
     normal_theta_ = normal_theta;
     elastic_theta_ = T(zero - gamma_theta_) * normal_ - gamma_ * normal_theta;
@@ -274,8 +303,10 @@ class Variation {
 
   const Viscoplastic& law_;
   const Viscoplastic::Properties<J>& p_;
+  const State& start_;
   Viscoplastic::Shear<J> shear_;
   double dt_;
+  bool extrapolated_;  ///< TimeStep::extrapolated
   T trace_;
   Sym<T> trial_, elastic_;  ///< ê, a
   Sym<T> zeta_;
@@ -284,7 +315,8 @@ class Variation {
   T recall_gamma_{0.0};  ///< b_γ
   // Zero without flow:
   T gamma_{0.0}, inverse_{0.0}, per_norm_{0.0}, overstress_{0.0};
-  T overstress_gamma_{0.0}, overstress_theta_{0.0}, stress_theta_{0.0};  ///< x_γ, x_Θ, K_ξΘ
+  T overstress_gamma_{0.0}, overstress_theta_{0.0};  ///< x_γ, x_Θ
+  T stress_{0.0}, stress_theta_{0.0};                ///< K_ξ, K_ξΘ
   T gamma_theta_{0.0}, xi_theta_{0.0};
   T zeta_turn_{0.0};  ///< ζ turns with n by −zeta_turn_ dn
   Sym<T> normal_ = zeros(), drift_ = zeros(), elastic_theta_ = zeros(), zeta_theta_ = zeros(),
@@ -296,8 +328,8 @@ class Variation {
 template <class T>
 ThermalDerivatives<T> thermal_derivatives(const Viscoplastic& law, const Viscoplastic::Properties<Jet<T>>& p,
                                           const Viscoplastic::State<T>& start, const Sym<T>& strain,
-                                          double dt, const Viscoplastic::Response<T>& response) {
-  const Variation<T> v(law, p, start, strain, dt, response);
+                                          const TimeStep& step, const Viscoplastic::Response<T>& response) {
+  const Variation<T> v(law, p, start, strain, step, response);
   return {v.stress(), v.entropy(), v.dissipation(), v.flow_increment()};
 }
 

@@ -14,6 +14,7 @@
 #pragma once
 
 #include "material/elasticity.hpp"
+#include "material/time_integration.hpp"
 #include "numbers/tensor.hpp"
 
 namespace solidus::material {
@@ -56,12 +57,11 @@ class Viscoelastic {
 
   /// @param old    history at t_n
   /// @param strain total strain at t_{n+1}
-  /// @param dt     [s], positive
   template <class T>
   static Response<T> update(const PointProperties<T>& p, const State<T>& old, const Sym<T>& strain,
-                            double dt) {
+                            const TimeStep& step) {
     const T lambda = T(1.0) - p.solid_fraction;
-    const T fluidity = T(dt) * lambda / p.viscosity;  // Δt λ/η
+    const T fluidity = T(step.dt) * lambda / p.viscosity;  // Δt λ/η
     const T twice_shear = T(2.0) * p.shear / (p.solid_fraction + fluidity * T(2.0) * p.shear);
     const T pressure = p.bulk * (trace(strain) - p.thermal_strain);  // 2.57b
     const Sym<T> s = twice_shear * (dev(strain) - old.viscous_strain);

@@ -35,8 +35,8 @@ template Sym<Lane> Viscoplastic::loading(const Properties<Lane>&, const State<La
                                          double) const;
 
 template Viscoplastic::Response<double> Viscoplastic::update(const Properties<double>&, const State<double>&,
-                                                             const Sym<double>&, double) const;
+                                                             const Sym<double>&, const TimeStep&) const;
 template Viscoplastic::Response<Lane> Viscoplastic::update(const Properties<Lane>&, const State<Lane>&,
-                                                           const Sym<Lane>&, double) const;
+                                                           const Sym<Lane>&, const TimeStep&) const;
 
 }  // namespace solidus::material

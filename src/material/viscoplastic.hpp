@@ -73,7 +73,7 @@ class Viscoplastic {
     T flow_increment;       ///< γ over the effective step
     T viscous_dissipation;  ///< 2.114 [W/m³]
     T plastic_dissipation;  ///< 2.117, without the power that is stored [W/m³]
-    T plastic_power;        ///< s : ε̇^vp [W/m³]
+    T plastic_power;        ///< s : ε̇^vp; with a Taylor–Quinney factor its mean over the step [W/m³]
     T thermal_dissipation;  ///< D_ther = Θ Ṡ^I (2.120), Θ that of the flow stress [W/m³]
     T dissipation;          ///< D_mech, the sum of both (2.113) [W/m³]
     Status status = Status::converged;
@@ -99,9 +99,9 @@ class Viscoplastic {
 
   /// @param start  history at the start of the effective step
   /// @param strain total strain at t_{n+1}
-  /// @param dt     effective step [s], positive
   template <class T>
-  Response<T> update(const Properties<T>& p, const State<T>& start, const Sym<T>& strain, double dt) const;
+  Response<T> update(const Properties<T>& p, const State<T>& start, const Sym<T>& strain,
+                     const TimeStep& step) const;
 
   /// (s − w q)/max(‖s − w q‖, R) of a state at rest: the direction in which it is loaded, as long as the part
   /// of the yield radius R = w √⅔ (σ_0 + K_ξ) that it takes, one at most. The material has Material::flow.
@@ -147,14 +147,16 @@ class Viscoplastic {
                              const Sym<T>& free, const Sym<T>& strain, double dt, Status status);
   template <class T>
   Response<T> plastic(const Properties<T>& p, const State<T>& start, const Shear<T>& shear,
-                      const Sym<T>& free, const Sym<T>& strain, double dt,
+                      const Sym<T>& free, const Sym<T>& strain, const TimeStep& step,
                       const return_mapping::Problem<T>& problem, const return_mapping::Yield<T>& trial) const;
+  template <class T>
+  T hardening_gain(const Properties<T>& p, const State<T>& start, const T& hardening,
+                   const Sym<T>& back_strain) const;
   template <bool recalls, class T>
-  static Response<T> returned(const Properties<T>& p, const State<T>& start, const Shear<T>& shear,
-                              const Sym<T>& free, const Sym<T>& strain, double dt,
-                              const return_mapping::Problem<T>& problem,
-                              const return_mapping::Solution<T>& solution,
-                              const return_mapping::Yield<T>& end, bool shares_heat);
+  Response<T> returned(const Properties<T>& p, const State<T>& start, const Shear<T>& shear,
+                       const Sym<T>& free, const Sym<T>& strain, const TimeStep& step,
+                       const return_mapping::Problem<T>& problem, const return_mapping::Solution<T>& solution,
+                       const return_mapping::Yield<T>& end) const;
 
   const Material* material_;
   const Flow* flow_;

@@ -2,7 +2,7 @@
 /// include it are compiled again when a law changes that is called directly.
 #pragma once
 
-#include "material/hardening.hpp"
+#include "material/hardening_heat.hpp"
 #include "material/liquid.hpp"
 #include "material/return_mapping.hpp"
 #include "material/viscoplastic.hpp"
@@ -68,8 +68,9 @@ Sym<T> Viscoplastic::loading(const Properties<T>& p, const State<T>& state, cons
 
 template <class T>
 Viscoplastic::Response<T> Viscoplastic::update(const Properties<T>& p, const State<T>& start,
-                                               const Sym<T>& strain, double dt) const {
+                                               const Sym<T>& strain, const TimeStep& step) const {
   using namespace return_mapping;
+  const double dt = step.dt;
   const Shear<T> sh = shear(p.elastic, dt);
   const Sym<T> free = dev(strain) - start.plastic_strain - start.viscous_strain;  // ê
   if (flow_ == nullptr) return elastic(p, start, sh, free, strain, dt, Status::converged);
@@ -79,7 +80,7 @@ Viscoplastic::Response<T> Viscoplastic::update(const Properties<T>& p, const Sta
   const Yield<T> trial = yield(equation, T(0.0));
   const bool in_range = all(trial.norm < T(k_largest_stress));
   if (in_range && any(flows(equation, trial)))
-    return plastic(p, start, sh, free, strain, dt, equation, trial);
+    return plastic(p, start, sh, free, strain, step, equation, trial);
   return elastic(p, start, sh, free, strain, dt, in_range ? Status::converged : Status::outside_range);
 }
 
@@ -140,26 +141,34 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] inline Viscoplastic::Response<T> Viscoplastic::plastic(
     const Properties<T>& p, const State<T>& start, const Shear<T>& sh, const Sym<T>& free,
-    const Sym<T>& strain, double dt, const return_mapping::Problem<T>& problem,
+    const Sym<T>& strain, const TimeStep& step, const return_mapping::Problem<T>& problem,
     const return_mapping::Yield<T>& trial) const {
   using namespace return_mapping;
   const Solution<T> solution = linear_rate_    ? solve_linear_rate(problem, trial)
                                : powered_rate_ ? solve_power_rate(problem, trial)
                                                : solve_rate_law(problem, trial);
-  const bool shares_heat = flow_->heat_share.has_value();
   if (problem.recalls)
-    return returned<true>(p, start, sh, free, strain, dt, problem, solution, yield(problem, solution.gamma),
-                          shares_heat);
-  return returned<false>(p, start, sh, free, strain, dt, problem, solution, trial, shares_heat);  // β̂ stays
+    return returned<true>(p, start, sh, free, strain, step, problem, solution,
+                          yield(problem, solution.gamma));
+  return returned<false>(p, start, sh, free, strain, step, problem, solution, trial);  // β̂ stays
+}
+
+/// K + ⅓ K ζ:ζ at the end of a step less that at its start, at one temperature [J/m³].
+template <class T>
+T Viscoplastic::hardening_gain(const Properties<T>& p, const State<T>& start, const T& hardening,
+                               const Sym<T>& back_strain) const {
+  return hardening_potential<T>(*flow_, p.flow, hardening, dot(back_strain, back_strain)) -
+         hardening_potential<T>(*flow_, p.flow, start.hardening, dot(start.back_strain, start.back_strain));
 }
 
 /// The state on the (overstressed) yield surface, and the tangent. Lanes inside it have γ = 0.
 template <bool recalls, class T>
 [[gnu::always_inline]] inline Viscoplastic::Response<T> Viscoplastic::returned(
     const Properties<T>& p, const State<T>& start, const Shear<T>& sh, const Sym<T>& free,
-    const Sym<T>& strain, double dt, const return_mapping::Problem<T>& problem,
-    const return_mapping::Solution<T>& solution, const return_mapping::Yield<T>& end, bool shares_heat) {
+    const Sym<T>& strain, const TimeStep& step, const return_mapping::Problem<T>& problem,
+    const return_mapping::Solution<T>& solution, const return_mapping::Yield<T>& end) const {
   using namespace return_mapping;
+  const double dt = step.dt;
   const T gamma = solution.gamma, stiff = sh.twice_shear, w = sh.strength, radius = T(k_root_two_thirds) * w;
   const T inverse_norm = T(1.0) / end.norm, rate = T(1.0 / dt) * gamma;
   const Sym<T> n = inverse_norm * end.relative, flow = gamma * n, rest = free - flow;
@@ -175,9 +184,15 @@ template <bool recalls, class T>
     left -=
         T(along * gamma * inverse_norm * end.drift) * (problem.back_strain - dot(n, problem.back_strain) * n);
   }
-  const T power = rate * stiff * dot(rest, n), produced = rate * radius * p.flow.softening;  // 2.119b
+  const T produced = rate * radius * p.flow.softening;  // 2.119b
+  T power = rate * stiff * dot(rest, n);
+  const T hardening = start.hardening + radius * gamma;  // 4.144c
   T cold_work = start.cold_work;
-  if (shares_heat) {
+  if (flow_->heat_share) {
+    // The work is counted by what hardening gains and not by the stress at the end, so that K + ⅓ K ζ:ζ + χ
+    // grows by 1 − β of it in a step of any size.
+    if (!step.extrapolated)
+      power = dissipation + T(1.0 / dt) * hardening_gain(p, start, hardening, back_strain);
     // Where the back stress outweighs s, flow gives work back and none of it can become heat.
     const T zero(0.0), heat = p.flow.heat_share * select(power > zero, power, zero);
     cold_work += T(dt) * (dissipation - heat);
@@ -186,7 +201,7 @@ template <bool recalls, class T>
   return response(p, start.viscous_strain, sh, rest, strain, dt,
                   Flowed<T>{.plastic_strain = start.plastic_strain + flow,  // 4.144a
                             .back_strain = back_strain,
-                            .hardening = start.hardening + radius * gamma,                    // 4.144c
+                            .hardening = hardening,
                             .inelastic_entropy = start.inelastic_entropy + T(dt) * produced,  // 4.43b
                             .cold_work = cold_work,
                             .twice_shear = stiff * (T(1.0) - turning),
@@ -211,9 +226,9 @@ extern template Viscoplastic::Properties<Jet<Lane>> Viscoplastic::properties_at(
     const Jet<Lane>&, const Jet<Lane>&, const PhaseState<Jet<Lane>>&) const;
 extern template Viscoplastic::Response<double> Viscoplastic::update(const Properties<double>&,
                                                                     const State<double>&, const Sym<double>&,
-                                                                    double) const;
+                                                                    const TimeStep&) const;
 extern template Viscoplastic::Response<Lane> Viscoplastic::update(const Properties<Lane>&, const State<Lane>&,
-                                                                  const Sym<Lane>&, double) const;
+                                                                  const Sym<Lane>&, const TimeStep&) const;
 extern template Sym<Lane> Viscoplastic::loading(const Properties<Lane>&, const State<Lane>&, const Sym<Lane>&,
                                                 double) const;
 

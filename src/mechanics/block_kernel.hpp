@@ -30,7 +30,7 @@ struct StepStart {
   const BlockHistory* old_history;              ///< at t_n
   const BlockHistory* start_history;            ///< z*, from which the effective step sets out
   double dt;                                    ///< t_{n+1} − t_n [s]
-  double effective_dt;                          ///< of the law [s] (material/time_integration.hpp)
+  material::TimeStep effective;                 ///< of the law
   /// Stress at the points at t_n, of a step whose work is that of a mean stress (motion.hpp). Null: the work
   /// is that of σ_{n+1}.
   const BlockHistory* old_stress = nullptr;
@@ -45,13 +45,13 @@ struct StepStart {
   double melt_modulus() const { return melt != nullptr ? melt->modulus : 0.0; }
   /// η of such a melt or mush in the step [Pa s].
   Lane melt_viscosity(const Lane& solid_fraction) const {
-    return melt->mush.at(solid_fraction, Lane(melt->modulus * effective_dt));
+    return melt->mush.at(solid_fraction, Lane(melt->modulus * effective.dt));
   }
   /// ζ/Δt, what such melt or mush resists compaction with; zero in solid metal [Pa].
   Lane compaction_stiffness(const Lane& solid_fraction) const {
     const LaneMask solid = solid_fraction >= Lane(1.0);
     const Lane viscosity = melt_viscosity(select(solid, Lane(0.0), solid_fraction));
-    return select(solid, Lane(0.0), viscosity / Lane(effective_dt));
+    return select(solid, Lane(0.0), viscosity / Lane(effective.dt));
   }
 };
 

@@ -81,7 +81,7 @@ class CoupledPoints : public Kernel, public CoupledKernel {
     const auto r = this->update(batch, q, strain);
     const Sym<Lane> at_work = this->mean_stress(batch, q, r.stress);
     return coupled_rates({this->law_, p, start, r, strain, increment, at_work, this->points_->at(batch, q),
-                          theta, this->dt_, this->effective_dt_, this->stress_share_},
+                          theta, this->dt_, this->effective_, this->stress_share_},
                          form);
   }
 

@@ -18,7 +18,7 @@ Sym<Lane> transposed_tangent(const material::Viscoplastic::Response<Lane>& r, co
 }  // namespace
 
 CoupledRates coupled_rates(const CoupledUpdate& at, std::optional<StructuralForm> form) {
-  const material::Variation<Lane> update(at.law, at.properties, at.start, at.strain, at.effective_dt,
+  const material::Variation<Lane> update(at.law, at.properties, at.start, at.strain, at.effective,
                                          at.response);
   CoupledRates d;
   d.stress = update.stress();

@@ -27,9 +27,10 @@ struct CoupledUpdate {
   const Sym<Lane>& increment;  ///< of strain since the start of the step
   const Sym<Lane>& at_work;    ///< the stress whose work the step counts [Pa]
   const StructuralPoints::Point& point;
-  Lane temperature;         ///< of the iterate [K]
-  double dt, effective_dt;  ///< the step, and the law's [s]
-  double stress_share;      ///< of σ at the end of the step in at_work
+  Lane temperature;                     ///< of the iterate [K]
+  double dt;                            ///< the step [s]
+  const material::TimeStep& effective;  ///< of the law
+  double stress_share;                  ///< of σ at the end of the step in at_work
 };
 
 /// @param form  none: only the derivative of stress

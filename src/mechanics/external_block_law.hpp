@@ -53,10 +53,10 @@ class ExternalBlockLaw {
     return {material::properties_at(*material_, temperature, initial_temperature, phase), temperature,
             initial_temperature};
   }
-  Response<Lane> update(const Properties<Lane>& p, const State<Lane>& old, const Sym<Lane>& strain, double dt,
-                        Workspace& space) const {
+  Response<Lane> update(const Properties<Lane>& p, const State<Lane>& old, const Sym<Lane>& strain,
+                        const material::TimeStep& step, Workspace& space) const {
     Response<Lane> r;
-    law_->update(p, old.values, space.state.data(), strain, dt, space,
+    law_->update(p, old.values, space.state.data(), strain, step.dt, space,
                  static_cast<material::ExternalLaw::Response<Lane>&>(r));
     r.state.values = space.state.data();
     return r;

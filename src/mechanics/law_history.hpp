@@ -114,20 +114,20 @@ class LawHistory : public BlockKernel {
   /// @param space  of a law whose state lies in place: the state of the answer is in it
   Response update(Index batch, int point, const Sym<Lane>& strain, Workspace<Law>& space) const {
     if constexpr (KeepsStateInPlace<Law>)
-      return law_.update(properties_[index(batch, point)], start_state(batch, point), strain, effective_dt_,
+      return law_.update(properties_[index(batch, point)], start_state(batch, point), strain, effective_,
                          space);
     else
-      return law_.update(properties_[index(batch, point)], start_state(batch, point), strain, effective_dt_);
+      return law_.update(properties_[index(batch, point)], start_state(batch, point), strain, effective_);
   }
   Response update(Index batch, int point, const Sym<Lane>& strain) const requires(!KeepsStateInPlace<Law>) {
-    return law_.update(properties_[index(batch, point)], start_state(batch, point), strain, effective_dt_);
+    return law_.update(properties_[index(batch, point)], start_state(batch, point), strain, effective_);
   }
 
   void begin_step(const StepStart& start) {
     old_history_ = start.old_history;
     start_history_ = start.start_history;
     dt_ = start.dt;
-    effective_dt_ = start.effective_dt;
+    effective_ = start.effective;
     temperature_ = start.temperature;
     initial_temperature_ = start.initial_temperature;
     old_displacement_ = start.old_displacement;
@@ -250,7 +250,8 @@ class LawHistory : public BlockKernel {
   std::span<const double> old_displacement_;     ///< at t_n [m], [local node][component]
   const BlockHistory* old_history_ = nullptr;
   const BlockHistory* start_history_ = nullptr;
-  double dt_ = 0, effective_dt_ = 0;
+  double dt_ = 0;
+  material::TimeStep effective_{0};  ///< of the law
 };
 
 }  // namespace solidus::mechanics

@@ -110,6 +110,7 @@ struct MechanicalReport {
 /// several times a step; empty, the pass is the first one.
 struct MechanicalPass {
   double time = 0, dt = 0;              ///< t_{n+1} and the step [s]
+  bool from_extrapolation = false;      ///< the old state is a combination of states (TimeStep::extrapolated)
   std::span<const double> temperature;  ///< Θ_n [K], [local node], ghosts up to date
   /// Temperatures of solid fraction and straining of phase changes [K], [local node], ghosts up to date.
   /// Empty: Θ_n (4.81); a scheme that iterates gives those of its iterate, so that it ends with Θ_{n+1}.
@@ -286,7 +287,7 @@ class MechanicalPhase {
   std::string law_failure(std::span<const double> x) const;
   std::string flowing_body(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
-  material::TimeStep time_step(const MechanicalState& old, double dt) const;
+  material::TimeStep time_step(const MechanicalState& old, const MechanicalPass& pass) const;
   MechanicalReport measure(const MechanicalState& old, const MechanicalPass& pass, std::span<const double> x,
                            const BlockWork& sums, MechanicalState& next);
 

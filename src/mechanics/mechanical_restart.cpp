@@ -24,7 +24,7 @@ StepDeformation MechanicalPhase::held_deformation(const MechanicalState& state,
                                       .old_history = &state.history[b],
                                       .start_history = &state.history[b],
                                       .dt = 1,
-                                      .effective_dt = 1,
+                                      .effective = 1,
                                       .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
                                       .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]}));
   residual_is_known_ = false;
@@ -50,7 +50,7 @@ FlowChange MechanicalPhase::restart_flow(const MechanicalState& old, const Mecha
          .old_history = &old.history[b],
          .start_history = &old.history[b],
          .dt = pass.dt,
-         .effective_dt = time_step(old, pass.dt).dt,
+         .effective = time_step(old, pass),
          .phases = nodal_phases_.evaluate(
              b, pass.phase_temperature.empty() ? pass.temperature : pass.phase_temperature,
              pass.plateau_share),

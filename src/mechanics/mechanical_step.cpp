@@ -43,16 +43,19 @@ class Equilibrium final : public linear::NonlinearSystem {
 
 /// The first step, and one that grows beyond the limit of stability of the two-step method, are backward
 /// Euler steps.
-material::TimeStep MechanicalPhase::time_step(const MechanicalState& old, double dt) const {
+material::TimeStep MechanicalPhase::time_step(const MechanicalState& old, const MechanicalPass& pass) const {
   const bool two_step = options_.integration == TimeIntegration::two_step && old.dt_before > 0 &&
-                        dt <= material::k_largest_growth * old.dt_before;
-  return two_step ? material::TimeStep::two_step(dt, old.dt_before) : material::TimeStep::backward_euler(dt);
+                        pass.dt <= material::k_largest_growth * old.dt_before;
+  if (two_step) return material::TimeStep::two_step(pass.dt, old.dt_before);
+  material::TimeStep step = material::TimeStep::backward_euler(pass.dt);
+  step.extrapolated = pass.from_extrapolation;
+  return step;
 }
 
 /// Hands the blocks temperatures, the state at t_n and the start of the effective step.
 void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& pass) {
   const profile::Part part("properties");
-  const material::TimeStep step = time_step(old, pass.dt);
+  const material::TimeStep step = time_step(old, pass);
   const MechanicalState& held = pass.iterate != nullptr ? *pass.iterate : old;
   const bool extrapolates = step.before != 0;
   if (extrapolates) {
@@ -77,7 +80,7 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
          .old_history = &old.history[b],
          .start_history = extrapolates ? &start_[b] : &old.history[b],
          .dt = pass.dt,
-         .effective_dt = step.dt,
+         .effective = step,
          .old_stress = remembers ? &old.stress[b] : nullptr,
          .stress_share = remembers ? inertia_->motion().work_share : 1,
          .at_work = pass.at_work != nullptr ? &pass.at_work->stress[b] : nullptr,

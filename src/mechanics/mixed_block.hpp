@@ -78,7 +78,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       }
       this->set_step(batch, b,
                      secant_shear(this->law_, stabilisation_properties(start, batch),
-                                  this->start_state(batch, 0), this->effective_dt_),
+                                  this->start_state(batch, 0), this->effective_.dt),
                      Lane(1.0) / stiffness);
       Vectors f{};
       this->add_stiffness(b, bulk * weight(batch), f);

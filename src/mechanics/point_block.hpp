@@ -27,7 +27,7 @@ class PointBlock : public PointRestart<Law, n_nodes, kind, b_bar, n_extra> {
   std::size_t bytes() const override { return Base::bytes() + directions_.bytes(); }
 
  protected:
-  using Base::counted, Base::effective_dt_, Base::gather, Base::geometry_, Base::index, Base::law_,
+  using Base::counted, Base::effective_, Base::gather, Base::geometry_, Base::index, Base::law_,
       Base::properties_, Base::start_state, Base::update;
 
   void begin_step(const StepStart& start) {
@@ -77,7 +77,7 @@ class PointBlock : public PointRestart<Law, n_nodes, kind, b_bar, n_extra> {
       return why[static_cast<std::size_t>(lane)];
     } else {
       const auto start = element_of<typename Law::template State<double>>(start_state(batch, q), lane);
-      if (law_.update(p, start, strain, effective_dt_).status == material::Status::converged) return {};
+      if (law_.update(p, start, strain, effective_).status == material::Status::converged) return {};
       return "at the start of the step " + text(start);
     }
   }
@@ -111,7 +111,7 @@ class PointBlock : public PointRestart<Law, n_nodes, kind, b_bar, n_extra> {
         directions_.at(index(batch, q), properties_.size(), response.relative_norm * n, flows, [&] {
           return isothermal_law(law_).loading(
               isothermal_part(law_, properties_[index(batch, q)]), start_state(batch, q),
-              b.strain(gather(this->old_displacement_, batch)), effective_dt_);
+              b.strain(gather(this->old_displacement_, batch)), effective_.dt);
         });
     Vectors of_left{}, of_right{};
     b.add_force(n, of_right);

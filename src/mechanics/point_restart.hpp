@@ -16,7 +16,7 @@ class PointRestart : public PointRecord<Law, n_nodes, kind, b_bar, n_extra> {
       typename Base::Values;
 
  protected:
-  using Base::counted, Base::deformation, Base::dt_, Base::effective_dt_, Base::geometry_, Base::index,
+  using Base::counted, Base::deformation, Base::dt_, Base::effective_, Base::geometry_, Base::index,
       Base::kept_, Base::law_, Base::n_kept_, Base::old_state, Base::points_, Base::properties_,
       Base::start_state, Base::update;
   using typename Base::Average, typename Base::Averages, typename Base::Tally;
@@ -106,9 +106,9 @@ class PointRestart : public PointRecord<Law, n_nodes, kind, b_bar, n_extra> {
   auto answer(const AnyLaw& law, const AnyProperties& p, const State& from, const Sym<Lane>& strain,
               Workspace<Law>& space) const {
     if constexpr (KeepsStateInPlace<Law>)
-      return law.update(p, from, strain, effective_dt_, space);
+      return law.update(p, from, strain, effective_, space);
     else
-      return law.update(p, from, strain, effective_dt_);
+      return law.update(p, from, strain, effective_);
   }
 
   /// Writes the state of the lanes where the mask holds.

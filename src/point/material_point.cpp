@@ -126,17 +126,18 @@ Law::Properties<double> MaterialPoint::properties(double temperature, double eff
 }
 
 Answer MaterialPoint::answer(const Law::Properties<double>& p, double temperature,
-                             const Law::State<double>& start, const Sym<double>& strain, double dt) const {
+                             const Law::State<double>& start, const Sym<double>& strain,
+                             const material::TimeStep& step) const {
   Answer a;
   if (outside_ == nullptr) {
-    a.response = law_.update(p, start, strain, dt);
+    a.response = law_.update(p, start, strain, step);
     a.tangent = material::full_tangent(a.response);
     return a;
   }
   using Outside = material::ExternalLaw;
   a.outside.resize(outside_->size());
   const auto r = outside_->update(Outside::Properties<double>{p.elastic, temperature, strain_reference()},
-                                  now_.outside.data(), a.outside.data(), strain, dt, &a.complaint);
+                                  now_.outside.data(), a.outside.data(), strain, step.dt, &a.complaint);
   const auto tensor = [&](std::size_t place) {
     Sym<double> t;
     std::copy_n(a.outside.begin() + static_cast<std::ptrdiff_t>(place), 6, t.c.begin());
@@ -182,7 +183,7 @@ StepResult MaterialPoint::attempt_at(double temperature, const Target& end, doub
       strain[i] += growth;
   }
 
-  Answer now = answer(p, temperature, start, strain, step.dt);
+  Answer now = answer(p, temperature, start, strain, step);
   double missing = largest_missing(free, end, now.response.stress);
   const auto tolerance = [&] {
     return k_tolerance * (norm(now.response.stress) + norm(now_.stress)) + k_rounding * p.elastic.bulk;
@@ -197,7 +198,7 @@ StepResult MaterialPoint::attempt_at(double temperature, const Target& end, doub
     double part = 1;
     for (int halving = 0;; ++halving, part *= 0.5) {
       const Sym<double> next = strain + part * change;
-      Answer trial = answer(p, temperature, start, next, step.dt);
+      Answer trial = answer(p, temperature, start, next, step);
       const double left = largest_missing(free, end, trial.response.stress);
       const bool answers = outside_ == nullptr || trial.response.status == material::Status::converged;
       if ((answers && left < missing) || halving == k_max_halvings) {

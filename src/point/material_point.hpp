@@ -93,7 +93,7 @@ class MaterialPoint {
   material::Viscoplastic::Properties<double> properties(double temperature, double effective_step) const;
   Answer answer(const material::Viscoplastic::Properties<double>& p, double temperature,
                 const material::Viscoplastic::State<double>& start, const Sym<double>& strain,
-                double dt) const;
+                const material::TimeStep& step) const;
   StepResult attempt_at(double temperature, const Target& end, double dt) const;
   StepResult attempt_adiabatic(const Target& end, double dt) const;
 

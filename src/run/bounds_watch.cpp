@@ -16,6 +16,8 @@ const char* remedy(const CaseSpec& spec) {
   if (spec.heat.integration == heat::HeatIntegration::open)
     return "the open rule over- and undershoots at sudden chills; the closed one does not";
   if (!spec.heat.bounds) return "heat.bounds = true keeps temperatures within their range";
+  if (spec.exchanges_heat())
+    return "deformation that cools or warms can be all of it; shorter steps help against the rest";
   return "shorter steps help";
 }
 
@@ -33,7 +35,7 @@ void BoundsWatch::begin(const coupling::State& state) {
 
 void BoundsWatch::step(const coupling::StepRecord&, const coupling::State& state) {
   if (warned_) return;
-  const heat::TemperatureRange around = phase_.ambient_range(state.time);
+  const heat::TemperatureRange around = phase_.range_around(state.time, state.heat.temperature);
   range_.lowest = std::min(range_.lowest, around.lowest);
   range_.highest = std::max(range_.highest, around.highest);
   heat::WorstNode worst;

@@ -77,7 +77,7 @@ void FrictionLagWatch::step(const coupling::StepRecord&, const coupling::State& 
       const double work = point.work - std::exchange(pair.work[p], point.work);
       if (point.status != contact::PointStatus::slips || !(point.temperature > 0) || !(work > 0)) continue;
       const double limit = pair.coefficient->value(point.internal_variable, point.temperature).value *
-                           contact::rubbing_pressure(point.pressure, point.suction);
+                           contact::rubbing_pressure(point.pressure, point.molten);
       if (!(limit > 0)) continue;
       pair.late += work * std::abs(contact::norm(point.traction) / limit - 1);
       pair.all += work;

@@ -107,13 +107,19 @@ TEST(Crankshaft, FreezesLastInsideTheThickestSection) {
 TEST(Crankshaft, IsAsSymmetricAsItsMesh) {
   const Columns& c = whole().history;
   const std::vector<double>& t = c.at("time[s]");
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    // Mirror images of one another but for nose and flange, which are far; the mesh is not symmetric: 13 K
-    // apart at the webs as they freeze.
-    for (const auto& [one, other] :
-         {std::pair{"T_journal_2[degC]", "T_journal_4[degC]"}, std::pair{"T_pin[degC]", "T_pin_3[degC]"},
-          std::pair{"T_web_above[degC]", "T_web_below[degC]"}})
-      EXPECT_NEAR(c.at(one)[i], c.at(other)[i], 20) << one << " at " << t[i] << " s";
+  // Mirror images of one another but for nose and flange, which are far. The mesh is not symmetric: the last
+  // melt of one side freezes some seconds before that of the other, and where it has, temperatures fall by
+  // up to a kelvin a second. That is one row: the mean is smaller.
+  for (const auto& [one, other] :
+       {std::pair{"T_journal_2[degC]", "T_journal_4[degC]"}, std::pair{"T_pin[degC]", "T_pin_3[degC]"},
+        std::pair{"T_web_above[degC]", "T_web_below[degC]"}}) {
+    double squares = 0;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const double apart = c.at(one)[i] - c.at(other)[i];
+      EXPECT_NEAR(apart, 0, 13) << one << " at " << t[i] << " s";
+      squares += apart * apart;
+    }
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(t.size())), 4.5) << one;
   }
 }
 

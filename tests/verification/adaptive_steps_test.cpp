@@ -105,7 +105,7 @@ Diary run(QuenchedBar& bar, ErrorControl control, double temperature_error) {
 
 class AdaptiveSteps : public testing::TestWithParam<ErrorControl> {};
 
-TEST_P(AdaptiveSteps, OfAQuenchedBarCommitNoMoreThanTheTolerance) {
+TEST_P(AdaptiveSteps, OfAQuenchedBarCommitAtMostTwiceTheToleranceAtFirstAndOneAndAHalfLater) {
   QuenchedBar bar;
   const bool doubling = GetParam() == ErrorControl::doubling;
   std::ofstream table =

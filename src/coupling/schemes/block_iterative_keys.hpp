@@ -93,8 +93,8 @@ struct BlockIterativeScheme {
     s.choice("loop", &I::loop,
              {{"nested", I::Loop::nested, "each phase is solved to its own tolerance"},
               {"single", I::Loop::single,
-               "one Newton step of each phase per iteration; a step where that does not converge is solved "
-               "once more with `nested`, before it is cut"}})
+               "one Newton step of each phase per iteration, and whole passes once they agree; a step where "
+               "that does not converge is solved once more with `nested`, before it is cut"}})
         .initially("nested")
         .doc("How the iterations of the phases and those between them are nested (monograph 4.4).");
     s.choice("relaxation", &I::relaxation,

@@ -298,10 +298,14 @@ TEST(WetContact, TensionMakesNoFriction) {
   EXPECT_EQ(sums.dissipation, 0);
 }
 
-// Melt has no strength to rub with, whatever presses it on its wall; the skin that it becomes has.
-TEST(WetContact, RubsOnlyOnceItIsCoherent) {
+// Melt has no strength to rub with, whatever presses it on its wall, held there or not; the skin that it
+// becomes has.
+class RubbingMelt : public ::testing::TestWithParam<double> {};
+
+TEST_P(RubbingMelt, RubsOnlyOnceItIsCoherent) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
   ContactParameters s = spec();
+  s.atmosphere = GetParam();
   s.friction = FrictionParameters{};
   s.friction->coefficient.terms = {Table(0.3)};
   OneStep run(mesh, s);
@@ -319,6 +323,27 @@ TEST(WetContact, RubsOnlyOnceItIsCoherent) {
   sums = run.step(pressed(2e-3), skin);
   EXPECT_NEAR(std::abs(sums.friction), 0.3 * sums.force, 1e-9 * sums.force);
   EXPECT_GT(sums.dissipation, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Wet, RubbingMelt, ::testing::Values(k_atmosphere));
+INSTANTIATE_TEST_SUITE_P(Dry, RubbingMelt, ::testing::Values(0.0));
+
+// As a melt that moves runs against its wall: it does not rub in the step in which it gets there either.
+TEST(WetContact, MeltThatComesToItsWallDoesNotRub) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 1e-3);
+  ContactParameters s = spec();
+  s.search_distance = 0.05;
+  s.friction = FrictionParameters{};
+  s.friction->coefficient.terms = {Table(0.3)};
+  for (const double atmosphere : {k_atmosphere, 0.0}) {
+    s.atmosphere = atmosphere;
+    OneStep run(mesh, s);
+    std::vector<double> u = lifted(mesh, -1e-3 - 1e-6);
+    for (std::size_t i = 0; i < u.size(); i += 2) u[i] = u[i + 1] < 0 ? 1e-3 : 0.0;
+    const ContactSums sums = run.step(u, coherency(mesh, 0.2, 1));
+    EXPECT_GT(sums.force, 0);
+    EXPECT_EQ(sums.friction, 0);
+  }
 }
 
 // A flat punch of the augmented Lagrangian: pulled with half of the atmosphere it keeps its wall exactly, and

@@ -16,11 +16,14 @@ template Ad2 built_in_energy(IsotropicHardening, const FlowCurves&, const FlowPr
 
 template HardeningStress<Ad6> built_in_stress(IsotropicHardening, const FlowCurves&,
                                               const FlowProperties<Ad6>&, const Ad6&);
+template Ad6 built_in_energy(IsotropicHardening, const FlowCurves&, const FlowProperties<Ad6>&, const Ad6&);
 template HardeningSlopes<Ad6> built_in_slopes(const Flow&, const FlowProperties<Ad6>&,
                                               const FlowProperties<Ad6>&, const Ad6&, const Ad6&, const Ad6&);
 
 template HardeningStress<LongAd> built_in_stress(IsotropicHardening, const FlowCurves&,
                                                  const FlowProperties<LongAd>&, const LongAd&);
+template LongAd built_in_energy(IsotropicHardening, const FlowCurves&, const FlowProperties<LongAd>&,
+                                const LongAd&);
 template Jet<LongAd> built_in_energy(IsotropicHardening, const FlowCurves&,
                                      const FlowProperties<Jet<LongAd>>&, const Jet<LongAd>&);
 

@@ -10,9 +10,9 @@ template Viscoplastic::Properties<test::Ad> Viscoplastic::properties_at(const te
                                                                         const PhaseState<test::Ad>&) const;
 template Viscoplastic::Response<test::Ad> Viscoplastic::update(const Properties<test::Ad>&,
                                                                const State<test::Ad>&, const Sym<test::Ad>&,
-                                                               double) const;
+                                                               const TimeStep&) const;
 template Isentropic::Response<test::Ad> Isentropic::update(const Properties<test::Ad>&,
                                                            const State<test::Ad>&, const Sym<test::Ad>&,
-                                                           double) const;
+                                                           const TimeStep&) const;
 
 }  // namespace solidus::material

@@ -92,7 +92,7 @@ struct Kernel {
                      .old_history = &history,
                      .start_history = &history,
                      .dt = 0.5,
-                     .effective_dt = 0.5,
+                     .effective = 0.5,
                      .phases = nodal.evaluate(0, temperature, {})});
   }
   /// K d by the tangent for both directions, [owned node][component].

@@ -103,7 +103,7 @@ struct Mixed {
                         .old_history = &history,
                         .start_history = &history,
                         .dt = 0.5,
-                        .effective_dt = 0.5,
+                        .effective = 0.5,
                         .phases = nodal.evaluate(0, temperature, {})});
     pressure->begin();
     // Pressures of the size of the stress.

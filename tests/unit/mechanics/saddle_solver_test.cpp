@@ -94,7 +94,7 @@ struct Casting {
                       .old_history = &history,
                       .start_history = &history,
                       .dt = 1,
-                      .effective_dt = 1});
+                      .effective = 1});
     pressure->begin();
     pressure->set(std::vector<double>(mesh.x.size(), 0.0));
     matrix->set_zero();

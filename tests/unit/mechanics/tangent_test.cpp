@@ -26,7 +26,8 @@ struct Stiffening : material::Viscoelastic {
     material::Status status = material::Status::converged;
   };
   template <class T>
-  static Response<T> update(const material::PointProperties<T>& p, const State<T>&, const Sym<T>& e, double) {
+  static Response<T> update(const material::PointProperties<T>& p, const State<T>&, const Sym<T>& e,
+                            const material::TimeStep&) {
     const T a = T(stiffening) * p.shear, size = dot(e, e);
     Response<T> r;
     r.tangent = Sym4<T>::isotropic(p.bulk, T(2.0) * p.shear);
