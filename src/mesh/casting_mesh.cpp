@@ -44,13 +44,8 @@ class Mesher {
   Mesher(const MeshSource& source, const CastingGeometry& geometry, const Way& way)
       : source_(source), geometry_(geometry), way_(way), parts_(make_parts(source, geometry, way.healing)) {}
 
-  void make_groups() {
-    gmsh::model::removePhysicalGroups();
-    for (const GeometryBody& part : parts_) {
-      std::vector<int> tags;
-      for (const auto& volume : part.volumes) tags.push_back(volume.second);
-      gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, tags), part.name);
-    }
+  /// Throws UnusableGeometry where a size is of a body that is not there.
+  void check_sizes() const {
     for (const BodySize& s : geometry_.sizes)
       if (std::none_of(parts_.begin(), parts_.end(),
                        [&](const GeometryBody& p) { return p.name == s.body; })) {
@@ -73,10 +68,19 @@ class Mesher {
       } catch (const InputError&) {
         if (!way_.cuts || cuts == k_most_cuts || !cut_along_seams(parts_, surfaces_at_fault())) throw;
         gmsh::model::mesh::clear();
-        make_groups();
         gmsh::logger::stop();  // what is complained of so far is mended
         gmsh::logger::start();
       }
+    }
+  }
+
+  /// Names the volumes of each body, once: they change with every cut, and Gmsh keeps the names of groups
+  /// that are taken away.
+  void make_groups() const {
+    for (const GeometryBody& part : parts_) {
+      std::vector<int> tags;
+      for (const auto& volume : part.volumes) tags.push_back(volume.second);
+      gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, tags), part.name);
     }
   }
 
@@ -176,8 +180,9 @@ std::string meshing_attempt(int attempt) {
 void make_casting_mesh(const MeshSource& source, const CastingGeometry& geometry) {
   const auto attempt = std::min(static_cast<std::size_t>(geometry.attempt), std::size(k_ways) - 1);
   Mesher mesher(source, geometry, k_ways[attempt]);
-  mesher.make_groups();
+  mesher.check_sizes();
   mesher.mesh();
+  mesher.make_groups();
 }
 
 }  // namespace solidus::mesh

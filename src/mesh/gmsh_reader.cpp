@@ -54,7 +54,8 @@ class Session {
     gmsh::logger::start();
   }
   ~Session() {
-    gmsh::onelab::clear();  // constants outlive finalize()
+    gmsh::onelab::clear();  // constants and the log outlive finalize()
+    gmsh::logger::stop();
     gmsh::finalize();
   }
   Session(const Session&) = delete;

@@ -12,7 +12,7 @@
 #include "mesh/casting_geometry.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/reader_process.hpp"
-#include "new_case/new_case.hpp"
+#include "mesh/worst_tetrahedron.hpp"
 
 namespace {
 
@@ -91,23 +91,16 @@ TEST(DifficultShapes, BodiesAreCutAlongTheSeamOfAFaceThatCannotBeMeshed) {
   EXPECT_LT(volume(raw, "body_1"), 1.3 * drum_alone);
 }
 
-TEST(DifficultShapes, ANoteSaysWhereTheWorstElementIsAndWhy) {
-  solidus::model::NewCaseOptions options;
-  options.geometry = step_file("wedge", [] {
-    const std::vector<int> corners = {occ::addPoint(0, 0, 0), occ::addPoint(60, 0, 0),
-                                      occ::addPoint(60, 0, 3)};
-    std::vector<int> sides;
-    for (std::size_t k = 0; k < 3; ++k) sides.push_back(occ::addLine(corners[k], corners[(k + 1) % 3]));
-    gmsh::vectorpair all;
-    occ::extrude({{2, occ::addPlaneSurface({occ::addCurveLoop(sides)})}}, 0, 40, 0, all);
-  });
-  options.alloy = "aluminium_alsi7mg";
-  options.fineness = 0.5;
-  options.folder = fs::path(options.geometry).parent_path() / "wedge";
-  fs::remove_all(options.folder);
-  const solidus::model::NewCaseReport report = solidus::model::make_new_case(options);
-  EXPECT_THAT(report.text, HasSubstr("the least quality of elements is"));
-  EXPECT_THAT(report.text, HasSubstr("where its faces meet at 2.9 degrees"));
+TEST(DifficultShapes, TheWorstElementIsDescribedByItsBodyPlaceAndTheAngleAtWhichFacesMeet) {
+  mesh::RawMesh raw;
+  raw.dimension = 3;
+  const double rise = std::tan(3 * std::numbers::pi / 180);
+  raw.x = {{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0}, {1, 0.5, rise}};
+  raw.input_node = {1, 2, 3, 4};
+  raw.groups["casting"] = {3, {{mesh::Shape::tet4, {0, 1, 2, 3}, {1}}}};
+  mesh::validate_and_orient(raw, "wedge");
+  EXPECT_EQ(mesh::worst_tetrahedron_text(raw),
+            "in 'casting' around (500, 500, 13.1) mm, where its faces meet at 3 degrees");
 }
 
 }  // namespace
