@@ -1,6 +1,6 @@
 /// The part of the readers that needs Gmsh. A build without Gmsh (-DSOLIDUS_GMSH=OFF) has gmsh_absent.cpp in
 /// the place of gmsh_reader.cpp, geometry_groups.cpp, casting_{bodies,mesh,parts,sizes}.cpp,
-/// faceted_casting.cpp and open_faces.cpp.
+/// faceted_casting.cpp, open_faces.cpp and seam_cuts.cpp.
 #pragma once
 
 #include <functional>
