@@ -101,7 +101,7 @@ density = "2700 kg/m3"
 conductivity = "159 W/m/K"
 specific_heat = "1000 J/kg/K"
 poisson_ratio = 0.33
-young_modulus = "70 GPa"
+young_modulus = { argument_unit = "degC", unit = "GPa", points = [[20, 70], [550, 30]] }
 expansion = "2.3e-5 1/K"
 [[phase_change]]
 name = "solidification"
@@ -124,8 +124,7 @@ flow_stress = { argument_unit = "degC", unit = "MPa", points = [[20, 150], [400,
   EXPECT_THAT(said_of_card("unit = \"MPa\"", "unit = \"Pa\""),
               Contains(HasSubstr("flow_stress of 150 Pa at most")));
   EXPECT_THAT(said_of_card("\"550 degC\"", "\"55 degC\""), Contains(HasSubstr("it freezes over 558 K")));
-  EXPECT_THAT(said_of_card("\"70 GPa\"",
-                           "{ argument_unit = \"degC\", unit = \"GPa\", points = [[20, 50], [700, 70]] }"),
+  EXPECT_THAT(said_of_card("[[20, 70], [550, 30]]", "[[20, 50], [700, 70]]"),
               Contains(HasSubstr("young_modulus rises with temperature")));
   EXPECT_THAT(said_of(changed(deforming(), "\"steel_mould\"", "\"graphite_mould\"")),
               Not(Contains(HasSubstr("young_modulus rises"))))
