@@ -22,7 +22,7 @@ struct TemperatureRange {
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
 };
 
-/// What conduction keeps temperatures within [K].
+/// Conduction keeps temperatures within these limits [K].
 struct ConductionBounds {
   TemperatureRange range{-HUGE_VAL, HUGE_VAL};  ///< of the start and of what is around; open where heated
   TemperatureRange start;                       ///< of the start alone: HeatSystem::closed_range()
