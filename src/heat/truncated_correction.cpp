@@ -33,13 +33,14 @@ linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const do
   linear::BlockMatrix& a = system_.matrix();
   const auto n = r_.size();
   std::vector<char> held(n);
-  std::vector<double> of_a(n);  // its diagonal, without D
+  const bool alone = n == step_.size();  // diagonal_ is that of A then
+  std::vector<double> of_a(alone ? 0 : n);
   {
     const profile::Part part("assembly");
     for (std::size_t i = 0; i < n; ++i) {
       const auto node = static_cast<Index>(i);
       double& diagonal = *a.diagonal_block(node);
-      of_a[i] = diagonal;
+      if (!alone) of_a[i] = diagonal;
       double stiffness = chords.empty() ? 0.0 : chords[i];
       if (stiffness == 0) stiffness = curve_slope_[i] == 0.0 ? HUGE_VAL : 1.0 / (dt_ * curve_slope_[i]);
       held[i] = std::isinf(stiffness) || system_.fixed()[i] ? 1 : 0;
@@ -52,15 +53,15 @@ linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const do
       product_[i] = held[i] ? 0.0 : -r_[i];
     }
   }
+  system_.release_work();
   linear::LinearReport report = solver_.solve(a, product_, std::span(step_).first(n), forcing);
   for (std::size_t i = 0; i < n; ++i)
     if (held[i]) step_[i] = 0;
   ghosts_.update(step_, 1);
   const bool unsymmetric = parallel::any_process(!system_.unsymmetric_part().empty());
   if (report.converged && unsymmetric) report.iterations += refine(held, forcing);
-  for (std::size_t i = 0; i < n; ++i) {
-    *a.diagonal_block(static_cast<Index>(i)) = of_a[i];
-  }
+  for (std::size_t i = 0; i < n; ++i)
+    *a.diagonal_block(static_cast<Index>(i)) = alone ? diagonal_[i] : of_a[i];
   if (!report.converged) return report;
   multiply_exactly(step_, product_, {});
   return report;

@@ -47,6 +47,7 @@ void TruncatedNewton::release() {
   for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_, &step_, &slope_})
     std::vector<double>().swap(*v);
   solver_.release();
+  system_.release_work();
 }
 
 void TruncatedNewton::evaluate() {
