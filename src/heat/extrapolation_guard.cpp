@@ -36,21 +36,22 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
       storage_(storage),
       before_(old.temperature),
       now_(middle.temperature),
-      ahead_(at(storage.n_nodes())) {
+      n_(at(storage.n_nodes())) {
+  std::vector<double> ahead(n_);  // Θ(H*)
   TemperatureRange first, second;
   const auto look = [](TemperatureRange& range, double temperature) {
     range.lowest = std::min(range.lowest, temperature);
     range.highest = std::max(range.highest, temperature);
   };
-  for (std::size_t i = 0; i < ahead_.size(); ++i) {
+  for (std::size_t i = 0; i < n_; ++i) {
     const auto node = static_cast<Index>(i);
     if (!system.active().node(node)) continue;
     look(first, before_[i]);
     look(second, now_[i]);
-    ahead_[i] = now_[i];
+    ahead[i] = now_[i];
     if (system.fixed()[i]) continue;
     const double heat = old.enthalpy[i] + k_sdirk_carried * (middle.enthalpy[i] - old.enthalpy[i]);
-    ahead_[i] = storage.temperature(node, heat);
+    ahead[i] = storage.temperature(node, heat);
   }
   lowest_ = parallel::global_min(first.lowest);
   highest_ = parallel::global_max(first.highest);
@@ -63,21 +64,22 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
     low[i] = before_[i] + std::min(change, 0.0);
     high[i] = before_[i] + std::max(change, 0.0);
   }
-  std::vector<double> least(low.begin(), low.begin() + static_cast<std::ptrdiff_t>(ahead_.size())),
-      greatest(high.begin(), high.begin() + static_cast<std::ptrdiff_t>(ahead_.size()));
+  std::vector<double> least(low.begin(), low.begin() + static_cast<std::ptrdiff_t>(n_)),
+      greatest(high.begin(), high.begin() + static_cast<std::ptrdiff_t>(n_));
   for_neighbours([&](std::size_t i, std::size_t j) {
     least[i] = std::min(least[i], low[j]);
     greatest[i] = std::max(greatest[i], high[j]);
   });
   const double even = k_even * (highest_ - lowest_);
-  std::vector<char> kinks(ahead_.size());
+  std::vector<char> kinks(n_);
   int found = 0;
   for (std::size_t i = 0; i < kinks.size(); ++i) {
     if (!free(i)) continue;
-    kinks[i] = ahead_[i] < least[i] - even ? 1 : ahead_[i] > greatest[i] + even ? -1 : 0;
+    kinks[i] = ahead[i] < least[i] - even ? 1 : ahead[i] > greatest[i] + even ? -1 : 0;
     found += kinks[i] != 0 ? 1 : 0;
   }
   if (parallel::any_process(found > 0)) passes_kink_ = std::move(kinks);
+  ahead_ = range_of_free(ahead);
 }
 
 bool ExtrapolationGuard::free(std::size_t i) const {
@@ -89,25 +91,33 @@ template <class F>
 void ExtrapolationGuard::for_neighbours(const F& f) const {
   const std::span<const std::int64_t> start = system_.matrix().row_start();
   const std::span<const Index> columns = system_.matrix().columns();
-  for (std::size_t i = 0; i < ahead_.size(); ++i)
+  for (std::size_t i = 0; i < n_; ++i)
     for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
       const auto j = at(columns[static_cast<std::size_t>(s)]);
       f(i, j);
-      if (j > i && j < ahead_.size()) f(j, i);  // half of the pattern may be all that there is
+      if (j > i && j < n_) f(j, i);  // half of the pattern may be all that there is
     }
 }
 
-/// Whether temperatures [owned node] leave the range by more than a share of it. Collective.
-bool ExtrapolationGuard::leaves_range(std::span<const double> temperature,
-                                      const TemperatureRange& surroundings, double share) const {
+TemperatureRange ExtrapolationGuard::range_of_free(std::span<const double> temperature) const {
+  TemperatureRange range;
+  for (std::size_t i = 0; i < n_; ++i) {
+    if (!free(i)) continue;
+    range.lowest = std::min(range.lowest, temperature[i]);
+    range.highest = std::max(range.highest, temperature[i]);
+  }
+  return range;
+}
+
+/// Whether temperatures leave the range by more than a share of it. Collective.
+/// @param reached  of this process
+bool ExtrapolationGuard::leaves_range(const TemperatureRange& reached, const TemperatureRange& surroundings,
+                                      double share) const {
   const double low = std::min(lowest_, surroundings.lowest), high = std::max(highest_, surroundings.highest);
   const double fall = std::max(0.0, low - first_lowest_), rise = std::max(0.0, first_highest_ - high);
   const double beyond = share * (high - low);
   const double least = low - k_outside * fall - beyond, greatest = high + k_outside * rise + beyond;
-  bool leaves = false;
-  for (std::size_t i = 0; i < ahead_.size() && !leaves; ++i)
-    leaves = free(i) && (temperature[i] < least || temperature[i] > greatest);
-  return parallel::any_process(leaves);
+  return parallel::any_process(reached.lowest < least || reached.highest > greatest);
 }
 
 bool ExtrapolationGuard::extrapolates_too_far(const TemperatureRange& surroundings) const {
@@ -116,7 +126,7 @@ bool ExtrapolationGuard::extrapolates_too_far(const TemperatureRange& surroundin
 
 bool ExtrapolationGuard::overshoots(const ThermalState& next, const TemperatureRange& surroundings,
                                     double share) const {
-  return leaves_range(next.temperature, surroundings, share);
+  return leaves_range(range_of_free(next.temperature), surroundings, share);
 }
 
 // From a node on it goes to its coldest neighbour in the first stage, and so on: the hottest node that is
@@ -124,7 +134,7 @@ bool ExtrapolationGuard::overshoots(const ThermalState& next, const TemperatureR
 // where it melts).
 bool ExtrapolationGuard::turns_back(const ThermalState& next, const parallel::GhostExchange& ghosts) const {
   if (passes_kink_.empty()) return false;
-  const std::size_t n = ahead_.size();
+  const std::size_t n = n_;
   const double range = highest_ - lowest_;
   std::vector<double> sunk(n, 0.0);
   for (const double sign : {1.0, -1.0}) {

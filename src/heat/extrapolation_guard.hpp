@@ -58,14 +58,16 @@ class ExtrapolationGuard {
   template <class F>
   void for_neighbours(const F& f) const;
   bool free(std::size_t i) const;
-  bool leaves_range(std::span<const double> temperature, const TemperatureRange& surroundings,
+  TemperatureRange range_of_free(std::span<const double> temperature) const;
+  bool leaves_range(const TemperatureRange& reached, const TemperatureRange& surroundings,
                     double share) const;
   bool raise_along(std::span<const std::size_t> way_out, double sign, std::span<double> barrier) const;
 
   HeatSystem& system_;
   const NodalEnthalpy& storage_;
   const std::vector<double>&before_, &now_;      ///< Θ_n and Θ¹, [local node]
-  std::vector<double> ahead_;                    ///< Θ(H*), [owned node]
+  std::size_t n_;                                ///< owned nodes
+  TemperatureRange ahead_;                       ///< of Θ(H*) at the free nodes of this process
   std::vector<char> passes_kink_;                ///< [owned node]: 1 downward, −1 upward; empty: none
   double lowest_ = 0, highest_ = 0;              ///< of Θ_n, of all processes
   double first_lowest_ = 0, first_highest_ = 0;  ///< of Θ¹
