@@ -1,7 +1,7 @@
 /// Memory a node at its greatest while a run of heat is set up and takes a step: what is made on the way,
 /// lists of elements, geometry and rows of the pattern, must not exceed what the run keeps by much.
 ///
-/// All that `new` gives is counted; PETSc's vectors, five of 8 bytes a node, are not.
+/// All that `new` gives is counted, the vectors of the linear solver included.
 #include <gtest/gtest.h>
 
 #include <malloc.h>
@@ -117,8 +117,10 @@ TEST(Memory, HeatIsSetUpAndStepsWithWhatItKeeps) {
   heat::ThermalState state = phase->initial_state(std::vector{950.0});
   const double to_step = most_by(
       [&] { phase->solve(state, state, {.time = 2, .dt = 2, .stepping = heat::ThermalStepping::sdirk2}); });
-  EXPECT_LT(to_build, 200);
-  EXPECT_LT(to_step, 205);
+  RecordProperty("to_build", std::to_string(to_build));
+  RecordProperty("to_step", std::to_string(to_step));
+  EXPECT_LT(to_build, 175);
+  EXPECT_LT(to_step, 170);
 }
 
 }  // namespace
