@@ -93,6 +93,7 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
   StepEffort effort;
   if (options_.integration == SimultaneousOptions::Integration::backward_euler) {
     effort = backward_euler(old, trial, time, dt, deformation);
+    book_excess_work(phases_, deformation, effort.energy);
   } else if (const std::optional<StepEffort> found =
                  two_stages(old, trial, time, dt, true, *contact, deformation)) {
     effort = *found;
