@@ -89,8 +89,8 @@ void swapped_cores_and_chills(const CaseSpec& spec, const Assembly& a, const Cas
   const auto most_covered = [&](std::size_t body) {
     double most = 0;
     for (const Pour& pour : m.pours)
-      most = std::max(most, covered(box_of(spec, m.bodies[body]), box_of(spec, m.bodies[pour.body]),
-                                    a.mesh.dimension));
+      most = std::max(
+          most, covered(box_of(spec, m.bodies[body]), box_of(spec, m.bodies[pour.body]), a.mesh.dimension));
     return most;
   };
   for (std::size_t core = 0; core < spec.bodies.size(); ++core) {

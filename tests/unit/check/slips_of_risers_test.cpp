@@ -115,8 +115,9 @@ TEST_F(HubTest, SwappedGroupsAreNamed) {
   EXPECT_THAT(
       said_of(swapped("core", "chill")),
       Contains(HasSubstr("the core 'core' lies outside what is poured, and the chill 'chill' within it")));
-  EXPECT_THAT(said_of(swapped("casting", "riser")),
-              Contains(HasSubstr("what is poured as riser ('riser') is 3.5 times as large as what it feeds")));
+  EXPECT_THAT(
+      said_of(swapped("casting", "riser")),
+      Contains(HasSubstr("what is poured as riser ('riser') is 3.5 times as large as what it feeds")));
 }
 
 TEST_F(HubTest, ARiserThatFreezesFirstIsNamed) {
@@ -147,8 +148,8 @@ TEST_F(HubTest, PressuresOfADieInSandAreNamed) {
 }
 
 TEST_F(FindingsTest, AMeltThatPressureHoldsUpFromBelowIsNotOpenBelow) {
-  const std::string low = changed(deforming(), "gravity = \"9.81 m/s2\"",
-                                  "gravity = \"9.81 m/s2\"\ngravity_direction = [0, 1]");
+  const std::string low =
+      changed(deforming(), "gravity = \"9.81 m/s2\"", "gravity = \"9.81 m/s2\"\ngravity_direction = [0, 1]");
   EXPECT_THAT(said_of(low), Contains(HasSubstr("the melt is open below")));
   EXPECT_THAT(said_of(low + "[[mechanical_condition]]\nname = \"furnace\"\ngroup = \"upper_y_max\"\n"
                             "kind = \"pressure\"\npressure = \"20 kPa\"\n"),
