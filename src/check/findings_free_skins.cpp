@@ -72,7 +72,8 @@ void melts_open_below(const CaseSpec& spec, const Assembly& a, const CaseMeasure
            "the melt is open below, as gravity acts: {:.0f} % of its skin that faces down has neither "
            "a contact nor a support, and all that faces up has one",
            100 * down.free / down.all),
-       "is gravity_direction right? A melt has its free surface on top"});
+       "is gravity_direction right? A melt has its free surface on top; what holds it up from below, as in "
+       "low-pressure casting, is a pressure on that skin"});
 }
 
 /// A support of all directions on a free surface of a casting keeps it from shrinking there.
