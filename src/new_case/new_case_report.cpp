@@ -93,7 +93,7 @@ std::string poor_mesh_text(const DraftEstimate& estimate) {
 }  // namespace
 
 std::string report_text(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate,
-                   const NewCaseOptions& options) {
+                        const NewCaseOptions& options) {
   std::string out = fmt::format("{}: {} at {:.0f} degC, process {}", draft.geometry.filename().string(),
                                 draft.alloy, draft.pouring, draft.process);
   for (const DraftBody& body : draft.bodies) {

@@ -201,10 +201,11 @@ std::string text(const Answers& a, const std::vector<criteria::CriterionResult>&
                              sunk_text(gap.gap.value, a.distortion)));
   for (const GapAnswer& overlap : a.overlaps)
     if (a.distortion && overlap.gap.value > k_overlap * a.distortion->value)
-      text +=
-          line(fmt::format("deepest overlap of '{}'", overlap.contact),
-               fmt::format("{} {}: its penalty lets metal shrink into the wall, stresses there are too low",
-                           format.length(overlap.gap.value), format.place(overlap.gap.where)));
+      text += line(
+          fmt::format("deepest overlap of '{}'", overlap.contact),
+          fmt::format(
+              "{} {}: the penalty lets metal shrink into its wall; stresses are too low where that is rigid",
+              format.length(overlap.gap.value), format.place(overlap.gap.where)));
   if (a.distortion)
     text += line("largest distortion",
                  fmt::format("{} {}", format.length(a.distortion->value), format.place(a.distortion->where)));

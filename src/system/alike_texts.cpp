@@ -80,9 +80,7 @@ std::vector<std::string> told_once(const std::vector<std::string>& texts) {
     Text now = read(text);
     const auto equal = [&](const Kind& k) { return k.text == text; };
     if (std::ranges::any_of(kinds, equal)) continue;
-    const auto alike = [&](const Kind& k) {
-      return k.first.form == now.form && k.first.names != now.names;
-    };
+    const auto alike = [&](const Kind& k) { return k.first.form == now.form && k.first.names != now.names; };
     const auto kind = std::ranges::find_if(kinds, alike);
     if (kind == kinds.end()) {
       kinds.push_back({std::move(now), text, {}});

@@ -45,9 +45,11 @@ struct Report {
 TEST(NewCaseReport, OfASoundDraftSaysWhatWasMeasuredAndNotesNothing) {
   const std::string text = Report().text();
   EXPECT_THAT(text, HasSubstr("part.step: aluminium_alsi7mg at 695 degC, process sand"));
-  EXPECT_THAT(text, HasSubstr("walls       10 mm (a tenth is thinner) to 10 mm (a tenth is thicker), V/A 5 mm"));
+  EXPECT_THAT(text,
+              HasSubstr("walls       10 mm (a tenth is thinner) to 10 mm (a tenth is thicker), V/A 5 mm"));
   EXPECT_THAT(text, HasSubstr("9000 nodes, 2100 of them in metal; elements of 5 to 6 mm there"));
-  EXPECT_THAT(text, HasSubstr("in about 100 s by an estimate of one dimension; the run ends when it has, at 600 s"));
+  EXPECT_THAT(
+      text, HasSubstr("in about 100 s by an estimate of one dimension; the run ends when it has, at 600 s"));
   EXPECT_THAT(text, Not(HasSubstr("note")));
 }
 
@@ -55,8 +57,9 @@ TEST(NewCaseReport, NotesThePoorestElementAndItsPlace) {
   Report report;
   report.estimate.least_quality = 0.0712;
   report.estimate.worst_element = "at (1, 2, 3) mm in 'body_1'";
-  EXPECT_THAT(report.text(), HasSubstr("note        the least quality of elements is 0.071 (0.15 is sound), the worst "
-                                       "at (1, 2, 3) mm in 'body_1': results there are rough"));
+  EXPECT_THAT(report.text(),
+              HasSubstr("note        the least quality of elements is 0.071 (0.15 is sound), the worst "
+                        "at (1, 2, 3) mm in 'body_1': results there are rough"));
   report.estimate.least_quality = 0.16;
   EXPECT_THAT(report.text(), Not(HasSubstr("note")));
 }
@@ -64,8 +67,9 @@ TEST(NewCaseReport, NotesThePoorestElementAndItsPlace) {
 TEST(NewCaseReport, NotesWallsWithOneElementThroughThem) {
   Report report;
   report.part.thickness = {4e-3, 4e-3, 4e-3};
-  EXPECT_THAT(report.text(), HasSubstr("thin walls have one element through them: enough for when and where it "
-                                       "freezes last; --fineness 2.5 gives two"));
+  EXPECT_THAT(report.text(),
+              HasSubstr("thin walls have one element through them: enough for when and where it "
+                        "freezes last; --fineness 2.5 gives two"));
   report.part.thickness = {1e-3, 1e-3, 1e-3};  // finer than --fineness goes
   EXPECT_THAT(report.text(), HasSubstr("thin walls have one element through them"));
   EXPECT_THAT(report.text(), Not(HasSubstr("--fineness")));
@@ -77,8 +81,9 @@ TEST(NewCaseReport, NotesBodiesThatArePouredForWantOfAName) {
   Report report;
   report.draft.bodies.push_back(report.draft.bodies.front());
   report.draft.bodies.back().name = report.draft.bodies.back().group = "body_2";
-  EXPECT_THAT(report.text(), HasSubstr("no name says what these are, so they are poured: casting, body_2; else, for "
-                                       "example: --as body_2=core"));
+  EXPECT_THAT(report.text(),
+              HasSubstr("no name says what these are, so they are poured: casting, body_2; else, for "
+                        "example: --as body_2=core"));
   report.options.as = {"body_1=casting", "body_2=casting"};
   EXPECT_THAT(report.text(), Not(HasSubstr("note")));
 }
@@ -96,7 +101,8 @@ TEST(NewCaseReport, NotesARiserBesideThePlaneOfSymmetry) {
 TEST(NewCaseReport, NotesPartsSoLargeThatTheirUnitIsInDoubt) {
   Report report;
   report.part.high = {100, 60, 40};
-  EXPECT_THAT(report.text(), HasSubstr("100 m large, for lengths of the file in mm: --unit takes another unit"));
+  EXPECT_THAT(report.text(),
+              HasSubstr("100 m large, for lengths of the file in mm: --unit takes another unit"));
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ using solidus::logging::told_once;
 using ::testing::ElementsAre;
 
 TEST(AlikeTexts, ThatDifferInNamesAndNumbersAreToldOnceWithAllNames) {
-  EXPECT_THAT(told_once({"case.toml:3:1: the body 'rod' is thin", "case.toml:34:1: contact 'nut_1_mould' takes 0.6792 mm",
+  EXPECT_THAT(told_once({"case.toml:3:1: the body 'rod' is thin",
+                         "case.toml:34:1: contact 'nut_1_mould' takes 0.6792 mm",
                          "case.toml:34:1: contact 'nut_2_mould' takes 6e-05 mm",
                          "case.toml:34:1: contact 'nut_3_mould' takes 1.5 mm"}),
               ElementsAre("case.toml:3:1: the body 'rod' is thin",
