@@ -88,7 +88,8 @@ void find_in_effort(const CaseSpec& spec, const CaseMeasures& m, Findings& findi
 /// All of them, of a case that is built. Collective.
 Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
 
-/// Warns of each finding; throws InputError for the first error.
+/// Warns of the findings, once of those that several bodies or contacts share (system/alike_texts.hpp);
+/// throws InputError for the first error.
 void report(const Findings& findings);
 
 }  // namespace solidus::model
