@@ -108,6 +108,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial,
   if (phases.mechanics == nullptr) rest_contacts(phases, old, pass.time, pass.dt);
   for (contact::ContactPair* pair : phases.contacts) pair->begin_heat(pass.dt, pass.adiabatic);
   if (phases.structural != nullptr) phases.structural->set_deformation(deformation);
+  if (pass.iterate == nullptr && &trial != &old) trial.heat = {};  // its memory serves the step
   heat::ThermalReport report = phases.heat->solve(old.heat, trial.heat, pass);
 
   effort.energy.stored_heat = report.balance.stored;

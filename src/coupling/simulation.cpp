@@ -126,7 +126,6 @@ void Simulation::enter_stage(Progress& p, const std::optional<RestartData>& from
   p.record.cycle = stage.cycle;
   if (staged) begin_bodies(p, anew, from && from->stage.number == p.stage_start.number);
   p.solid_fraction = p.solid_fraction_of(p.committed);
-  if (criteria_ != nullptr) criteria_->forget();
   scheme_->synchronise(p.committed);
   scheme_->forget();  // as after a checkpoint of this state
 }
@@ -189,7 +188,6 @@ void Simulation::begin(State initial, SolidFraction solid_fraction, const std::o
   progress_ = std::make_unique<Progress>();
   Progress& p = *progress_;
   p.solid_fraction_of = std::move(solid_fraction);
-  if (criteria_ != nullptr) criteria_->forget();
   criteria::CriteriaState records =
       std::move(initial.criteria);  // there is one of them, which commit() hands on
   p.trial = initial;

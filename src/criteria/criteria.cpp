@@ -22,10 +22,8 @@ CriteriaState Criteria::initial(const CriterionInput& start) const {
 void Criteria::step(const CriterionInput& old, const CriterionInput& next, CriteriaState& state) {
   assert(state.records.size() == list_.size());
   const double start = processes::wall_time();
-  const NodalFractions before = phases_time_ == old.time ? std::move(phases_) : phases_of(old);
-  phases_ = phases_of(next);
-  phases_time_ = next.time;
-  const CriterionInput from = before.of(old), to = phases_.of(next);
+  const NodalFractions before = phases_of(old), after = phases_of(next);
+  const CriterionInput from = before.of(old), to = after.of(next);
   for (std::size_t i = 0; i < list_.size(); ++i) list_[i]->step(from, to, state.records[i]);
   seconds_ += processes::wall_time() - start;
 }

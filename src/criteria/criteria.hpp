@@ -1,7 +1,6 @@
 /// The list of all criteria of a run.
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -19,8 +18,6 @@ class Criteria {
   bool empty() const { return list_.empty(); }
 
   CriteriaState initial(const CriterionInput& start) const;
-  /// Forgets the stored phases, because another run begins.
-  void forget() { phases_time_ = std::numeric_limits<double>::quiet_NaN(); }
   /// Advances all criteria over a step, as Criterion::step does. `state` is that of t_n and becomes that of
   /// t_{n+1}. Collective.
   void step(const CriterionInput& old, const CriterionInput& next, CriteriaState& state);
@@ -45,9 +42,6 @@ class Criteria {
 
   const heat::ThermalPhase* phase_;
   std::vector<std::unique_ptr<Criterion>> list_;
-  /// Nodal phases at the end of the last step, stored because the next step needs them again.
-  NodalFractions phases_;
-  double phases_time_ = std::numeric_limits<double>::quiet_NaN();  ///< never equal to a time
   double seconds_ = 0;
 };
 

@@ -20,11 +20,12 @@ enum Slot : std::size_t {
   k_gradient,   ///< [K/m]
   k_magnitude,  ///< mean of the magnitudes of the elements' gradients [K/m]
   k_mode,
-  // While the front passes: sums over time of gradient and magnitude behind it [K s/m], and that time [s].
-  k_sum_gradient,
-  k_sum_magnitude,
-  k_sum_time,
-  k_width
+  k_width,
+  // Until T_e is reached, while the front passes: sums over time of gradient and magnitude behind it [K s/m],
+  // and that time [s].
+  k_sum_time = k_rate,
+  k_sum_gradient = k_gradient,
+  k_sum_magnitude = k_magnitude
 };
 constexpr double k_never = -1;
 constexpr double k_mushy = 1, k_sharp = 2, k_waiting = 3;  // in k_mode; zero: not evaluated
@@ -209,14 +210,18 @@ void Freezing::evaluate(const Passage& passage, const Step& step, std::span<doub
   const Levels& levels = levels_[static_cast<std::size_t>(passage.who.body)];
   const PatchGradient g = recover(passage.who, step, passage.at, history, false);
   const bool sharp = levels.at_end || g.drop > levels.liquidus - levels.evaluation;
-  h[k_rate] = passage.rate;
+  if (h[k_mode] != 0)  // passed before, and warmed up since without melting: there are no sums
+    for (const Slot sum : {k_sum_time, k_sum_gradient, k_sum_magnitude}) h[sum] = 0;
   h[k_mode] = !g.has_behind ? k_waiting : (sharp ? k_sharp : k_mushy);
-  h[k_gradient] = g.all;
-  h[k_magnitude] = g.all_magnitude;
-  if (h[k_mode] != k_sharp) return;
   const double share = passage.at * step.dt(), time = h[k_sum_time] + share;
-  h[k_gradient] = time > 0 ? (h[k_sum_gradient] + share * g.behind) / time : g.behind;
-  h[k_magnitude] = time > 0 ? (h[k_sum_magnitude] + share * g.behind_magnitude) / time : g.behind_magnitude;
+  if (h[k_mode] != k_sharp) {
+    h[k_gradient] = g.all;
+    h[k_magnitude] = g.all_magnitude;
+  } else {
+    h[k_gradient] = time > 0 ? (h[k_sum_gradient] + share * g.behind) / time : g.behind;
+    h[k_magnitude] = time > 0 ? (h[k_sum_magnitude] + share * g.behind_magnitude) / time : g.behind_magnitude;
+  }
+  h[k_rate] = passage.rate;
 }
 
 // While a front passes a node, the gradient behind it swings about its mean.
@@ -314,8 +319,10 @@ std::array<double, Freezing::k_fields> Freezing::values_of(const FreezingNode& w
   const double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
   if (h[k_solidified_at] < 0) return {k_never};
   const double time = h[k_solidified_at] - h[k_liquidus_at];
-  const double gradient = h[k_gradient];
-  const double rate = speed > 0 ? h[k_magnitude] * speed : h[k_rate];
+  const bool evaluated = h[k_evaluated_at] >= 0;  // else metal that was colder than T_e from the start
+  const double gradient = evaluated ? h[k_gradient] : 0.0;
+  const double magnitude = evaluated ? h[k_magnitude] : 0.0, own_rate = evaluated ? h[k_rate] : 0.0;
+  const double rate = speed > 0 ? magnitude * speed : own_rate;
   const auto body = static_cast<std::size_t>(who.body);
   const double spacing = storage_.material(who.body).casting.secondary_arm_spacing(time).value_or(0);
   const double ny = niyama(gradient, rate);

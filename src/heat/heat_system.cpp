@@ -30,7 +30,6 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
   matrix_ = std::make_unique<linear::BlockMatrix>(mesh, 1, graph(), storage);
   matrix_->set_fixed(fixed_);
   bind();
-  local_.resize(mesh.x.size());
   supplied_.resize(mesh.x.size());
   if (!contributions_.empty()) contributed_.resize(static_cast<std::size_t>(mesh.n_owned_nodes));
   contribution_power_.resize(contributions_.size());
@@ -109,7 +108,6 @@ void HeatSystem::find_field_nodes(std::size_t body) {
   u.nodes.reserve(static_cast<std::size_t>(std::count(of_body.begin(), of_body.end(), 1)));
   for (std::size_t i = 0; i < of_body.size(); ++i)
     if (of_body[i] != 0) u.nodes.push_back(static_cast<Index>(i));
-  if (!u.nodes.empty()) u.value.resize(mesh_.x.size());
 }
 
 void HeatSystem::set_time(double time) {
@@ -137,12 +135,20 @@ void HeatSystem::prescribe(std::span<double> temperature) const {
       temperature[static_cast<std::size_t>(p.nodes[k])] = p.now[k];
 }
 
+void HeatSystem::release_work() {
+  std::vector<double>().swap(local_);
+  for (Field& u : fields_) std::vector<double>().swap(u.value);
+}
+
 double HeatSystem::residual(std::span<const double> temperature, std::span<double> r) {
   double moved = 0;
-  for (auto* heat : {&local_, &supplied_}) std::fill(heat->begin(), heat->end(), 0.0);
+  std::fill(supplied_.begin(), supplied_.end(), 0.0);
   std::fill(surface_power_.begin(), surface_power_.end(), 0.0);
   std::fill(source_power_.begin(), source_power_.end(), 0.0);
-  if (exchange_) moved += add_flows(temperature);
+  if (exchange_)
+    moved += add_flows(temperature);
+  else
+    local_.assign(mesh_.x.size(), 0.0);
   std::copy_n(local_.begin(), r.size(), r.begin());
   if (limiter_ && exchange_) limiter_->add_heat(temperature, r);
   storing_.clear();
@@ -180,6 +186,7 @@ void HeatSystem::conduct(std::span<const double> temperature) {
   std::vector<double> factor(fields_.size(), 1.0);
   for (std::size_t b = 0; b < fields_.size(); ++b) {
     if (potentials_[b].constant()) continue;
+    if (!fields_[b].nodes.empty()) fields_[b].value.resize(mesh_.x.size());
     for (const Index node : fields_[b].nodes) {
       const auto i = static_cast<std::size_t>(node);
       fields_[b].value[i] = potentials_[b].value(temperature[i]);
@@ -187,7 +194,7 @@ void HeatSystem::conduct(std::span<const double> temperature) {
     potential[b] = fields_[b].value.data();
     factor[b] = 1.0 / potentials_[b].reference();
   }
-  std::fill(local_.begin(), local_.end(), 0.0);
+  local_.assign(mesh_.x.size(), 0.0);
   const bool half = matrix_->storage() == linear::BlockMatrix::Storage::upper;
   const std::span<const std::int64_t> start = matrix_->row_start();
   const std::span<const Index> columns = matrix_->columns();

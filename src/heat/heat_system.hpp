@@ -89,6 +89,8 @@ class HeatSystem {
   /// r on owned nodes [W]. Returns this process's share of the heat moved by surfaces, sources and
   /// contributions, magnitudes before they cancel.
   double residual(std::span<const double> temperature, std::span<double> r);
+  /// Frees the vectors that residual() and assemble() work with; the next call makes them anew.
+  void release_work();
   /// Fills the matrix with ∂r/∂Θ, which is unsymmetric where a conductivity varies.
   void assemble(std::span<const double> temperature);
   /// Conduction at nodes that materials of different k(Θ)/κ share, in assemble_symmetric().

@@ -17,11 +17,13 @@ void HeatSystem::assemble(std::span<const double> temperature) {
   for (linear::Contribution* contribution : contributions_)
     if (exchange_ || contribution->stores()) contribution->add_tangent(temperature, *matrix_);
   if (!exchange_) return;
-  for (std::size_t b = 0; b < fields_.size(); ++b)
+  for (std::size_t b = 0; b < fields_.size(); ++b) {
+    if (!fields_[b].nodes.empty()) fields_[b].value.resize(mesh_.x.size());
     for (const Index node : fields_[b].nodes) {
       const auto i = static_cast<std::size_t>(node);
       fields_[b].value[i] = potentials_[b].conductivity(temperature[i]);
     }
+  }
   for (std::size_t b = 0; b < conduction_.size(); ++b) {
     const auto body = static_cast<std::size_t>(mesh_.blocks[b].body);
     if (!active_.body(static_cast<int>(body))) continue;

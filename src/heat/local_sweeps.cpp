@@ -16,7 +16,7 @@ LocalSweeps::LocalSweeps(const linear::BlockMatrix& matrix, std::span<const doub
   mean_ = sum_ / parallel::global_sum(static_cast<double>(n));
   for (std::size_t i = 0; i < n; ++i) {
     if (fixed[i] != 0 || !(std::abs(residual[i]) >= mean_)) continue;
-    nodes_.push_back(i);
+    nodes_.push_back(static_cast<std::uint32_t>(i));
     residual_.push_back(residual[i]);
   }
   copy_rows(matrix, n);
@@ -49,7 +49,7 @@ void LocalSweeps::copy_rows(const linear::BlockMatrix& matrix, std::size_t n_own
   for_entries([&](std::size_t row, std::uint32_t, double) { ++start_[row + 1]; });
   for (std::size_t k = 0; k < nodes_.size(); ++k) start_[k + 1] += start_[k];
   neighbours_.resize(start_.back());
-  std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+  std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
   for_entries([&](std::size_t row, std::uint32_t other, double entry) {
     neighbours_[next[row]++] = {other, static_cast<float>(entry)};
   });
@@ -70,7 +70,7 @@ void LocalSweeps::copy_couplings(const linear::BlockMatrix& matrix, std::size_t 
       magnitudes += std::abs(entry);
     }
     if (magnitudes == 0.0F) continue;
-    for (std::size_t s = start_[k]; s < start_[k + 1]; ++s)
+    for (std::uint32_t s = start_[k]; s < start_[k + 1]; ++s)
       if (neighbours_[s].position == k) neighbours_[s].entry += magnitudes;
   }
 }

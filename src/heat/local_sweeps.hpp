@@ -48,7 +48,7 @@ class LocalSweeps {
         if (std::abs(residual_[k]) <= mean_) return;
         const NodeChange change = relax(nodes_[k], residual_[k]);
         residual_[k] += change.stored;
-        for (std::size_t s = start_[k]; s < start_[k + 1]; ++s)
+        for (std::uint32_t s = start_[k]; s < start_[k + 1]; ++s)
           residual_[neighbours_[s].position] += static_cast<double>(neighbours_[s].entry) * change.potential;
         if (!change_.empty()) change_[nodes_[k]] += change.potential;
         changed = true;
@@ -77,9 +77,9 @@ class LocalSweeps {
   void follow_other_processes();
 
   const parallel::GhostExchange& ghosts_;
-  std::vector<std::size_t> nodes_;     ///< chosen, in rising order
+  std::vector<std::uint32_t> nodes_;   ///< chosen, in rising order
   std::vector<double> residual_;       ///< F of now, [chosen node]
-  std::vector<std::size_t> start_;     ///< of the neighbours of each chosen node, itself included
+  std::vector<std::uint32_t> start_;   ///< of the neighbours of each chosen node, itself included
   std::vector<Neighbour> neighbours_;  ///< that are chosen too
   std::vector<Coupling> couplings_;    ///< with nodes of other processes
   std::vector<double> change_;         ///< of v in this round, [local node]; empty: there is one process

@@ -52,7 +52,7 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
   start_.reserve(first.size() + 1);
   start_.assign(1, 0);
   if (further.empty()) {
-    for (std::size_t i = 0; i < first.size(); ++i) start_.push_back(i + 1);
+    for (std::size_t i = 0; i < first.size(); ++i) start_.push_back(static_cast<Index>(i) + 1);
     shares_ = std::move(first);
     return;
   }
@@ -67,7 +67,7 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
       shares_.insert(shares_.end(), more->second.begin(), more->second.end());
       ++more;
     }
-    start_.push_back(shares_.size());
+    start_.push_back(static_cast<Index>(shares_.size()));
   }
 }
 
@@ -98,12 +98,14 @@ void NodalEnthalpy::keep_bodies(std::span<const char> kept) {
 }
 
 void NodalEnthalpy::filter(const Shares& from, std::span<const char> kept) {
-  std::vector<std::size_t> start = {0};
+  std::vector<Index> start = {0};
   std::vector<Share> left;
   for (std::size_t node = 0; node + 1 < from.start.size(); ++node) {
-    for (std::size_t s = from.start[node]; s < from.start[node + 1]; ++s)
-      if (kept[static_cast<std::size_t>(from.shares[s].body)] != 0) left.push_back(from.shares[s]);
-    start.push_back(left.size());
+    for (const Share& share : std::span(from.shares)
+                                  .subspan(static_cast<std::size_t>(from.start[node]),
+                                           static_cast<std::size_t>(from.start[node + 1] - from.start[node])))
+      if (kept[static_cast<std::size_t>(share.body)] != 0) left.push_back(share);
+    start.push_back(static_cast<Index>(left.size()));
   }
   start_ = std::move(start);
   shares_ = std::move(left);

@@ -106,7 +106,7 @@ class NodalEnthalpy {
  private:
   std::span<const Share> shares(Index node) const {
     const auto i = static_cast<std::size_t>(node);
-    return {shares_.data() + start_[i], start_[i + 1] - start_[i]};
+    return {shares_.data() + start_[i], static_cast<std::size_t>(start_[i + 1] - start_[i])};
   }
   const material::EnthalpyCurve& curve(const Share& share) const {
     return curves_[static_cast<std::size_t>(share.body)];
@@ -115,7 +115,7 @@ class NodalEnthalpy {
   double mixed_temperature(std::span<const Share> shares, double heat, bool& plateau) const;
   /// The shares of every owned node, [start[node], start[node + 1]).
   struct Shares {
-    std::vector<std::size_t> start;
+    std::vector<Index> start;
     std::vector<Share> shares;
   };
   void filter(const Shares& from, std::span<const char> kept);
@@ -124,7 +124,7 @@ class NodalEnthalpy {
   std::vector<material::EnthalpyCurve> curves_;  ///< per body
   std::vector<std::vector<double>> starts_;      ///< per body, h at the start of each piece [J/m³]
   std::vector<double> breaks_;                   ///< temperatures where any curve bends or jumps, rising [K]
-  std::vector<std::size_t> start_;               ///< first share of each owned node
+  std::vector<Index> start_;                     ///< first share of each owned node
   std::vector<Share> shares_;
   Shares all_;  ///< with those of inactive bodies; empty as long as none has been inactive
 };

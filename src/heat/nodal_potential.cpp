@@ -11,24 +11,29 @@ NodalPotential::NodalPotential(const mesh::Mesh& mesh, std::span<const Kirchhoff
       identity_(std::all_of(potentials.begin(), potentials.end(),
                             [](const KirchhoffPotential& u) { return u.constant(); })) {
   if (identity_) return;
-  std::vector<std::pair<Index, int>> pairs;
-  for (const mesh::ElementBlock& block : mesh.blocks) {
-    if (!active.body(block.body)) continue;
-    std::vector<Index> nodes = block.nodes;
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    for (const Index node : nodes)
-      if (node < mesh.n_owned_nodes) pairs.emplace_back(node, block.body);
-  }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  start_.assign(static_cast<std::size_t>(mesh.n_owned_nodes) + 1, 0);
-  bodies_.reserve(pairs.size());
-  for (const auto& [node, body] : pairs) {
-    ++start_[static_cast<std::size_t>(node) + 1];
-    bodies_.push_back(body);
-  }
+  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
+  const auto for_bodies = [&](const auto& take) {  // in rising order, with their owned nodes
+    for (std::size_t body = 0; body < mesh.bodies.size(); ++body) {
+      std::vector<char> there(mesh.x.size(), 0);
+      for (const mesh::ElementBlock& block : mesh.blocks)
+        if (static_cast<std::size_t>(block.body) == body && active.body(block.body))
+          for (const Index node : block.nodes) there[static_cast<std::size_t>(node)] = 1;
+      for (std::size_t i = 0; i < n; ++i)
+        if (there[i] != 0) take(i, static_cast<int>(body));
+    }
+  };
+  start_.assign(n + 1, 0);
+  for_bodies([&](std::size_t node, int) { ++start_[node + 1]; });
   for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
+  bodies_.resize(static_cast<std::size_t>(start_.back()));
+  std::vector<Index> next(start_.begin(), start_.end() - 1);
+  for_bodies([&](std::size_t node, int body) { bodies_[static_cast<std::size_t>(next[node]++)] = body; });
+  const bool alike = n > 0 && std::adjacent_find(start_.begin(), start_.end(),
+                                                 [](Index a, Index b) { return b != a + 1; }) == start_.end();
+  if (!alike || std::any_of(bodies_.begin(), bodies_.end(), [&](int b) { return b != bodies_.front(); }))
+    return;
+  std::vector<Index>().swap(start_);
+  bodies_ = std::vector<int>(1, bodies_.front());
 }
 
 double NodalPotential::value(Index node, double temperature) const {

@@ -41,13 +41,15 @@ class NodalPotential {
 
  private:
   std::span<const int> bodies(Index node) const {
+    if (start_.empty()) return bodies_;
     const auto i = static_cast<std::size_t>(node);
     return {bodies_.data() + start_[i], static_cast<std::size_t>(start_[i + 1] - start_[i])};
   }
 
   std::span<const KirchhoffPotential> potentials_;
   bool identity_ = true;
-  std::vector<Index> start_;  ///< into bodies_, of each owned node; empty where v = Θ
+  /// Into bodies_, of each owned node; empty where v = Θ, and where all nodes are of the one body there.
+  std::vector<Index> start_;
   std::vector<int> bodies_;
 };
 

@@ -29,38 +29,41 @@ constexpr double k_refining = 0.1;  ///< of the systems that find their directio
 /// (D + A) δ = −F, δ in step_ with its ghosts and A δ in product_.
 /// @param chords  D of each node in place of the tangent's where it is not zero; infinite: the node is held.
 ///                Empty: none
-linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const double> chords) {
+linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const float> chords) {
   linear::BlockMatrix& a = system_.matrix();
+  const NodalPotential& potential = system_.potential();
   const auto n = r_.size();
   std::vector<char> held(n);
-  std::vector<double> of_a(n);  // its diagonal, without D
+  const bool alone = n == step_.size();  // diagonal_ is that of A then
+  std::vector<double> of_a(alone ? 0 : n);
   {
     const profile::Part part("assembly");
     for (std::size_t i = 0; i < n; ++i) {
       const auto node = static_cast<Index>(i);
       double& diagonal = *a.diagonal_block(node);
-      of_a[i] = diagonal;
-      double stiffness = chords.empty() ? 0.0 : chords[i];
+      if (!alone) of_a[i] = diagonal;
+      double stiffness = chords.empty() ? 0.0 : static_cast<double>(chords[i]);
       if (stiffness == 0) stiffness = curve_slope_[i] == 0.0 ? HUGE_VAL : 1.0 / (dt_ * curve_slope_[i]);
       held[i] = std::isinf(stiffness) || system_.fixed()[i] ? 1 : 0;
       if (std::isinf(stiffness))
-        diagonal = k_plateau_stiffness *
-                   (std::abs(diagonal) + storage_.capacity(node, temperature_[i]) / (dt_ * slope_[i]));
+        diagonal =
+            k_plateau_stiffness * (std::abs(diagonal) + storage_.capacity(node, temperature_[i]) /
+                                                            (dt_ * potential.slope(node, temperature_[i])));
       else
         diagonal += stiffness;
       // A held node has no equation here: its residual must not set the scale of the linear solver.
       product_[i] = held[i] ? 0.0 : -r_[i];
     }
   }
+  system_.release_work();
   linear::LinearReport report = solver_.solve(a, product_, std::span(step_).first(n), forcing);
   for (std::size_t i = 0; i < n; ++i)
     if (held[i]) step_[i] = 0;
   ghosts_.update(step_, 1);
   const bool unsymmetric = parallel::any_process(!system_.unsymmetric_part().empty());
   if (report.converged && unsymmetric) report.iterations += refine(held, forcing);
-  for (std::size_t i = 0; i < n; ++i) {
-    *a.diagonal_block(static_cast<Index>(i)) = of_a[i];
-  }
+  for (std::size_t i = 0; i < n; ++i)
+    *a.diagonal_block(static_cast<Index>(i)) = alone ? diagonal_[i] : of_a[i];
   if (!report.converged) return report;
   multiply_exactly(step_, product_, {});
   return report;
@@ -127,7 +130,7 @@ int TruncatedNewton::refine(std::span<const char> held, double forcing) {
 
 /// The slopes D = ΔH/(Δt δ) of the chords of the nodes' curves over the steps of now, where the tangents are
 /// less steep or there are none; zero elsewhere.
-void TruncatedNewton::find_chords(std::span<double> chords) const {
+void TruncatedNewton::find_chords(std::span<float> chords) const {
   const NodalPotential& potential = system_.potential();
   for (std::size_t i = 0; i < r_.size(); ++i) {
     chords[i] = 0;
@@ -142,7 +145,8 @@ void TruncatedNewton::find_chords(std::span<double> chords) const {
     const double usual = diagonal_[i] + storage_.capacity(node, temperature_[i]) / (dt_ * c);
     // A step within rounding of the plateau's temperature has a chord of either sign. So steep a chord holds
     // the node but lets a later round see which way it wants to go.
-    chords[i] = chord > 0 ? std::min(chord, k_chord_holds * usual) : k_chord_holds * usual;
+    chords[i] =
+        static_cast<float>(chord > 0 ? std::min(chord, k_chord_holds * usual) : k_chord_holds * usual);
   }
 }
 
@@ -150,17 +154,19 @@ void TruncatedNewton::find_chords(std::span<double> chords) const {
 /// begins without plateaus: their nodes have the capacity of their temperature.
 linear::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
   const NodalPotential& potential = system_.potential();
-  std::vector<double> chords(r_.size()), before(r_.size());
+  std::vector<float> chords(r_.size()), before(r_.size());
   for (std::size_t i = 0; i < r_.size(); ++i) {
     const auto node = static_cast<Index>(i);
     if (storage_.point(node, heat_[i]).slope == 0)
-      chords[i] = storage_.capacity(node, temperature_[i]) / (dt_ * potential.slope(node, temperature_[i]));
+      chords[i] = static_cast<float>(storage_.capacity(node, temperature_[i]) /
+                                     (dt_ * potential.slope(node, temperature_[i])));
   }
   linear::LinearReport report;
   int iterations = 0;
   for (int round = 0; round < k_chord_rounds; ++round) {
     if (round > 0) find_chords(chords);
-    std::copy_n(step_.begin(), before.size(), before.begin());
+    std::transform(step_.begin(), step_.begin() + static_cast<std::ptrdiff_t>(before.size()), before.begin(),
+                   [](double step) { return static_cast<float>(step); });
     report = correct(std::max(forcing, k_chord_forcing), chords);
     report.iterations = iterations += report.iterations;
     if (!report.converged || round == 0) {
@@ -171,10 +177,10 @@ linear::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
     for (std::size_t i = 0; i < r_.size(); ++i) {
       const auto node = static_cast<Index>(i);
       const double slope = storage_.point(node, heat_[i]).slope;
-      const double d = chords[i] > 0 && std::isfinite(chords[i]) ? chords[i]
+      const double d = chords[i] > 0 && std::isfinite(chords[i]) ? static_cast<double>(chords[i])
                        : slope > 0                               ? 1.0 / (dt_ * slope)
                                                                  : 0.0;
-      change += d * std::abs(step_[i] - before[i]);
+      change += d * std::abs(step_[i] - static_cast<double>(before[i]));
       all += d * std::abs(step_[i]);
     }
     if (parallel::global_sum(change) <= k_chord_change * parallel::global_sum(all)) break;
@@ -186,14 +192,14 @@ linear::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
 /// plateau or a bend within the first part of the step. A node that has come close to the end of a plateau
 /// and is driven on to it would stop all others there; what it lacks is left to the sweeps.
 linear::LinearReport TruncatedNewton::correct_beside_kinks(double forcing) {
-  std::vector<double> chords(r_.size());
+  std::vector<float> chords(r_.size());
   for (std::size_t i = 0; i < r_.size(); ++i) {
     if (step_[i] == 0 || curve_slope_[i] == 0) continue;
     const double part = k_stuck_step * step_[i];
     const StorageCurve::AtPotential at =
         curves_.at_potential(static_cast<Index>(i), potential_[i] + part, temperature_[i]);
     const double end = step_[i] < 0 ? at.upper : at.lower;
-    if ((end - heat_[i]) / part > k_kink / curve_slope_[i]) chords[i] = HUGE_VAL;
+    if ((end - heat_[i]) / part > k_kink / curve_slope_[i]) chords[i] = HUGE_VALF;
   }
   return correct(forcing, chords);
 }

@@ -40,13 +40,12 @@ TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, con
 void TruncatedNewton::allocate() {
   for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_}) v->resize(r_.size());
   step_.resize(mesh_.x.size());
-  slope_.assign(mesh_.x.size(), 1.0);
 }
 
 void TruncatedNewton::release() {
-  for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_, &step_, &slope_})
-    std::vector<double>().swap(*v);
+  for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_, &step_}) std::vector<double>().swap(*v);
   solver_.release();
+  system_.release_work();
 }
 
 void TruncatedNewton::evaluate() {
@@ -69,17 +68,18 @@ void TruncatedNewton::evaluate() {
 void TruncatedNewton::assemble() {
   const profile::Part part("assembly");
   const NodalPotential& potential = system_.potential();
+  std::vector<double> slope(mesh_.x.size(), 1.0);  // c = dv/dΘ
   if (!potential.identity()) {
     for (std::size_t i = 0; i < r_.size(); ++i)
-      slope_[i] = potential.slope(static_cast<Index>(i), temperature_[i]);
-    ghosts_.update(slope_, 1);
+      slope[i] = potential.slope(static_cast<Index>(i), temperature_[i]);
+    ghosts_.update(slope, 1);
   }
-  system_.assemble_symmetric(temperature_, slope_);
+  system_.assemble_symmetric(temperature_, slope);
   linear::BlockMatrix& a = system_.matrix();
   double conductance = 0;
   for (std::size_t i = 0; i < r_.size(); ++i) {
     diagonal_[i] = *a.diagonal_block(static_cast<Index>(i));
-    conductance += std::abs(diagonal_[i] * slope_[i] * temperature_[i]);
+    conductance += std::abs(diagonal_[i] * slope[i] * temperature_[i]);
   }
   conductance_ = parallel::global_sum(conductance);
   if (r_.size() == mesh_.x.size()) return;

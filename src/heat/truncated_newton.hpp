@@ -99,10 +99,10 @@ class TruncatedNewton {
   void follow_other_processes();
   double relax(std::size_t i, double residual);
   /// @param chords  slopes that stand for those of the tangents, [owned node]; empty: none
-  linear::LinearReport correct(double forcing, std::span<const double> chords = {});
+  linear::LinearReport correct(double forcing, std::span<const float> chords = {});
   int refine(std::span<const char> held, double forcing);
   void multiply_exactly(std::span<double> step, std::span<double> product, std::span<const char> held);
-  void find_chords(std::span<double> chords) const;
+  void find_chords(std::span<float> chords) const;
   linear::LinearReport correct_by_chords(double forcing);
   linear::LinearReport correct_beside_kinks(double forcing);
   bool revise_limits(const ConductionBounds& bounds);
@@ -129,7 +129,6 @@ class TruncatedNewton {
   std::span<double> heat_, temperature_;
   std::vector<double> r_;  ///< F, during sweeps that of the linear A, [owned node]
   // The others are empty between solves.
-  std::vector<double> slope_;        ///< c = dv/dΘ where A was assembled, [local node]
   std::vector<double> diagonal_;     ///< of A, with the magnitudes of the couplings to other processes' nodes
   std::vector<double> step_;         ///< change of v, [local node]
   std::vector<double> product_;      ///< A times it; before that the right-hand side, [owned node]

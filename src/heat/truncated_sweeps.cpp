@@ -110,6 +110,7 @@ double TruncatedNewton::look_up(Index node) {
 /// starts from the residuals of the linear A points elsewhere, and no length of it brings F down.
 /// @param all  every node, however small its residual is
 void TruncatedNewton::relax_nodes(bool all) {
+  system_.release_work();
   assemble();
   {
     const profile::Part part("sweeps");

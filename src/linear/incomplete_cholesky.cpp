@@ -54,17 +54,17 @@ void IncompleteCholesky::factorise(const double* values) {
 
 /// The fill that each row bears, from the sums of the rows of the process's part.
 void IncompleteCholesky::find_borne_fill(const double* values, std::span<float> bears) const {
-  std::vector<double> sums(bears.size());
-  for (std::size_t row = 0; row < sums.size(); ++row) {
+  std::fill(bears.begin(), bears.end(), 0.0F);
+  for (std::size_t row = 0; row < bears.size(); ++row) {
     const std::int64_t diagonal = start_[row], end = end_of_owned(row);
-    sums[row] += values[diagonal];
+    // What earlier rows add to the sum, then the row itself: most of it cancels.
+    double sum = static_cast<double>(bears[row]) + values[diagonal];
     for (std::int64_t s = diagonal + 1; s < end; ++s) {
-      sums[row] += values[s];
-      sums[at(column_[at(s)])] += values[s];
+      sum += values[s];
+      bears[at(column_[at(s)])] += static_cast<float>(values[s]);
     }
+    bears[row] = k_borne_fill * static_cast<float>(sum);
   }
-  std::transform(sums.begin(), sums.end(), bears.begin(),
-                 [](double sum) { return k_borne_fill * static_cast<float>(sum); });
 }
 
 /// Takes the row out of those below it that it couples with. Fill that has no place in the pattern is taken
@@ -93,6 +93,11 @@ void IncompleteCholesky::eliminate(Index row, std::int64_t end, std::span<float>
 }
 
 void IncompleteCholesky::apply(std::span<const double> r, std::span<double> z) {
+  const std::span<const float> found = apply(r);
+  std::copy(found.begin(), found.end(), z.begin());
+}
+
+std::span<const float> IncompleteCholesky::apply(std::span<const double> r) {
   const std::size_t n = work_.size();
   std::transform(r.begin(), r.end(), work_.begin(), [](double v) { return static_cast<float>(v); });
   for (std::size_t row = 0; row < n; ++row) {
@@ -107,7 +112,7 @@ void IncompleteCholesky::apply(std::span<const double> r, std::span<double> z) {
       value -= factor_[at(s)] * work_[at(column_[at(s)])];
     work_[row] = value;
   }
-  std::copy(work_.begin(), work_.end(), z.begin());
+  return work_;
 }
 
 }  // namespace solidus::linear

@@ -27,6 +27,8 @@ class IncompleteCholesky {
   void set_up(BlockMatrix& a);
   /// z = (Uᵀ D U)⁻¹ r on owned rows.
   void apply(std::span<const double> r, std::span<double> z);
+  /// The same z in single precision; it stays until the next call.
+  std::span<const float> apply(std::span<const double> r);
   std::size_t bytes() const { return (factor_.capacity() + work_.capacity()) * sizeof(float); }
 
  private:

@@ -35,8 +35,16 @@ LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std:
                                  double forcing) {
   Implementation& my = *implementation_;
   if (my.factor_of_blocks(a)) {
-    my.create_shell(a);
     my.stale = true;
+    if (my.gradients_of_blocks()) {
+      if (my.blocks != &a || !my.gradients) {
+        my.blocks = &a;
+        my.incomplete = std::make_unique<IncompleteCholesky>();
+        my.gradients = std::make_unique<ConjugateGradients>(my.mesh, a, *my.incomplete);
+      }
+      return my.solve_by_gradients(b, x, forcing);
+    }
+    my.create_shell(a);
     return solve(my.shell, b, x, forcing);
   }
   if (!my.multigrid_of_blocks(a)) return solve(a.matrix(), b, x, forcing);
@@ -61,6 +69,7 @@ LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std:
 
 LinearReport LinearSolver::solve(Mat matrix, std::span<const double> b, std::span<double> x, double forcing) {
   Implementation& my = *implementation_;
+  my.gradients.reset();
   if (!my.ksp) my.create(matrix);
   if (my.matrix != matrix) {
     petsc::check(MatSetOption(matrix, MAT_SYMMETRIC, my.options.symmetric ? PETSC_TRUE : PETSC_FALSE),
@@ -84,6 +93,7 @@ LinearReport LinearSolver::solve(Mat matrix, std::span<const double> b, std::spa
 LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<double> x, double forcing) {
   Implementation& my = *implementation_;
   if (my.rescue) return my.rescue->solve_again(b, x, forcing);
+  if (my.gradients) return my.solve_by_gradients(b, x, forcing);
   my.set_tolerance(forcing);
   assert(my.matrix != nullptr);
   std::optional<PlacedArrays> placed;
@@ -132,6 +142,7 @@ void LinearSolver::reset() {
   Implementation& my = *implementation_;
   my.ksp.reset();
   my.multigrid.reset();
+  my.gradients.reset();
   my.incomplete.reset();
   my.shell.reset();
   my.rescue.reset();

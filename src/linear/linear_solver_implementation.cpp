@@ -5,6 +5,7 @@
 
 #include "linear/interruption.hpp"
 #include "parallel/petsc_options.hpp"
+#include "system/processes.hpp"
 #include "system/profile.hpp"
 
 namespace solidus::linear {
@@ -110,6 +111,29 @@ bool LinearSolver::Implementation::multigrid_of_blocks(const BlockMatrix& a) con
 bool LinearSolver::Implementation::factor_of_blocks(const BlockMatrix& a) const {
   return a.constraints().empty() && a.storage() == BlockMatrix::Storage::upper &&
          is_our_factor(options, mesh, a.block_size());
+}
+
+/// Whether conjugate gradients are ours, too: not where the user asks PETSc for something of a Krylov solver.
+bool LinearSolver::Implementation::gradients_of_blocks() const {
+  return !petsc::user_gave_option(options.prefix + "ksp_");
+}
+
+LinearReport LinearSolver::Implementation::solve_by_gradients(std::span<const double> right,
+                                                              std::span<double> solution, double forcing) {
+  check_interruption();
+  const double start = processes::wall_time();
+  if (stale) {
+    const profile::Part set_up("solver set-up");
+    incomplete->set_up(*blocks);
+    stale = false;
+  }
+  const double ready = processes::wall_time();
+  const profile::Part solving("solve");
+  LinearReport report = gradients->solve(right, solution, std::max(forcing, options.relative_tolerance),
+                                         options.max_iterations);
+  seconds_setup += ready - start;
+  seconds_solve += processes::wall_time() - ready;
+  return report;
 }
 
 bool LinearSolver::Implementation::factorisation_serves(const BlockMatrix& a) const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "linear/block_multigrid.hpp"
+#include "linear/conjugate_gradients.hpp"
 #include "linear/factorisation.hpp"
 #include "linear/incomplete_cholesky.hpp"
 #include "linear/linear_solver.hpp"
@@ -107,6 +108,7 @@ struct LinearSolver::Implementation {
   ScaledMultigrid of_first_field;
   bool split_failed = false;  ///< with multigrid of our own; GAMG takes over until forget()
   std::unique_ptr<IncompleteCholesky> incomplete;
+  std::unique_ptr<ConjugateGradients> gradients;  ///< with them; null: PETSc's Krylov solver runs
   BlockMatrix* blocks = nullptr;
   petsc::MatHandle shell;  ///< multiplies by the blocks
   std::optional<parallel::GhostExchange> ghosts;
@@ -120,6 +122,8 @@ struct LinearSolver::Implementation {
   bool multigrid_of_blocks(const BlockMatrix& a) const;
   bool factor_of_blocks(const BlockMatrix& a) const;
   bool factorisation_serves(const BlockMatrix& a) const;
+  bool gradients_of_blocks() const;
+  LinearReport solve_by_gradients(std::span<const double> right, std::span<double> solution, double forcing);
   void create_shell(BlockMatrix& a);
   void multiply(Vec in, Vec out);
   void create(Mat a);

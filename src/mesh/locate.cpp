@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mesh/block_geometry.hpp"
+#include "mesh/block_part.hpp"
 #include "mesh/nearest_place.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
@@ -110,13 +111,15 @@ NodalFunctional integral(const Mesh& mesh, const std::string& group, GroupKind g
   if (group_kind == GroupKind::body) {
     for (const ElementBlock& block : mesh.blocks) {
       if (mesh.bodies[static_cast<std::size_t>(block.body)].name != group) continue;
-      const PackVector<Lane> integrals = basis_integrals(mesh, block, kind);
-      const int nn = node_count(block.shape);
-      for (Index e = 0; e < block.n_counted; ++e)
-        for (int a = 0; a < nn; ++a)
-          weight[static_cast<std::size_t>(block.element(e)[a])] +=
-              integrals[static_cast<std::size_t>(e / k_lanes) * static_cast<std::size_t>(nn) +
-                        static_cast<std::size_t>(a)][e % k_lanes];
+      for_parts(block, [&](const ElementBlock& part, Index) {
+        const PackVector<Lane> integrals = basis_integrals(mesh, part, kind);
+        const int nn = node_count(part.shape);
+        for (Index e = 0; e < part.n_counted; ++e)
+          for (int a = 0; a < nn; ++a)
+            weight[static_cast<std::size_t>(part.element(e)[a])] +=
+                integrals[static_cast<std::size_t>(e / k_lanes) * static_cast<std::size_t>(nn) +
+                          static_cast<std::size_t>(a)][e % k_lanes];
+      });
     }
   } else if (group_kind == GroupKind::surface && mesh.surfaces.contains(group)) {
     for (const ElementBlock& faces : mesh.surfaces.at(group).faces) {
@@ -134,6 +137,10 @@ NodalFunctional integral(const Mesh& mesh, const std::string& group, GroupKind g
       if (i < mesh.n_owned_nodes) weight[static_cast<std::size_t>(i)] = 1;
   }
   NodalFunctional functional;
+  const auto n =
+      static_cast<std::size_t>(std::count_if(weight.begin(), weight.end(), [](double w) { return w != 0; }));
+  functional.nodes.reserve(n);
+  functional.weights.reserve(n);
   for (std::size_t i = 0; i < weight.size(); ++i)
     if (weight[i] != 0) {
       functional.nodes.push_back(static_cast<Index>(i));

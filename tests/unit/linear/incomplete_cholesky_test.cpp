@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <petscsys.h>
+
 #include <cmath>
+#include <string>
 
 #include "grid.hpp"
 #include "linear/linear_solver.hpp"
@@ -53,9 +56,9 @@ double product(const std::vector<double>& a, const std::vector<double>& b) {
   return parallel::global_sum(sum);
 }
 
-LinearReport solved(Heat& heat, std::vector<double>& x) {
+LinearReport solved(Heat& heat, std::vector<double>& x, const std::string& prefix = "test_") {
   LinearSolver solver(heat.grid.mesh,
-                      {.prefix = "test_", .kind = SolverKind::incomplete, .relative_tolerance = 1e-10});
+                      {.prefix = prefix, .kind = SolverKind::incomplete, .relative_tolerance = 1e-10});
   return solver.solve(heat.matrix, heat.right(), x);
 }
 
@@ -107,6 +110,40 @@ TEST(IncompleteCholesky, SolvesAsPetscsFactorsDoInAsManyIterations) {
     const double scale = std::sqrt(product(reference, reference) / 2500);
     for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], reference[i], 1e-8 * scale);
   }
+}
+
+// Whoever gives an option of PETSc's Krylov solvers gets PETSc's, with the same factors.
+TEST(ConjugateGradients, GoTheWayOfPetscs) {
+  PetscOptionsSetValue(nullptr, "-asked_ksp_type", "cg");
+  for (const double content : {10.0, 0.1, 1e-3}) {
+    Heat heat(50, content);
+    std::vector<double> x(heat.right().size()), reference(x.size());
+    const LinearReport ours = solved(heat, x), petscs = solved(heat, reference, "asked_");
+    ASSERT_TRUE(ours.converged && petscs.converged) << ours.reason << petscs.reason;
+    EXPECT_EQ(ours.iterations, petscs.iterations);
+    const double scale = std::sqrt(product(reference, reference) / 2500);
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], reference[i], 1e-9 * scale);
+  }
+  PetscOptionsClearValue(nullptr, "-asked_ksp_type");
+}
+
+TEST(ConjugateGradients, SayWhyTheyFail) {
+  Heat heat(20, 0.1);
+  std::vector<double> x(heat.right().size());
+  LinearSolver hasty(
+      heat.grid.mesh,
+      {.prefix = "test_", .kind = SolverKind::incomplete, .relative_tolerance = 1e-10, .max_iterations = 2});
+  const LinearReport early = hasty.solve(heat.matrix, heat.right(), x);
+  EXPECT_FALSE(early.converged);
+  EXPECT_EQ(early.reason, "too many iterations");
+  EXPECT_EQ(early.iterations, 2);
+  for (Index node = 0; node < heat.grid.mesh.n_owned_nodes; ++node) *heat.matrix.diagonal_block(node) *= -1;
+  EXPECT_FALSE(solved(heat, x).converged);
+  const std::vector<double> nothing(x.size(), 0.0);
+  EXPECT_TRUE(LinearSolver(heat.grid.mesh, {.prefix = "test_", .kind = SolverKind::incomplete})
+                  .solve(heat.matrix, nothing, x)
+                  .converged);
+  EXPECT_EQ(x, nothing);
 }
 
 TEST(IncompleteCholesky, TheNextMatrixGetsNewFactorsAndTheSameOneKeepsThem) {
