@@ -109,6 +109,10 @@ TEST(CoupledTangentOfContact, KnowsThatPointsBeyondTheRimWeighLess) {
         if (sliding->partner(p).face >= 0) least = std::min(least, sliding->partner(p).covered);
       EXPECT_LT(parallel::global_min(least), 0.7);
       expect_exact(iterate, b.mesh, 5 * k_rounding);
+      b.pair->follow_weights(false);
+      const auto error =
+          iterate.tangent_errors(noise(b.mesh, b.mesh.dimension, 2.1, 1e-7), noise(b.mesh, 1, 1.9, 0), 4e-3);
+      EXPECT_GT(error.force, 10 * k_rounding) << "what the tangent lacks without";
     }
 }
 
