@@ -4,15 +4,14 @@
 option(SOLIDUS_BATCHES "Compile several sources as one" OFF)
 
 # Replaces the sources of a target by files that include several of them (batches.py), except those with settings of their own and those
-# marked SKIP_UNITY_BUILD_INCLUSION. Sources that share a value of SOLIDUS_BATCH share batches with each other and with no others. To be
-# called in the directory of the target.
+# marked SKIP_UNITY_BUILD_INCLUSION. To be called in the directory of the target.
 function(solidus_batch target)
   if(NOT SOLIDUS_BATCHES)
     return()
   endif()
   get_target_property(all ${target} SOURCES)
   set(kept)
-  set(groups)
+  set(sources)
   foreach(source ${all})
     get_filename_component(path "${source}" ABSOLUTE)
     set(alone OFF)
@@ -23,26 +22,16 @@ function(solidus_batch target)
       endif()
     endforeach()
     if(path MATCHES "\\.cpp$" AND EXISTS "${path}" AND NOT alone)
-      get_source_file_property(group "${source}" SOLIDUS_BATCH)
-      if(NOT group)
-        set(group ${target})
-      endif()
-      list(APPEND groups ${group})
-      list(APPEND sources_${group} "${path}")
+      list(APPEND sources "${path}")
     else()
       list(APPEND kept "${source}")
     endif()
   endforeach()
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/batches)
   file(MAKE_DIRECTORY ${folder})
-  list(REMOVE_DUPLICATES groups)
-  set(batches)
-  foreach(group ${groups})
-    execute_process(COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/cmake/batches.py ${folder}/${group} 8 1500 ${sources_${group}}
-                    OUTPUT_VARIABLE of_group OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
-    string(REPLACE "\n" ";" of_group "${of_group}")
-    list(APPEND batches ${of_group})
-  endforeach()
+  execute_process(COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/cmake/batches.py ${folder}/${target} 8 1500 ${sources}
+                  OUTPUT_VARIABLE batches OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "\n" ";" batches "${batches}")
   set_property(TARGET ${target} PROPERTY SOURCES ${kept} ${batches})
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU") # it takes an included source for a header
     list(FILTER batches INCLUDE REGEX "^${folder}/")

@@ -1,5 +1,7 @@
 // Runs the first two seconds of a case from a program of one's own, and says how it ended.
 //   freeze CASE FOLDER
+#include <mesh/gmsh/import.hpp>
+#include <mesh/reader_process.hpp>
 #include <parallel/petsc_session.hpp>
 #include <run/session.hpp>
 
@@ -12,6 +14,8 @@ int main(int argc, char** argv) {
     return 1;
   }
   if (!solidus::petsc::start({})) return 3;
+  // A program that links the reader of meshes needs none beside it.
+  solidus::mesh::read_in_this_process(&solidus::mesh::read_mesh_here);
   int code = 0;
   try {
     solidus::model::Case c = solidus::model::load_case(argv[1], {"time.end=\"2 s\""});

@@ -9,7 +9,6 @@
 #include "case/case_keys.hpp"
 #include "input/key_docs.hpp"
 #include "material/library.hpp"
-#include "mesh/gmsh_reader.hpp"
 #include "parallel/petsc_options.hpp"
 #include "point/spec.hpp"
 #include "system/errors.hpp"
@@ -63,7 +62,7 @@ ExitCode schema(FileKind file) {
 }
 
 ExitCode version() {
-  print(fmt::format("Solidus {}\n{}\nGmsh {}\n", program_version(), petsc::version(), mesh::gmsh_version()));
+  print(fmt::format("Solidus {}\n{}\nGmsh {}\n", program_version(), petsc::version(), SOLIDUS_GMSH_VERSION));
   return k_done;
 }
 

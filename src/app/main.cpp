@@ -362,7 +362,6 @@ ExitCode parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (const std::optional<int> code = mesh::serve_as_reader(argc, argv)) return *code;
   set_program_version(built_version());
   const auto runs = [](const char* argument) { return std::string_view(argument) == "run"; };
   const bool run_wanted = std::any_of(argv + 1, argv + argc, runs);

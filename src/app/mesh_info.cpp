@@ -3,7 +3,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/python_tools.hpp"
 #include "app/verbs.hpp"
@@ -26,8 +30,19 @@ bool is_case(const std::filesystem::path& path) {
   return std::filesystem::is_directory(path) || path.extension() == ".toml";
 }
 
-RawMesh read(const CaseArguments& arguments, const std::string& unit) {
-  if (is_case(arguments.path)) return model::raw_mesh(load_case(arguments).spec);
+/// A mesh, and the names that a case gives to the groups of its bodies.
+struct NamedMesh {
+  RawMesh mesh;
+  std::map<std::string, std::string> bodies;
+};
+
+NamedMesh read(const CaseArguments& arguments, const std::string& unit) {
+  if (is_case(arguments.path)) {
+    const model::Case given = load_case(arguments);
+    NamedMesh named{model::raw_mesh(given.spec), {}};
+    for (const model::BodySpec& body : given.spec.bodies) named.bodies[body.mesh_group()] = body.name;
+    return named;
+  }
   if (!units::compatible(unit, "m"))
     throw InputError({"--unit", 0, 0}, fmt::format("'{}' is no unit of length", unit),
                      "\"mm\", \"m\", \"inch\", ...");
@@ -35,7 +50,7 @@ RawMesh read(const CaseArguments& arguments, const std::string& unit) {
   source.trust_script = arguments.trust_script;
   RawMesh mesh = mesh::read_mesh(source);
   mesh::validate_and_orient(mesh, arguments.path);
-  return mesh;
+  return {std::move(mesh), {}};
 }
 
 constexpr const char* k_faces = "faces.vtk";
@@ -61,13 +76,17 @@ ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit,
                    const std::filesystem::path& pictures) {
   std::string text;
   results::on_first_process([&] {
-    const RawMesh mesh = read(arguments, unit);
+    const NamedMesh named = read(arguments, unit);
+    const RawMesh& mesh = named.mesh;
     text = mesh::to_text(mesh::assess(mesh));
     std::vector<std::string> bodies;
     for (const auto& [name, group] : mesh.groups)
       if (group.dimension == mesh.dimension) bodies.push_back(name);
     constexpr double k_edge = std::numbers::pi / 6;  // neighbours that bend by more begin a face
-    const std::vector<mesh::SkinPatch> patches = mesh::skin_patches(mesh, bodies, k_edge);
+    std::vector<mesh::SkinPatch> patches = mesh::skin_patches(mesh, bodies, k_edge);
+    for (mesh::SkinPatch& patch : patches)
+      if (const auto name = named.bodies.find(patch.body); name != named.bodies.end())
+        patch.body = name->second;
     text += mesh::to_text(patches);
     if (!pictures.empty()) write_faces(mesh, patches, pictures);
   });

@@ -99,6 +99,11 @@ void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_te
     options.symmetric = options.symmetric && pair->forces().symmetric();
     a.initial.contacts.push_back(pair->history().initial());
   }
+  // The matrix of the simultaneous scheme is unsymmetric anyway.
+  if (options.mapping == mechanics::Mapping::simultaneous &&
+      std::ranges::any_of(a.contacts, [](const auto& pair) { return pair->slides(); }))
+    options.symmetric = false;
+  for (const auto& pair : a.contacts) pair->follow_weights(!options.symmetric);
   mechanics::MechanicalConditions conditions = mechanical_conditions(spec, a.first_stage());
   conditions.absent_bodies =
       absent_from_mechanics(spec, nullptr);  // others leave when the first stage begins

@@ -220,8 +220,11 @@ void add_contacts(const std::vector<FoundInterface>& found, CaseSpec& spec) {
 }
 
 void add_rule_groups(const CaseSpec& spec, mesh::RawMesh& mesh, const std::string& source) {
-  std::vector<std::string> groups;
-  for (const BodySpec& body : spec.bodies) groups.push_back(body.mesh_group());
+  std::vector<std::string> groups, names;
+  for (const BodySpec& body : spec.bodies) {
+    groups.push_back(body.mesh_group());
+    names.push_back(body.name);
+  }
   const auto point = [](const std::vector<double>& x) { return mesh::Point{x[0], x[1], x[2]}; };
   for (const MeshGroupSpec& g : spec.mesh.groups) {
     if (!g.by_rule()) continue;
@@ -229,6 +232,9 @@ void add_rule_groups(const CaseSpec& spec, mesh::RawMesh& mesh, const std::strin
     rule.name = g.name;
     if (!g.owner.empty()) {  // the name of the body, or that of its group
       const auto body = std::ranges::find(spec.bodies, g.owner, &BodySpec::name);
+      if (body == spec.bodies.end() && std::ranges::find(groups, g.owner) == groups.end())
+        throw InputError({source}, fmt::format("the group '{}': there is no body '{}'", g.name, g.owner),
+                         one_of(names, g.owner));
       rule.owner = body != spec.bodies.end() ? body->mesh_group() : g.owner;
     }
     rule.angle = g.angle;

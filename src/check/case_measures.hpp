@@ -2,6 +2,8 @@
 /// estimate of the cost of the run. Findings and the table of `check` read them.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,10 @@ struct CaseMeasures {
   std::vector<SurfaceMeasures> surfaces;  ///< [thermal condition]
   std::vector<Pour> pours;
   Effort effort;
+
+  bool is_poured(std::size_t body) const {
+    return std::ranges::any_of(pours, [&](const Pour& pour) { return pour.body == body; });
+  }
 };
 
 /// Measures a case that has been built. Collective.

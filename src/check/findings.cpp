@@ -1,5 +1,8 @@
 #include "check/findings.hpp"
 
+#include <fmt/format.h>
+
+#include "system/alike_texts.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
 
@@ -23,6 +26,7 @@ Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   find_on_surfaces(spec, a, m, found);
   find_in_numerics(spec, a, m, found);
   find_in_roles(spec, a, m, found);
+  find_in_risers(spec, a, m, found);
   find_in_burning(spec, a, m, found);
   find_in_probes(spec, a, m, found);
   find_in_coupling(spec, a, m, found);
@@ -33,10 +37,12 @@ Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
 void report(const Findings& findings) {
   for (const Finding& finding : findings)
     if (finding.is_error) throw InputError(finding.where, finding.what, finding.usual);
+  std::vector<std::string> texts;
   for (const Finding& finding : findings) {
     const std::string place = finding.where.text();
-    logging::warn("{}{}{}; {}", place, place.empty() ? "" : ": ", finding.what, finding.usual);
+    texts.push_back(fmt::format("{}{}{}; {}", place, place.empty() ? "" : ": ", finding.what, finding.usual));
   }
+  for (const std::string& text : logging::told_once(texts)) logging::warn("{}", text);
 }
 
 }  // namespace solidus::model

@@ -73,6 +73,9 @@ void find_on_surfaces(const CaseSpec& spec, const Assembly& a, const CaseMeasure
 void find_in_numerics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Chills, moulds, risers and criteria that do not fit what they are to the foundry.
 void find_in_roles(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Risers that freeze before what they feed or are larger, cores and chills that are swapped, moulds as hot
+/// as melt, melt that does not deform beside melt that does, and pressures that no sand stands. Collective.
+void find_in_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Sleeves that burn: what, where and when.
 void find_in_burning(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Probes that measure nothing, or the other of two bodies. Collective.
@@ -85,7 +88,8 @@ void find_in_effort(const CaseSpec& spec, const CaseMeasures& m, Findings& findi
 /// All of them, of a case that is built. Collective.
 Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
 
-/// Warns of each finding; throws InputError for the first error.
+/// Warns of the findings, once of those that several bodies or contacts share (system/alike_texts.hpp);
+/// throws InputError for the first error.
 void report(const Findings& findings);
 
 }  // namespace solidus::model

@@ -21,10 +21,6 @@ namespace solidus::model {
 
 namespace {
 
-bool is_poured(const CaseMeasures& m, int body) {
-  return std::ranges::any_of(m.pours, [&](const Pour& pour) { return static_cast<int>(pour.body) == body; });
-}
-
 bool in_contact(const CaseSpec& spec, const std::string& surface) {
   return std::ranges::any_of(spec.contacts, [&](const ContactSpec& contact) {
     const auto sides = contact.sides();
@@ -58,7 +54,7 @@ void melts_open_below(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   const auto covered = face_keys(a.mesh, covered_surfaces(spec));
   Facing up, down;
   each_boundary_face(a.mesh, [&](const BoundaryFace& face, std::span<const BoundaryFace> same) {
-    if (!is_poured(m, face.body)) return;
+    if (!m.is_poured(static_cast<std::size_t>(face.body))) return;
     std::vector<mesh::Point> corners;
     for (const Index node : face.vertices()) corners.push_back(a.mesh.x[static_cast<std::size_t>(node)]);
     const mesh::SkinFace skin = mesh::face_through(std::move(corners));
@@ -76,7 +72,8 @@ void melts_open_below(const CaseSpec& spec, const Assembly& a, const CaseMeasure
            "the melt is open below, as gravity acts: {:.0f} % of its skin that faces down has neither "
            "a contact nor a support, and all that faces up has one",
            100 * down.free / down.all),
-       "is gravity_direction right? A melt has its free surface on top"});
+       "is gravity_direction right? A melt has its free surface on top; what holds it up from below, as in "
+       "low-pressure casting, is a pressure on that skin"});
 }
 
 /// A support of all directions on a free surface of a casting keeps it from shrinking there.
@@ -88,7 +85,7 @@ void held_free_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures
         (spec.analysis.kind == AnalysisKind::solid ? c.ux && c.uy && c.uz : (c.ux || c.ur) && (c.uy || c.uz));
     if (!all || !holds(c.stages, a.first_stage()) || in_contact(spec, c.group)) continue;
     const SurfaceMeasures surface = measure_surface(a.mesh, c.group, spec.analysis.kind);
-    if (!is_poured(m, surface.body)) continue;
+    if (!m.is_poured(static_cast<std::size_t>(surface.body))) continue;
     const auto body = static_cast<std::size_t>(surface.body);
     if (only_conducts(spec.bodies[body]) || surface.area < k_little * m.bodies[body].skin) continue;
     findings.push_back(

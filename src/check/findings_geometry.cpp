@@ -126,13 +126,15 @@ void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& find
 /// Elements whose edges differ so much that what crosses them and what runs along them cannot both be seen;
 /// castings so small that their unit is in doubt.
 void shapes_and_sizes(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_flat = 150, k_small = 3e-3;
-  for (std::size_t b = 0; b < m.bodies.size(); ++b)
-    if (m.bodies[b].flattest > k_flat)
+  constexpr double k_flat = 150, k_flat_in_casting = 50, k_small = 3e-3;
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+    const bool poured = std::ranges::any_of(m.pours, [b](const Pour& pour) { return pour.body == b; });
+    if (m.bodies[b].flattest > (poured ? k_flat_in_casting : k_flat))
       findings.push_back({false, spec.mesh.where,
                           fmt::format("an element of the body '{}' is {:.0f} times as long as wide",
                                       spec.bodies[b].name, m.bodies[b].flattest),
-                          "up to 10, in thin layers up to 100"});
+                          "up to 10, in thin layers of a mould up to 100"});
+  }
   for (const Pour& pour : m.pours) {
     const BodyMeasures& body = m.bodies[pour.body];
     double largest = 0;

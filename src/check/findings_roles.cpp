@@ -20,17 +20,13 @@ double celsius(double kelvin) {
   return units::to_display(kelvin, "K", "degC");
 }
 
-bool is_poured(const CaseMeasures& m, std::size_t body) {
-  return std::any_of(m.pours.begin(), m.pours.end(), [&](const Pour& p) { return p.body == body; });
-}
-
 /// A chill takes heat up because it is cold and conducts.
 void chills(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   constexpr double k_hot = 673.15;    // [K]
   constexpr double k_conducts = 8.0;  // [W/m/K]: less than any metal, more than sand
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const BodySpec& body = spec.bodies[b];
-    if (is_poured(m, b) || role_of(body, a.materials[b]) != Role::chill) continue;
+    if (m.is_poured(b) || role_of(body, a.materials[b]) != Role::chill) continue;
     if (a.start[b].high > k_hot)
       findings.push_back(
           {false, body.where,
@@ -57,7 +53,7 @@ void swapped(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Fin
     std::size_t moulds = 0, inside = 0, last = 0;
     for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
       const Role role = role_of(spec.bodies[b], a.materials[b]);
-      if (is_poured(m, b) || (role != Role::mould && role != Role::die)) continue;
+      if (m.is_poured(b) || (role != Role::mould && role != Role::die)) continue;
       ++moulds;
       if (within(b, pour.body)) ++inside, last = b;
     }
@@ -83,7 +79,7 @@ void strong_films(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
                           "above 0, or without the condition"});
     const std::string what =
         fmt::format("the film '{}' has {:g} W/m2/K on '{}'", c.name, h, spec.bodies[b].name);
-    const bool poured = is_poured(m, b);
+    const bool poured = m.is_poured(b);
     if (!poured && h > k_on_sand && a.materials[b].conductivity.value(a.start[b].low) < k_sand)
       findings.push_back({false, c.where, what + ", which conducts as sand does",
                           "sand stands in air: 5 to 50 W/m2/K; water cools metal"});
@@ -105,7 +101,7 @@ void heated_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
     if ((!surrounded && c.kind != Kind::temperature) || !c.stages.empty() || m.surfaces[i].body < 0) continue;
     const auto b = static_cast<std::size_t>(m.surfaces[i].body);
     const Function& temperature = surrounded ? c.ambient : c.temperature;
-    if (is_poured(m, b) || !is_number(temperature)) continue;
+    if (m.is_poured(b) || !is_number(temperature)) continue;
     const double level = temperature.table.value(0);
     if (level > solidus && level < 1900)
       findings.push_back(

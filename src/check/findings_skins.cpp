@@ -29,10 +29,6 @@ std::set<Key> faces_with_a_role(const CaseSpec& spec, const mesh::Mesh& mesh) {
   return face_keys(mesh, groups);
 }
 
-bool is_poured(const CaseMeasures& m, std::size_t body) {
-  return std::ranges::any_of(m.pours, [&](const Pour& pour) { return pour.body == body; });
-}
-
 mesh::SkinFace measured(const mesh::Mesh& mesh, const BoundaryFace& face) {
   std::vector<mesh::Point> corners;
   for (const Index node : face.vertices()) corners.push_back(mesh.x[static_cast<std::size_t>(node)]);
@@ -47,7 +43,7 @@ Skins bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m)
   Skins skins(spec.bodies.size());
   each_boundary_face(a.mesh, [&](const BoundaryFace& face, std::span<const BoundaryFace> same) {
     const auto body = static_cast<std::size_t>(face.body);
-    if (same.size() == 1 && is_poured(m, body) && !roles.contains(face.key))
+    if (same.size() == 1 && m.is_poured(body) && !roles.contains(face.key))
       skins[body].push_back(measured(a.mesh, face));
   });
   return skins;
@@ -146,7 +142,7 @@ void find_bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures
     if (!(largest > 0)) continue;
     const double skin = total_area(skins[body]);
     for (std::size_t other = 0; other < spec.bodies.size(); ++other) {
-      const bool both = is_poured(m, other);
+      const bool both = m.is_poured(other);
       const bool alike = std::abs(a.start[body].high - a.start[other].low) < k_same_temperature;
       if (other == body || (both && other < body) ||
           !share_a_stage(spec.bodies[body].stages, spec.bodies[other].stages) ||

@@ -54,10 +54,6 @@ bool exchanges_heat(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
   return false;
 }
 
-bool is_poured(const CaseMeasures& m, std::size_t body) {
-  return std::ranges::any_of(m.pours, [&](const Pour& pour) { return pour.body == body; });
-}
-
 }  // namespace
 
 void find_in_stages(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
@@ -72,7 +68,7 @@ void find_in_stages(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
         continue;
       const std::vector<char> bodies = joined(spec, m, pour.body, stage);
       bool alone = true;
-      for (std::size_t b = 0; b < bodies.size(); ++b) alone = alone && (bodies[b] == 0 || is_poured(m, b));
+      for (std::size_t b = 0; b < bodies.size(); ++b) alone = alone && (bodies[b] == 0 || m.is_poured(b));
       if (!alone || exchanges_heat(spec, a, m, bodies, stage)) continue;
       told.insert(its.name);
       findings.push_back(

@@ -213,7 +213,7 @@ double cooling_of(const CooledSkin& skin, double start, const Assembly& a, doubl
 }
 
 /// Whether a body comes in that is not solid then.
-bool is_poured(const Assembly& a, std::size_t body) {
+bool comes_in_molten(const Assembly& a, std::size_t body) {
   const material::PhaseChange* freezing = a.materials[body].solidification();
   return freezing != nullptr && a.start[body].high > freezing->fraction.solidus();
 }
@@ -238,7 +238,8 @@ std::function<double(double, double)> outer_heat(std::size_t mould, double coole
                                                  const Assembly& a, const CaseMeasures& m) {
   std::vector<CooledSkin> skins = conditions_on(mould, spec, stage, m);
   for (CooledSkin& skin : contacts_of(mould, spec, stage, a, m)) {
-    if (!skin.other || is_poured(a, *skin.other) || m.bodies[*skin.other].volume < m.bodies[mould].volume)
+    if (!skin.other || comes_in_molten(a, *skin.other) ||
+        m.bodies[*skin.other].volume < m.bodies[mould].volume)
       continue;
     skin.heat = heat_from_behind(skin, a);
     skins.push_back(std::move(skin));
@@ -268,7 +269,7 @@ void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Po
   std::vector<CooledSkin> skins = contacts_of(body, spec, stage, a, m);
   for (CooledSkin& skin : shared_faces_of(body, a, m)) skins.push_back(std::move(skin));
   for (CooledSkin& skin : conditions_on(body, spec, stage, m)) skins.push_back(std::move(skin));
-  std::erase_if(skins, [&](const CooledSkin& s) { return s.other && is_poured(a, *s.other); });
+  std::erase_if(skins, [&](const CooledSkin& s) { return s.other && comes_in_molten(a, *s.other); });
   double most = 0;
   for (CooledSkin& skin : skins) most = std::max(most, skin.cooling = cooling_of(skin, start, a, end));
   if (!(most > 0)) {
@@ -330,7 +331,7 @@ void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Po
 std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
   std::vector<Pour> list;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    if (!is_poured(a, b)) continue;
+    if (!comes_in_molten(a, b)) continue;
     Pour pour;
     pour.body = b;
     const bool heated =

@@ -61,11 +61,14 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, Au
     accelerate(penetration);
   }
   const ContactKinematics& kinematics = geometry_.kinematics();
-  // Sticking keeps the compliance of its penalty where nobody asked for multipliers: points that are more
-  // than a face can follow would drive their tangential tractions to and fro from turn to turn.
-  const bool tangential = !pressure_tolerance_;
+  // Sticking keeps the compliance of its penalty where nobody asked for multipliers, and where turns by means
+  // have not settled: points that are more than a face can follow would drive their tangential tractions to
+  // and fro from turn to turn.
+  const bool tangential = !pressure_tolerance_ && by_means;
   if (tangential && step.start_traction.empty())
     for (const ContactPointState& from : step.from) step.start_traction.push_back(from.traction);
+  if (!by_means && !step.start_traction.empty())
+    for (std::size_t p = 0; p < step.from.size(); ++p) step.from[p].traction = step.start_traction[p];
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     ContactPointState& from = step.from[at(p)];
     double grown = now.points[at(p)].penetration;

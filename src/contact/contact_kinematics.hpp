@@ -48,6 +48,7 @@ struct PointMotion {
   Point master_normal{};  ///< ν^ref at the partner (3.10a): ContactPointState::master_normal of the next step
   // Asked for with the tangent:
   std::span<const Point> penetration_rate;  ///< ∂g_N/∂x_b
+  std::span<const Point> weight_rate;       ///< ∂w/∂x_b [m]; empty: zero
   std::span<const Tensor> slip_rate;        ///< ∂ΔG_i/∂x_bj
   std::span<const Tensor> carried_rate;  ///< ∂carried_i/∂x_bj; empty: zero (masters flat in the reference)
 

@@ -135,6 +135,18 @@ double outside_by(Shape shape, const Point& xi) {
   return std::max({0.0, std::abs(xi[0]) - 1, std::abs(xi[1]) - 1});
 }
 
+std::array<double, 2> outside_by_xi(Shape shape, const Point& xi) {
+  if (outside_by(shape, xi) == 0) return {};
+  const auto sign = [](double v) { return v < 0 ? -1.0 : 1.0; };
+  if (is_line(shape)) return {sign(xi[0]), 0};
+  if (is_triangle(shape)) {
+    const double across = xi[0] + xi[1] - 1;
+    if (across >= std::max(-xi[0], -xi[1])) return {1, 1};
+    return -xi[0] > -xi[1] ? std::array{-1.0, 0.0} : std::array{0.0, -1.0};
+  }
+  return std::abs(xi[0]) >= std::abs(xi[1]) ? std::array{sign(xi[0]), 0.0} : std::array{0.0, sign(xi[1])};
+}
+
 Point clamp(Shape shape, Point xi) {
   if (!is_triangle(shape)) {
     for (std::size_t i = 0; i < 2; ++i) xi[i] = std::clamp(xi[i], -1.0, 1.0);

@@ -51,6 +51,8 @@ Point reference_centre(mesh::Shape shape);
 std::span<const Point> reference_vertices(mesh::Shape shape);
 /// Distance of ξ from the reference shape (zero inside), in reference units.
 double outside_by(mesh::Shape shape, const Point& xi);
+/// Its derivatives with respect to ξ; zero within.
+std::array<double, 2> outside_by_xi(mesh::Shape shape, const Point& xi);
 /// The nearest point of the reference shape in the sense of reference coordinates.
 Point clamp(mesh::Shape shape, Point xi);
 

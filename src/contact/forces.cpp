@@ -34,7 +34,9 @@ ContactForces::ContactForces(const ContactGeometry& geometry, const ContactParam
       symmetric_(spec.friction ? spec.friction->symmetric : geometry.kinematics().symmetric()),
       multipliers_(geometry, law_.normal, spec.penetration_tolerance * geometry.face_size(),
                    spec.pressure_tolerance, stiffness_of(geometry.mesh(), surfaces, body_modulus)),
-      term_(spec.name, geometry, law_, step, spec.stabilisation, spec.friction && spec.friction->symmetric) {}
+      term_(spec.name, geometry, law_, step, spec.stabilisation, spec.friction && spec.friction->symmetric) {
+  term_.follow_weights(!symmetric_);
+}
 
 void ContactForces::activate(bool on) {
   active_ = on;

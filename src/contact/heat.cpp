@@ -225,7 +225,7 @@ void ContactHeat::add_displacement_tangent(const ContactKinematics& kinematics, 
           trial.back() = add_scaled(trial.back(), 1 / size, transposed_times(motion.carried_rate[b], whole));
       }
     }
-    return {motion.penetration_rate, trial, share};
+    return {motion.penetration_rate, trial, share, motion.weight_rate};
   };
   term_.add_displacement_tangent(rates_of, temperature, matrix);
 }

@@ -240,19 +240,22 @@ void HeatTerm::add_sides(const AtPoint& s, const std::array<double, 2>& flux, st
     heat[a] += a < s.n_slave ? s.b[a] * flux[0] : -s.b[a] * flux[1];
 }
 
+void HeatTerm::add_point_heat(const AtPoint& s, std::span<const double> temperature, double w,
+                              std::span<double> heat) const {
+  add_exchange(s, temperature, w * s.h.value, w * s.radiation, heat);
+  if (!s.has_temperature) return;
+  const double conducted = s.master_takes_heat ? s.h.value * (s.slave - s.master) : 0.0;
+  add_sides(s, {w * (s.interface.flux[0] - conducted), w * (s.interface.flux[1] + conducted)}, heat);
+}
+
 void HeatTerm::add_residual(std::span<const double> x, std::span<double> r) {
   if (!active_) return;
   std::vector<double> heat;
   for (Index p = 0; p < partners_.n_points(); ++p) {
     if (partners_.partnered[at(p)] == 0) continue;
     const AtPoint s = see(p, x);
-    const double w = partners_.weight[at(p)];
     heat.assign(s.nodes.size(), 0.0);
-    add_exchange(s, x, w * s.h.value, w * s.radiation, heat);
-    if (s.has_temperature) {
-      const double conducted = s.master_takes_heat ? s.h.value * (s.slave - s.master) : 0.0;
-      add_sides(s, {w * (s.interface.flux[0] - conducted), w * (s.interface.flux[1] + conducted)}, heat);
-    }
+    add_point_heat(s, x, partners_.weight[at(p)], heat);
     for (std::size_t a = 0; a < s.nodes.size(); ++a)
       if (s.nodes[a] < n_owned_) r[at(s.nodes[a])] += heat[a];
   }

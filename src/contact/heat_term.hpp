@@ -40,6 +40,7 @@ struct HeatRates {
   std::span<const Point> penetration;  ///< ∂g_N/∂x_b
   std::span<const Point> trial;        ///< ∂‖T^trial‖/∂x_b [Pa/m]; empty: zero
   std::span<const Point> share;        ///< ∂B_a/∂x_b, [a][b]
+  std::span<const Point> weight;       ///< ∂w/∂x_b [m]; empty: zero
 };
 
 /// Time over which a thermal phase spreads the heat of a mechanical pass, if their time steps differ.
@@ -189,6 +190,9 @@ class HeatTerm : public linear::Contribution {
   /// radiation.
   void add_exchange(const AtPoint& at, std::span<const double> temperature, double weight_h, double weight_e,
                     std::span<double> heat) const;
+  /// Adds the heat that every node gives off at a point of the given weight.
+  void add_point_heat(const AtPoint& at, std::span<const double> temperature, double weight,
+                      std::span<double> heat) const;
   /// Adds per-side fluxes by the shape functions.
   static void add_sides(const AtPoint& at, const std::array<double, 2>& flux, std::span<double> heat);
   /// Derivatives with respect to h of the fluxes Q_1 and Q_2 of the balance at fixed Θ_s, Θ_m, less those of

@@ -92,7 +92,7 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
     displacement_slots_.bind(*displacement_, n_owned_, partners_.n_points());
   }
   const auto components = static_cast<std::size_t>(matrix.components());
-  std::vector<double> per_gap, per_trial, per_share;  // ∂r_a
+  std::vector<double> per_gap, per_trial, per_share, per_weight;  // ∂r_a
   Run run;
   for (Index p = 0; p < partners_.n_points(); ++p) {
     if (partners_.partnered[at(p)] == 0) continue;
@@ -111,6 +111,11 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
     per_gap.assign(n, 0.0);
     add_gap_slope(s, temperature, per_gap);
     add(per_gap, [&](std::size_t b) -> const Point& { return rates.penetration[b]; });
+    if (!rates.weight.empty()) {
+      per_weight.assign(n, 0.0);
+      add_point_heat(s, temperature, 1.0, per_weight);
+      add(per_weight, [&](std::size_t b) -> const Point& { return rates.weight[b]; });
+    }
     if (const auto& joint = points_[at(p)].joint; joint && !rates.trial.empty()) {
       per_trial.assign(n, 0.0);
       const double source = -partners_.weight[at(p)] * joint->source_by_trial;

@@ -25,6 +25,7 @@ struct Partner {
   double penetration = 0;  ///< g_N (3.5) [m]
   Point normal{};          ///< ν, out of the master (3.10b)
   double covered = 1;  ///< share of the point's part of the slave that the master faces: less beyond its rim
+  std::array<double, 2> covered_xi{};  ///< ∂covered/∂ξ^α
 };
 
 /// The master at a partner: place, convected basis and normals, in both configurations (3.8–3.14), and what

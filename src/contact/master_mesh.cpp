@@ -138,8 +138,14 @@ Partner MeshMaster::in_wedge(const Feature& feature, const SurfacePoint& closest
   return p;
 }
 
-double MeshMaster::covered(double outside) const {
-  return outside <= k_rim ? 1.0 : (options_.rim - outside) / (options_.rim - k_rim);
+void MeshMaster::cover(Partner& partner, double outside) const {
+  partner.covered = 1;
+  partner.covered_xi = {};
+  if (outside <= k_rim) return;
+  const double per_outside = -1 / (options_.rim - k_rim);
+  partner.covered = -(options_.rim - outside) * per_outside;
+  partner.covered_xi = outside_by_xi(face(partner.face).shape, partner.xi);
+  for (double& slope : partner.covered_xi) slope *= per_outside;
 }
 
 // Finds, among the faces whose continuation beyond the free boundary holds x, the one that ends nearest.
@@ -154,7 +160,7 @@ Partner MeshMaster::beyond_rim(const SurfacePoint& closest, const Feature& featu
     if (outside > least || (best.face >= 0 && outside == least)) continue;
     least = outside;
     best = on_face(f, foot.xi, x);
-    best.covered = covered(outside);
+    cover(best, outside);
   }
   return best;
 }
@@ -176,7 +182,8 @@ Partner MeshMaster::along_edge(const Feature& vertex, const Point& x) const {
       const Point xi = add_scaled(vertices[i], s, edge_direction(face(f).shape, e));
       const Feature edge{Feature::Kind::edge, e, faces, false};
       Partner p = in_wedge(edge, {f, {true, xi, foot.y, foot.distance}}, x);
-      p.covered = covered(outside);
+      cover(p, outside);
+      p.covered_xi = {};  // along the edge: not told by the place on the face
       return p;
     }
   return {};
@@ -244,7 +251,7 @@ Partner MeshMaster::smooth(const SurfacePoint& closest, const Point& x) const {
     if (best.face >= 0 && outside == least) continue;
     least = outside;
     best = p;
-    best.covered = covered(outside);
+    cover(best, outside);
   }
   return best;
 }

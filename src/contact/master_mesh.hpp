@@ -61,9 +61,9 @@ class MeshMaster : public Master {
   Partner in_wedge(const Feature& feature, const SurfacePoint& closest, const Point& x) const;
   Partner continued(const SurfacePoint& closest, const Feature& feature, const Point& x,
                     double tolerance) const;
-  /// The share of a point's part of the slave that the master faces, where the point lies `outside` its free
-  /// boundary.
-  double covered(double outside) const;
+  /// Sets the share of a point's part of the slave that the master still faces, where the point lies
+  /// `outside` its free boundary.
+  void cover(Partner& partner, double outside) const;
   Partner beyond_rim(const SurfacePoint& closest, const Feature& feature, const Point& x) const;
   Partner along_edge(const Feature& vertex, const Point& x) const;
   Partner flat(const SurfacePoint& closest, const Point& x) const;

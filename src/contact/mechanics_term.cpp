@@ -159,6 +159,17 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
         for (std::size_t j = 0; j < dim; ++j) block[i * dim + j] += share * of_node[i][j];
     }
   }
+  if (follows_weights_ && !motion.weight_rate.empty()) {
+    for (std::size_t b = 0; b < n; ++b) {
+      const Point force = frictional ? motion.force_at(b, f.normal.balance_pressure, f.traction)
+                                     : scale(f.normal.balance_pressure, motion.normal_at(b));
+      for (std::size_t c = 0; c < n; ++c) {
+        double* block = run.k.data() + (b * n + c) * dim * dim;
+        for (std::size_t i = 0; i < dim; ++i)
+          for (std::size_t j = 0; j < dim; ++j) block[i * dim + j] += force[i] * motion.weight_rate[c][j];
+      }
+    }
+  }
   if (!kinematics_.partners_change() || (!f.normal.closed && f.normal.balance_pressure == 0)) return;
   run.geometric.assign(n * n, Tensor{});
   kinematics_.add_geometric_tangent(point, f.normal.balance_pressure, f.traction, run.geometric);

@@ -38,6 +38,9 @@ class MechanicsTerm : public linear::Contribution {
                 const ContactStep& step, double stabilisation, bool symmetric);
   /// Another Newton iteration follows.
   void begin() { n_tangents_ = 0; }
+  /// Whether the tangent holds how a point's weight falls where it slides beyond the rim of its master, which
+  /// makes it unsymmetric. Else it does not, and iterations with such points converge linearly.
+  void follow_weights(bool on) { follows_weights_ = on; }
   /// Off: no term at all.
   void activate(bool on) { active_ = on; }
 
@@ -80,6 +83,7 @@ class MechanicsTerm : public linear::Contribution {
   const ContactStep& step_;
   double stabilisation_, stabilisation_share_ = 1;
   bool symmetric_;
+  bool follows_weights_ = false;
   bool active_ = true;
   mutable int version_ = 0;  ///< of the graph it has
   SlotCache slots_, coupled_slots_;

@@ -72,6 +72,10 @@ class ContactPair {
   const ContactGeometry& geometry() const { return *geometry_; }
   const ContactHistory& history() const { return *history_; }
   const ContactForces& forces() const { return *forces_; }
+  /// Whether points find their partners anew as they slide.
+  bool slides() const { return geometry_->kinematics().partners_change(); }
+  /// MechanicsTerm::follow_weights; at first where forces() are unsymmetric anyway.
+  void follow_weights(bool on) { forces_->term().follow_weights(on); }
   /// All that reports are made from, at the last update() or restore(): valid until the next one.
   ContactView view() const;
 

@@ -38,6 +38,7 @@ SlidingKinematics::SlidingKinematics(const mesh::Mesh& mesh, AnalysisKind kind, 
   nodes_.resize(most);
   share_.resize(most);
   penetration_rate_.resize(most);
+  weight_rate_.resize(most);
   xi_rate_.resize(most);
   normal_rate_.resize(most);
   slip_rate_.resize(most);
@@ -214,6 +215,7 @@ PointMotion SlidingKinematics::motion(Index point, const ContactPointState& old,
   if (asked == Asked::rates) {
     find_rates(partner);
     m.penetration_rate = std::span(penetration_rate_).first(n_nodes_);
+    m.weight_rate = find_weight_rates(p);
     m.slip_rate = std::span(slip_rate_).first(n_nodes_);
   }
   find_slip(partner, old, asked, m);
@@ -251,6 +253,18 @@ void SlidingKinematics::find_slip(const Partner& partner, const ContactPointStat
     }
   }
   if (turns) m.carried_rate = std::span(carried_rate_).first(n_nodes_);
+}
+
+std::span<const Point> SlidingKinematics::find_weight_rates(std::size_t point) const {
+  const std::array<double, 2>& slope = partner_[point].covered_xi;
+  if (slope[0] == 0 && slope[1] == 0) return {};
+  for (std::size_t c = 0; c < n_nodes_; ++c) {
+    weight_rate_[c] = {};
+    for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha)
+      weight_rate_[c] =
+          contact::add_scaled(weight_rate_[c], weight_[point] * slope[alpha], xi_rate_[c][alpha]);
+  }
+  return std::span(weight_rate_).first(n_nodes_);
 }
 
 void SlidingKinematics::find_rates(const Partner& partner) const {

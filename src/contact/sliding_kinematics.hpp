@@ -88,6 +88,8 @@ class SlidingKinematics : public ContactKinematics {
   /// The area that a point stands for where it is; all of its own where it has no partner [m²].
   double weight_of(std::size_t point) const { return weight_[point] * partner_[point].covered; }
   void find_rates(const Partner& partner) const;
+  /// ∂w/∂x_b from the rates of ξ̄; empty where the weight is constant.
+  std::span<const Point> find_weight_rates(std::size_t point) const;
   void find_face_rates(const Partner& partner) const;
   void find_wedge_rates(const Partner& partner) const;
   void find_slip(const Partner& partner, const ContactPointState& old, Asked asked,
@@ -126,7 +128,7 @@ class SlidingKinematics : public ContactKinematics {
   mutable std::size_t n_slave_ = 0, n_nodes_ = 0;
   mutable std::vector<Index> nodes_;
   mutable std::vector<double> share_;
-  mutable std::vector<Point> penetration_rate_;
+  mutable std::vector<Point> penetration_rate_, weight_rate_;
   mutable std::vector<std::array<Point, 2>> xi_rate_;
   mutable std::vector<Tensor> normal_rate_;  ///< ∂ν/∂x_b
   mutable std::vector<Tensor> slip_rate_, carried_rate_, place_rate_, turn_rate_;

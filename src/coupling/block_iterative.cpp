@@ -126,6 +126,7 @@ void BlockIterative::solve(const State& old, State& trial, const Attempt& attemp
     contact.add(phases_.mechanics->work_share());
     contact.book(effort.energy);
   }
+  book_excess_work(phases_, it.deformation, effort.energy);
   book_interface(effort.energy, phases_.structural != nullptr);
   trial.heat = std::move(it.now.heat);
   trial.mechanics = std::move(it.now.mechanics);

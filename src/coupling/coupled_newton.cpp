@@ -10,6 +10,7 @@
 #include "mechanics/saddle_solver.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
+#include "system/log.hpp"
 
 namespace solidus::coupling {
 
@@ -24,6 +25,10 @@ constexpr double k_loosest = 1e-2;  ///< forcing term: assembly costs as much as
 /// A step of the displacements, relative to their motion, and heat out of balance, relative to the heat
 /// moved, above which neither counts as rounding.
 constexpr double k_rounding_step = 1e-8, k_rounding_heat = 1e-6;
+constexpr int k_lost = 3;  ///< iterates without an equilibrium before the iteration ends
+/// The residual of an iterate that cannot be evaluated.
+constexpr CoupledResidual k_nowhere{std::numeric_limits<double>::infinity(),
+                                    std::numeric_limits<double>::infinity()};
 constexpr double k_far_off = 1e6;  ///< a residual that rises so much even after halving ends the iteration
 /// Share of the mesh's diagonal that a node goes at most in an iteration. A body that rested on contact
 /// alone, which the step before has opened, has next to no stiffness toward its mould: its step is metres
@@ -60,6 +65,16 @@ bool heat_stalls(const std::vector<CoupledResidual>& residuals) {
   const std::size_t n = residuals.size();
   return n >= 3 && residuals[n - 1].heat > k_stalls * residuals[n - 2].heat &&
          residuals[n - 2].heat > k_stalls * residuals[n - 3].heat;
+}
+
+/// Sets ∂r_Θ/∂u and ∂r_Θ/∂p to zero.
+void drop_heat_of_motion(linear::CoupledMatrix& matrix) {
+  constexpr linear::CoupledMatrix::Slot k_scrap = -1;  // the first one
+  const std::size_t n =
+      (matrix.displacement().columns().size() + 1) * static_cast<std::size_t>(matrix.fields());
+  std::fill_n(matrix.heat_by_displacement(k_scrap), n * static_cast<std::size_t>(matrix.components()), 0.0);
+  if (matrix.pressures() > 0)
+    std::fill_n(matrix.heat_by_pressure(k_scrap), n * static_cast<std::size_t>(matrix.pressures()), 0.0);
 }
 
 }  // namespace
@@ -279,18 +294,20 @@ CoupledResidual CoupledNewton::evaluate_at(double alpha, const mechanics::Mechan
   const auto& temperature = thermal_->temperature();
   const double coldest =
       temperature.empty() ? 1.0 : *std::min_element(temperature.begin(), temperature.end());
-  if (!(parallel::global_min(coldest) > 0)) {
-    constexpr double k_none = std::numeric_limits<double>::infinity();
-    return {k_none, k_none};
-  }
+  if (!(parallel::global_min(coldest) > 0)) return k_nowhere;
   if (in_equilibrium_) {
+    const bool whole = tangent_ == Tangent::whole;
+    if (!whole) x = start_u_;  // in equilibrium with the temperatures there
     set_contact_temperatures();
-    equilibrate(old, pass, x);
+    if (!equilibrate(old, pass, x)) {
+      if (++lost_ > k_lost) mechanics_.reject("iterates of both fields have no equilibrium", x);
+      if (!whole) return k_nowhere;  // else the step stands as it is
+    }
   }
   return evaluate(old, pass, x);
 }
 
-void CoupledNewton::equilibrate(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass,
+bool CoupledNewton::equilibrate(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass,
                                 std::vector<double>& x) {
   mechanics::MechanicalState iterate = old;
   const auto n_u = static_cast<std::ptrdiff_t>(mechanics_.n_displacements());
@@ -304,8 +321,9 @@ void CoupledNewton::equilibrate(const mechanics::MechanicalState& old, mechanics
   try {
     mechanics_.solve(old, iterate, pass);
     x = mechanics_.start(old, pass);
+    return true;
   } catch (const StepRejected&) {
-    // The iterate is too far off for its own equilibrium: the step stands as it is.
+    return false;
   }
 }
 
@@ -316,7 +334,7 @@ double CoupledNewton::move(const mechanics::MechanicalState& old, const mechanic
   const std::size_t n = report.residuals.size();
   for (std::size_t i = n > k_remembered ? n - k_remembered : 0; i < n; ++i)
     highest = std::max(highest, report.residuals[i].size());
-  const bool full = report.iterations <= k_full_steps;
+  const bool full = tangent_ == Tangent::whole && report.iterations <= k_full_steps;
   const double way = longest(std::span(step_u_).first(mechanics_.n_displacements()), mechanics_.components());
   double alpha = 1;
   if (const double most = k_longest_way * diagonal(mechanics_.mesh()); way > most) alpha = most / way;
@@ -336,13 +354,40 @@ double CoupledNewton::move(const mechanics::MechanicalState& old, const mechanic
 
 CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechanics::MechanicalPass& pass,
                                    std::vector<double>& x) {
-  const int max_iterations = std::max(mechanics_.options().newton.max_iterations, thermal_->max_iterations());
+  const std::vector<double> start = x;
+  const heat::ThermalState thermal_start = thermal_->state();
+  tangent_ = Tangent::whole;
+  try {
+    return iterate(old, pass, x);
+  } catch (const StepRejected& first) {
+    logging::debug("both fields: a second attempt after: {}", first.reason());
+    x = start;
+    thermal_->restart(thermal_start);
+    tangent_ = Tangent::without_heat_of_motion;
+    try {
+      return iterate(old, pass, x);
+    } catch (const StepRejected&) {
+      throw StepRejected(first.reason() + ", nor in a second attempt", first.where());
+    }
+  }
+}
+
+CoupledReport CoupledNewton::iterate(const mechanics::MechanicalState& old, mechanics::MechanicalPass& pass,
+                                     std::vector<double>& x) {
+  const bool whole = tangent_ == Tangent::whole;
+  const int most = std::max(mechanics_.options().newton.max_iterations, thermal_->max_iterations());
+  const int max_iterations = whole ? most : 2 * most;
   pass.iterate_temperature = thermal_->temperature();
   CoupledReport report;
   linear::Forcing forcing(mechanics_.options().newton.inexact, k_loosest);
-  in_equilibrium_ = false;
+  in_equilibrium_ = !whole;
+  lost_ = 0;
   next_step_ = std::numeric_limits<double>::infinity();
   shifted_heat_ = 0;
+  if (in_equilibrium_) {
+    set_contact_temperatures();
+    if (!equilibrate(old, pass, x)) mechanics_.reject("no equilibrium at the temperatures of the start", x);
+  }
   CoupledResidual residual = evaluate(old, pass, x);
   while (true) {
     report.residuals.push_back(residual);
@@ -355,6 +400,7 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
       mechanics_.reject(reason, x);
     }
     assemble(old, x, report.iterations);
+    if (!whole) drop_heat_of_motion(matrix_);
     std::string failure;
     const bool found = find_direction(forcing, report, failure);
     ++report.iterations;

@@ -57,8 +57,10 @@ class CoupledNewton {
   /// Both phases must outlive this object; the mechanical one is built for Mapping::simultaneous. Collective.
   CoupledNewton(const Phases& phases, linear::CoupledSolverKind solver);
 
-  /// Solves one stage. Thermal start and unknowns are those of `thermal`, which has begun; `x` holds the
-  /// unknowns of the mechanical phase at the start (MechanicalPhase::start) and, at the end, at the solution.
+  /// Solves one stage; where the iteration finds no solution, it sets out once more with a tangent that
+  /// leaves out how heat follows the displacements. Thermal start and unknowns are those of `thermal`, which
+  /// has begun; `x` holds the unknowns of the mechanical phase at the start (MechanicalPhase::start) and, at
+  /// the end, at the solution.
   /// @param old   t_n of the mechanical phase, or u*, z* of a second stage
   /// @param pass  time, step and Θ_n
   /// Throws StepRejected on all processes.
@@ -88,6 +90,17 @@ class CoupledNewton {
                 std::span<double> heat);
 
  private:
+  /// Derivatives that the tangent holds.
+  enum class Tangent {
+    whole,
+    /// All but ∂r_Θ/∂u: a step is one of heat at fixed displacements, and of the displacements after it. It
+    /// converges linearly, as the iteration between two phases does, but a contact that opens and closes by
+    /// its own heat does not throw it to and fro.
+    without_heat_of_motion
+  };
+  /// The iteration from x and the temperatures of thermal(). Throws StepRejected on all processes.
+  CoupledReport iterate(const mechanics::MechanicalState& old, mechanics::MechanicalPass& pass,
+                        std::vector<double>& x);
   /// Passes the temperatures of thermal() to the contact pairs.
   void set_contact_temperatures();
   /// Residuals of the last evaluation.
@@ -117,8 +130,9 @@ class CoupledNewton {
   /// Displacements and pressures on local nodes from those on owned ones.
   void spread(std::span<const double> owned, std::span<double> x) const;
   std::size_t n_owned_displacements() const;
-  /// The displacement in equilibrium with the temperature of now; left alone where there is none.
-  void equilibrate(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass,
+  /// The displacement in equilibrium with the temperature of now, from x; false where none is found, and x
+  /// stays.
+  bool equilibrate(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass,
                    std::vector<double>& x);
 
   Phases phases_;
@@ -139,7 +153,9 @@ class CoupledNewton {
   double norm_ = 0, reference_ = 0;       ///< of r_u
   double next_step_ = 0;                  ///< its estimated size, MechanicalPhase::relative_step
   double shifted_heat_ = 0;  ///< Σ|K_Θu δu| of the last step, where it set out from forces in balance [W]
+  Tangent tangent_ = Tangent::whole;
   bool in_equilibrium_ = false;  ///< every iterate is brought there
+  int lost_ = 0;                 ///< iterates for which no equilibrium was found
 };
 
 }  // namespace solidus::coupling

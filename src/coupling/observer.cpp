@@ -27,7 +27,8 @@ constexpr AuditSum k_audit_sums[] = {{&EnergyAudit::stored_heat, true},
                                      {&EnergyAudit::viscous_dissipation, true},
                                      {&EnergyAudit::plastic_dissipation, true},
                                      {&EnergyAudit::plastic_work, true},
-                                     {&EnergyAudit::inelastic_entropy, true}};
+                                     {&EnergyAudit::inelastic_entropy, true},
+                                     {&EnergyAudit::excess_work, true}};
 
 }  // namespace
 

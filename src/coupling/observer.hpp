@@ -48,7 +48,10 @@ struct EnergyAudit {
   /// fields of its moment (internal_energy.hpp); of a run, not of a step.
   double internal_at_start = 0, internal = 0;
   double hardening() const { return plastic_work - plastic_dissipation; }  ///< stored by plastic flow
-  double frictional_heat = 0;        ///< heat of friction that the thermal phase took up
+  double frictional_heat = 0;  ///< heat of friction that the thermal phase took up
+  /// Work of the stresses of the ends of steps beyond that of the stresses between them
+  /// (mechanics::excess_work). Zero in schemes of second order, whose excess is of second order too.
+  double excess_work = 0;
   contact::InterfaceSums interface;  ///< of the last thermal pass; sums of a step, not of a run
   double defect() const {
     return stored_heat + structural + contact + kinetic + numerical + friction - frictional_heat - work -

@@ -93,6 +93,12 @@ void book_work(const mechanics::MechanicalReport& report, StepEffort& effort) {
   effort.fields.reactions = report.reactions;
 }
 
+void book_excess_work(const Phases& phases, const mechanics::StepDeformation& deformation,
+                      EnergyAudit& energy) {
+  if (phases.structural != nullptr && phases.mechanics->work_share() == 1)
+    energy.excess_work = mechanics::excess_work(deformation);
+}
+
 // Γ stays as the mechanical phase left it.
 bool thermal_pass(const Phases& phases, const State& old, State& trial,
                   const mechanics::StepDeformation& deformation, const heat::ThermalPass& pass,

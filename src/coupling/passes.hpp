@@ -33,6 +33,13 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
 /// Enters the work and the support forces of a solved mechanical phase in the report of the step.
 void book_work(const mechanics::MechanicalReport& report, StepEffort& effort);
 
+/// Enters EnergyAudit::excess_work of the last mechanical pass of a step, in a scheme of first order in time.
+/// It stays zero where heat and deformation exchange no energy, and with an integration of inertia whose
+/// forces at work are means over the step. Collective.
+/// @param deformation  MechanicalReport::deformation
+void book_excess_work(const Phases& phases, const mechanics::StepDeformation& deformation,
+                      EnergyAudit& energy);
+
 /// The balance of energy at a deformation (4.43, 4.53); otherwise the same. Returns whether the iteration
 /// reached its tolerance.
 /// @param deformation  MechanicalReport::deformation, or held; empty where deformation does no heat

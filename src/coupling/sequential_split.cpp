@@ -280,6 +280,7 @@ mechanics::StepDeformation SequentialSplit::mechanical_phase(const State& old, c
   trial.pressure_rate = rate(old.mechanics.pressure, trial.mechanics.pressure, dt);
   contact.add(phases_.mechanics->work_share());
   contact.book(effort.energy);
+  book_excess_work(phases_, report.deformation, effort.energy);
   return std::move(report.deformation);
 }
 

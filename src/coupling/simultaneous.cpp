@@ -93,11 +93,14 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
   StepEffort effort;
   if (options_.integration == SimultaneousOptions::Integration::backward_euler) {
     effort = backward_euler(old, trial, time, dt, deformation);
+    book_excess_work(phases_, deformation, effort.energy);
   } else if (const std::optional<StepEffort> found =
                  two_stages(old, trial, time, dt, true, *contact, deformation)) {
     effort = *found;
   } else {
-    logging::debug("both fields: the step to t = {:g} s would overshoot; it is of first order", time);
+    logging::debug(
+        "both fields: the step to t = {:g} s would overshoot or finds no solution; it is of first order",
+        time);
     drop_carried();
     deformation.clear();  // its storage serves again
     restore_contacts(phases_, old);
@@ -153,8 +156,14 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
   to_end.from_extrapolation = extrapolated;
   to_end.iterate = &first.mechanics;
   thermal.begin_stage(old.heat, first.heat, carried, time, to_end.dt);
-  StepEffort effort = stage(start, second_start(phases_, old.contacts, first.contacts, carried), coherency,
-                            to_end, trial, deformation);
+  StepEffort effort;
+  try {
+    effort = stage(start, second_start(phases_, old.contacts, first.contacts, carried), coherency, to_end,
+                   trial, deformation);
+  } catch (const StepRejected&) {
+    if (extrapolated) return std::nullopt;  // it may set out from a state that has no equilibrium nearby
+    throw;
+  }
   if (extrapolated && thermal.overshoots(trial.heat)) return std::nullopt;
   deformation = drop_carried();
   if (phases_.structural != nullptr) phases_.structural->set_deformation(deformation);

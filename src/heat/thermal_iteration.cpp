@@ -80,6 +80,11 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
   }
 }
 
+void ThermalIteration::restart(const ThermalState& state) {
+  now_ = state;
+  if (nodal()) newton_->begin(stored_from_, dt_, now_.enthalpy);
+}
+
 bool ThermalIteration::may_extrapolate(const ThermalState& old, const ThermalState& stage, double time) {
   if (!nodal()) return true;
   TemperatureRange around = phase_.system_->surroundings();  // at the end of the first stage

@@ -52,6 +52,8 @@ class ThermalIteration {
   /// The criterion of the phase, on the last evaluate().
   bool converged() const;
   double tolerance() const;
+  /// Goes back to a state that state() was in since the step or stage began, for a further attempt.
+  void restart(const ThermalState& state);
   /// Limits conduction anew where the Θ of now have left the range of those at t_n and around the bodies
   /// (conduction_limiter.hpp). True where that has changed F: the unknowns then solve it no more. Collective.
   bool revise_limits();

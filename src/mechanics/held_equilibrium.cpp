@@ -14,7 +14,8 @@ namespace {
 /// Equilibrium with such a tangent. Keeps references.
 class HeldEquilibrium final : public linear::NonlinearSystem {
  public:
-  HeldEquilibrium(MechanicalPhase& phase, const MechanicalState& old) : phase_(phase), old_(old) {}
+  HeldEquilibrium(MechanicalPhase& phase, const MechanicalState& old, double share)
+      : phase_(phase), old_(old), share_(share) {}
   double residual(std::span<const double> x, std::span<double> r) override { return phase_.residual(x, r); }
   linear::BlockMatrix& tangent(std::span<const double> x) override;
   double relative_step(std::span<const double> x, std::span<const double> d) override {
@@ -29,7 +30,7 @@ class HeldEquilibrium final : public linear::NonlinearSystem {
 
   MechanicalPhase& phase_;
   const MechanicalState& old_;
-  double share_ = 1;
+  double share_;
   std::vector<double> largest_;  ///< max K_ii, [owned node][component] [N/m]
 };
 
@@ -99,7 +100,7 @@ class ShortSteps final : public linear::TangentSolver {
 linear::NewtonReport attempt_again(MechanicalPhase& phase, const MechanicalState& old,
                                    linear::TangentSolver& solver, const parallel::GhostExchange& ghosts,
                                    std::span<const int> fields, std::vector<double>& x,
-                                   linear::NewtonOptions options) {
+                                   linear::NewtonOptions options, double share) {
   constexpr double k_longest_way = 0.01;
   double diagonal = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -108,7 +109,7 @@ linear::NewtonReport attempt_again(MechanicalPhase& phase, const MechanicalState
     diagonal = std::hypot(diagonal, parallel::global_max(high) - parallel::global_min(low));
   }
   options.max_iterations *= 2;
-  HeldEquilibrium held(phase, old);
+  HeldEquilibrium held(phase, old, share);
   const auto n = static_cast<std::size_t>(phase.mesh().n_owned_nodes * phase.components());
   ShortSteps short_steps(solver, n, phase.components(), k_longest_way * diagonal);
   return linear::newton(held, short_steps, ghosts, fields, x, options);

@@ -24,10 +24,11 @@ class MechanicalPhase;
 
 /// The second attempt: twice as many iterations as the first may take, and no node farther than a hundredth
 /// of the mesh's diagonal in each of them. Collective.
-/// @param x  where the iteration starts, and its result
+/// @param x     where the iteration starts, and its result
+/// @param held  s at first; zero: it stays so, and short steps are all that differs from the first attempt
 linear::NewtonReport attempt_again(MechanicalPhase& phase, const MechanicalState& old,
                                    linear::TangentSolver& solver, const parallel::GhostExchange& ghosts,
                                    std::span<const int> fields, std::vector<double>& x,
-                                   linear::NewtonOptions options);
+                                   linear::NewtonOptions options, double held = 1);
 
 }  // namespace solidus::mechanics

@@ -72,6 +72,13 @@ StructuralChange mechanical_change(const StepDeformation& deformation) {
   return {parallel::global_sum(total.energy), parallel::global_sum(total.entropy)};
 }
 
+double excess_work(const StepDeformation& deformation) {
+  double total = 0;
+  for (const auto& points : deformation)
+    if (points) total += points->excess_work();
+  return parallel::global_sum(total);
+}
+
 double structural_energy(MechanicalPhase& phase, const MechanicalState& state,
                          std::span<const double> temperature, std::span<const double> plateau_share) {
   double total = 0;

@@ -93,6 +93,15 @@ StructuralChange structural_change(const StepDeformation& deformation, std::span
 /// The change up to the end of the mechanical pass, where points have temperatures of their own
 /// (StructuralPoints::mechanical_change). Collective.
 StructuralChange mechanical_change(const StepDeformation& deformation);
+/// What the stresses at the end of a mechanical pass (backward Euler) work more than those on the way there,
+///
+///   ∫ [σ_{n+1} : Δε − ΔE + ∫Θ dS − D_mech Δt] dV,   ∫Θ dS = ½ (Θ_n + Θ_{n+1}) ΔS
+///
+/// [J]: ½ Δσ : Δε along a straight elastic path, of first order over a run. The temperatures are those of the
+/// pass: Θ_{n+1} = Θ_n in an isothermal one, and Θ̄ in an isentropic one, where the entropy term is what the
+/// sensible heat of the points takes. p Δe^pc is in it, the work of a phase change against the pressure.
+/// Collective.
+double excess_work(const StepDeformation& deformation);
 /// The structural energy E of a state, computed from its fields [J]: free of stress and without hardening it
 /// is zero at constant pressure. Of a phase with structural heat; the phase takes the state's deformation as
 /// MechanicalPhase::held_deformation does. Collective.

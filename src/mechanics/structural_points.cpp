@@ -308,4 +308,20 @@ StructuralChange StructuralPoints::mechanical_change() const {
   return total;
 }
 
+double StructuralPoints::excess_work() const {
+  double total = 0;
+  for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+    Lane excess(0.0);
+    for (int q = 0; q < geometry_.n_points; ++q) {
+      const Point& at = points_[index(batch, q)];
+      const State now = state(at, of_mechanics(index(batch, q)), at.pass_temperature);
+      const Lane middle = Lane(0.5) * (at.temperature + at.pass_temperature);
+      excess += geometry_.weight_at(batch, q) * (at.work - (now.internal_energy - at.old_energy) +
+                                                 middle * (now.entropy - at.old_entropy) - at.dissipated);
+    }
+    total += sum(excess * geometry_.counted[static_cast<std::size_t>(batch)]);
+  }
+  return total;
+}
+
 }  // namespace solidus::mechanics

@@ -125,6 +125,9 @@ class StructuralPoints {
   /// Up to the end of the mechanical phase, where points have temperatures of their own: the sensible heat
   /// between Θ_n and Θ̄ is in it, while that of the nodes stays.
   StructuralChange mechanical_change() const;
+  /// The work of the mechanical pass beyond that of the stresses on its way (excess_work,
+  /// structural_heat.hpp); sum over the counted elements [J].
+  double excess_work() const;
   /// The structural energy of the deformation at the nodal temperature, over the counted elements [J].
   double energy(std::span<const double> temperature) const;
   std::size_t bytes() const {

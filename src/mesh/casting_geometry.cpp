@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "mesh/file_format.hpp"
-#include "mesh/gmsh_reader.hpp"
 #include "mesh/kept_mesh.hpp"
+#include "mesh/meshing_ways.hpp"
 #include "mesh/poor_tetrahedra.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/reader_message.hpp"
@@ -52,9 +52,9 @@ std::string complaint_of(const InputError& error, const std::string& path) {
 RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double enough, KeptMesh* kept,
                      const RawMesh* same) {
   const bool solids = is_cad(file_format(source.path));
-  const int n_attempts = solids ? n_meshing_attempts() : n_faceted_attempts();
-  const auto attempt_text = [&](int attempt) {
-    return solids ? meshing_attempt(attempt) : faceted_attempt(attempt);
+  const auto n_attempts = static_cast<int>(solids ? solid_ways().size() : faceted_ways().size());
+  const auto attempt_text = [&](int way) {
+    return std::string(solids ? way_of(solid_ways(), way).what : way_of(faceted_ways(), way).what);
   };
   constexpr double k_repaired = 1.2 * k_sound_quality;  // nothing is left that is hardly sound
   std::optional<RawMesh> best;
@@ -108,9 +108,8 @@ RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double 
     attempt(*first);
   }
   const bool decided = geometry.only_way && best;
-  const int n_cheap = solids ? n_cheap_meshing_attempts() : n_attempts;
   for (int way = 0; way < n_attempts && !decided && !(best && best_quality >= sufficient); ++way) {
-    if (way >= n_cheap && best_quality >= k_usable_quality) break;
+    if (solids && !is_cheap(way_of(solid_ways(), way)) && best_quality >= k_usable_quality) break;
     if (way != first) attempt(way);
   }
   const std::string worst = best && best_quality < k_sound_quality ? worst_tetrahedron_text(*best) : "";
@@ -160,7 +159,6 @@ std::string meshing_request(const MeshSource& source, const CastingGeometry& geo
 }
 
 RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double enough) {
-  require_gmsh(source.path);
   check_readable(source.path);
   KeptMesh* kept = KeptMesh::living();
   if (kept == nullptr) return mesh_in_turn(source, std::move(geometry), enough, nullptr, nullptr);

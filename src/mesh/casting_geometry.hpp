@@ -45,9 +45,9 @@ struct CastingGeometry {
   std::optional<MouldBlock> mould;
   std::optional<RiserCylinder> riser;
   std::optional<HalfSpace> symmetry;
-  /// Number of the meshing attempt, from zero: mesh_casting() tries them in turn.
+  /// Number of the way (meshing_ways.hpp), from zero: mesh_casting() takes them in turn.
   int attempt = 0;
-  /// The attempt that mesh_casting() makes first, and the only one where it gives a mesh.
+  /// The way that mesh_casting() takes first, and the only one where it gives a mesh.
   std::optional<int> only_way;
 };
 
@@ -62,16 +62,6 @@ inline constexpr double k_sound_quality = 0.15;
 /// Least quality of a mesh that is good enough not to try others with elements of less than 0.8 of the size,
 /// which cost several times as much and seldom are better.
 inline constexpr double k_usable_quality = 0.05;
-/// Number of meshing attempts of solids of a CAD program: as the file is, with HXT, healed, finer, …
-int n_meshing_attempts();
-/// Those of them that are tried whatever the quality of the meshes before is.
-int n_cheap_meshing_attempts();
-/// Describes an attempt for messages: "healed, elements of 0.7 of the size".
-std::string meshing_attempt(int attempt);
-/// The same of skins of triangles (mesh/faceted_casting.hpp).
-int n_faceted_attempts();
-std::string faceted_attempt(int attempt);
-
 /// Meshes a STEP, BREP, IGES or STL file, or what the skins of the bodies of a mesh enclose, in one way after
 /// the other until every body has elements and the least quality is k_sound_quality, those that are much
 /// finer only where the least quality of the others is below k_usable_quality; else takes the best of those
@@ -80,9 +70,5 @@ std::string faceted_attempt(int attempt);
 /// Throws InputError with the complaints of each way where none gives a mesh.
 /// @param enough  the least quality, 0 where any mesh will do
 RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double enough = k_sound_quality);
-
-/// One way, in the reader's process; Gmsh has the file open.
-/// Makes mould, riser and groups, and meshes. Throws InputError.
-void make_casting_mesh(const MeshSource& source, const CastingGeometry& geometry);
 
 }  // namespace solidus::mesh

@@ -18,13 +18,7 @@ struct RingPart {
 class BestTriangulation {
  public:
   BestTriangulation(const Tetrahedra& mesh, Index a, Index b, const RingPart& part)
-      : mesh_(mesh),
-        a_(a),
-        b_(b),
-        part_(part),
-        n_(part.nodes.size()),
-        best_(n_ * n_, 1.0),
-        middle_(n_ * n_, 0) {
+      : a_(a), b_(b), part_(part), n_(part.nodes.size()), best_(n_ * n_, 1.0), middle_(n_ * n_, 0) {
     for (std::size_t length = 2; length < n_; ++length)
       for (std::size_t i = 0; i + length < n_; ++i) {
         const std::size_t j = i + length;
@@ -60,7 +54,6 @@ class BestTriangulation {
     append(made, k, j);
   }
 
-  const Tetrahedra& mesh_;
   Index a_, b_;
   const RingPart& part_;
   std::size_t n_;

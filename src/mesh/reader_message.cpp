@@ -207,4 +207,26 @@ RawMesh take_mesh(const TakeBytes& take, double most_bytes) {
   return mesh;
 }
 
+void put_all(int descriptor, const void* bytes, std::size_t n) {
+  const char* at = static_cast<const char*>(bytes);
+  while (n > 0) {
+    const ssize_t written = ::write(descriptor, at, n);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) throw std::runtime_error("the other end of the pipe has gone");
+    at += written;
+    n -= static_cast<std::size_t>(written);
+  }
+}
+
+void take_all(int descriptor, void* bytes, std::size_t n) {
+  char* at = static_cast<char*>(bytes);
+  while (n > 0) {
+    const ssize_t read = ::read(descriptor, at, n);
+    if (read < 0 && errno == EINTR) continue;
+    if (read <= 0) throw std::runtime_error("the other end of the pipe has gone");
+    at += read;
+    n -= static_cast<std::size_t>(read);
+  }
+}
+
 }  // namespace solidus::mesh

@@ -1,5 +1,5 @@
 /// Requests to a reader and meshes from it, as bytes through a pipe (mesh/reader_process.hpp). Both ends are
-/// the same program on the same machine.
+/// of the same build on the same machine.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +12,16 @@
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::mesh {
+
+/// Descriptors of files by which the reader knows its ends of the pipes.
+inline constexpr int k_request_descriptor = 3, k_answer_descriptor = 4;
+/// The first word of an answer. A mesh follows, or a text where it is an error with one.
+enum class ReaderAnswer : int { mesh, unusable_geometry, input_error, memory, internal };
+
+/// Writes and reads all of `n` bytes, whatever the pipe holds at once. Throw std::runtime_error where the
+/// other end has gone.
+void put_all(int descriptor, const void* bytes, std::size_t n);
+void take_all(int descriptor, void* bytes, std::size_t n);
 
 /// Functions that send and receive bytes. Both throw if the connection ends too soon.
 using PutBytes = std::function<void(const void* bytes, std::size_t n)>;

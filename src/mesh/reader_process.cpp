@@ -1,9 +1,9 @@
 #include "mesh/reader_process.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,7 +17,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -25,7 +24,6 @@
 #include "input/units.hpp"
 #include "mesh/file_format.hpp"
 #include "mesh/reader_message.hpp"
-#include "mesh/reader_sandbox.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
 #include "system/program_path.hpp"
@@ -36,88 +34,23 @@ namespace solidus::mesh {
 
 namespace {
 
-constexpr const char* k_verb = "--read-mesh-for-parent";
-constexpr int k_request = 3, k_answer = 4;  ///< descriptors of the reader
-enum class Answer : int { mesh, unusable_geometry, input_error, memory, internal };
+constexpr const char* k_reader = "solidus-reader";  ///< name of the program
 
-#if defined(__SANITIZE_ADDRESS__)
-#define SOLIDUS_SHADOW_MEMORY
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define SOLIDUS_SHADOW_MEMORY
-#endif
-#endif
-#ifdef SOLIDUS_SHADOW_MEMORY
-constexpr bool k_limits_memory = false;  // AddressSanitizer reserves terabytes
-#else
-constexpr bool k_limits_memory = true;
-#endif
-
-bool starts_readers = false;
+ReadMesh* reads_here = nullptr;  ///< null: readers read
 bool (*give_up)() = nullptr;
 
+/// Beside the program, or where an installation has it. `path` is of the mesh, for the message.
+std::string reader_program(const std::string& path) {
+  const std::filesystem::path folder = program_path().parent_path();
+  for (const std::filesystem::path& place : {folder, folder.parent_path() / "libexec/solidus"})
+    if (std::filesystem::exists(place / k_reader)) return (place / k_reader).string();
+  throw InputError({path},
+                   fmt::format("the program that reads meshes, '{}', is missing beside '{}'", k_reader,
+                               program_path().string()),
+                   "both in one folder, as they are built, or installed with cmake --install");
+}
+
 using Clock = std::chrono::steady_clock;
-
-// --- in the reader ---
-
-void put_all(int descriptor, const void* bytes, std::size_t n) {
-  const char* at = static_cast<const char*>(bytes);
-  while (n > 0) {
-    const ssize_t written = ::write(descriptor, at, n);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) throw std::runtime_error("the other end of the pipe has gone");
-    at += written;
-    n -= static_cast<std::size_t>(written);
-  }
-}
-
-void take_all(int descriptor, void* bytes, std::size_t n) {
-  char* at = static_cast<char*>(bytes);
-  while (n > 0) {
-    const ssize_t read = ::read(descriptor, at, n);
-    if (read < 0 && errno == EINTR) continue;
-    if (read <= 0) throw std::runtime_error("the other end of the pipe has gone");
-    at += read;
-    n -= static_cast<std::size_t>(read);
-  }
-}
-
-int serve() {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // Ctrl-C reaches all processes of a terminal: the parent decides.
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1}) std::signal(signal, SIG_IGN);
-  const PutBytes put = [](const void* bytes, std::size_t n) { put_all(k_answer, bytes, n); };
-  const TakeBytes take = [](void* bytes, std::size_t n) { take_all(k_request, bytes, n); };
-  const auto say = [&](Answer answer) { put(&answer, sizeof answer); };
-  const MeshSource source = take_source(take);
-  bool of_casting = false;
-  take(&of_casting, sizeof of_casting);
-  std::optional<CastingGeometry> casting;
-  if (of_casting) casting = take_casting(take);
-  double memory = 0;
-  take(&memory, sizeof memory);
-  limit_memory(k_limits_memory ? memory : 0);
-  if (!source.trust_script) forbid_all_but_reading();
-  try {
-    const RawMesh mesh = read_mesh_here(source, casting ? &*casting : nullptr);
-    say(Answer::mesh);
-    put_mesh(mesh, put);
-  } catch (const UnusableGeometry& error) {
-    say(Answer::unusable_geometry);
-    put_text(error.what(), put);
-  } catch (const InputError& error) {
-    say(Answer::input_error);
-    put_text(error.what(), put);
-  } catch (const std::bad_alloc&) {
-    say(Answer::memory);
-  } catch (const std::exception& error) {
-    say(Answer::internal);
-    put_text(error.what(), put);
-  }
-  return 0;
-}
-
-// --- in the program ---
 
 /// A reader at work; it does not outlive this.
 class Reader {
@@ -160,6 +93,7 @@ class Reader {
 
 Reader::Reader(const MeshSource& source, const CastingGeometry* casting, const ReaderLimits& limits)
     : source_(source), limits_(limits) {
+  const std::string program = reader_program(source.path);
   std::array<int, 2> request{}, answer{};
   if (pipe2(request.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe to a reader of meshes");
   if (pipe2(answer.data(), O_CLOEXEC) != 0) {
@@ -178,12 +112,11 @@ Reader::Reader(const MeshSource& source, const CastingGeometry* casting, const R
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, reads, k_request);
-  posix_spawn_file_actions_adddup2(&actions, writes, k_answer);
-  posix_spawn_file_actions_addclosefrom_np(&actions, k_answer + 1);
-  const std::string program = program_path().string();
-  std::string name = "solidus", verb = k_verb;
-  std::array<char*, 3> argv = {name.data(), verb.data(), nullptr};
+  posix_spawn_file_actions_adddup2(&actions, reads, k_request_descriptor);
+  posix_spawn_file_actions_adddup2(&actions, writes, k_answer_descriptor);
+  posix_spawn_file_actions_addclosefrom_np(&actions, k_answer_descriptor + 1);
+  std::string name = k_reader;
+  std::array<char*, 2> argv = {name.data(), nullptr};
   const int failed = posix_spawn(&pid_, program.c_str(), &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   ::close(reads);
@@ -265,18 +198,18 @@ RawMesh read_in_own_process(const MeshSource& source, const CastingGeometry* cas
   const ReaderLimits limits = reader_limits(source, casting != nullptr);
   Reader reader(source, casting, limits);
   const TakeBytes take = [&](void* bytes, std::size_t n) { reader.take(bytes, n); };
-  Answer answer = Answer::internal;
+  ReaderAnswer answer = ReaderAnswer::internal;
   take(&answer, sizeof answer);
   switch (answer) {
-    case Answer::mesh:
+    case ReaderAnswer::mesh:
       return take_mesh(take, limits.memory);
-    case Answer::unusable_geometry:
+    case ReaderAnswer::unusable_geometry:
       throw UnusableGeometry({}, take_text(take));
-    case Answer::input_error:
+    case ReaderAnswer::input_error:
       throw InputError({}, take_text(take));
-    case Answer::memory:
+    case ReaderAnswer::memory:
       too_little_memory(source, limits);
-    case Answer::internal:
+    case ReaderAnswer::internal:
       break;
   }
   throw InputError({source.path}, "the mesh cannot be read: " + take_text(take));
@@ -315,21 +248,8 @@ bool holds_mesh(const std::string& path) {
 
 }  // namespace
 
-std::optional<int> serve_as_reader(int argc, char** argv) {
-  if (argc == 2 && std::strcmp(argv[1], k_verb) == 0) {
-    int code = 3;
-    try {
-      code = serve();
-    } catch (const std::exception&) {  // NOLINT: the parent reads no more
-    }
-    _exit(code);  // what libraries do at the end of a process must not spoil an answer that is given
-  }
-  starts_readers = true;
-  return {};
-}
-
-void read_in_processes() {
-  starts_readers = true;
+void read_in_this_process(ReadMesh* read) {
+  reads_here = read;
 }
 
 void give_up_reading_when(bool (*asked)()) {
@@ -352,11 +272,16 @@ ReaderLimits reader_limits(const MeshSource& source, bool meshes) {
 }
 
 RawMesh read_in_one_way(const MeshSource& source, const CastingGeometry* casting) {
-  return starts_readers ? read_in_own_process(source, casting) : read_mesh_here(source, casting);
+  return reads_here != nullptr ? reads_here(source, casting) : read_in_own_process(source, casting);
 }
 
 RawMesh read_mesh(const MeshSource& source) {
   return read_in_one_way(source, nullptr);
+}
+
+RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size, int element_order,
+                  const std::map<std::string, double>& constants, const GeometryChoice& geometry) {
+  return read_mesh(MeshSource{path, unit_in_metres, element_size, element_order, constants, geometry});
 }
 
 }  // namespace solidus::mesh

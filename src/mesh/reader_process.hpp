@@ -1,25 +1,23 @@
 /// Reader process: foreign meshes are read, and geometries meshed, in a process of their own, so that a
 /// crash, an endless loop or a lack of memory there does not end the program.
 ///
-/// The reader is the program itself, started with a verb that no user types. It reads a request, hands the
-/// mesh back through a pipe and ends. It may start no program, write no file and open no connection, unless
-/// the script is trusted. Programs that do not serve as a reader (tests) read meshes in their own process.
+/// The reader is a program of its own, `solidus-reader` (mesh/gmsh/serve.hpp), and alone is linked with Gmsh,
+/// whose libraries take longer to load than all others together. It takes a request, hands the mesh back
+/// through a pipe and ends. It may start no program, write no file and open no connection, unless the script
+/// is trusted.
 #pragma once
-
-#include <optional>
 
 #include "mesh/casting_geometry.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::mesh {
 
-/// Call this first in main(), before MPI starts: where the program was started as the reader it does the
-/// reader's work and returns the exit code; else read_mesh() starts readers from now on.
-std::optional<int> serve_as_reader(int argc, char** argv);
+/// Reads a mesh, or with `casting` makes one in the way that its `attempt` says. Throws InputError.
+using ReadMesh = RawMesh(const MeshSource& source, const CastingGeometry* casting);
 
-/// From now on read_mesh() starts readers: for a process that is not the program, but knows where it is
-/// (system/program_path.hpp).
-void read_in_processes();
+/// From now on meshes are read in this process, whatever happens: for programs that link what reads them,
+/// read_in_this_process(&read_mesh_here) with mesh/gmsh/import.hpp. Null: readers read them again.
+void read_in_this_process(ReadMesh* read);
 
 /// Tells read_mesh() when to give up waiting for a reader: it ends it then and throws StepRejected.
 /// @param asked  called about ten times a second; nullptr: wait on
@@ -36,11 +34,8 @@ struct ReaderLimits {
 /// @param meshes  what the file holds is meshed anew, whatever it is
 ReaderLimits reader_limits(const MeshSource& source, bool meshes = false);
 
-/// Reads in this process, whatever happens.
-RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting = nullptr);
-
-/// Reads a mesh, or with `casting` makes one in the way that its `attempt` says, in a reader where there are
-/// readers. Throws InputError.
+/// Reads a mesh, or with `casting` makes one in the way that its `attempt` says, in a reader
+/// but for read_in_this_process(). Throws InputError, also where there is no reader beside the program.
 RawMesh read_in_one_way(const MeshSource& source, const CastingGeometry* casting);
 
 }  // namespace solidus::mesh

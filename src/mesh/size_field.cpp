@@ -20,9 +20,9 @@ Point cross(const Point& a, const Point& b) {
 
 constexpr double k_none = 1e30;
 
-using Triangle = std::array<Point, 3>;
+using SkinTriangle = std::array<Point, 3>;
 
-Point normal_of(const Triangle& t) {
+Point normal_of(const SkinTriangle& t) {
   Point n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
   const double size = std::sqrt(dot(n, n));
   if (size > 0)
@@ -30,14 +30,14 @@ Point normal_of(const Triangle& t) {
   return n;
 }
 
-Point centre_of(const Triangle& t) {
+Point centre_of(const SkinTriangle& t) {
   Point centre{};
   for (const Point& p : t)
     for (std::size_t i = 0; i < 3; ++i) centre[i] += p[i] / 3;
   return centre;
 }
 
-double radius_of(const Triangle& t, const Point& centre) {
+double radius_of(const SkinTriangle& t, const Point& centre) {
   double radius = 0;
   for (const Point& p : t) {
     const Point d = minus(p, centre);
@@ -49,7 +49,7 @@ double radius_of(const Triangle& t, const Point& centre) {
 /// Distance along a ray, of a direction of length one, at which it meets a triangle; negative: not at all or
 /// behind. Möller and Trumbore 1997, "Fast, minimum storage ray/triangle intersection", J. Graph. Tools 2,
 /// 21-28.
-double meet(const Point& from, const Point& direction, const Triangle& triangle) {
+double meet(const Point& from, const Point& direction, const SkinTriangle& triangle) {
   constexpr double k_edge = 1e-9;
   const Point e1 = minus(triangle[1], triangle[0]), e2 = minus(triangle[2], triangle[0]);
   const Point p = cross(direction, e2);
@@ -136,7 +136,7 @@ bool looks_inward(const std::vector<std::array<Point, 3>>& skin, std::size_t tri
 std::vector<double> wall_thickness(const std::vector<std::array<Point, 3>>& skin, std::size_t most) {
   std::vector<Point> centre;
   std::vector<double> radius;
-  for (const Triangle& t : skin) {
+  for (const SkinTriangle& t : skin) {
     centre.push_back(centre_of(t));
     radius.push_back(radius_of(t, centre.back()));
   }

@@ -2,19 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
-
 #include "case/case_materials.hpp"
 #include "case/roles.hpp"
 #include "input/keys.hpp"
 #include "material/library.hpp"
-#include "mesh/casting_geometry.hpp"
 #include "new_case/casting_processes.hpp"
 #include "new_case/draft_choice.hpp"
 #include "new_case/draft_refinement.hpp"
+#include "new_case/new_case_report.hpp"
 #include "new_case/part_measures.hpp"
-#include "new_case/rounding.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::model {
@@ -46,136 +42,6 @@ material::Material alloy_of(const NewCaseOptions& options, const CastingProcess&
   return alloy;
 }
 
-/// "98.8 cm3 in a box of 100 x 54 x 71 mm": by which one tells bodies without names apart.
-std::string size_text(const mesh::BodyExtent& extent) {
-  const auto side = [&](std::size_t i) { return 1e3 * (extent.high[i] - extent.low[i]); };
-  const double volume = 1e6 * extent.volume;
-  const std::string digits = volume < 1000 ? fmt::format("{:.3g}", volume) : fmt::format("{:.0f}", volume);
-  return fmt::format("{} cm3 in a box of {:.4g} x {:.4g} x {:.4g} mm", digits, side(0), side(1), side(2));
-}
-
-/// A note where the parts are so large or so small that their unit is in doubt; empty where they are not.
-std::string doubtful_unit_text(const NewCaseOptions& options, const PartMeasures& part) {
-  constexpr double k_large = 5, k_small = 6e-3;
-  double largest = 0;
-  for (std::size_t i = 0; i < 3; ++i) largest = std::max(largest, part.high[i] - part.low[i]);
-  if (largest <= k_large && largest >= k_small) return "";
-  return fmt::format("\n  note        {} large, for lengths of the file in {}: --unit takes another unit",
-                     largest > 1 ? fmt::format("{:.3g} m", largest) : fmt::format("{:.3g} mm", 1e3 * largest),
-                     options.unit);
-}
-
-/// A note where walls have less than two elements through them; empty where they have.
-std::string thin_walls_text(const Draft& draft, const PartMeasures& part) {
-  constexpr double k_most = 5;  // what --fineness allows
-  const double finer = rounded_up(2 * draft.smallest / part.thickness_at(0.1), 0.1);
-  if (finer < 1.2) return "";
-  return fmt::format(
-      "\n  note        thin walls have one element through them{}",
-      finer > k_most
-          ? std::string()
-          : fmt::format(": enough for when and where it freezes last; --fineness {:.2g} gives two", finer));
-}
-
-/// A note where several bodies are castings because neither their names nor `--as` say what they are: a core
-/// of a file without names would be poured. Empty where there is one casting, or all are known.
-std::string unknown_bodies_text(const Draft& draft, const std::vector<std::string>& as) {
-  int castings = 0;
-  std::string unknown, last;
-  for (const DraftBody& body : draft.bodies) {
-    if (body.role != Role::casting) continue;
-    ++castings;
-    const auto said = [&](const std::string& text) { return text.starts_with(body.group + "="); };
-    if (role_in_name(body.group) || std::ranges::any_of(as, said)) continue;
-    unknown += (unknown.empty() ? "" : ", ") + body.name;
-    last = body.group;
-  }
-  if (castings < 2 || unknown.empty()) return "";
-  return fmt::format(
-      "\n  note        no name says what these are, so they are poured: {}; else, for example: --as {}=core",
-      unknown, last);
-}
-
-/// Distance of the riser from the plane of symmetry [m]; none where one of them is not there.
-std::optional<double> riser_beside_plane(const Draft& draft) {
-  if (!draft.riser || !draft.symmetry) return {};
-  return draft.symmetry->at - draft.riser->foot[static_cast<std::size_t>(draft.symmetry->axis)];
-}
-
-/// A note where half of the part has a riser beside the plane: the whole part then has two. Empty where not.
-std::string twin_riser_text(const Draft& draft) {
-  const double beside = riser_beside_plane(draft).value_or(0);
-  if (beside == 0) return "";
-  return fmt::format(
-      "\n  note        the part is thickest {:.3g} mm beside the plane of symmetry: there is a riser on each "
-      "half, with metal for that half",
-      1e3 * beside);
-}
-
-/// A note where no way of meshing gave sound elements; empty where one did.
-std::string poor_mesh_text(const DraftEstimate& estimate) {
-  if (estimate.least_quality >= mesh::k_sound_quality) return "";
-  return fmt::format(
-      "\n  note        the least quality of elements is {:.2g} ({} is sound), the worst {}: results there "
-      "are "
-      "rough",
-      estimate.least_quality, mesh::k_sound_quality, estimate.worst_element);
-}
-
-std::string report(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate,
-                   const NewCaseOptions& options) {
-  std::string out = fmt::format("{}: {} at {:.0f} degC, process {}", draft.geometry.filename().string(),
-                                draft.alloy, draft.pouring, draft.process);
-  for (const DraftBody& body : draft.bodies) {
-    out += fmt::format("\n  {:<10}  {} of {}, {:.0f} degC", name(body.role), body.name, body.material,
-                       body.start);
-    const auto measured = std::ranges::find(part.bodies, body.group, &GeometryBody::name);
-    if (measured != part.bodies.end()) out += ", " + size_text(measured->extent);
-  }
-  out += fmt::format(
-      "\n  walls       {:.3g} mm (a tenth is thinner) to {:.3g} mm (a tenth is thicker), V/A {:.3g} mm",
-      1e3 * part.thickness_at(0.1), 1e3 * part.thickness_at(0.9), 1e3 * part.volume / part.area);
-  for (const mesh::InscribedSphere& s : draft.hot_spots)
-    out += fmt::format("\n  hot spot    a sphere of {:.3g} mm at ({:.4g}, {:.4g}, {:.4g}) mm", 2e3 * s.radius,
-                       1e3 * s.centre[0], 1e3 * s.centre[1], 1e3 * s.centre[2]);
-  if (draft.riser)
-    out += fmt::format(
-        "\n  riser       {:.3g} mm wide, {:.3g} mm high{}", 1e3 * draft.riser->diameter,
-        1e3 * draft.riser->height,
-        riser_beside_plane(draft) == 0.0 ? ", halved by the plane of symmetry on which it stands" : "");
-  if (draft.symmetry)
-    out += fmt::format("\n  symmetry    the half below {} = {:.4g} mm is computed",
-                       "xyz"[draft.symmetry->axis], 1e3 * draft.symmetry->at);
-  if (draft.mould)
-    out += fmt::format("\n  {:<10}  walls of {:.3g} mm{}", draft.mould->name,
-                       1e3 * *std::ranges::max_element(draft.mould->walls),
-                       draft.mould->walls[5] == 0 ? ", open at the top, where the riser ends" : "");
-  out += fmt::format(
-      "\n  mesh        {:.0f} nodes, {:.0f} of them in metal; {}", estimate.nodes, estimate.metal_nodes,
-      draft.meshed
-          ? std::string("elements as the file has them")
-          : fmt::format("elements of {:.3g} to {:.3g} mm there", 1e3 * draft.smallest, 1e3 * draft.size));
-  if (estimate.freezing > 0)
-    out += fmt::format(
-        "\n  freezes     in about {:g} s by an estimate of one dimension; {}", two_digits(estimate.freezing),
-        draft.shots
-            ? fmt::format("it leaves the die after {:g} s, {} times",
-                          draft.shots->pour + draft.shots->solidify + draft.shots->open, draft.shots->number)
-            : fmt::format("the run ends when it has, at {:g} s at the latest", draft.end));
-  if (draft.shots && draft.shots->cooling > draft.film)
-    out +=
-        fmt::format("\n  cooling     {:g} W/m2/K outside the die take what the castings bring, an estimate",
-                    draft.shots->cooling);
-  out += poor_mesh_text(estimate);
-  out += twin_riser_text(draft);
-  out += doubtful_unit_text(options, part);
-  out += unknown_bodies_text(draft, options.as);
-  if (!draft.meshed) out += thin_walls_text(draft, part);
-  if (draft.process == "shell" && draft.mould)
-    out += "\n  note        the shell is a block around the part with thin walls, not an offset of its skin";
-  return out;
-}
-
 }  // namespace
 
 NewCaseReport make_new_case(const NewCaseOptions& options) {
@@ -191,7 +57,7 @@ NewCaseReport make_new_case(const NewCaseOptions& options) {
   draft.folder = folder;
   write_draft(draft);
   const DraftEstimate estimate = refine_draft(draft, process, alloy, options.fineness);
-  return {draft.folder / "case.toml", report(draft, part, estimate, options)};
+  return {draft.folder / "case.toml", report_text(draft, part, estimate, options)};
 }
 
 }  // namespace solidus::model

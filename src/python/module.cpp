@@ -5,7 +5,6 @@
 
 #include "build/case_file.hpp"
 #include "linear/interruption.hpp"
-#include "mesh/reader_process.hpp"
 #include "parallel/petsc_session.hpp"
 #include "python/bindings.hpp"
 #include "system/errors.hpp"
@@ -96,7 +95,6 @@ std::string resolved(const std::string& path, const std::vector<std::string>& as
 
 void use_program(const std::string& program) {
   set_program_path(program);
-  mesh::read_in_processes();
 }
 
 std::pair<int, int> rank_and_size() {

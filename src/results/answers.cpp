@@ -120,8 +120,9 @@ std::optional<Answers::CutOffPools> cut_off_pools(const criteria::CriteriaState&
   return {};
 }
 
-std::vector<GapAnswer> open_gaps(const mesh::Mesh& mesh, const coupling::Phases& phases,
-                                 const FieldSet& fields) {
+/// The largest gap of each contact, or with `sign` −1 the deepest overlap; none where there is none.
+std::vector<GapAnswer> largest_gaps(const mesh::Mesh& mesh, const coupling::Phases& phases,
+                                    const FieldSet& fields, double sign) {
   std::vector<GapAnswer> gaps;
   const Values gap(fields, "gap");
   for (const contact::ContactPair* pair : phases.contacts) {
@@ -130,7 +131,7 @@ std::vector<GapAnswer> open_gaps(const mesh::Mesh& mesh, const coupling::Phases&
       for (const Index node : slave->second.nodes)
         if (node < mesh.n_owned_nodes) nodes[static_cast<std::size_t>(node)] = 1;
     const std::optional<ValueAt> largest = largest_at(mesh, nodes, [&](std::size_t i) {
-      return gap.empty() || gap[i] <= 0 ? std::nullopt : std::optional(gap[i]);
+      return !gap.empty() && sign * gap[i] > 0 ? std::optional(sign * gap[i]) : std::nullopt;
     });
     if (largest) gaps.push_back({pair->spec().name, *largest});
   }
@@ -221,7 +222,8 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
   if (!castings.empty()) a.pools = cut_off_pools(state.criteria);
   if (phases.mechanics == nullptr || !mechanical) return a;
   if (!castings.empty()) a.pores = pores(mesh, phases.mechanics->kind(), fields, stressed);
-  a.gaps = open_gaps(mesh, phases, fields);
+  a.gaps = largest_gaps(mesh, phases, fields, 1);
+  a.overlaps = largest_gaps(mesh, phases, fields, -1);
   if (const Field* field = fields.find("distortion"); field != nullptr && !castings.empty()) {
     const Values distortion(fields, "distortion");
     const auto n = static_cast<std::size_t>(field->components);

@@ -44,7 +44,7 @@ struct CastAnswer {
 
 struct GapAnswer {
   std::string contact;
-  ValueAt gap;  ///< the largest now [m]
+  ValueAt gap;  ///< the largest now [m]; of an overlap its depth
 };
 
 struct Answers {
@@ -67,6 +67,7 @@ struct Answers {
   };
   std::optional<Pores> pores;
   std::vector<GapAnswer> gaps;        ///< by contact, those that are open somewhere
+  std::vector<GapAnswer> overlaps;    ///< by contact, those whose bodies overlap somewhere
   std::optional<ValueAt> distortion;  ///< of cast bodies, the largest [m]
   std::optional<ValueAt> stress;      ///< von Mises, the largest: of cast bodies, else of all [Pa]
   std::string stressed_body;

@@ -43,6 +43,9 @@ Json json(const Answers& a) {
   Json gaps;
   for (const GapAnswer& gap : a.gaps) gaps.add(gap.contact, value_json(gap.gap, "m"));
   json.add("largest_gaps", std::move(gaps));
+  Json overlaps;
+  for (const GapAnswer& overlap : a.overlaps) overlaps.add(overlap.contact, value_json(overlap.gap, "m"));
+  json.add("deepest_overlaps", std::move(overlaps));
   if (a.distortion) json.add("largest_distortion", value_json(*a.distortion, "m"));
   if (a.stress) json.add("largest_von_mises", value_json(*a.stress, "Pa").add("body", a.stressed_body));
   if (!a.shots.empty()) json.add("shots", results::json(a.shots));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "input/units.hpp"
@@ -14,6 +15,11 @@ namespace {
 
 /// Relative defect of the first law beyond which it is not reported as closed.
 constexpr double k_closed = 1e-6;
+/// A gap of so many times the largest distortion was not made by solid metal: the free end of a bar that is
+/// held at the other one leaves its wall by twice the distortion, which is counted from its middle.
+constexpr double k_sunk = 3;
+/// Share of the largest distortion beyond which an overlap of two bodies is reported.
+constexpr double k_overlap = 0.05;
 
 /// Values in the units that the user wants to read.
 class Formatter {
@@ -133,6 +139,12 @@ std::string riser_lines(const Answers& answers) {
   return text;
 }
 
+/// The reason of a gap that is wider than the solid metal can have made it; empty where it is not.
+std::string sunk_text(double gap, const std::optional<ValueAt>& distortion) {
+  if (!distortion || gap <= k_sunk * distortion->value) return "";
+  return ", more than solid metal has deformed: the skin sank while it was soft";
+}
+
 std::string pools_text(const Answers::CutOffPools& pools, const Formatter& format) {
   if (pools.number == 0) return "none";
   return fmt::format(
@@ -185,7 +197,15 @@ std::string text(const Answers& a, const std::vector<criteria::CriterionResult>&
                              100 * a.pores->densest.value, format.place(a.pores->densest.where)));
   for (const GapAnswer& gap : a.gaps)
     text += line(fmt::format("largest gap of '{}'", gap.contact),
-                 fmt::format("{} {}", format.length(gap.gap.value), format.place(gap.gap.where)));
+                 fmt::format("{} {}{}", format.length(gap.gap.value), format.place(gap.gap.where),
+                             sunk_text(gap.gap.value, a.distortion)));
+  for (const GapAnswer& overlap : a.overlaps)
+    if (a.distortion && overlap.gap.value > k_overlap * a.distortion->value)
+      text += line(
+          fmt::format("deepest overlap of '{}'", overlap.contact),
+          fmt::format(
+              "{} {}: the penalty lets metal shrink into its wall; stresses are too low where that is rigid",
+              format.length(overlap.gap.value), format.place(overlap.gap.where)));
   if (a.distortion)
     text += line("largest distortion",
                  fmt::format("{} {}", format.length(a.distortion->value), format.place(a.distortion->where)));

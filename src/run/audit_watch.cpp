@@ -1,9 +1,16 @@
 #include "run/audit_watch.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <vector>
 
 #include "coupling/energy_scale.hpp"
+#include "system/alike_texts.hpp"
 #include "system/log.hpp"
 
 namespace solidus::model {
@@ -71,13 +78,18 @@ void WallWatch::step(const coupling::StepRecord& record, const coupling::State&)
 }
 
 void WallWatch::report() const {
-  for (std::size_t i = 0; i < largest_.size(); ++i)
+  std::vector<std::size_t> order(largest_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return largest_[i].gap; });
+  std::vector<std::string> texts;
+  for (const std::size_t i : order)
     if (largest_[i].area > 0)
-      logging::warn(
+      texts.push_back(fmt::format(
           "contact '{}': liquid metal left its wall, {:.3g} mm2 of it at most, by up to {:.3g} mm at "
           "t = {:g} s; more than {:.3g} mm, 1 % of the free contraction, counts",
           contacts_[i]->spec().name, 1e6 * largest_[i].area, 1e3 * largest_[i].gap, largest_[i].time,
-          1e3 * contacts_[i]->spec().leaving_gap);
+          1e3 * contacts_[i]->spec().leaving_gap));
+  for (const std::string& text : logging::told_once(texts)) logging::warn("{}", text);
 }
 
 }  // namespace solidus::model

@@ -106,21 +106,20 @@ void FrictionLagWatch::report() const {
 void StressWorkWatch::step(const coupling::StepRecord& record, const coupling::State&) {
   const coupling::EnergyAudit& e = record.energy;
   const double dissipated = e.plastic_dissipation + e.viscous_dissipation + e.friction;
-  excess_ += -record.stability.mechanical - dissipated - e.numerical;
+  excess_ += e.excess_work;
   dissipated_ += dissipated;
   moved_ += e.heat_exchanged;
 }
 
 void StressWorkWatch::report() const {
-  constexpr double k_much_heat =
-      0.01;  // of what moved in the run: deformation that heats less matters little
+  // Of what moved in the run: deformation that heats less matters little. The sum of magnitudes counts heat
+  // of deformation up to four times, as given and as stored in each of two stages.
+  constexpr double k_much_heat = 0.0025;
   if (!(excess_ > k_worth_saying * dissipated_ && excess_ > k_much_heat * moved_)) return;
   logging::info(
       "the stresses of the ends of steps do the work of whole steps: {:.3g} J of the heat of deformation, "
-      "beside "
-      "{:.3g} J of dissipation, come of that; half as much with half the step, but of loads that act at "
-      "once, "
-      "half of whose work is heat",
+      "beside {:.3g} J of dissipation, come of that; half as much with half the step, but of loads that act "
+      "at once, half of whose work is heat",
       excess_, dissipated_);
 }
 

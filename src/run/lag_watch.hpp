@@ -53,10 +53,10 @@ class FrictionLagWatch : public coupling::Observer {
   std::vector<Pair> pairs_;  ///< [contact]
 };
 
-/// Reports at the end of a run by the isentropic split how much of the heat of deformation there is because
-/// the stresses of the ends of steps do the work of whole steps (backward Euler): what the mechanical phases
-/// lose of 𝓛 beyond their dissipation (docs/theory/coupling_stability.md, 3 (c)), which the energy form gives
-/// back as heat. It halves with the step; of a load that acts at once it is the true half of its work.
+/// Reports at the end of a run in the energy form how much of the heat of deformation there is because the
+/// stresses of the ends of steps do the work of whole steps (backward Euler): EnergyAudit::excess_work, which
+/// the energy form makes heat of (docs/theory/coupling_stability.md, 9). It halves with the step; of a load
+/// that acts at once it is the true half of its work.
 class StressWorkWatch : public coupling::Observer {
  public:
   void begin(const coupling::State&) override {}

@@ -12,8 +12,17 @@ namespace solidus::model {
 
 /// A melt that neither a mould nor a support holds on all sides is driven out by its weight, and goes on with
 /// every step. Such a case has no answer, only a step that does not converge or results that mean nothing.
+/// Melt that moves within the box of its body has not run out: the surface of a riser that feeds its casting
+/// sinks to a funnel of half its height or more.
 class MeltWatch final : public coupling::Observer {
  public:
+  struct Box {
+    mesh::Point low, high;  ///< [m]
+    double diagonal() const;
+    /// Distance to the nearest place of the box [m]; zero: the place is within.
+    double distance_outside(const mesh::Point& place) const;
+  };
+
   /// @param a  with phases.coherency; must outlive this object
   MeltWatch(const CaseSpec& spec, const Assembly& a);
   void begin(const coupling::State&) override {}
@@ -27,8 +36,8 @@ class MeltWatch final : public coupling::Observer {
  private:
   const CaseSpec& spec_;
   const Assembly& a_;
-  std::vector<int> body_;     ///< [owned node]: the body that its first element belongs to
-  std::vector<double> size_;  ///< [body] diagonal of its box [m], over all processes
+  std::vector<int> body_;   ///< [owned node]: the body that its first element belongs to
+  std::vector<Box> boxes_;  ///< [body] as drawn, over all processes
   std::string ran_out_;
 };
 

@@ -22,6 +22,7 @@
 #include "run/restart.hpp"
 #include "run/session.hpp"
 #include "run/transient.hpp"
+#include "system/alike_texts.hpp"
 #include "system/free_memory.hpp"
 #include "system/log.hpp"
 #include "system/processes.hpp"
@@ -140,11 +141,13 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
         {}, from->continuation, from->energy, from->rejected, from->shortened, from->stability};
     r.continue_from->state.time = from->state.time;
   }
+  std::vector<std::string> melts;
   for (const results::ChosenMelt& melt : r.summary.melt)
-    logging::info(
+    melts.push_back(fmt::format(
         "body '{}': its melt has the modulus 2G = {:.3g} Pa in every step, {}; its viscosity is that times "
         "the step",
-        melt.body, melt.modulus, melt.against);
+        melt.body, melt.modulus, melt.against));
+  for (const std::string& text : logging::told_once(melts)) logging::info("{}", text);
   std::vector<std::string> tables;
   for (const ProfileSpec& profile : c.spec.profiles) tables.push_back(profile.name + ".csv");
   parts_->folder.emplace(o.folder, c.toml(), o.restart, tables);

@@ -46,13 +46,10 @@ coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
   return coupling::Simulation(coupling_scheme(spec, a.phases), std::move(times), std::move(estimate));
 }
 
-/// Deformation heats by the stresses of the ends of steps, and the mechanical phase has an increment of 𝓛 of
-/// its own that says by how much: the isentropic split in the energy form, without inertia.
-bool heats_by_end_stresses(const CaseSpec& spec, const Assembly& a) {
-  if (!a.phases.audits_stability() || spec.dynamics || !spec.exchanges_heat()) return false;
-  const coupling::SchemeTraits traits = spec.coupling.scheme->traits();
-  return traits.mapping == mechanics::Mapping::isentropic && !traits.iterates && !traits.second_order &&
-         structural_form(spec) == mechanics::StructuralForm::energy;
+/// The work of the stresses of the ends of steps becomes heat in the energy form. The other forms lose what
+/// it is too large by, which the first law says (energy_defect).
+bool heats_by_end_stresses(const CaseSpec& spec) {
+  return spec.exchanges_heat() && structural_form(spec) == mechanics::StructuralForm::energy;
 }
 
 }  // namespace
@@ -77,7 +74,7 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
   }
   if (lags_a_step(spec, a.phases.coherency != nullptr)) simulation_.add(lag_);
   simulation_.add(friction_lag_);
-  if (heats_by_end_stresses(spec, a)) simulation_.add(stress_work_);
+  if (heats_by_end_stresses(spec)) simulation_.add(stress_work_);
   simulation_.add(gaps_);
   simulation_.add(dissipation_);
   if (a.phases.audits_stability()) simulation_.add(stability_);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "case_folder.hpp"
+#include "run/melt_watch.hpp"
 
 namespace {
 
@@ -234,6 +235,14 @@ TEST(LeavingBodies, MeltThatNothingHoldsRunsOutAndTheRunSaysSo) {
               ::testing::Contains(HasSubstr("the melt of 'block' has run out: by t = ")));
   ASSERT_TRUE(k_here.run("wall", melt_on_a_floor(true)).finished);
   EXPECT_THAT(solidus::logging::warnings(), ::testing::Not(::testing::Contains(HasSubstr("has run out"))));
+}
+
+TEST(LeavingBodies, MeltThatSinksWithinTheBoxOfItsBodyHasNotRunOut) {
+  // The riser of the wheel in its die, whose funnel is deeper than half its size.
+  const solidus::model::MeltWatch::Box riser{{0, 45e-3, 0}, {40e-3, 110e-3, 0}};
+  EXPECT_NEAR(riser.diagonal(), 76.32e-3, 1e-5);
+  EXPECT_EQ(riser.distance_outside({0, 110e-3 - 44.3e-3, 0}), 0);
+  EXPECT_NEAR(riser.distance_outside({43e-3, 41e-3, 0}), 5e-3, 1e-15);
 }
 
 }  // namespace

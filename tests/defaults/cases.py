@@ -38,7 +38,7 @@ ROWS = [
     Row("bracket/case.toml", "coupled", FINER_ERROR),
     Row("bracket_from_step/case.toml", "coupled", FINER_ERROR),
     Row("stepped_plate/case.toml", "coupled", FINER_ERROR),
-    Row("wheel_in_die/coupled.toml", "coupled", FINER_ERROR, {"cycle.1.repeat": "2"}, "two shots of ten"),
+    Row("wheel_in_die/case.toml", "coupled", FINER_ERROR, {"cycle.1.repeat": "2"}, "two shots of ten"),
     Row("crankshaft/case.toml", "coupled", {"time.temperature_error": "2.5 K"}),
     point("tensile", [200]),
     point("relaxation", [100, 300]),

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/face.hpp"
+#include "contact/sliding_kinematics.hpp"
 #include "rubbing_blocks.hpp"
 
 namespace solidus {
@@ -79,6 +80,40 @@ TEST(CoupledTangentOfContact, HasRoomForTheNodesOfAveragedNormals) {
     EXPECT_GT(parallel::global_max(static_cast<double>(most)), 2 * contact::k_max_face_nodes);
     expect_exact(iterate, b.mesh, k_rounding);
   }
+}
+
+// Points that have slid over the rim of their master weigh less the farther they are beyond it.
+TEST(CoupledTangentOfContact, KnowsThatPointsBeyondTheRimWeighLess) {
+  for (const Shape shape : {Shape::quad4, Shape::quad8, Shape::hex8})
+    for (const bool smoothing : {false, true}) {
+      SCOPED_TRACE(std::string(mesh::name(shape)) + (smoothing ? ", averaged normals" : ""));
+      RubbingBlocks b({.shape = shape, .formulation = Formulation::large_sliding, .smoothing = smoothing},
+                      false);
+      test::Iterate iterate(b);
+      // The outermost points are beyond by 0.13 of half a face of the master.
+      const double shift = b.mesh.dimension == 2 ? 0.0152 : 0.0234;
+      std::vector<double> u = test::rubbed(b.mesh);
+      const std::vector<double> to_the_left =
+          test::nodal_field(b.mesh, b.mesh.dimension, [&](const mesh::Point&, bool upper) {
+            std::vector<double> v(static_cast<std::size_t>(b.mesh.dimension), 0.0);
+            if (upper) v[0] = -shift;
+            return v;
+          });
+      for (std::size_t i = 0; i < u.size(); ++i) u[i] += to_the_left[i];
+      iterate.move(u);
+      double least = 1;
+      const contact::ContactKinematics& kinematics = b.pair->geometry().kinematics();
+      const auto* sliding = dynamic_cast<const contact::SlidingKinematics*>(&kinematics);
+      ASSERT_NE(sliding, nullptr);
+      for (Index p = 0; p < sliding->n_points(); ++p)
+        if (sliding->partner(p).face >= 0) least = std::min(least, sliding->partner(p).covered);
+      EXPECT_LT(parallel::global_min(least), 0.7);
+      expect_exact(iterate, b.mesh, 5 * k_rounding);
+      b.pair->follow_weights(false);
+      const auto error =
+          iterate.tangent_errors(noise(b.mesh, b.mesh.dimension, 2.1, 1e-7), noise(b.mesh, 1, 1.9, 0), 4e-3);
+      EXPECT_GT(error.force, 10 * k_rounding) << "what the tangent lacks without";
+    }
 }
 
 }  // namespace

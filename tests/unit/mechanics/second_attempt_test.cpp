@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "body.hpp"
+#include "linear/linear_solver.hpp"
+#include "mechanics/held_equilibrium.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 
@@ -94,6 +97,70 @@ TEST_F(LiftedBlock, ComesDownInShortStepsWhereWholeOnesGoFarIntoTheOtherBody) {
     EXPECT_LE(std::abs(*at - *(at - 1)), longest * (1 + 1e-9));
   EXPECT_GE(springs.places.end() - again, 9) << "twelve reaches in steps of 1.4";
   EXPECT_GE(report.newton.iterations, static_cast<int>(springs.places.size())) << "of both attempts";
+}
+
+/// A skin below the nodes of a surface that gives way as it is pressed, as one does that flows: it pushes
+/// with k l (√(1 + 2 g/l) − 1) where it is pressed in by g, and not at all where the body is off it.
+class SoftSkin final : public linear::Contribution {
+ public:
+  explicit SoftSkin(const mesh::Mesh& mesh) {
+    for (const Index node : mesh.surfaces.at("bottom").nodes)
+      if (node < mesh.n_owned_nodes) rows_.push_back(2 * static_cast<std::size_t>(node) + 1);
+  }
+  void add_to_graph(linear::NodeGraph&) const override {}
+  void bind(const linear::BlockMatrix&) override {}
+  void add_residual(std::span<const double> x, std::span<double> r) override {
+    for (const std::size_t y : rows_) r[y] -= k_skin * k_depth * (root(x[y]) - 1);
+  }
+  void add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) override {
+    for (const std::size_t y : rows_)
+      if (x[y] < 0) matrix.diagonal_block(static_cast<Index>(y / 2))[3] += k_skin / root(x[y]);
+  }
+  double pushes(std::span<const double> x) const {
+    double sum = 0;
+    for (const std::size_t y : rows_) sum += k_skin * k_depth * (root(x[y]) - 1);
+    return parallel::global_sum(sum);
+  }
+
+ private:
+  static constexpr double k_skin = 1e10, k_depth = 1e-5;  // [N/m], [m]
+  static double root(double u) { return std::sqrt(1 + 2 * std::max(-u, 0.0) / k_depth); }
+  std::vector<std::size_t> rows_;
+};
+
+// Its nodes are off the skin and pressed in by turns. What Newton's iteration takes off has no stiffness left
+// but that of the block, a hundredth of the skin's, and goes in again as far as a step may.
+TEST_F(LiftedBlock, RestsOnASoftSkinOnceTheTangentHoldsWhatCameOffAndNotByShortStepsAlone) {
+  SoftSkin skin(block_.mesh);
+  block_.contributions = {&skin};
+  const auto phase = block_.phase();
+  const mechanics::MechanicalState old = phase->initial_state();
+  std::vector<double> start(block_.mesh.x.size() * 2, 0.0);
+  for (std::size_t n = 0; n < block_.mesh.x.size(); ++n) {
+    const mesh::Point& x = block_.mesh.x[n];
+    if (x[1] < 1e-9) start[2 * n + 1] = std::abs(x[0] - 0.5) > 0.25 ? 0.01 : -0.01;
+  }
+  const mechanics::MechanicalPass pass{.time = 1, .dt = 1, .temperature = block_.temperature, .start = start};
+  linear::LinearSolver solver(phase->mesh(), {.prefix = "mechanics_", .kind = linear::SolverKind::direct});
+  const parallel::GhostExchange ghosts(phase->mesh());
+  const std::vector<int> fields{2};
+  const auto attempt = [&](double held) {
+    phase->begin(old, pass);
+    std::vector<double> x = phase->start(old, pass);
+    const linear::NewtonReport report =
+        mechanics::attempt_again(*phase, old, solver, ghosts, fields, x, block_.options.newton, held);
+    EXPECT_EQ(report.converged, held > 0);
+    return std::pair(report.iterations, skin.pushes(x));
+  };
+  attempt(0);
+  const auto [iterations, pushes] = attempt(1);
+  const double weight = 7800 * 10 * 1.0;
+  EXPECT_NEAR(pushes, weight, 1e-8 * weight);
+
+  mechanics::MechanicalState next = old;
+  const mechanics::MechanicalReport report = phase->solve(old, next, pass);
+  EXPECT_TRUE(report.newton.converged);
+  EXPECT_GT(report.newton.iterations, iterations) << "of both attempts";
 }
 
 TEST_F(LiftedBlock, ThatNothingHoldsIsRejectedWithTheReasonOfTheFirstAttempt) {

@@ -12,9 +12,9 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "mesh/gmsh/reader_sandbox.hpp"
 #include "mesh/parametric_meshes.hpp"
 #include "mesh/reader_process.hpp"
-#include "mesh/reader_sandbox.hpp"
 #include "system/errors.hpp"
 
 namespace {

@@ -13,7 +13,7 @@
 #include <sstream>
 
 #include "mesh/casting_geometry.hpp"
-#include "mesh/gmsh_curved_faces.hpp"
+#include "mesh/gmsh/curved_faces.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "sample_mesh.hpp"

@@ -28,7 +28,7 @@ gmsh::vectorpair all_volumes();
 std::vector<int> boundary_of(int volume);
 
 /// A body of the file: its volumes change their numbers on the way.
-struct GeometryBody {
+struct BodyVolumes {
   std::string name;
   gmsh::vectorpair volumes;
 };
@@ -37,8 +37,8 @@ struct GeometryBody {
 /// other so that they share the faces in which they touch.
 /// @param healing  tolerance, of the extent of each body; 0: the bodies stay as the file has them
 /// Throws InputError where nothing solid is there, bodies overlap, or a group of the case fits none.
-std::vector<GeometryBody> make_parts(const MeshSource& source, const CastingGeometry& geometry,
-                                     double healing);
+std::vector<BodyVolumes> make_parts(const MeshSource& source, const CastingGeometry& geometry,
+                                    double healing);
 
 /// gmsh::model::mesh::generate(), whose errors come as std::string also where several threads mesh surfaces:
 /// Gmsh itself would end the process there.
@@ -49,6 +49,6 @@ std::set<int> surfaces_at_fault();
 
 /// The last error of Gmsh, and the surfaces that it complained of by their owners and places:
 /// " (Error: …); at fault: a face of 'casting' around (1, 2, 3), 4 long"; empty where it has said nothing.
-std::string place_of_complaints(const std::vector<GeometryBody>& parts);
+std::string place_of_complaints(const std::vector<BodyVolumes>& parts);
 
 }  // namespace solidus::mesh

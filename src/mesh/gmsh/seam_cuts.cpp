@@ -1,4 +1,4 @@
-#include "mesh/seam_cuts.hpp"
+#include "mesh/gmsh/seam_cuts.hpp"
 
 #include <gmsh.h>
 
@@ -103,16 +103,16 @@ void remove_loose_faces() {
   occ::synchronize();
 }
 
-void cut(std::vector<GeometryBody>& parts, const Plane& plane) {
+void cut(std::vector<BodyVolumes>& parts, const Plane& plane) {
   gmsh::vectorpair volumes, out;
-  for (const GeometryBody& part : parts)
+  for (const BodyVolumes& part : parts)
     volumes.insert(volumes.end(), part.volumes.begin(), part.volumes.end());
   const int square = add_square(plane, 2 * extent_of(volumes).diagonal());
   std::vector<gmsh::vectorpair> pieces;
   occ::fragment(volumes, {{2, square}}, out, pieces);
   occ::synchronize();
   std::size_t next = 0;
-  for (GeometryBody& part : parts) {
+  for (BodyVolumes& part : parts) {
     const std::size_t n = part.volumes.size();
     part.volumes.clear();
     for (std::size_t k = 0; k < n; ++k, ++next)
@@ -124,7 +124,7 @@ void cut(std::vector<GeometryBody>& parts, const Plane& plane) {
 
 }  // namespace
 
-bool cut_along_seams(std::vector<GeometryBody>& parts, const std::set<int>& faces) {
+bool cut_along_seams(std::vector<BodyVolumes>& parts, const std::set<int>& faces) {
   std::vector<Plane> planes;  // numbers of faces do not outlast the first cut
   for (const int face : faces)
     if (const std::optional<int> seam = seam_of(face))

@@ -1,4 +1,4 @@
-#include "mesh/open_faces.hpp"
+#include "mesh/gmsh/open_faces.hpp"
 
 #include <gmsh.h>
 

@@ -1,12 +1,12 @@
-// Makes the bodies of a casting, its riser and its mould out of a geometry (mesh/casting_parts.hpp).
+// Makes the bodies of a casting, its riser and its mould out of a geometry (mesh/gmsh/casting_parts.hpp).
 #include <algorithm>
 #include <cctype>
 #include <map>
 #include <set>
 
-#include "mesh/casting_parts.hpp"
-#include "mesh/geometry_groups.hpp"
-#include "mesh/open_faces.hpp"
+#include "mesh/gmsh/casting_parts.hpp"
+#include "mesh/gmsh/geometry_groups.hpp"
+#include "mesh/gmsh/open_faces.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -35,7 +35,7 @@ class PartMaker {
   PartMaker(const MeshSource& source, const CastingGeometry& geometry, double healing)
       : source_(source), geometry_(geometry), healing_(healing), unit_(source.unit_in_metres) {}
 
-  std::vector<GeometryBody> make() {
+  std::vector<BodyVolumes> make() {
     close_shells();
     if (healing_ > 0) heal();
     name_parts();
@@ -115,7 +115,7 @@ class PartMaker {
                : labels.at(label) == 1 ? label
                                        : label + "_" + std::to_string(++used[label]);
       const auto same =
-          std::find_if(parts_.begin(), parts_.end(), [&](const GeometryBody& p) { return p.name == name; });
+          std::find_if(parts_.begin(), parts_.end(), [&](const BodyVolumes& p) { return p.name == name; });
       if (same != parts_.end())
         same->volumes.push_back(volume);
       else
@@ -128,7 +128,7 @@ class PartMaker {
                    "and mould are meshed together",
                "a rule: owner, normal, plane, nearest");
       if (std::none_of(parts_.begin(), parts_.end(),
-                       [&](const GeometryBody& p) { return p.name == group.name; }))
+                       [&](const BodyVolumes& p) { return p.name == group.name; }))
         refuse("no body of the geometry fits the group '" + group.name + "'",
                "numbers 1 to " + std::to_string(number) + ", or a label of the file");
     }
@@ -151,7 +151,7 @@ class PartMaker {
       refuse("the plane of symmetry does not cut the geometry");
     for (std::size_t i = 0; i < 3; ++i) box.low[i] -= margin, box.high[i] += margin;
     box.high[axis] = at;
-    for (GeometryBody& part : parts_) {
+    for (BodyVolumes& part : parts_) {
       const int tool = occ::addBox(box.low[0], box.low[1], box.low[2], box.high[0] - box.low[0],
                                    box.high[1] - box.low[1], box.high[2] - box.low[2]);
       gmsh::vectorpair kept;
@@ -161,7 +161,7 @@ class PartMaker {
       for (const auto& entity : kept)
         if (entity.first == 3) part.volumes.push_back(entity);
     }
-    std::erase_if(parts_, [](const GeometryBody& part) { return part.volumes.empty(); });
+    std::erase_if(parts_, [](const BodyVolumes& part) { return part.volumes.empty(); });
   }
 
   /// Cuts all bodies, riser and mould with each other, so that they share the faces in which they touch.
@@ -196,7 +196,7 @@ class PartMaker {
         if (piece.first == 3 && taken.insert(piece.second).second) pieces.push_back(piece);
       return pieces;
     };
-    for (GeometryBody& part : parts_) part.volumes.clear();
+    for (BodyVolumes& part : parts_) part.volumes.clear();
     for (std::size_t i = 0; i < part_of.size(); ++i) {
       const gmsh::vectorpair pieces = take(i);
       gmsh::vectorpair& all = parts_[part_of[i]].volumes;
@@ -205,7 +205,7 @@ class PartMaker {
     std::size_t next = part_of.size();
     if (riser >= 0) parts_.push_back({geometry_.riser->name, take(next++)});
     if (block >= 0) sort_mould(take(next));
-    for (const GeometryBody& part : parts_)
+    for (const BodyVolumes& part : parts_)
       if (part.volumes.empty())
         refuse("nothing is left of the body '" + part.name + "' beside the others: they overlap",
                "bodies that touch and do not overlap");
@@ -246,7 +246,7 @@ class PartMaker {
 
   /// Pieces of the block that reach one of its walls are mould, others lie in cavities.
   void sort_mould(const gmsh::vectorpair& pieces) {
-    GeometryBody mould{geometry_.mould->name, {}};
+    BodyVolumes mould{geometry_.mould->name, {}};
     gmsh::vectorpair cores;
     const double slack = 1e-5 * block_.diagonal();
     for (const auto& piece : pieces) {
@@ -269,15 +269,15 @@ class PartMaker {
   const MeshSource& source_;
   const CastingGeometry& geometry_;
   double healing_, unit_;
-  std::vector<GeometryBody> parts_;
+  std::vector<BodyVolumes> parts_;
   std::map<int, std::string> healed_label_;
   Extent block_{};
 };
 
 }  // namespace
 
-std::vector<GeometryBody> make_parts(const MeshSource& source, const CastingGeometry& geometry,
-                                     double healing) {
+std::vector<BodyVolumes> make_parts(const MeshSource& source, const CastingGeometry& geometry,
+                                    double healing) {
   return PartMaker(source, geometry, healing).make();
 }
 

@@ -1,4 +1,5 @@
-// Which reader reads a mesh file.
+#include "mesh/gmsh/import.hpp"
+
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -6,13 +7,12 @@
 
 #include "mesh/abaqus_input.hpp"
 #include "mesh/casting_geometry.hpp"
-#include "mesh/faceted_casting.hpp"
 #include "mesh/file_format.hpp"
+#include "mesh/gmsh/faceted_casting.hpp"
+#include "mesh/gmsh/session.hpp"
 #include "mesh/gmsh_mesh_file.hpp"
-#include "mesh/gmsh_reader.hpp"
 #include "mesh/gmsh_script.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/reader_process.hpp"
 #include "mesh/stl_file.hpp"
 #include "mesh/vtu_mesh.hpp"
 #include "system/errors.hpp"
@@ -58,11 +58,6 @@ RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting)
     if (std::optional<RawMesh> mesh = read_gmsh_mesh_file(path, source.unit_in_metres))
       return std::move(*mesh);
   return read_with_gmsh(source, format, casting);
-}
-
-RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size, int element_order,
-                  const std::map<std::string, double>& constants, const GeometryChoice& geometry) {
-  return read_mesh(MeshSource{path, unit_in_metres, element_size, element_order, constants, geometry});
 }
 
 }  // namespace solidus::mesh

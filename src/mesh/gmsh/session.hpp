@@ -1,6 +1,5 @@
-/// The part of the readers that needs Gmsh. A build without Gmsh (-DSOLIDUS_GMSH=OFF) has gmsh_absent.cpp in
-/// the place of gmsh_reader.cpp, geometry_groups.cpp, casting_{bodies,mesh,parts,sizes}.cpp,
-/// faceted_casting.cpp, open_faces.cpp and seam_cuts.cpp.
+/// Reads files in Gmsh, and meshes geometries in it. A build without Gmsh (-DSOLIDUS_GMSH=OFF) has absent.cpp
+/// in the place of what needs it.
 #pragma once
 
 #include <functional>
@@ -20,11 +19,5 @@ RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const Castin
 /// Opens an empty model in Gmsh, lets `make` fill and mesh it, and takes the mesh. Throws InputError, also
 /// for what Gmsh complains of.
 RawMesh mesh_in_gmsh(const MeshSource& source, const std::function<void()>& make);
-
-/// Throws InputError that names the file where this program was built without Gmsh.
-void require_gmsh(const std::string& path);
-
-/// "4.8.4", or "not in this build".
-std::string gmsh_version();
 
 }  // namespace solidus::mesh

@@ -1,4 +1,4 @@
-#include "mesh/gmsh_curved_faces.hpp"
+#include "mesh/gmsh/curved_faces.hpp"
 
 #include <gmsh.h>
 

@@ -1,4 +1,4 @@
-#include "mesh/reader_sandbox.hpp"
+#include "mesh/gmsh/reader_sandbox.hpp"
 
 #include <fcntl.h>
 #include <linux/audit.h>

@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "mesh/casting_parts.hpp"
+#include "mesh/gmsh/casting_parts.hpp"
 
 namespace solidus::mesh {
 
@@ -17,6 +17,6 @@ namespace solidus::mesh {
 /// a body becomes several volumes that share the faces of the cut. Volumes and faces get other numbers.
 /// @param faces  numbers of surfaces
 /// Returns whether a body was cut.
-bool cut_along_seams(std::vector<GeometryBody>& parts, const std::set<int>& faces);
+bool cut_along_seams(std::vector<BodyVolumes>& parts, const std::set<int>& faces);
 
 }  // namespace solidus::mesh

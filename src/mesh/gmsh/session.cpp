@@ -1,4 +1,4 @@
-// Reads and meshes with Gmsh (mesh/gmsh_reader.hpp).
+// Reads and meshes with Gmsh (mesh/gmsh/session.hpp).
 #include <gmsh.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -16,9 +16,10 @@
 #include "input/keys.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/file_format.hpp"
-#include "mesh/gmsh_curved_faces.hpp"
+#include "mesh/gmsh/casting_mesh.hpp"
+#include "mesh/gmsh/curved_faces.hpp"
+#include "mesh/gmsh/session.hpp"
 #include "mesh/gmsh_elements.hpp"
-#include "mesh/gmsh_reader.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "system/errors.hpp"
 
@@ -317,12 +318,6 @@ RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const Castin
     generate(path, source.element_size / source.unit_in_metres, source.element_order);
   }
   return mesh_of_session(source, casting != nullptr || is_geometry(format));
-}
-
-void require_gmsh(const std::string&) {}
-
-std::string gmsh_version() {
-  return GMSH_API_VERSION;
 }
 
 }  // namespace solidus::mesh

@@ -1,4 +1,4 @@
-#include "mesh/geometry_groups.hpp"
+#include "mesh/gmsh/geometry_groups.hpp"
 
 #include <gmsh.h>
 

@@ -1,4 +1,4 @@
-#include "mesh/casting_parts.hpp"
+#include "mesh/gmsh/casting_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +65,7 @@ std::set<int> surfaces_at_fault() {
   return faces;
 }
 
-std::string place_of_complaints(const std::vector<GeometryBody>& parts) {
+std::string place_of_complaints(const std::vector<BodyVolumes>& parts) {
   std::vector<std::string> log;
   gmsh::logger::get(log);
   const auto last = std::find_if(log.rbegin(), log.rend(),
@@ -76,7 +76,7 @@ std::string place_of_complaints(const std::vector<GeometryBody>& parts) {
     constexpr std::size_t k_most = 4;
     if (said == k_most) break;
     std::string owner;
-    for (const GeometryBody& part : parts)
+    for (const BodyVolumes& part : parts)
       for (const auto& volume : part.volumes) {
         const std::vector<int> boundary = boundary_of(volume.second);
         if (std::find(boundary.begin(), boundary.end(), face) != boundary.end() && owner.empty())

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/casting_parts.hpp"
+#include "mesh/gmsh/casting_parts.hpp"
 #include "mesh/size_field.hpp"
 
 namespace solidus::mesh {
@@ -20,7 +20,7 @@ class CastingSizes {
   /// @param scale  of all sizes
   /// @param unit   of the file [m]
   /// @param details  narrow faces and short curves count
-  CastingSizes(const std::vector<GeometryBody>& parts, const CastingGeometry& geometry, double scale,
+  CastingSizes(const std::vector<BodyVolumes>& parts, const CastingGeometry& geometry, double scale,
                double unit, bool details);
 
   /// The largest size of an entity by dimension and number, the least of the bodies that it belongs to, in
@@ -34,12 +34,12 @@ class CastingSizes {
 
  private:
   void limit_entities();
-  std::vector<std::array<Point, 3>> skin_of(const GeometryBody& part) const;
+  std::vector<std::array<Point, 3>> skin_of(const BodyVolumes& part) const;
   void read_nodes();
   void sample_narrow_faces(std::vector<SizeSample>& all) const;
   void sample_short_curves(std::vector<SizeSample>& all) const;
 
-  const std::vector<GeometryBody>& parts_;
+  const std::vector<BodyVolumes>& parts_;
   const CastingGeometry& geometry_;
   double scale_, unit_;
   bool details_;

@@ -1,4 +1,4 @@
-#include "mesh/faceted_casting.hpp"
+#include "mesh/gmsh/faceted_casting.hpp"
 
 #include <gmsh.h>
 
@@ -8,9 +8,10 @@
 #include <map>
 
 #include "input/keys.hpp"
-#include "mesh/casting_parts.hpp"
 #include "mesh/closed_shells.hpp"
-#include "mesh/gmsh_reader.hpp"
+#include "mesh/gmsh/casting_parts.hpp"
+#include "mesh/gmsh/session.hpp"
+#include "mesh/meshing_ways.hpp"
 #include "mesh/size_field.hpp"
 #include "mesh/skin.hpp"
 #include "system/errors.hpp"
@@ -20,18 +21,6 @@ namespace solidus::mesh {
 namespace {
 
 using Tags = std::vector<int>;
-
-struct Way {
-  const char* what;
-  double angle = 0;  ///< of edges between faces that get new elements [degree]; 0: triangles stay
-  int volumes = 1;   ///< Gmsh's number of the algorithm
-  double scale = 1;  ///< of all sizes
-};
-constexpr Way k_ways[] = {{"a new skin, edges of 40 degrees", 40, 1, 1},
-                          {"a new skin, edges of 40 degrees, HXT", 40, 10, 1},
-                          {"a new skin, edges of 20 degrees, elements of 0.8 of the size", 20, 1, 0.8},
-                          {"the triangles of the file", 0, 1, 1},
-                          {"the triangles of the file, HXT", 0, 10, 1}};
 
 /// Where several shells bound one volume.
 struct Region {
@@ -70,8 +59,7 @@ class FacetedMaker {
   FacetedMaker(const MeshSource& source, const CastingGeometry& geometry, const std::vector<Facets>& parts)
       : source_(source),
         geometry_(geometry),
-        way_(
-            k_ways[std::min<std::size_t>(static_cast<std::size_t>(geometry.attempt), std::size(k_ways) - 1)]),
+        way_(way_of(faceted_ways(), geometry.attempt)),
         unit_(source.unit_in_metres),
         all_(closed_shells(parts, source.path)),
         faces_(all_.shells.size()) {}
@@ -311,7 +299,7 @@ class FacetedMaker {
 
   const MeshSource& source_;
   const CastingGeometry& geometry_;
-  const Way& way_;
+  const FacetedWay& way_;
   double unit_;
   ClosedShells all_;
   std::vector<Tags> faces_;  ///< of each shell
@@ -322,14 +310,6 @@ class FacetedMaker {
 };
 
 }  // namespace
-
-int n_faceted_attempts() {
-  return static_cast<int>(std::size(k_ways));
-}
-
-std::string faceted_attempt(int attempt) {
-  return k_ways[static_cast<std::size_t>(attempt)].what;
-}
 
 RawMesh mesh_faceted_casting(const MeshSource& source, const CastingGeometry& geometry,
                              const std::vector<Facets>& parts) {

@@ -1,4 +1,4 @@
-#include "mesh/casting_sizes.hpp"
+#include "mesh/gmsh/casting_sizes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ const BodySize* size_of(const CastingGeometry& geometry, const std::string& body
   return geometry.sizes.empty() ? nullptr : &geometry.sizes.front();
 }
 
-CastingSizes::CastingSizes(const std::vector<GeometryBody>& parts, const CastingGeometry& geometry,
+CastingSizes::CastingSizes(const std::vector<BodyVolumes>& parts, const CastingGeometry& geometry,
                            double scale, double unit, bool details)
     : parts_(parts), geometry_(geometry), scale_(scale), unit_(unit), details_(details) {
   limit_entities();
@@ -25,7 +25,7 @@ void CastingSizes::limit_entities() {
     const auto [place, is_new] = limit_.emplace(std::pair(dimension, tag), limit);
     if (!is_new) place->second = std::min(place->second, limit);
   };
-  for (const GeometryBody& part : parts_) {
+  for (const BodyVolumes& part : parts_) {
     const BodySize* size = size_of(geometry_, part.name);
     if (size == nullptr) continue;
     for (const auto& volume : part.volumes) {
@@ -43,7 +43,7 @@ void CastingSizes::limit_entities() {
 }
 
 /// Triangles of the first, coarse mesh of a body's faces, outward, without those between two of its volumes.
-std::vector<std::array<Point, 3>> CastingSizes::skin_of(const GeometryBody& part) const {
+std::vector<std::array<Point, 3>> CastingSizes::skin_of(const BodyVolumes& part) const {
   std::map<int, int> volumes_beside;
   for (const auto& volume : part.volumes)
     for (const int face : boundary_of(volume.second)) ++volumes_beside[face];
@@ -82,7 +82,7 @@ void CastingSizes::read_nodes() {
 std::vector<SizeSample> CastingSizes::samples() {
   std::vector<SizeSample> all;
   read_nodes();
-  for (const GeometryBody& part : parts_) {
+  for (const BodyVolumes& part : parts_) {
     const BodySize* size = size_of(geometry_, part.name);
     if (size == nullptr) continue;
     const auto skin = skin_of(part);

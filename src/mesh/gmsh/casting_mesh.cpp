@@ -6,9 +6,11 @@
 
 #include "input/keys.hpp"
 #include "mesh/casting_geometry.hpp"
-#include "mesh/casting_parts.hpp"
-#include "mesh/casting_sizes.hpp"
-#include "mesh/seam_cuts.hpp"
+#include "mesh/gmsh/casting_mesh.hpp"
+#include "mesh/gmsh/casting_parts.hpp"
+#include "mesh/gmsh/casting_sizes.hpp"
+#include "mesh/gmsh/seam_cuts.hpp"
+#include "mesh/meshing_ways.hpp"
 #include "mesh/size_field.hpp"
 #include "system/errors.hpp"
 
@@ -16,41 +18,18 @@ namespace solidus::mesh {
 
 namespace {
 
-/// A way to mesh.
-struct Way {
-  const char* what;
-  int surfaces = 6, volumes = 1;  ///< Gmsh's numbers of algorithms: frontal, Delaunay
-  double healing = 0;             ///< tolerance, of the extent of the parts; 0: none
-  double scale = 1;               ///< of all sizes
-  int rounds = 1;                 ///< of optimisation
-  bool details = true;            ///< smaller elements at narrow faces and short curves
-  bool cuts = false;              ///< bodies are cut along the seams of faces that cannot be meshed
-};
-// Elements that become as small as a narrow face is may themselves be what is poor: the second way leaves
-// them out. Cutting helps where Gmsh finds no mesh of a closed face, and else gives what the first way gave.
-constexpr Way k_ways[] = {
-    {"as the file is, Delaunay"},
-    {"without smaller elements at narrow faces", 6, 1, 0, 1, 4, false},
-    {"HXT", 6, 10},
-    {"elements of 0.9 of the size", 6, 1, 0, 0.9, 4},
-    {"healed, elements of 0.8 of the size", 6, 1, 1e-5, 0.8, 4},
-    {"bodies cut along the seams of closed faces", 6, 1, 0, 1, 4, true, true},
-    {"healed more, surfaces by MeshAdapt, elements of 0.7 of the size", 1, 1, 1e-4, 0.7, 4},
-    {"surfaces by Delaunay, HXT, elements of half the size", 5, 10, 0, 0.5, 4},
-    {"healed much, elements of half the size", 6, 1, 1e-3, 0.5, 4}};
-
 class Mesher {
  public:
-  Mesher(const MeshSource& source, const CastingGeometry& geometry, const Way& way)
+  Mesher(const MeshSource& source, const CastingGeometry& geometry, const SolidWay& way)
       : source_(source), geometry_(geometry), way_(way), parts_(make_parts(source, geometry, way.healing)) {}
 
   /// Throws UnusableGeometry where a size is of a body that is not there.
   void check_sizes() const {
     for (const BodySize& s : geometry_.sizes)
       if (std::none_of(parts_.begin(), parts_.end(),
-                       [&](const GeometryBody& p) { return p.name == s.body; })) {
+                       [&](const BodyVolumes& p) { return p.name == s.body; })) {
         std::vector<std::string> names;
-        for (const GeometryBody& part : parts_) names.push_back(part.name);
+        for (const BodyVolumes& part : parts_) names.push_back(part.name);
         throw UnusableGeometry(
             {source_.path}, "[[mesh.size]] is of the body '" + s.body + "', which the geometry does not have",
             one_of(names, s.body));
@@ -77,7 +56,7 @@ class Mesher {
   /// Names the volumes of each body, once: they change with every cut, and Gmsh keeps the names of groups
   /// that are taken away.
   void make_groups() const {
-    for (const GeometryBody& part : parts_) {
+    for (const BodyVolumes& part : parts_) {
       std::vector<int> tags;
       for (const auto& volume : part.volumes) tags.push_back(volume.second);
       gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, tags), part.name);
@@ -133,7 +112,7 @@ class Mesher {
       const bool has_it = place.find(complaint) != std::string::npos;
       refuse("Gmsh could not mesh the geometry" + (has_it ? "" : ": " + complaint) + place);
     }
-    for (const GeometryBody& part : parts_)
+    for (const BodyVolumes& part : parts_)
       for (const auto& volume : part.volumes) {
         std::vector<int> types;
         std::vector<std::vector<std::size_t>> elements, nodes;
@@ -149,7 +128,7 @@ class Mesher {
 
   double parts_extent() const {
     gmsh::vectorpair parts;
-    for (const GeometryBody& part : parts_)
+    for (const BodyVolumes& part : parts_)
       if (!geometry_.mould || part.name != geometry_.mould->name)
         parts.insert(parts.end(), part.volumes.begin(), part.volumes.end());
     return extent_of(parts).diagonal();
@@ -157,29 +136,14 @@ class Mesher {
 
   const MeshSource& source_;
   const CastingGeometry& geometry_;
-  const Way& way_;
-  std::vector<GeometryBody> parts_;
+  const SolidWay& way_;
+  std::vector<BodyVolumes> parts_;
 };
 
 }  // namespace
 
-int n_meshing_attempts() {
-  return static_cast<int>(std::size(k_ways));
-}
-
-int n_cheap_meshing_attempts() {
-  constexpr double k_fine = 0.8;
-  return static_cast<int>(std::count_if(std::begin(k_ways), std::end(k_ways),
-                                        [](const Way& w) { return w.scale >= k_fine && !w.cuts; }));
-}
-
-std::string meshing_attempt(int attempt) {
-  return k_ways[static_cast<std::size_t>(attempt)].what;
-}
-
 void make_casting_mesh(const MeshSource& source, const CastingGeometry& geometry) {
-  const auto attempt = std::min(static_cast<std::size_t>(geometry.attempt), std::size(k_ways) - 1);
-  Mesher mesher(source, geometry, k_ways[attempt]);
+  Mesher mesher(source, geometry, way_of(solid_ways(), geometry.attempt));
   mesher.check_sizes();
   mesher.mesh();
   mesher.make_groups();

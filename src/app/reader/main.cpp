@@ -1,0 +1,19 @@
+/// The reader of meshes, `solidus-reader`: the program starts it, nobody else has a use for it
+/// (mesh/reader_process.hpp).
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "mesh/gmsh/serve.hpp"
+
+int main() {
+  int code = 3;
+  try {
+    solidus::mesh::serve_request();
+    code = 0;
+  } catch (const std::exception&) {
+    std::fputs("solidus-reader: it reads meshes for the program solidus, which starts it\n", stderr);
+  }
+  _exit(code);  // what libraries do at the end of a process must not spoil an answer that is given
+}

@@ -1,0 +1,183 @@
+// Findings on what belongs together in a casting: risers and what they feed, and groups that are swapped.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/roles.hpp"
+#include "check/findings.hpp"
+#include "input/units.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+double celsius(double kelvin) {
+  return units::to_display(kelvin, "K", "degC");
+}
+
+bool is_riser(const CaseSpec& spec, const Pour& pour) {
+  return spec.bodies[pour.body].role == Role::riser;
+}
+
+bool is_poured(const CaseMeasures& m, std::size_t body) {
+  return std::ranges::any_of(m.pours, [&](const Pour& pour) { return pour.body == body; });
+}
+
+/// A riser that freezes long before its casting feeds nothing. Estimates of two bodies of one mould are
+/// compared, so what both leave out hardly counts.
+void risers_that_freeze_first(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_early = 0.4;
+  for (const Pour& riser : m.pours) {
+    if (!is_riser(spec, riser) || !riser.freezing.time) continue;
+    for (const Pour& fed : m.pours) {
+      if (is_riser(spec, fed) || !fed.freezing.time || m.bodies[riser.body].shared_nodes[fed.body] == 0 ||
+          *riser.freezing.time > k_early * *fed.freezing.time)
+        continue;
+      findings.push_back(
+          {false, spec.bodies[riser.body].where,
+           fmt::format("the riser '{}' freezes in some {:.2g} min, '{}', which it feeds, in some {:.2g} min",
+                       spec.bodies[riser.body].name, *riser.freezing.time / 60, spec.bodies[fed.body].name,
+                       *fed.freezing.time / 60),
+           "a riser freezes last: a larger one, a sleeve or a cover"});
+    }
+  }
+}
+
+void risers_larger_than_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_much = 2;
+  double castings = 0, risers = 0;
+  const Pour* largest = nullptr;
+  for (const Pour& pour : m.pours) {
+    const double volume = m.bodies[pour.body].volume;
+    (is_riser(spec, pour) ? risers : castings) += volume;
+    if (is_riser(spec, pour) && (!largest || volume > m.bodies[largest->body].volume)) largest = &pour;
+  }
+  if (!largest || !(castings > 0) || risers < k_much * castings) return;
+  findings.push_back({false, spec.bodies[largest->body].where,
+                      fmt::format("what is poured as riser ('{}') is {:.2g} times as large as what it feeds",
+                                  spec.bodies[largest->body].name, risers / castings),
+                      "a tenth of the casting's volume to all of it; are the groups swapped?"});
+}
+
+/// The box of a body in space; round an axis it reaches as far on the other side.
+struct Box {
+  mesh::Point low, high;
+};
+
+Box box_of(const CaseSpec& spec, const BodyMeasures& body) {
+  Box box{body.low, body.high};
+  if (spec.analysis.kind == AnalysisKind::axisymmetric) box.low[0] = -box.high[0];
+  return box;
+}
+
+/// Share of the first box, in each direction, that the second one covers; of the direction with the least.
+double covered(const Box& box, const Box& by, int dimension) {
+  double least = 1;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
+    const double length = box.high[d] - box.low[d];
+    const double common = std::min(box.high[d], by.high[d]) - std::max(box.low[d], by.low[d]);
+    least = std::min(least, length > 0 ? common / length : 1.0);
+  }
+  return least;
+}
+
+/// A core that lies outside all castings, and a chill that lies within one.
+void swapped_cores_and_chills(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+                              Findings& findings) {
+  constexpr double k_outside = 0.01, k_within = 0.5;
+  const auto most_covered = [&](std::size_t body) {
+    double most = 0;
+    for (const Pour& pour : m.pours)
+      most = std::max(
+          most, covered(box_of(spec, m.bodies[body]), box_of(spec, m.bodies[pour.body]), a.mesh.dimension));
+    return most;
+  };
+  for (std::size_t core = 0; core < spec.bodies.size(); ++core) {
+    if (is_poured(m, core) || role_of(spec.bodies[core], a.materials[core]) != Role::core ||
+        most_covered(core) > k_outside)
+      continue;
+    for (std::size_t chill = 0; chill < spec.bodies.size(); ++chill)
+      if (!is_poured(m, chill) && role_of(spec.bodies[chill], a.materials[chill]) == Role::chill &&
+          most_covered(chill) > k_within)
+        findings.push_back(
+            {false, spec.bodies[core].where,
+             fmt::format("the core '{}' lies outside what is poured, and the chill '{}' within it",
+                         spec.bodies[core].name, spec.bodies[chill].name),
+             "are their groups swapped?"});
+  }
+}
+
+/// A mould or core as hot as melt draws no heat from it.
+void moulds_as_hot_as_melt(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+                           Findings& findings) {
+  double liquidus = 0;
+  for (const Pour& pour : m.pours)
+    liquidus = std::max(liquidus, a.materials[pour.body].solidification()->fraction.liquidus());
+  for (std::size_t b = 0; b < spec.bodies.size() && liquidus > 0; ++b)
+    if (!is_poured(m, b) && a.materials[b].solidification() == nullptr && a.start[b].low > liquidus)
+      findings.push_back(
+          {false, spec.bodies[b].where,
+           fmt::format("the body '{}' starts at {:.0f} degC, above the liquidus of what is poured, {:.0f} "
+                       "degC: it takes no heat up",
+                       spec.bodies[b].name, celsius(a.start[b].low), celsius(liquidus)),
+           "moulds and cores at 20 to 400 degC, shells for precision casting up to 1100 degC"});
+}
+
+/// Melt that only conducts, beside melt that deforms: neither draws on the other.
+void castings_that_only_conduct(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  if (!spec.has_mechanics()) return;
+  for (const Pour& still : m.pours) {
+    if (!only_conducts(spec.bodies[still.body])) continue;
+    for (const Pour& moving : m.pours)
+      if (!only_conducts(spec.bodies[moving.body]) && m.bodies[still.body].shared_nodes[moving.body] > 0)
+        findings.push_back(
+            {false, spec.bodies[still.body].where,
+             fmt::format("'{}' only conducts heat, but '{}', with which it is poured, deforms: it holds the "
+                         "nodes that they share",
+                         spec.bodies[still.body].name, spec.bodies[moving.body].name),
+             "the same `physics` for both, or none"});
+  }
+}
+
+/// Sand gives way to pressures that dies stand.
+void pressed_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_sand = 3, k_stands = 2e6;  // [W/m/K], [Pa]
+  if (!spec.has_mechanics()) return;
+  const auto sand_around = [&](int body) {
+    return std::ranges::any_of(m.contacts, [&](const ContactMeasures& contact) {
+      const int other = contact.slave_body == body    ? contact.master_body
+                        : contact.master_body == body ? contact.slave_body
+                                                      : -1;
+      if (other < 0) return false;
+      const auto o = static_cast<std::size_t>(other);
+      return !is_poured(m, o) && a.materials[o].conductivity.value(a.start[o].low) < k_sand;
+    });
+  };
+  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    if (c.kind != MechanicalConditionSpec::Kind::pressure) continue;
+    const double pressure = c.pressure.table.max_value();
+    if (!(pressure > k_stands)) continue;
+    const int body = measure_surface(a.mesh, c.group, spec.analysis.kind).body;
+    if (body < 0 || !is_poured(m, static_cast<std::size_t>(body)) || !sand_around(body)) continue;
+    findings.push_back(
+        {false, c.where,
+         fmt::format("'{}' presses '{}' with {:.3g} MPa, and its mould conducts as sand does", c.name,
+                     spec.bodies[static_cast<std::size_t>(body)].name, 1e-6 * pressure),
+         "sand stands 0.1 to 1 MPa; is the unit of the pressure right?"});
+  }
+}
+
+}  // namespace
+
+void find_in_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  if (!spec.has_heat()) return;
+  risers_that_freeze_first(spec, m, findings);
+  risers_larger_than_castings(spec, m, findings);
+  swapped_cores_and_chills(spec, a, m, findings);
+  moulds_as_hot_as_melt(spec, a, m, findings);
+  castings_that_only_conduct(spec, m, findings);
+  pressed_sand(spec, a, m, findings);
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,69 @@
+#include "mesh/gmsh/serve.hpp"
+
+#include <sys/prctl.h>
+
+#include <csignal>
+#include <exception>
+#include <new>
+#include <optional>
+
+#include "mesh/casting_geometry.hpp"
+#include "mesh/gmsh/import.hpp"
+#include "mesh/gmsh/reader_sandbox.hpp"
+#include "mesh/reader_message.hpp"
+#include "system/errors.hpp"
+
+namespace solidus::mesh {
+
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__)
+#define SOLIDUS_SHADOW_MEMORY
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SOLIDUS_SHADOW_MEMORY
+#endif
+#endif
+#ifdef SOLIDUS_SHADOW_MEMORY
+constexpr bool k_limits_memory = false;  // AddressSanitizer reserves terabytes
+#else
+constexpr bool k_limits_memory = true;
+#endif
+
+}  // namespace
+
+void serve_request() {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // Ctrl-C reaches all processes of a terminal: the parent decides.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1}) std::signal(signal, SIG_IGN);
+  const PutBytes put = [](const void* bytes, std::size_t n) { put_all(k_answer_descriptor, bytes, n); };
+  const TakeBytes take = [](void* bytes, std::size_t n) { take_all(k_request_descriptor, bytes, n); };
+  const auto say = [&](ReaderAnswer answer) { put(&answer, sizeof answer); };
+  const MeshSource source = take_source(take);
+  bool of_casting = false;
+  take(&of_casting, sizeof of_casting);
+  std::optional<CastingGeometry> casting;
+  if (of_casting) casting = take_casting(take);
+  double memory = 0;
+  take(&memory, sizeof memory);
+  limit_memory(k_limits_memory ? memory : 0);
+  if (!source.trust_script) forbid_all_but_reading();
+  try {
+    const RawMesh mesh = read_mesh_here(source, casting ? &*casting : nullptr);
+    say(ReaderAnswer::mesh);
+    put_mesh(mesh, put);
+  } catch (const UnusableGeometry& error) {
+    say(ReaderAnswer::unusable_geometry);
+    put_text(error.what(), put);
+  } catch (const InputError& error) {
+    say(ReaderAnswer::input_error);
+    put_text(error.what(), put);
+  } catch (const std::bad_alloc&) {
+    say(ReaderAnswer::memory);
+  } catch (const std::exception& error) {
+    say(ReaderAnswer::internal);
+    put_text(error.what(), put);
+  }
+}
+
+}  // namespace solidus::mesh

@@ -1,0 +1,41 @@
+/// Ways of meshing a geometry, which mesh_casting() (casting_geometry.hpp) takes in turn.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace solidus::mesh {
+
+/// A way to mesh solids of a CAD program.
+struct SolidWay {
+  const char* what;               ///< for messages: "healed, elements of 0.8 of the size"
+  int surfaces = 6, volumes = 1;  ///< Gmsh's numbers of algorithms: frontal, Delaunay
+  double healing = 0;             ///< tolerance, of the extent of the parts; 0: none
+  double scale = 1;               ///< of all sizes
+  int rounds = 1;                 ///< of optimisation
+  bool details = true;            ///< smaller elements at narrow faces and short curves
+  bool cuts = false;              ///< bodies are cut along the seams of faces that cannot be meshed
+};
+
+/// A way to mesh what skins of triangles enclose.
+struct FacetedWay {
+  const char* what;
+  double angle = 0;  ///< of edges between faces that get new elements [degree]; 0: triangles stay
+  int volumes = 1;   ///< Gmsh's number of the algorithm
+  double scale = 1;  ///< of all sizes
+};
+
+/// All ways, in the order in which they are taken.
+std::span<const SolidWay> solid_ways();
+std::span<const FacetedWay> faceted_ways();
+/// Whether a way is tried whatever the quality of the meshes before is.
+bool is_cheap(const SolidWay& way);
+
+/// The way of an attempt, from zero; the last one beyond.
+template <class Way>
+const Way& way_of(std::span<const Way> ways, int attempt) {
+  const auto asked = static_cast<std::size_t>(attempt);
+  return asked < ways.size() ? ways[asked] : ways.back();
+}
+
+}  // namespace solidus::mesh
