@@ -80,10 +80,13 @@ def initialize(communicator: Any = None, options: list[str] | tuple[str, ...] = 
         os.environ.setdefault("OMPI_ALLOW_RUN_AS_ROOT", "1")
         os.environ.setdefault("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")
     try:
-        if version() == core.version:  # they speak with each other, and must be of one build
+        if version() == core.version:  # the reader of meshes beside it must be of the same build
             core.use_program(str(program()))
+        else:
+            _logger.warning("the program %s is of version %s, this package of %s: no meshes are read from files", program(),
+                            version(), core.version)
     except ProgramMissing:
-        _logger.info("without the program 'solidus': meshes are read in this process, without its sandbox")
+        _logger.info("without the program 'solidus' no meshes are read from files")
     core.set_sink(_message)
     core.initialize(None if communicator is None else communicator.py2f(), list(options))
     atexit.register(_finalize)

@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "app/built_version.hpp"
 #include "build/case_file.hpp"
 #include "linear/interruption.hpp"
 #include "parallel/petsc_session.hpp"
@@ -11,6 +12,7 @@
 #include "system/log.hpp"
 #include "system/processes.hpp"
 #include "system/program_path.hpp"
+#include "system/version.hpp"
 
 namespace solidus::python {
 
@@ -129,7 +131,8 @@ py::array_t<double> array_of(std::vector<double> values, std::vector<py::ssize_t
 PYBIND11_MODULE(_core, core) {
   using namespace solidus::python;
   core.doc() = "The compiled part of solidus_casting. Use the package's own functions and classes.";
-  core.attr("version") = SOLIDUS_VERSION;
+  solidus::set_program_version(solidus::app::built_version());
+  core.attr("version") = solidus::app::built_version();
   core.def("initialize", &initialize, py::arg("communicator") = py::none(),
            py::arg("options") = std::vector<std::string>());
   core.def("finalize", &finalize);
