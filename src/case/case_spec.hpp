@@ -61,7 +61,7 @@ struct MeshConstantSpec {
 };
 
 /// Volumes or surfaces that get a name: of a geometry file by numbers, label or box
-/// (mesh/gmsh/geometry_groups.hpp); faces of any mesh by a rule (mesh/face_rules.hpp).
+/// (mesh/geometry_choice.hpp); faces of any mesh by a rule (mesh/face_rules.hpp).
 struct MeshGroupSpec {
   enum class Kind { body, surface };
   std::string name;

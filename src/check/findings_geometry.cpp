@@ -128,8 +128,7 @@ void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& find
 void shapes_and_sizes(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   constexpr double k_flat = 150, k_flat_in_casting = 50, k_small = 3e-3;
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
-    const bool poured = std::ranges::any_of(m.pours, [b](const Pour& pour) { return pour.body == b; });
-    if (m.bodies[b].flattest > (poured ? k_flat_in_casting : k_flat))
+    if (m.bodies[b].flattest > (m.is_poured(b) ? k_flat_in_casting : k_flat))
       findings.push_back({false, spec.mesh.where,
                           fmt::format("an element of the body '{}' is {:.0f} times as long as wide",
                                       spec.bodies[b].name, m.bodies[b].flattest),

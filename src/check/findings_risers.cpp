@@ -20,10 +20,6 @@ bool is_riser(const CaseSpec& spec, const Pour& pour) {
   return spec.bodies[pour.body].role == Role::riser;
 }
 
-bool is_poured(const CaseMeasures& m, std::size_t body) {
-  return std::ranges::any_of(m.pours, [&](const Pour& pour) { return pour.body == body; });
-}
-
 /// A riser that freezes long before its casting feeds nothing. Estimates of two bodies of one mould are
 /// compared, so what both leave out hardly counts.
 void risers_that_freeze_first(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
@@ -94,11 +90,11 @@ void swapped_cores_and_chills(const CaseSpec& spec, const Assembly& a, const Cas
     return most;
   };
   for (std::size_t core = 0; core < spec.bodies.size(); ++core) {
-    if (is_poured(m, core) || role_of(spec.bodies[core], a.materials[core]) != Role::core ||
+    if (m.is_poured(core) || role_of(spec.bodies[core], a.materials[core]) != Role::core ||
         most_covered(core) > k_outside)
       continue;
     for (std::size_t chill = 0; chill < spec.bodies.size(); ++chill)
-      if (!is_poured(m, chill) && role_of(spec.bodies[chill], a.materials[chill]) == Role::chill &&
+      if (!m.is_poured(chill) && role_of(spec.bodies[chill], a.materials[chill]) == Role::chill &&
           most_covered(chill) > k_within)
         findings.push_back(
             {false, spec.bodies[core].where,
@@ -115,7 +111,7 @@ void moulds_as_hot_as_melt(const CaseSpec& spec, const Assembly& a, const CaseMe
   for (const Pour& pour : m.pours)
     liquidus = std::max(liquidus, a.materials[pour.body].solidification()->fraction.liquidus());
   for (std::size_t b = 0; b < spec.bodies.size() && liquidus > 0; ++b)
-    if (!is_poured(m, b) && a.materials[b].solidification() == nullptr && a.start[b].low > liquidus)
+    if (!m.is_poured(b) && a.materials[b].solidification() == nullptr && a.start[b].low > liquidus)
       findings.push_back(
           {false, spec.bodies[b].where,
            fmt::format("the body '{}' starts at {:.0f} degC, above the liquidus of what is poured, {:.0f} "
@@ -151,7 +147,7 @@ void pressed_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
                                                       : -1;
       if (other < 0) return false;
       const auto o = static_cast<std::size_t>(other);
-      return !is_poured(m, o) && a.materials[o].conductivity.value(a.start[o].low) < k_sand;
+      return !m.is_poured(o) && a.materials[o].conductivity.value(a.start[o].low) < k_sand;
     });
   };
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
@@ -159,7 +155,7 @@ void pressed_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
     const double pressure = c.pressure.table.max_value();
     if (!(pressure > k_stands)) continue;
     const int body = measure_surface(a.mesh, c.group, spec.analysis.kind).body;
-    if (body < 0 || !is_poured(m, static_cast<std::size_t>(body)) || !sand_around(body)) continue;
+    if (body < 0 || !m.is_poured(static_cast<std::size_t>(body)) || !sand_around(body)) continue;
     findings.push_back(
         {false, c.where,
          fmt::format("'{}' presses '{}' with {:.3g} MPa, and its mould conducts as sand does", c.name,

@@ -57,7 +57,7 @@ void IncompleteCholesky::find_borne_fill(const double* values, std::span<float> 
   std::fill(bears.begin(), bears.end(), 0.0F);
   for (std::size_t row = 0; row < bears.size(); ++row) {
     const std::int64_t diagonal = start_[row], end = end_of_owned(row);
-    // What earlier rows add to the sum, then the row itself: most of it cancels.
+    // The sum holds the entries that earlier rows share with this row; its own entries cancel most of them.
     double sum = static_cast<double>(bears[row]) + values[diagonal];
     for (std::int64_t s = diagonal + 1; s < end; ++s) {
       sum += values[s];

@@ -93,7 +93,8 @@ StructuralChange structural_change(const StepDeformation& deformation, std::span
 /// The change up to the end of the mechanical pass, where points have temperatures of their own
 /// (StructuralPoints::mechanical_change). Collective.
 StructuralChange mechanical_change(const StepDeformation& deformation);
-/// What the stresses at the end of a mechanical pass (backward Euler) work more than those on the way there,
+/// The work of the stresses at the end of a mechanical pass (backward Euler) beyond that of the stresses on
+/// the way there,
 ///
 ///   ∫ [σ_{n+1} : Δε − ΔE + ∫Θ dS − D_mech Δt] dV,   ∫Θ dS = ½ (Θ_n + Θ_{n+1}) ΔS
 ///

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/gmsh/geometry_groups.hpp"
+#include "mesh/geometry_choice.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::mesh {

@@ -1,5 +1,8 @@
 #include "mesh/reader_message.hpp"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdint>
 #include <stdexcept>
 

@@ -129,6 +129,7 @@ Reader::Reader(const MeshSource& source, const CastingGeometry* casting, const R
   const auto before = std::signal(SIGPIPE, SIG_IGN);
   try {
     const PutBytes put = [this](const void* bytes, std::size_t n) { put_all(to_, bytes, n); };
+    put_text(SOLIDUS_VERSION, put);
     put_source(source, put);
     const bool of_casting = casting != nullptr;
     put(&of_casting, sizeof of_casting);

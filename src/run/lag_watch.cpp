@@ -112,8 +112,8 @@ void StressWorkWatch::step(const coupling::StepRecord& record, const coupling::S
 }
 
 void StressWorkWatch::report() const {
-  // Of what moved in the run: deformation that heats less matters little. The sum of magnitudes counts heat
-  // of deformation up to four times, as given and as stored in each of two stages.
+  // Deformation that heats less than this share of all heat exchanged matters little. That sum of magnitudes
+  // counts heat of deformation up to four times, as given and as stored in each of two stages.
   constexpr double k_much_heat = 0.0025;
   if (!(excess_ > k_worth_saying * dissipated_ && excess_ > k_much_heat * moved_)) return;
   logging::info(

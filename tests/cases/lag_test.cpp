@@ -308,7 +308,7 @@ unit = "degC"
   expect("two_stages", {"coupling.scheme=simultaneous", "coupling.integration=sdirk2"}, 0,
          1e-5 * std::abs(kelvin));
   expect("trapezoidal", {"dynamics.method=trapezoidal"}, 0, percent);
-  // What the stresses of the ends of steps work too much is lost, and the first law says so.
+  // The excess work of the stresses of the ends of steps is lost, and the first law says so.
   EXPECT_NEAR(expect("entropy", {"coupling.structural_heating=entropy"}, 0, percent), -excess * joule,
               percent * joule);
 }

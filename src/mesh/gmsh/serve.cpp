@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <string>
 
 #include "mesh/casting_geometry.hpp"
 #include "mesh/gmsh/import.hpp"
@@ -39,6 +40,11 @@ void serve_request() {
   const PutBytes put = [](const void* bytes, std::size_t n) { put_all(k_answer_descriptor, bytes, n); };
   const TakeBytes take = [](void* bytes, std::size_t n) { take_all(k_request_descriptor, bytes, n); };
   const auto say = [&](ReaderAnswer answer) { put(&answer, sizeof answer); };
+  if (const std::string version = take_text(take); version != SOLIDUS_VERSION) {
+    say(ReaderAnswer::internal);
+    put_text("solidus-reader is of version " SOLIDUS_VERSION ", the program of " + version, put);
+    return;
+  }
   const MeshSource source = take_source(take);
   bool of_casting = false;
   take(&of_casting, sizeof of_casting);

@@ -18,6 +18,7 @@
 #include "mesh/file_format.hpp"
 #include "mesh/gmsh/casting_mesh.hpp"
 #include "mesh/gmsh/curved_faces.hpp"
+#include "mesh/gmsh/geometry_groups.hpp"
 #include "mesh/gmsh/session.hpp"
 #include "mesh/gmsh_elements.hpp"
 #include "mesh/raw_mesh.hpp"

@@ -112,7 +112,7 @@ TEST(IncompleteCholesky, SolvesAsPetscsFactorsDoInAsManyIterations) {
   }
 }
 
-// Whoever gives an option of PETSc's Krylov solvers gets PETSc's, with the same factors.
+// An option of PETSc's Krylov solvers makes PETSc solve, with the same factors.
 TEST(ConjugateGradients, GoTheWayOfPetscs) {
   PetscOptionsSetValue(nullptr, "-asked_ksp_type", "cg");
   for (const double content : {10.0, 0.1, 1e-3}) {
