@@ -2,11 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "system/alike_texts.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
 
 namespace solidus::model {
+
+bool share_a_stage(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  return a.empty() || b.empty() || std::ranges::any_of(a, [&](const std::string& stage) {
+           return std::ranges::find(b, stage) != b.end();
+         });
+}
 
 Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
   Findings found;
@@ -24,6 +32,7 @@ Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   find_in_elements(spec, a, found);
   find_in_mechanics(spec, a, m, found);
   find_on_surfaces(spec, a, m, found);
+  find_partly_in_contact(spec, a, found);
   find_in_numerics(spec, a, m, found);
   find_in_roles(spec, a, m, found);
   find_in_risers(spec, a, m, found);

@@ -29,6 +29,9 @@ inline bool always_on(const ThermalConditionSpec& c) {
   return is_number(c.coefficient) && is_number(c.factor) && c.stages.empty();
 }
 
+/// Whether two lists of stages have one in common; an empty list means all stages.
+bool share_a_stage(const std::vector<std::string>& a, const std::vector<std::string>& b);
+
 /// Contacts that are given twice, that no heat passes, or that are missing; films on surfaces in contact and
 /// several films on one surface; conductances. Collective.
 void find_in_interfaces(const CaseSpec& spec, const Assembly& a, Findings& findings);
@@ -69,6 +72,8 @@ void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasur
 /// Conditions that share a surface with another one, or with a contact; castings held at both ends.
 /// Collective.
 void find_on_surfaces(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Conditions on surfaces of which a part lies in a contact. Collective.
+void find_partly_in_contact(const CaseSpec& spec, const Assembly& a, Findings& findings);
 /// Iterations, cuts of the step, the search of contacts and the sizes of their faces.
 void find_in_numerics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Chills, moulds, risers and criteria that do not fit what they are to the foundry.

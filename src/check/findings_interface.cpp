@@ -21,12 +21,6 @@ namespace {
 /// Bodies whose temperatures differ by less need no way for heat [K].
 constexpr double k_same_temperature = 50;
 
-bool at_the_same_time(const std::vector<std::string>& a, const std::vector<std::string>& b) {
-  return a.empty() || b.empty() || std::any_of(a.begin(), a.end(), [&](const std::string& stage) {
-           return std::find(b.begin(), b.end(), stage) != b.end();
-         });
-}
-
 /// Whether a condition holds while a contact is on: bodies come and leave. Collective.
 bool beside(const CaseSpec& spec, const Assembly& a, const std::vector<std::string>& stages,
             const ContactSpec& contact) {
@@ -44,7 +38,7 @@ void contacts_given_twice(const CaseSpec& spec, Findings& findings) {
   for (std::size_t i = 0; i < spec.contacts.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (sides(spec.contacts[i]) == sides(spec.contacts[k]) &&
-          at_the_same_time(spec.contacts[i].stages, spec.contacts[k].stages))
+          share_a_stage(spec.contacts[i].stages, spec.contacts[k].stages))
         findings.push_back({true, spec.contacts[i].where,
                             fmt::format("the contacts '{}' and '{}' join the same two surfaces",
                                         spec.contacts[k].name, spec.contacts[i].name),
@@ -141,7 +135,7 @@ void films_beside_contacts(const CaseSpec& spec, const Assembly& a, Findings& fi
     for (std::size_t k = 0; k < i; ++k)
       if (const ThermalConditionSpec& other = spec.thermal_conditions[k];
           other.kind == Kind::film && always_the_same(other) && always_the_same(film) &&
-          other.group == film.group && at_the_same_time(film.stages, other.stages))
+          other.group == film.group && share_a_stage(film.stages, other.stages))
         findings.push_back({false, film.where,
                             fmt::format("the films '{}' and '{}' lie on the same surface '{}' and add up",
                                         other.name, film.name, film.group),

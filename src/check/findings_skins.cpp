@@ -104,12 +104,6 @@ double total_area(const std::vector<mesh::SkinFace>& faces) {
   return parallel::global_sum(area);
 }
 
-bool share_a_stage(const std::vector<std::string>& a, const std::vector<std::string>& b) {
-  return a.empty() || b.empty() || std::ranges::any_of(a, [&](const std::string& stage) {
-           return std::ranges::find(b, stage) != b.end();
-         });
-}
-
 /// Whether a contact or a node joins a body to any other one; where none does, findings_interface.cpp says
 /// it.
 bool is_joined(const CaseMeasures& m, std::size_t body) {

@@ -20,12 +20,6 @@ namespace {
 using Heat = ThermalConditionSpec::Kind;
 using Motion = MechanicalConditionSpec::Kind;
 
-bool share_a_stage(const std::vector<std::string>& a, const std::vector<std::string>& b) {
-  return a.empty() || b.empty() || std::any_of(a.begin(), a.end(), [&](const std::string& stage) {
-           return std::find(b.begin(), b.end(), stage) != b.end();
-         });
-}
-
 bool lies_on(const ContactSpec& contact, const std::string& group) {
   const auto sides = contact.sides();
   return std::find(sides.begin(), sides.end(), group) != sides.end();

@@ -66,6 +66,22 @@ TEST_F(FindingsTest, ConditionsOnASurfaceInContactAreNamed) {
       Contains(HasSubstr("acts on the surface 'lower_top', which the contact 'interface' holds")));
 }
 
+// A rule that takes all faces of a body takes those in contact too.
+TEST_F(FindingsTest, ConditionsOnPartsOfASurfaceInContactAreNamed) {
+  const std::string groups = "\n[[mesh.group]]\nname = \"skin\"\nowner = \"lower\"\n";
+  const std::string film =
+      "group = \"skin\"\nkind = \"film\"\ncoefficient = \"20 W/m2/K\"\nambient = \"20 degC\"";
+  EXPECT_THAT(
+      said_of(with_heat(changed(k_casting, "group = \"lower_y_min\"", "group = \"lower_x_max\""), film) +
+              groups),
+      Contains(HasSubstr("8 of the 24 faces of 'skin', on which the film 'added' acts, lie in the contact "
+                         "'interface'")));
+  EXPECT_THAT(
+      said_of(with_motion(deforming(), "group = \"skin\"\nkind = \"displacement\"\nux = \"0 mm\"") + groups),
+      Contains(HasSubstr("8 of the 24 faces of 'skin', on which the support 'added' acts, lie in the "
+                         "contact 'interface'")));
+}
+
 TEST_F(FindingsTest, ConditionsThatTakeEachOthersPlaceAreNamed) {
   const std::string held = "kind = \"temperature\"\ntemperature = \"50 degC\"\ngroup = ";
   EXPECT_THAT(said_of(with_heat(k_casting, held + "\"lower_y_min\"")),

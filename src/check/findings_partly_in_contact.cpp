@@ -1,0 +1,79 @@
+// Findings on conditions whose surface lies in a contact with a part of its faces. A rule for groups that
+// takes too much makes such surfaces, for instance all faces of a body, or those whose normal is nearly an
+// axis where a curved face begins. Conditions of a whole contact surface: findings_interface.cpp,
+// findings_surfaces.cpp.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "check/boundary_faces.hpp"
+#include "check/findings.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+struct Condition {
+  std::string kind, name, group;  ///< the kind in words
+  const std::vector<std::string>* stages;
+  SourceLocation where;
+  bool of_heat;
+};
+
+bool has_one_strength(const ThermalConditionSpec& c) {
+  return is_number(c.coefficient) && is_number(c.flux) && is_number(c.emissivity) && is_number(c.factor);
+}
+
+std::vector<Condition> conditions_of_surfaces(const CaseSpec& spec) {
+  using Heat = ThermalConditionSpec::Kind;
+  using Motion = MechanicalConditionSpec::Kind;
+  std::vector<Condition> conditions;
+  if (spec.has_heat())
+    for (const ThermalConditionSpec& c : spec.thermal_conditions)
+      if (!c.in_volume() && has_one_strength(c))
+        conditions.push_back({c.kind == Heat::temperature ? "held temperature"
+                              : c.kind == Heat::flux      ? "flux"
+                              : c.kind == Heat::film      ? "film"
+                                                          : "radiation",
+                              c.name, c.group, &c.stages, c.where, true});
+  if (spec.has_mechanics())
+    for (const MechanicalConditionSpec& c : spec.mechanical_conditions)
+      if (c.kind != Motion::plane)
+        conditions.push_back({c.kind == Motion::displacement ? "support"
+                              : c.kind == Motion::pressure   ? "pressure"
+                                                             : "traction",
+                              c.name, c.group, &c.stages, c.where, false});
+  return conditions;
+}
+
+}  // namespace
+
+void find_partly_in_contact(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  for (const Condition& condition : conditions_of_surfaces(spec)) {
+    const auto faces = face_keys(a.mesh, {condition.group});
+    const double all = parallel::global_sum(static_cast<double>(faces.size()));
+    if (!(all > 0)) continue;
+    for (const ContactSpec& contact : spec.contacts) {
+      if ((condition.of_heat && !contact.heat) || !share_a_stage(*condition.stages, contact.stages)) continue;
+      const std::array<std::string, 2> sides = contact.sides();
+      const auto in_contact = face_keys(a.mesh, {sides[0], sides[1]});
+      const double shared = parallel::global_sum(static_cast<double>(
+          std::ranges::count_if(faces, [&](const auto& face) { return in_contact.contains(face); })));
+      if (!(shared > 0) || shared == all) continue;
+      findings.push_back(
+          {false, condition.where,
+           fmt::format("{:.0f} of the {:.0f} faces of '{}', on which the {} '{}' acts, lie in "
+                       "the contact '{}'",
+                       shared, all, condition.group, condition.kind, condition.name, contact.name),
+           "groups of outer faces alone: a rule with `plane` or a smaller `angle`, or the "
+           "group of what faces no body (NAME_free)"});
+    }
+  }
+}
+
+}  // namespace solidus::model
