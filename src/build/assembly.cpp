@@ -45,7 +45,7 @@ std::vector<double> nodal_temperature(const CaseSpec& spec, const InitialTempera
   return temperature;
 }
 
-/// That the two surfaces of a contact are not one. Collective.
+/// Checks that the two surfaces of a contact are not one. Collective.
 void check_separate(const mesh::Mesh& mesh, const contact::ContactParameters& pair) {
   const GlobalIndex shared = shared_nodes(mesh, pair.slave, pair.master);
   if (shared > 0 && shared == shared_nodes(mesh, pair.slave, pair.slave))

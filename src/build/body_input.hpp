@@ -19,7 +19,7 @@ std::vector<std::string> gone_bodies(const CaseSpec& spec, const StageRun* stage
 /// The groups of the bodies that take no part in mechanics: those that only conduct heat, and those gone.
 std::vector<std::string> absent_from_mechanics(const CaseSpec& spec, const StageRun* stage);
 
-/// That something is there in every stage. Throws InputError.
+/// Checks that every stage has a body. Throws InputError.
 void check_bodies(const CaseSpec& spec);
 
 /// Bodies that are there in a stage and were not in the one before it in the run, [body]: they are new.

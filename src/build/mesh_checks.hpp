@@ -6,12 +6,12 @@
 
 namespace solidus::model {
 
-/// That the mesh has the bodies of the case. Throws InputError. On process 0.
+/// Checks that the mesh has the bodies of the case. Throws InputError. On process 0.
 void check_bodies_of(const CaseSpec& spec, const mesh::RawMesh& mesh);
 
-/// That the mesh has the dimension of the analysis and every group the case names, each of a dimension that
-/// supports what the case asks of it. Throws InputError with the place in the case and the groups there are.
-/// Where the mesh is: on process 0.
+/// Checks that the mesh has the dimension of the analysis and every group the case names, each of a dimension
+/// that supports what the case asks of it. Throws InputError with the place in the case and the groups there
+/// are. On process 0, which has the mesh.
 void check_groups(const CaseSpec& spec, const mesh::RawMesh& mesh);
 
 }  // namespace solidus::model

@@ -79,12 +79,12 @@ class CoupledNewton {
   CoupledResidual evaluate(const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
                            std::span<const double> x);
   std::span<const double> force() const { return force_; }
-  /// The tangent there.
+  /// The tangent at the last evaluation.
   linear::CoupledMatrix& assemble(const mechanics::MechanicalState& old, std::span<const double> x,
                                   int iteration);
   /// Lets go of the deformation of the last evaluation, whose storage the next pass may then take.
   void release_deformation();
-  /// That tangent times a direction, which is local as x and Θ are; on owned entries as the residuals are,
+  /// The tangent of assemble() times a direction, which is local as x and Θ are; on owned entries as the residuals are,
   /// forces that are prescribed or tied as they come.
   void multiply(std::span<const double> x, std::span<const double> temperature, std::span<double> force,
                 std::span<double> heat);

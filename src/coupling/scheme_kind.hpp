@@ -84,9 +84,9 @@ class SchemeKind {
 
 /// All schemes, built in and added; the key scheme of [coupling].
 Kinds<SchemeKind>& schemes();
-/// The one of a case that names none.
+/// The scheme of a case that names none.
 std::shared_ptr<const SchemeKind> default_scheme();
-/// That of mechanics or heat alone.
+/// The scheme of a case of mechanics or heat alone.
 std::unique_ptr<CouplingScheme> single_phase(const Phases& phases);
 
 }  // namespace coupling

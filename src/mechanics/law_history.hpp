@@ -151,7 +151,8 @@ class LawHistory : public BlockKernel {
     if constexpr (HoldsEntropy<Properties>) {
       const State held = state_of(*start.held_history, batch, q);
       properties.entropy = law_.entropy(properties, held_strain, held);
-      // That of the state at t_n goes on as it is; an iterate has the base of this step already.
+      // The energy of the state at t_n is continued from its own base; an iterate has the base of this step
+      // already.
       if (start.held_history == start.old_history && keeps_base_) {
         const StructuralBase base = old_base(batch, q);
         properties.entropy +=

@@ -76,12 +76,12 @@ class StructuralPoints {
   }
   Point& at(Index batch, int point) { return points_[index(batch, point)]; }
   const Point& at(Index batch, int point) const { return points_[index(batch, point)]; }
-  /// A step begins, kept or not.
+  /// Begins a step of length dt [s]; the deformations of the one before need not have been kept.
   void set_dt(double dt) {
     dt_ = dt;
     of_mechanics_.clear();
   }
-  /// That of the mechanical pass [s].
+  /// The time step of the mechanical pass [s].
   double dt() const { return dt_; }
   /// Stores the deformation with the flow of the mechanical phase, before another one is put into Point::now.
   void keep_of_mechanics(Index batch, int point, const Deformation& deformation) {

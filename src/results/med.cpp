@@ -171,7 +171,7 @@ void make_field(const Writer& writer, const std::string& name, std::size_t compo
                           names.c_str(), units.c_str(), "s", k_mesh));
 }
 
-/// Where a moment stands in the file.
+/// A moment as the file names it.
 struct Moment {
   med_int number;  ///< counted from 1
   double time;     ///< [s]

@@ -17,7 +17,7 @@ bool running();
 /// Sets the communicator of all processes of the run by its number in Fortran (MPI_Comm_c2f), which needs no
 /// header of MPI. Without this call it is MPI_COMM_WORLD.
 void use_communicator(int fortran_number);
-/// That number, for files that hand the communicator to a library.
+/// The number of the communicator in Fortran, for files that hand the communicator to a library.
 int communicator();
 
 int rank();

@@ -22,7 +22,7 @@
 
 namespace solidus::material {
 
-/// Where a phase fraction is neither one nor zero [K].
+/// The temperatures between which a phase fraction is neither one nor zero [K].
 struct FractionRange {
   double low = 0, high = 0;
 };

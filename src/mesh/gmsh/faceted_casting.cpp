@@ -22,7 +22,7 @@ namespace {
 
 using Tags = std::vector<int>;
 
-/// Where several shells bound one volume.
+/// One volume, which several shells may bound.
 struct Region {
   std::string body;
   std::vector<std::size_t> shells;

@@ -45,7 +45,7 @@ struct BodyMesh {
   std::vector<std::int32_t> triangles;   ///< of the skin, counter-clockwise from outside; in the plane none
 };
 
-/// Where the numbers of a piece go.
+/// The places in the body meshes of the numbers of a piece.
 struct PieceMap {
   std::vector<double> node, element;  ///< numbers of the input, as the file has them: the same, the same map
   struct Target {
