@@ -84,8 +84,8 @@ class CoupledNewton {
                                   int iteration);
   /// Lets go of the deformation of the last evaluation, whose storage the next pass may then take.
   void release_deformation();
-  /// The tangent of assemble() times a direction, which is local as x and Θ are; on owned entries as the residuals are,
-  /// forces that are prescribed or tied as they come.
+  /// The tangent of assemble() times a direction, which is local as x and Θ are; on owned entries as the
+  /// residuals are, forces that are prescribed or tied as they come.
   void multiply(std::span<const double> x, std::span<const double> temperature, std::span<double> force,
                 std::span<double> heat);
 
