@@ -59,5 +59,6 @@ add_custom_target(solidus_program_version BYPRODUCTS ${version_header} VERBATIM
                   COMMAND ${CMAKE_COMMAND} -DSOURCES=${PROJECT_SOURCE_DIR} -DBASE=${PROJECT_VERSION} -DHEADER=${version_header}
                           -P ${CMAKE_CURRENT_LIST_FILE})
 add_dependencies(solidus solidus_program_version)
+add_dependencies(solidus_reader solidus_program_version)
 set_source_files_properties(src/app/built_version.cpp PROPERTIES INCLUDE_DIRECTORIES ${PROJECT_BINARY_DIR}/made
                             OBJECT_DEPENDS ${version_header})

@@ -9,6 +9,7 @@
 #include "case/case_materials.hpp"
 #include "case/interface_library.hpp"
 #include "case/roles.hpp"
+#include "contact/parameters.hpp"
 #include "material/library.hpp"
 #include "mesh/face_rules.hpp"
 #include "mesh/skin.hpp"
@@ -198,6 +199,7 @@ std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh&
 }
 
 void add_contacts(const std::vector<FoundInterface>& found, CaseSpec& spec) {
+  const contact::ContactParameters usual;
   for (const FoundInterface& f : found) {
     const BodyInterfaceSpec& section = spec.interfaces[f.section];
     ContactSpec contact;
@@ -205,9 +207,9 @@ void add_contacts(const std::vector<FoundInterface>& found, CaseSpec& spec) {
                              spec.bodies[static_cast<std::size_t>(f.b)].name;
     contact.name = section.name.empty() || section.all() ? pair : section.name;
     contact.surfaces = {f.surface_a, f.surface_b};
-    contact.stabilisation = 1e-10;
-    contact.gauss_degree = 4;
-    contact.penetration_tolerance = 1e-6;
+    contact.stabilisation = usual.stabilisation;
+    contact.gauss_degree = usual.gauss_degree;
+    contact.penetration_tolerance = usual.penetration_tolerance;
     contact.touching = section.touching.value_or(f.facets);
     contact.search_distance = 2 * f.distance;
     contact.wet = section.wet;

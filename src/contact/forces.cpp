@@ -57,7 +57,7 @@ PointForces ContactForces::at(const PointMotion& motion, Index point) const {
 }
 
 void ContactForces::augment(const ContactState& now, ContactStep& step, AugmentedBy by) {
-  term_.begin();
+  term_.restart();
   if (active_) multipliers_.augment(now, step, by);
 }
 

@@ -129,7 +129,7 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
                      f.conductance.by_pressure * f.normal.tangent + f.conductance.by_penetration,
                      f.traction_by_conductance);
   }
-  const double stabilisation = w * stabilisation_ * stabilisation_share_ * law_.normal.penalty;
+  const double stabilisation = w * hold_ * stabilisation_ * stabilisation_share_ * law_.normal.penalty;
   for (std::size_t c = 0; c < n; ++c) {
     const Point& g = motion.penetration_rate[c];
     Tensor traction_rate{};

@@ -27,7 +27,8 @@ namespace solidus::contact {
 ///
 /// The tangent holds a share of the penalty at every point (ContactParameters::stabilisation). Against a
 /// melt, with next to no stiffness, that share is much, and Newton's iteration creeps: from its ninth tangent
-/// on the share falls.
+/// on the share falls. Where too little is held, rounding moves a body that nothing else holds: hold() lets
+/// the tangents of an iteration hold more.
 ///
 /// Where the friction law finds no state the residual is not a number: Newton's method shortens its step.
 class MechanicsTerm : public linear::Contribution {
@@ -36,8 +37,16 @@ class MechanicsTerm : public linear::Contribution {
   /// @param name  of the pair, for the log: with level debug every residual leaves a line
   MechanicsTerm(std::string name, const ContactGeometry& geometry, const PointLaw& law,
                 const ContactStep& step, double stabilisation, bool symmetric);
+  /// A step begins, with the stabilisation as it is given.
+  void begin() { hold(1); }
   /// Another Newton iteration follows.
-  void begin() { n_tangents_ = 0; }
+  void restart() { n_tangents_ = 0; }
+  /// Another Newton iteration follows, whose tangents hold so many times the stabilisation; so do those after
+  /// it, until the next begin().
+  void hold(double times) {
+    hold_ = times;
+    restart();
+  }
   /// Whether the tangent holds how a point's weight falls where it slides beyond the rim of its master, which
   /// makes it unsymmetric. Else it does not, and iterations with such points converge linearly.
   void follow_weights(bool on) { follows_weights_ = on; }
@@ -81,7 +90,7 @@ class MechanicsTerm : public linear::Contribution {
   ContactGraph& graph_;
   const PointLaw& law_;
   const ContactStep& step_;
-  double stabilisation_, stabilisation_share_ = 1;
+  double stabilisation_, stabilisation_share_ = 1, hold_ = 1;
   bool symmetric_;
   bool follows_weights_ = false;
   bool active_ = true;

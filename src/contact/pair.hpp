@@ -98,6 +98,9 @@ class ContactPair {
   }
   /// Begins a step from the state `old`; empty: that of bodies that have not moved. Local, no communication.
   void begin(const ContactState& old, const ContactPass& pass);
+  /// Lets the tangents of mechanics() hold so many times the stabilisation (ContactParameters), until the
+  /// next begin(). Forces, and so the solution, do not know it.
+  void stabilise(double times) { forces_->term().hold(times); }
   /// Sets the present temperatures of the bodies within a simultaneous pass, [local node], for mechanics()
   /// and the next update(). Local.
   void set_temperature(std::span<const double> temperature);

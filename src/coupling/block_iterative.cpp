@@ -27,7 +27,7 @@ constexpr double k_rounding = 1e-13;
 /// mechanical pass sees go half as far. Where heat follows a contact that closes by it (a gap that opens as
 /// its metal cools), the whole step goes round between two states, one with contact and one without.
 constexpr std::size_t k_patience = 8;
-/// Iterations without damping.
+/// Iterations without damping, and with the stabilisation of contact as it is given.
 constexpr std::size_t k_whole_steps = 24;
 /// A change of temperature so many times the first one says that the iteration diverges.
 constexpr double k_diverged = 100;
@@ -59,7 +59,7 @@ struct BlockIterative::Iterate {
   std::vector<double> temperature, before;
   mechanics::StepDeformation deformation;  ///< of the last mechanical pass
   bool solved = false;                     ///< both passes reached the tolerances of their phases
-  bool at_rest = false;  ///< the last mechanical pass set out within the tolerance of its forces
+  bool at_rest = false;  ///< the last mechanical pass set out in balance, within tolerance or rounding
   double damping = 1;    ///< of relaxation
   int turns = 0;         ///< of the augmented Lagrangian, in all mechanical passes
   StepEffort& effort;
@@ -158,6 +158,7 @@ bool BlockIterative::mechanical(const State& old, Iterate& it, int newton_steps)
       .time = it.attempt.time, .dt = it.attempt.dt, .temperature = old.heat.temperature};
   it.phases.hold(pass);
   pass.newton_steps = newton_steps;
+  if (it.number > static_cast<int>(k_whole_steps)) pass.contact_hold = k_firm_hold;
   if (it.number > 1) {
     pass.iterate_temperature = it.temperature;
     pass.iterate = &it.now.mechanics;
@@ -168,10 +169,8 @@ bool BlockIterative::mechanical(const State& old, Iterate& it, int newton_steps)
   mechanics::MechanicalReport report =
       mechanical_pass(phases_, old, it.now, pass, it.effort, before, &it.turns);
   it.deformation = std::move(report.deformation);
-  const linear::NewtonReport& newton = report.newton;
-  it.at_rest = it.turns == turns + 1 && !newton.residuals.empty() &&
-               newton.residuals.front() <= phases_.mechanics->options().newton.tolerance;
-  return newton.converged;
+  it.at_rest = it.turns == turns + 1 && report.newton.began_balanced;
+  return report.newton.converged;
 }
 
 bool BlockIterative::thermal(const State& old, Iterate& it, int newton_steps) const {

@@ -5,6 +5,11 @@
 
 namespace solidus::coupling {
 
+/// Times the stabilisation of contact that its tangents hold where an iteration does not settle. The place of
+/// a body that contact has let go and nothing else holds follows from rounding over that stabilisation, and
+/// so does the heat that passes through its gaps.
+inline constexpr double k_firm_hold = 1e3;
+
 /// A mechanical pass sets out: pairs from `contacts` at t_n (State::contacts).
 /// @param coherency  at t_n (coherency_of)
 /// @param iterate    of the pass before within the step (ContactPass::iterate); empty: there is none

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "coupling/contact_states.hpp"
 #include "coupling/coupled_saddle_solver.hpp"
 #include "mechanics/nodal_pressure.hpp"
 #include "mechanics/saddle_solver.hpp"
@@ -318,6 +319,8 @@ bool CoupledNewton::equilibrate(const mechanics::MechanicalState& old, mechanics
   }
   pass.iterate = &iterate;
   release_deformation();
+  if (tangent_ == Tangent::without_heat_of_motion)
+    for (contact::ContactPair* pair : phases_.contacts) pair->stabilise(k_firm_hold);
   try {
     mechanics_.solve(old, iterate, pass);
     x = mechanics_.start(old, pass);

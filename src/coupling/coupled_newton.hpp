@@ -95,7 +95,7 @@ class CoupledNewton {
     whole,
     /// All but ∂r_Θ/∂u: a step is one of heat at fixed displacements, and of the displacements after it. It
     /// converges linearly, as the iteration between two phases does, but a contact that opens and closes by
-    /// its own heat does not throw it to and fro.
+    /// its own heat does not throw it to and fro. Its equilibria hold the points of contact more firmly.
     without_heat_of_motion
   };
   /// The iteration from x and the temperatures of thermal(). Throws StepRejected on all processes.

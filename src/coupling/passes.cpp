@@ -40,6 +40,8 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
   const std::vector<double> coherency =
       phases.contacts.empty() ? std::vector<double>{} : coherency_of(phases, old.heat);
   begin_contacts(phases, old.contacts, old.mechanics, pass, coherency, contacts);
+  if (pass.contact_hold != 1)
+    for (contact::ContactPair* pair : phases.contacts) pair->stabilise(pass.contact_hold);
   if (phases.structural != nullptr) phases.structural->release();
   mechanics::MechanicalReport report;
   mechanics::MechanicalPass turn = pass;

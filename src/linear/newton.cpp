@@ -202,6 +202,7 @@ NewtonReport Iteration::run() {
   fixed_ = &tangent->fixed();
   constraints_ = &tangent->constraints();
   constrain();
+  report.began_balanced = balanced();
   bool chord = false;
   Forcing forcing(options_.inexact, k_loosest);
   while (true) {

@@ -123,6 +123,8 @@ struct MechanicalPass {
   std::span<const double> iterate_temperature{};
   /// Displacement and history of the iterate: Newton's start, and whose entropy is held.
   const MechanicalState* iterate = nullptr;
+  /// Times the stabilisation of contact that its tangents hold (contact::ContactPair::stabilise).
+  double contact_hold = 1;
   int newton_steps = 0;  ///< at most; the pass may end with them before equilibrium. Zero: until equilibrium
   /// The forces whose product with the increment is the work of the pass; null: those at its end. Both passes
   /// of a step in two halves work with the stress in the middle, which is in equilibrium

@@ -4,7 +4,6 @@
 
 #include <cerrno>
 #include <cstdint>
-#include <stdexcept>
 
 #include "mesh/parametric_meshes.hpp"
 
@@ -37,7 +36,7 @@ template <class T>
 std::vector<T> take_list(const TakeBytes& take, double& left) {
   const auto n = take_number<std::uint64_t>(take);
   left -= static_cast<double>(n) * sizeof(T);
-  if (left < 0) throw std::runtime_error("the mesh is larger than its limit");
+  if (left < 0) throw MessageError("the mesh is larger than its limit");
   std::vector<T> list(n);
   take(list.data(), list.size() * sizeof(T));
   return list;
@@ -65,15 +64,15 @@ GeometryGroup take_group_choice(const TakeBytes& take) {
 
 RawBlock take_block(const TakeBytes& take, double& left, std::size_t n_nodes) {
   const auto shape = take_number<int>(take);
-  if (shape < 0 || shape > static_cast<int>(Shape::hex20)) throw std::runtime_error("an element of no shape");
+  if (shape < 0 || shape > static_cast<int>(Shape::hex20)) throw MessageError("an element of no shape");
   RawBlock block{static_cast<Shape>(shape), take_list<Index>(take, left), {}};
   block.input_element = take_list<GlobalIndex>(take, left);
   const auto per_element = static_cast<std::size_t>(node_count(block.shape));
   if (block.nodes.size() != per_element * block.input_element.size())
-    throw std::runtime_error("elements without their nodes");
+    throw MessageError("elements without their nodes");
   for (const Index node : block.nodes)
     if (node < 0 || static_cast<std::size_t>(node) >= n_nodes)
-      throw std::runtime_error("an element with a node that the mesh does not have");
+      throw MessageError("an element with a node that the mesh does not have");
   return block;
 }
 
@@ -86,7 +85,7 @@ void put_text(const std::string& text, const PutBytes& put) {
 
 std::string take_text(const TakeBytes& take, std::size_t longest) {
   const auto n = take_number<std::uint64_t>(take);
-  if (n > longest) throw std::runtime_error("a text is longer than its limit");
+  if (n > longest) throw MessageError("a text is longer than its limit");
   std::string text(n, '\0');
   take(text.data(), n);
   return text;
@@ -198,11 +197,11 @@ RawMesh take_mesh(const TakeBytes& take, double most_bytes) {
   mesh.x = take_list<Point>(take, left);
   mesh.input_node = take_list<GlobalIndex>(take, left);
   if (mesh.dimension < 2 || mesh.dimension > 3 || mesh.input_node.size() != mesh.x.size())
-    throw std::runtime_error("nodes without their numbers");
+    throw MessageError("nodes without their numbers");
   for (auto n = take_number<std::size_t>(take); n > 0; --n) {
     const std::string name = take_text(take);
     RawGroup group{take_number<int>(take), {}};
-    if (group.dimension < 0 || group.dimension > 3) throw std::runtime_error("a group of no dimension");
+    if (group.dimension < 0 || group.dimension > 3) throw MessageError("a group of no dimension");
     for (auto blocks = take_number<std::size_t>(take); blocks > 0; --blocks)
       group.blocks.push_back(take_block(take, left, mesh.x.size()));
     mesh.groups.emplace(name, std::move(group));
@@ -215,7 +214,7 @@ void put_all(int descriptor, const void* bytes, std::size_t n) {
   while (n > 0) {
     const ssize_t written = ::write(descriptor, at, n);
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) throw std::runtime_error("the other end of the pipe has gone");
+    if (written <= 0) throw MessageError("the other end of the pipe has gone");
     at += written;
     n -= static_cast<std::size_t>(written);
   }
@@ -226,7 +225,7 @@ void take_all(int descriptor, void* bytes, std::size_t n) {
   while (n > 0) {
     const ssize_t read = ::read(descriptor, at, n);
     if (read < 0 && errno == EINTR) continue;
-    if (read <= 0) throw std::runtime_error("the other end of the pipe has gone");
+    if (read <= 0) throw MessageError("the other end of the pipe has gone");
     at += read;
     n -= static_cast<std::size_t>(read);
   }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -18,12 +19,19 @@ inline constexpr int k_request_descriptor = 3, k_answer_descriptor = 4;
 /// The first word of an answer. A mesh follows, or a text where it is an error with one.
 enum class ReaderAnswer : int { mesh, unusable_geometry, input_error, memory, internal };
 
-/// Writes and reads all of `n` bytes, whatever the pipe holds at once. Throw std::runtime_error where the
-/// other end has gone.
+/// What the other end sent is none of these messages, or it has gone.
+class MessageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Writes and reads all of `n` bytes, whatever the pipe holds at once. Throw MessageError where the other end
+/// has gone.
 void put_all(int descriptor, const void* bytes, std::size_t n);
 void take_all(int descriptor, void* bytes, std::size_t n);
 
-/// Functions that send and receive bytes. Both throw if the connection ends too soon.
+/// Functions that send and receive bytes. Both throw if the connection ends too soon. What is received throws
+/// MessageError where it is no message.
 using PutBytes = std::function<void(const void* bytes, std::size_t n)>;
 using TakeBytes = std::function<void(void* bytes, std::size_t n)>;
 
@@ -34,7 +42,7 @@ void put_casting(const CastingGeometry& casting, const PutBytes& put);
 CastingGeometry take_casting(const TakeBytes& take);
 
 void put_mesh(const RawMesh& mesh, const PutBytes& put);
-/// Throws std::runtime_error for data that are no mesh: an unknown shape, a node that is not there, more than
+/// Throws MessageError for data that are no mesh: an unknown shape, a node that is not there, more than
 /// `most_bytes`.
 RawMesh take_mesh(const TakeBytes& take, double most_bytes);
 

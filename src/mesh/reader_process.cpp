@@ -17,9 +17,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include "input/units.hpp"
 #include "mesh/file_format.hpp"
@@ -27,6 +29,7 @@
 #include "system/errors.hpp"
 #include "system/log.hpp"
 #include "system/program_path.hpp"
+#include "system/version.hpp"
 
 extern char** environ;  // NOLINT: POSIX declares it nowhere
 
@@ -38,6 +41,8 @@ constexpr const char* k_reader = "solidus-reader";  ///< name of the program
 
 ReadMesh* reads_here = nullptr;  ///< null: readers read
 bool (*give_up)() = nullptr;
+
+constexpr const char* k_same_build = "the solidus-reader of the same build as this program";
 
 /// Beside the program, or where an installation has it. `path` is of the mesh, for the message.
 std::string reader_program(const std::string& path) {
@@ -52,14 +57,24 @@ std::string reader_program(const std::string& path) {
 
 using Clock = std::chrono::steady_clock;
 
+/// The ends of a pipe, which no program that is started inherits: read from the first, write to the second.
+std::array<int, 2> open_pipe() {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe to a reader of meshes");
+  return ends;
+}
+
 /// A reader at work; it does not outlive this.
 class Reader {
  public:
-  Reader(const MeshSource& source, const CastingGeometry* casting, const ReaderLimits& limits);
+  Reader(const MeshSource& source, const ReaderLimits& limits)
+      : program_(reader_program(source.path)), source_(source), limits_(limits) {}
   ~Reader() {
     if (pid_ > 0) {
       ::kill(pid_, SIGKILL);
-      wait();
+      int status = 0;
+      while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+      }
     }
     for (const int descriptor : {to_, from_})
       if (descriptor >= 0) ::close(descriptor);
@@ -67,22 +82,24 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
+  /// Throws InputError where it cannot be started.
+  void start();
+  /// Sends the request, however slowly the reader takes it; one that does not take it has ended or answers.
+  void request(const CastingGeometry* casting);
   /// Reads as much, whatever time it takes within the limit. Throws InputError where the reader ends before,
   /// or does not end.
   void take(void* bytes, std::size_t n);
+  const std::string& program() const { return program_; }
 
  private:
-  /// Waits until bytes arrive or the reader has ended.
-  void wait_for_bytes();
+  void give(const void* bytes, std::size_t n);
+  /// Waits until the pipe is ready for it (POLLIN, POLLOUT) or the other end has gone.
+  void wait_for(int descriptor, short event);
   [[noreturn]] void ended();
-  int wait() {
-    int status = 0;
-    while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-    }
-    pid_ = -1;
-    return status;
-  }
+  /// How it ended; empty where it goes on, which has closed its end of the pipe.
+  std::optional<int> status();
 
+  std::string program_;
   const MeshSource& source_;
   ReaderLimits limits_;
   Clock::time_point begun_ = Clock::now();
@@ -91,22 +108,17 @@ class Reader {
   int to_ = -1, from_ = -1;
 };
 
-Reader::Reader(const MeshSource& source, const CastingGeometry* casting, const ReaderLimits& limits)
-    : source_(source), limits_(limits) {
-  const std::string program = reader_program(source.path);
-  std::array<int, 2> request{}, answer{};
-  if (pipe2(request.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe to a reader of meshes");
-  if (pipe2(answer.data(), O_CLOEXEC) != 0) {
-    ::close(request[0]);
-    ::close(request[1]);
-    throw std::runtime_error("no pipe to a reader of meshes");
-  }
-  to_ = request[1];
-  from_ = answer[0];
+void Reader::start() {
+  const auto [takes_request, to] = open_pipe();
+  to_ = to;
+  const auto [from, gives_answer] = open_pipe();
+  from_ = from;
   // Beyond the descriptors that the reader will know them by, or one would close the other.
-  const int reads = fcntl(request[0], F_DUPFD_CLOEXEC, 10), writes = fcntl(answer[1], F_DUPFD_CLOEXEC, 10);
-  ::close(request[0]);
-  ::close(answer[1]);
+  const int reads = fcntl(takes_request, F_DUPFD_CLOEXEC, 10),
+            writes = fcntl(gives_answer, F_DUPFD_CLOEXEC, 10);
+  ::close(takes_request);
+  ::close(gives_answer);
+  fcntl(to_, F_SETFL, O_NONBLOCK);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
@@ -117,33 +129,53 @@ Reader::Reader(const MeshSource& source, const CastingGeometry* casting, const R
   posix_spawn_file_actions_addclosefrom_np(&actions, k_answer_descriptor + 1);
   std::string name = k_reader;
   std::array<char*, 2> argv = {name.data(), nullptr};
-  const int failed = posix_spawn(&pid_, program.c_str(), &actions, nullptr, argv.data(), environ);
+  const int failed = posix_spawn(&pid_, program_.c_str(), &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   ::close(reads);
   ::close(writes);
-  if (failed != 0) {
-    pid_ = -1;
-    throw std::runtime_error(std::string("a reader of meshes cannot be started: ") + std::strerror(failed));
-  }
+  if (failed == 0) return;
+  pid_ = -1;
+  throw InputError({source_.path},
+                   fmt::format("the program that reads meshes, '{}', cannot be started: {}", program_,
+                               std::strerror(failed)),
+                   k_same_build);
+}
+
+void Reader::request(const CastingGeometry* casting) {
   // A reader that dies at once breaks the pipe: its end is told by take().
   const auto before = std::signal(SIGPIPE, SIG_IGN);
   try {
-    const PutBytes put = [this](const void* bytes, std::size_t n) { put_all(to_, bytes, n); };
-    put_text(SOLIDUS_VERSION, put);
-    put_source(source, put);
+    const PutBytes put = [this](const void* bytes, std::size_t n) { give(bytes, n); };
+    put_text(program_version(), put);
+    put_source(source_, put);
     const bool of_casting = casting != nullptr;
     put(&of_casting, sizeof of_casting);
     if (of_casting) put_casting(*casting, put);
     put(&limits_.memory, sizeof limits_.memory);
-  } catch (const std::runtime_error&) {  // NOLINT: take() finds the reader gone and says why
+  } catch (const MessageError&) {  // NOLINT: take() finds the reader gone and says why
+  } catch (...) {
+    std::signal(SIGPIPE, before);
+    throw;
   }
   std::signal(SIGPIPE, before);
 }
 
-void Reader::wait_for_bytes() {
+void Reader::give(const void* bytes, std::size_t n) {
+  const char* at = static_cast<const char*>(bytes);
+  while (n > 0) {
+    wait_for(to_, POLLOUT);
+    const ssize_t written = ::write(to_, at, n);
+    if (written < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (written <= 0) throw MessageError("the reader has gone");
+    at += written;
+    n -= static_cast<std::size_t>(written);
+  }
+}
+
+void Reader::wait_for(int descriptor, short event) {
   constexpr int k_tick = 100;  // [ms]
   while (true) {
-    pollfd waiting{from_, POLLIN, 0};
+    pollfd waiting{descriptor, event, 0};
     if (::poll(&waiting, 1, k_tick) > 0) return;
     if (give_up != nullptr && give_up()) throw StepRejected("stopped by a signal while the mesh was read");
     const double taken = std::chrono::duration<double>(Clock::now() - begun_).count();
@@ -164,7 +196,7 @@ void Reader::wait_for_bytes() {
 void Reader::take(void* bytes, std::size_t n) {
   char* at = static_cast<char*>(bytes);
   while (n > 0) {
-    wait_for_bytes();
+    wait_for(from_, POLLIN);
     const ssize_t read = ::read(from_, at, n);
     if (read < 0 && errno == EINTR) continue;
     if (read <= 0) ended();
@@ -173,18 +205,46 @@ void Reader::take(void* bytes, std::size_t n) {
   }
 }
 
+std::optional<int> Reader::status() {
+  constexpr std::chrono::milliseconds k_patience(1000), k_tick(5);
+  const Clock::time_point since = Clock::now();
+  int status = 0;
+  while (true) {
+    const pid_t found = waitpid(pid_, &status, WNOHANG);
+    if (found == pid_ || (found < 0 && errno != EINTR)) {
+      pid_ = -1;
+      return status;
+    }
+    if (Clock::now() - since > k_patience) return std::nullopt;
+    std::this_thread::sleep_for(k_tick);
+  }
+}
+
 void Reader::ended() {
-  const int status = wait();
-  const std::string limit = std::to_string(std::lround(limits_.memory / 1e6)) + " MB";
-  if (WIFSIGNALED(status))
+  const std::optional<int> how = status();
+  if (!how)
+    throw InputError({source_.path},
+                     fmt::format("the program that reads meshes, '{}', went on without an answer", program_),
+                     k_same_build);
+  if (WIFSIGNALED(*how) && WTERMSIG(*how) == SIGKILL)
+    throw InputError({source_.path},
+                     "the program that read or meshed this file was killed: by the system, where memory ran "
+                     "out, or by a user",
+                     "larger elements, or fewer programs beside it");
+  if (WIFSIGNALED(*how))
     throw InputError(
         {source_.path},
-        std::string("Gmsh crashed while it read or meshed this file (") + strsignal(WTERMSIG(status)) + ")",
-        "a file that is whole, other mesh options, or more memory than " + limit +
-            ": SOLIDUS_MESH_MEMORY=\"8 GB\"");
+        std::string("Gmsh crashed while it read or meshed this file (") + strsignal(WTERMSIG(*how)) + ")",
+        "a file that is whole, other mesh options, or more memory than " +
+            std::to_string(std::lround(limits_.memory / 1e6)) + " MB: SOLIDUS_MESH_MEMORY=\"8 GB\"");
+  constexpr int k_cannot_run = 127;  // of the loader, where a library is missing
+  if (WEXITSTATUS(*how) == k_cannot_run)
+    throw InputError(
+        {source_.path}, fmt::format("the program that reads meshes, '{}', cannot run", program_),
+        fmt::format("the libraries that it needs; ldd '{}' names those that are missing", program_));
   throw InputError(
       {source_.path},
-      "the file ended the program that read it, with exit code " + std::to_string(WEXITSTATUS(status)),
+      "the file ended the program that read it, with exit code " + std::to_string(WEXITSTATUS(*how)),
       "a script that goes to its end");
 }
 
@@ -195,9 +255,7 @@ void Reader::ended() {
       "larger elements, or more memory: SOLIDUS_MESH_MEMORY=\"8 GB\"");
 }
 
-RawMesh read_in_own_process(const MeshSource& source, const CastingGeometry* casting) {
-  const ReaderLimits limits = reader_limits(source, casting != nullptr);
-  Reader reader(source, casting, limits);
+RawMesh take_answer(Reader& reader, const MeshSource& source, const ReaderLimits& limits) {
   const TakeBytes take = [&](void* bytes, std::size_t n) { reader.take(bytes, n); };
   ReaderAnswer answer = ReaderAnswer::internal;
   take(&answer, sizeof answer);
@@ -211,9 +269,24 @@ RawMesh read_in_own_process(const MeshSource& source, const CastingGeometry* cas
     case ReaderAnswer::memory:
       too_little_memory(source, limits);
     case ReaderAnswer::internal:
-      break;
+      throw InputError({source.path}, "the mesh cannot be read: " + take_text(take));
   }
-  throw InputError({source.path}, "the mesh cannot be read: " + take_text(take));
+  throw MessageError("an answer of no kind");
+}
+
+RawMesh read_in_own_process(const MeshSource& source, const CastingGeometry* casting) {
+  const ReaderLimits limits = reader_limits(source, casting != nullptr);
+  Reader reader(source, limits);
+  reader.start();
+  reader.request(casting);
+  try {
+    return take_answer(reader, source, limits);
+  } catch (const MessageError& error) {
+    throw InputError({source.path},
+                     fmt::format("what the program that reads meshes, '{}', answered is no mesh: {}",
+                                 reader.program(), error.what()),
+                     k_same_build);
+  }
 }
 
 /// "8 GB" or "500 MB" in bytes.

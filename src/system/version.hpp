@@ -5,10 +5,13 @@
 
 namespace solidus {
 
-/// The version of the program: that of the project unless set_version() was called.
+/// The version of the program: that of the project unless set_program_version() was called.
 const std::string& program_version();
 /// Call this first in main(): programs know the commit that they were built from, libraries do not, so that
 /// they need not be linked anew with each commit.
 void set_program_version(std::string version);
+/// Whether two versions can be of the same build. One that names no commit (behind a '+') is that of a
+/// program that links the libraries: it agrees with every commit of its version.
+bool same_build(const std::string& one, const std::string& other);
 
 }  // namespace solidus

@@ -3,18 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "foreign_files.hpp"
 
 namespace {
 
@@ -22,82 +17,7 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr const char* k_case = R"(title = "A square cools"
-[analysis]
-kind = "plane_strain"
-physics = "heat"
-[mesh]
-file = "part.geo"
-unit = "mm"
-[time]
-end = "2 s"
-step = "1 s"
-[[body]]
-name = "part"
-material = "steel_mould"
-initial_temperature = "200 degC"
-)";
-
-constexpr const char* k_square = R"(SetFactory("OpenCASCADE");
-Rectangle(1) = {0, 0, 0, 10, 10};
-Physical Surface("part") = {1};
-Mesh.MeshSizeMax = 5;
-)";
-
-struct Outcome {
-  int code = -1;
-  std::string said;  ///< on both streams
-  double seconds = 0;
-};
-
-class ForeignFiles : public ::testing::Test {
- protected:
-  void SetUp() override {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    write("case.toml", k_case);
-    write("part.geo", k_square);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  void write(const std::string& name, const std::string& content) const {
-    std::ofstream(folder_ / name, std::ios::binary) << content;
-  }
-  bool has(const std::string& name) const { return fs::exists(folder_ / name); }
-
-  /// A line for the shell in the folder; `solidus` is the program.
-  Outcome shell(const std::string& line) const {
-    const std::string command = "cd '" + folder_.string() +
-                                "' && export SOLIDUS_MATERIALS='" SOLIDUS_SOURCE_DIR
-                                "/materials' && solidus() { '" SOLIDUS_BINARY_DIR
-                                "/solidus' \"$@\"; } && { " +
-                                line + "; } 2>&1";
-    const std::string quoted = "bash -c \"$COMMAND\"";
-    setenv("COMMAND", command.c_str(), 1);
-    Outcome outcome;
-    const auto begin = std::chrono::steady_clock::now();
-    std::FILE* pipe = popen(quoted.c_str(), "r");
-    if (pipe == nullptr) return outcome;
-    std::array<char, 512> buffer{};
-    while (std::fgets(buffer.data(), buffer.size(), pipe)) outcome.said += buffer.data();
-    const int status = pclose(pipe);
-    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return outcome;
-  }
-  /// Expects exit code 1 and one message that holds the phrases.
-  void expect_refused(const std::string& line, const std::vector<std::string>& phrases) const {
-    const Outcome outcome = shell(line);
-    EXPECT_EQ(outcome.code, 1) << line << ": " << outcome.said;
-    for (const std::string& phrase : phrases) EXPECT_THAT(outcome.said, HasSubstr(phrase)) << line;
-    EXPECT_EQ(outcome.said.find("solidus: "), 0u) << line << ": " << outcome.said;
-    EXPECT_THAT(outcome.said, Not(HasSubstr("PETSC ERROR"))) << line;
-    EXPECT_LT(outcome.seconds, 20) << line;
-  }
-
-  fs::path folder_ = fs::temp_directory_path() / ("solidus_foreign_" + std::to_string(getpid()));
-};
+using namespace solidus::tests;
 
 TEST_F(ForeignFiles, TheSquareThatTheyAreMadeFromRunsOnOneAndTwoProcesses) {
   const Outcome one = shell("solidus run case.toml -o one");

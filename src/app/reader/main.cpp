@@ -5,11 +5,14 @@
 #include <cstdio>
 #include <exception>
 
+#include "app/built_version.hpp"
 #include "mesh/gmsh/serve.hpp"
+#include "system/version.hpp"
 
 int main() {
   int code = 3;
   try {
+    solidus::set_program_version(solidus::app::built_version());
     solidus::mesh::serve_request();
     code = 0;
   } catch (const std::exception&) {

@@ -13,6 +13,7 @@
 #include "mesh/gmsh/reader_sandbox.hpp"
 #include "mesh/reader_message.hpp"
 #include "system/errors.hpp"
+#include "system/version.hpp"
 
 namespace solidus::mesh {
 
@@ -40,9 +41,9 @@ void serve_request() {
   const PutBytes put = [](const void* bytes, std::size_t n) { put_all(k_answer_descriptor, bytes, n); };
   const TakeBytes take = [](void* bytes, std::size_t n) { take_all(k_request_descriptor, bytes, n); };
   const auto say = [&](ReaderAnswer answer) { put(&answer, sizeof answer); };
-  if (const std::string version = take_text(take); version != SOLIDUS_VERSION) {
+  if (const std::string version = take_text(take); !same_build(version, program_version())) {
     say(ReaderAnswer::internal);
-    put_text("solidus-reader is of version " SOLIDUS_VERSION ", the program of " + version, put);
+    put_text("solidus-reader is of version " + program_version() + ", the program of " + version, put);
     return;
   }
   const MeshSource source = take_source(take);

@@ -1,0 +1,110 @@
+/// A reader of meshes that is missing, damaged, of another build, hangs, dies or answers nonsense: each ends
+/// in one message with exit code 1, and nothing is written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "foreign_files.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using namespace solidus::tests;
+
+/// A copy of the program in a folder whose name has a blank, and what stands in for its reader there.
+class ForeignReader : public ForeignFiles {
+ protected:
+  void SetUp() override {
+    ForeignFiles::SetUp();
+    fs::create_directories(folder_ / "a copy");
+    fs::copy_file(SOLIDUS_BINARY_DIR "/solidus", folder_ / "a copy/solidus");
+  }
+  void become(const std::string& content) const {
+    write("a copy/solidus-reader", content);
+    fs::permissions(folder_ / "a copy/solidus-reader", fs::perms::owner_all);
+  }
+  void script(const std::string& lines) const { become("#!/bin/bash\n" + lines + "\n"); }
+  std::string whole_reader() const {
+    std::ifstream file(SOLIDUS_BINARY_DIR "/solidus-reader", std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void expect_nothing_read(const std::vector<std::string>& phrases) const {
+    expect_refused("export SOLIDUS_MESH_TIME='2 s'; './a copy/solidus' run case.toml -o out", phrases);
+    EXPECT_FALSE(has("out/history.csv"));
+    EXPECT_FALSE(has("out/checkpoint"));
+  }
+};
+
+TEST_F(ForeignReader, IsFoundBesideTheProgramWhateverThePathAndTheFolder) {
+  become(whole_reader());
+  EXPECT_EQ(shell("'./a copy/solidus' check case.toml").code, 0);
+  EXPECT_EQ(shell("ln -s 'a copy/solidus' link; ./link check case.toml").code, 0);
+  const Outcome outcome = shell("env PATH=\"$PWD/a copy:/bin\" solidus check case.toml");
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+}
+
+TEST_F(ForeignReader, ThatIsMissingOrCannotBeStartedIsNamed) {
+  expect_nothing_read({"part.geo", "'solidus-reader', is missing beside"});
+  fs::create_directory(folder_ / "a copy/solidus-reader");
+  expect_nothing_read({"part.geo", "a copy/solidus-reader', cannot be started"});
+  fs::remove(folder_ / "a copy/solidus-reader");
+  write("a copy/solidus-reader", "no program");
+  expect_nothing_read({"cannot be started: Permission denied"});
+  become("no program");
+  expect_nothing_read({"cannot be started: Exec format error"});
+  script("exit 127");  // what the loader ends with where a library is missing
+  expect_nothing_read({"part.geo", "cannot run", "ldd"});
+}
+
+TEST_F(ForeignReader, OfAnotherBuildIsRefused) {
+  std::string reader = whole_reader();
+  const std::string version = SOLIDUS_VERSION;
+  for (std::size_t at = reader.find(version); at != std::string::npos; at = reader.find(version, at + 1))
+    reader[at] ^= 1;  // another first figure
+  become(reader);
+  expect_nothing_read({"part.geo", "solidus-reader is of version", "the program of " + version});
+}
+
+TEST_F(ForeignReader, ThatEndsDiesOrHangsIsNamed) {
+  script("exit 7");
+  expect_nothing_read({"part.geo", "exit code 7"});
+  script("kill -KILL $$");
+  expect_nothing_read({"part.geo", "was killed"});
+  script("kill -SEGV $$");
+  expect_nothing_read({"part.geo", "Gmsh crashed", "Segmentation"});
+  script("exec sleep 60");
+  expect_nothing_read({"part.geo", "longer than 2 s"});
+  script("exec 4>&-; exec sleep 60");
+  expect_nothing_read({"part.geo", "went on without an answer"});
+  script("'" SOLIDUS_BINARY_DIR
+         "/solidus-reader' 4>&1 >&4 | head -c 60 >&4; kill -KILL $$");  // in mid-answer
+  expect_nothing_read({"part.geo", "was killed"});
+}
+
+TEST_F(ForeignReader, ThatAnswersNonsenseIsNamed) {
+  for (const char* nonsense :
+       {"echo some text >&4", "head -c 100000 /dev/zero >&4", "yes >&4", "printf '\\0\\0\\0\\0' >&4; yes >&4",
+        "printf '\\11\\0\\0\\0' >&4; exec sleep 60"}) {
+    script(nonsense);
+    expect_nothing_read({"part.geo", "a copy/solidus-reader', answered is no mesh"});
+  }
+}
+
+TEST_F(ForeignReader, ThatHangsIsGivenUpAtASignal) {
+  script("exec sleep 60");
+  for (const char* signal : {"TERM", "HUP"}) {
+    const Outcome outcome = shell("timeout --foreground --preserve-status -s " + std::string(signal) +
+                                  " 2 './a copy/solidus' run case.toml -o out");
+    EXPECT_EQ(outcome.code, 2) << signal << ": " << outcome.said;
+    EXPECT_THAT(outcome.said, HasSubstr("stopped by a signal while the mesh was read"));
+    EXPECT_FALSE(has("out/history.csv"));
+  }
+}
+
+}  // namespace
