@@ -109,8 +109,8 @@ bool TruncatedNewton::revise_limits(const ConductionBounds& bounds) {
 }
 
 /// The tolerance of the next linear system. Near the solution the sweeps take nearly all that tangents have
-/// left at the front, so that what the linear solver leaves would cost one more iteration: there it goes on to
-/// what ends the iteration.
+/// left at the front, so that what the linear solver leaves would cost one more iteration: there it goes on
+/// to what ends the iteration.
 double TruncatedNewton::forcing_term(linear::Forcing& forcing) const {
   const double goal = options_.tolerance * moved_ / norm_, usual = forcing.next(norm_, goal);
   return norm_ <= k_nearly * moved_ ? std::min(usual, std::max(goal, k_strictest)) : usual;

@@ -129,7 +129,7 @@ class BlockMatrix {
   int pattern_ = 0;
   std::vector<std::int64_t> row_start_;
   std::vector<Index> columns_;
-  std::vector<Slot> diagonal_;  ///< of each owned row where the matrix is whole
+  std::vector<Slot> diagonal_;             ///< of each owned row where the matrix is whole
   std::vector<char> left_out_;             ///< as of the graph
   std::vector<std::int64_t> ghost_start_;  ///< [owned node], into ghost_slots_
   std::vector<Slot> ghost_slots_;          ///< slots of ghost columns in global order

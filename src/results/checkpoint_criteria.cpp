@@ -42,8 +42,8 @@ std::vector<Part> parts(const mesh::Mesh& mesh, const CriterionRecord& record,
   std::size_t first = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const mesh::ElementBlock& block = mesh.blocks[b];
-    result.push_back({first, static_cast<std::size_t>(block.n_counted), &block,
-                      element_path(b, "element"), element_path(b, record.name + "_" + column.name)});
+    result.push_back({first, static_cast<std::size_t>(block.n_counted), &block, element_path(b, "element"),
+                      element_path(b, record.name + "_" + column.name)});
     first += block.input_element.size();
   }
   return result;

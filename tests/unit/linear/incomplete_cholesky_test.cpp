@@ -175,8 +175,9 @@ TEST(IncompleteCholesky, IterationsGrowWithTheRootOfTheSideOfTheMesh) {
   EXPECT_LE(fine, std::sqrt(2.0) * coarse);
 }
 
-// Each process has factors of its own rows, which know of the others by a share of the entries across the border
-// on their diagonals: 37 and 39 iterations on two and three processes, 23 on one; without that share 55 and 58.
+// Each process has factors of its own rows, which know of the others by a share of the entries across the
+// border on their diagonals: 37 and 39 iterations on two and three processes, 23 on one; without that share
+// 55 and 58.
 TEST(IncompleteCholesky, PartsOfTheProcessesKnowOfEachOther) {
   Heat heat(120, 1e-2);
   std::vector<double> x(heat.right().size());
