@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "heat/plateau_watch.hpp"
-#include "linear/forcing.hpp"
 #include "parallel/parallel.hpp"
 #include "system/profile.hpp"
 
@@ -17,7 +16,8 @@ constexpr double k_limit_change = 1e-2;  ///< of flows by new limits, over the h
 constexpr int k_revisions = 1;           ///< of limits by flows
 constexpr int k_holds = 20;              ///< and by temperatures out of range
 constexpr int k_idle = 4;  ///< such revisions that find no further nodes: what the tolerance has left goes
-constexpr double k_nearly = 1e-2;      ///< residual over the heat moved from which on limits are looked at
+constexpr double k_nearly = 1e-2;      ///< residual over the heat moved where the solution is nearly known
+constexpr double k_strictest = 1e-4;   ///< forcing term there, whatever the tolerance
 constexpr double k_chord_worth = 0.5;  ///< share of the residual left up to which chords are used again
 constexpr double k_loosest = 0.1;      ///< forcing term of the inexact linear solves
 
@@ -108,6 +108,14 @@ bool TruncatedNewton::revise_limits(const ConductionBounds& bounds) {
   return true;
 }
 
+/// The tolerance of the next linear system. Near the solution the sweeps take nearly all that tangents have
+/// left at the front, so that what the linear solver leaves would cost one more iteration: there it goes on
+/// to what ends the iteration.
+double TruncatedNewton::forcing_term(linear::Forcing& forcing) const {
+  const double goal = options_.tolerance * moved_ / norm_, usual = forcing.next(norm_, goal);
+  return norm_ <= k_nearly * moved_ ? std::min(usual, std::max(goal, k_strictest)) : usual;
+}
+
 linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, double dt,
                                             std::span<double> temperature, std::span<double> heat,
                                             const ConductionBounds& bounds, int newton_steps) {
@@ -165,7 +173,7 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
     }
     ++report.iterations;
     if (norm_ > std::max(options_.tolerance, options_.effort_tolerance) * moved_) ++report.effort;
-    const double to = forcing.next(norm_, options_.tolerance * moved_ / norm_);
+    const double to = forcing_term(forcing);
     const bool in_depth = watch.passed_in_depth(heat_, temperature_);
     const bool may_use_chords =
         storage_.has_plateaus() && !(by_chords && norm_ > k_chord_worth * norm_before);

@@ -50,6 +50,7 @@
 #include "heat/heat_system.hpp"
 #include "heat/nodal_enthalpy.hpp"
 #include "heat/node_curves.hpp"
+#include "linear/forcing.hpp"
 #include "linear/newton.hpp"
 
 namespace solidus::heat {
@@ -91,6 +92,7 @@ class TruncatedNewton {
   void release();
   void evaluate();
   bool converged() const { return norm_ <= options_.tolerance * moved_ || norm_ <= round_off_; }
+  double forcing_term(linear::Forcing& forcing) const;
   void assemble();
   void relax_nodes(bool all);
   double look_up(Index node);

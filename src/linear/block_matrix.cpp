@@ -100,8 +100,10 @@ void BlockMatrix::set_graph(NodeGraph graph) {
   graph.compress(row_start_, columns_, upper);
   const auto bs = static_cast<std::size_t>(block_size_);
   assign_in_large_pages(values_, (columns_.size() + 1) * bs * bs + (upper ? k_overhang : 0), 0.0);
-  diagonal_.resize(at(mesh_.n_owned_nodes));
-  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) diagonal_[at(row)] = slot(row, row);
+  if (!upper) {
+    diagonal_.resize(at(mesh_.n_owned_nodes));
+    for (Index row = 0; row < mesh_.n_owned_nodes; ++row) diagonal_[at(row)] = slot(row, row);
+  }
   order_ghost_columns();
   set_fixed(std::move(fixed_));
   petsc_->matrix.reset();
@@ -257,10 +259,11 @@ void BlockMatrix::unmask() {
 double BlockMatrix::mean_diagonal() const {
   const auto bs = static_cast<std::size_t>(block_size_);
   double sums[2] = {0, 0};
-  for (std::size_t row = 0; row < diagonal_.size(); ++row)
+  const auto n_rows = at(mesh_.n_owned_nodes);
+  for (std::size_t row = 0; row < n_rows; ++row)
     for (std::size_t a = 0; a < bs; ++a) {
       if (fixed_[row * bs + a]) continue;
-      sums[0] += block(diagonal_[row])[a * bs + a];
+      sums[0] += block(diagonal_slot(static_cast<Index>(row)))[a * bs + a];
       sums[1] += 1;
     }
   processes::sum(sums);

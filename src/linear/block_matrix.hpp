@@ -83,7 +83,7 @@ class BlockMatrix {
   /// node) of each slot.
   std::span<const std::int64_t> row_start() const { return row_start_; }
   std::span<const Index> columns() const { return columns_; }
-  double* diagonal_block(Index owned_node) { return block(diagonal_[static_cast<std::size_t>(owned_node)]); }
+  double* diagonal_block(Index owned_node) { return block(diagonal_slot(owned_node)); }
 
   /// Rows and columns of these degrees of freedom become those of the identity times the mean diagonal;
   /// [local node][component], ghosts included and already exchanged. Set again only when the set changes.
@@ -108,6 +108,11 @@ class BlockMatrix {
   std::size_t bytes() const;
 
  private:
+  /// A row of half a matrix begins with its diagonal.
+  Slot diagonal_slot(Index owned_node) const {
+    const auto row = static_cast<std::size_t>(owned_node);
+    return storage_ == Storage::upper ? row_start_[row] : diagonal_[row];
+  }
   void order_ghost_columns();
   void mask(double diagonal);
   void unmask();
@@ -124,7 +129,7 @@ class BlockMatrix {
   int pattern_ = 0;
   std::vector<std::int64_t> row_start_;
   std::vector<Index> columns_;
-  std::vector<Slot> diagonal_;
+  std::vector<Slot> diagonal_;             ///< of each owned row where the matrix is whole
   std::vector<char> left_out_;             ///< as of the graph
   std::vector<std::int64_t> ghost_start_;  ///< [owned node], into ghost_slots_
   std::vector<Slot> ghost_slots_;          ///< slots of ghost columns in global order

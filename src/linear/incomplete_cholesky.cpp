@@ -11,6 +11,8 @@ namespace {
 constexpr float k_least_pivot = 1e-4F;
 /// Fill without a place that a row bears before the rest goes to its diagonal, over the sum of the row.
 constexpr float k_borne_fill = 0.3F;
+/// Share of a row's entries with nodes of other processes that goes to its diagonal.
+constexpr float k_across = 0.7F;
 
 std::size_t at(std::int64_t i) {
   return static_cast<std::size_t>(i);
@@ -43,6 +45,7 @@ void IncompleteCholesky::factorise(const double* values) {
     const std::int64_t diagonal = start_[row], end = end_of_owned(row);
     const auto original = static_cast<float>(values[diagonal]);
     float& pivot = factor_[at(diagonal)];
+    for (std::int64_t s = end; s < start_[row + 1]; ++s) pivot += k_across * factor_[at(s)];
     if (bears[row] < 0.0F) pivot += bears[row];
     if (!(pivot > k_least_pivot * original)) pivot = original;
     eliminate(static_cast<Index>(row), end, bears);
@@ -52,7 +55,7 @@ void IncompleteCholesky::factorise(const double* values) {
   }
 }
 
-/// The fill that each row bears, from the sums of the rows of the process's part.
+/// The fill that each row bears, from the sum of the row.
 void IncompleteCholesky::find_borne_fill(const double* values, std::span<float> bears) const {
   std::fill(bears.begin(), bears.end(), 0.0F);
   for (std::size_t row = 0; row < bears.size(); ++row) {
@@ -63,6 +66,7 @@ void IncompleteCholesky::find_borne_fill(const double* values, std::span<float> 
       sum += values[s];
       bears[at(column_[at(s)])] += static_cast<float>(values[s]);
     }
+    for (std::int64_t s = end; s < start_[row + 1]; ++s) sum += values[s];
     bears[row] = k_borne_fill * static_cast<float>(sum);
   }
 }

@@ -8,6 +8,11 @@
 /// perturbation). A row that is diagonally dominant by more than its fill stays as it is: there nothing is
 /// smooth, and fill on the diagonal would be in the way.
 ///
+/// Each process has factors of its own rows. Of the entries A_ij with nodes j of other processes 0.7 goes to
+/// the diagonal of row i. With none of them the factors act as if the unknowns beyond the border were zero,
+/// with all of them as if each equalled that of its row; something between the two couples the parts best, as
+/// in optimised Schwarz methods (M. J. Gander, SIAM J. Numer. Anal. 44 (2006) 699).
+///
 /// Made from half a BlockMatrix as it stands, whose pattern the factors share: a sixth of the memory of
 /// PETSc's copy and factors. Meijerink and van der Vorst, Math. Comp. 31 (1977) 148.
 #pragma once

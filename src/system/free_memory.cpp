@@ -10,8 +10,6 @@ namespace solidus {
 
 #ifdef __GLIBC__
 namespace {
-/// Smaller arrays come and go too often to be asked of the system every time. [bytes]
-constexpr int k_large = 4 << 20;
 /// The end of the heap grows and shrinks by this much at once: every page that comes anew has to be cleared
 /// by the system, which was a quarter of the time of cases of some thousand nodes. What is not written takes
 /// no memory.
@@ -29,7 +27,7 @@ void return_free_memory() {
 void give_large_arrays_back() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_MAX, k_most_arrays);
-  mallopt(M_MMAP_THRESHOLD, k_large);
+  mallopt(M_MMAP_THRESHOLD, static_cast<int>(k_large_array));
   mallopt(M_TRIM_THRESHOLD, k_end_of_heap);
   mallopt(M_TOP_PAD, k_end_of_heap);
 #endif

@@ -1,7 +1,12 @@
 /// Returns freed memory to the system, which the allocator would keep.
 #pragma once
 
+#include <cstddef>
+
 namespace solidus {
+
+/// Arrays from this size on are asked of the system one by one: smaller ones come and go too often. [bytes]
+inline constexpr std::size_t k_large_array = std::size_t{4} << 20;
 
 /// Gives freed memory back to the system: reading and setting up leave holes that later arrays are too large
 /// for. Without effect where the C library cannot do it.
