@@ -10,6 +10,7 @@ using namespace solidus::model::test;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 /// The casting with roles: the lower block is what it says.
 std::string with_roles(const std::string& casefile, const std::string& lower) {
@@ -31,6 +32,21 @@ TEST_F(FindingsTest, ChillsThatTakeUpNoHeatAreNamed) {
   EXPECT_THAT(
       said_of(changed(chilled, "initial_temperature = \"20 degC\"", "initial_temperature = \"650 degC\"")),
       Contains(HasSubstr("the chill 'lower' starts at 650 degC")));
+}
+
+TEST_F(FindingsTest, AMouldOfInsulationIsNamed) {
+  const auto mould = [](const std::string& role, const std::string& material) {
+    return changed(changed(with_roles(k_casting, role), "\"steel_mould\"\ninitial_temperature = \"200 degC\"",
+                           "\"" + material + "\"\ninitial_temperature = \"20 degC\""),
+                   "end = \"10 min\"", "end = \"10 h\"");
+  };
+  const char* named = "takes up heat as insulation does";
+  for (const char* usual : {"green_sand", "dry_silica_sand", "plaster", "ceramic_shell"})
+    EXPECT_THAT(said_of(mould("mould", usual)), Not(Contains(HasSubstr(named)))) << usual;
+  for (const char* insulation : {"ceramic_fibre", "insulating_sleeve"}) {
+    EXPECT_THAT(said_of(mould("mould", insulation)), Contains(HasSubstr(named))) << insulation;
+    EXPECT_THAT(said_of(mould("sleeve", insulation)), Not(Contains(HasSubstr(named)))) << insulation;
+  }
 }
 
 TEST_F(FindingsTest, AMouldWithinItsCastingIsNamed) {
