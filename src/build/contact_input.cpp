@@ -7,6 +7,7 @@
 #include "build/body_input.hpp"
 #include "build/friction_input.hpp"
 #include "build/rigid_surface_input.hpp"
+#include "contact/penalty.hpp"
 #include "material/elasticity.hpp"
 #include "parallel/parallel.hpp"
 
@@ -148,6 +149,22 @@ void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
   const ContactSpec& c = *std::ranges::find(spec.contacts, pair.name, &ContactSpec::name);
   if (least > 0 && pair.atmosphere > 0 && !c.penalty_factor)
     pair.largest_penalty = pair.atmosphere / (k_wet_share * least);
+}
+
+void set_solid_penalty(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
+                       contact::ContactParameters& pair) {
+  if (!std::isfinite(pair.largest_penalty) || !pair.penalty_is_factor) return;
+  std::vector<std::string> surfaces{pair.slave};
+  if (!pair.rigid_master) surfaces.push_back(pair.master);
+  for (const std::string& name : surfaces)
+    if (!mesh.surfaces.contains(name)) return;  // refused where the pair is made
+  const std::vector<double> moduli = contact_moduli(materials);
+  for (std::size_t b = 0; b < materials.size(); ++b)
+    if (!materials[b].mechanical() && meets(mesh, static_cast<int>(b), pair)) return;
+  double softer = std::numeric_limits<double>::infinity();
+  for (const std::string& name : surfaces)
+    softer = std::min(softer, contact::local_stiffness(mesh, contact::ContactSurface(mesh, name), moduli));
+  pair.solid_penalty = pair.penalty * softer;
 }
 
 void choose_normal(const CaseSpec& spec, const std::vector<material::Material>& materials,

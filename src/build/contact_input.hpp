@@ -24,6 +24,12 @@ std::vector<double> contact_moduli(const std::vector<material::Material>& materi
 void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
                      const std::vector<material::Material>& materials, contact::ContactParameters& pair);
 
+/// Sets the penalty of solid skins beside a melt (after set_leaving_gap): the factor on the stiffness of the
+/// elements behind the softer of the two surfaces, whether their bodies deform or conduct heat alone. None
+/// where a body has no Young's modulus: nobody knows how hard such a wall is, most are of sand. Collective.
+void set_solid_penalty(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
+                       contact::ContactParameters& pair);
+
 /// Chooses the law of pressure where the case leaves it to the program: of bodies none of which melts by
 /// multipliers, whose pressures do not show the compliance of the
 /// penalty; else as contact_specs() has it (docs/decisions/0033-default-pressure-of-contact.md).

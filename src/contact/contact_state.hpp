@@ -16,7 +16,9 @@ struct ContactPointState {
   GlobalIndex number = 0;  ///< ContactKinematics::Particle: of all processes alike
   bool counted = false;    ///< this process writes it to checkpoints
   PointStatus status = PointStatus::open;
-  double offset = 0;       ///< closes an initial gap that counts as touching: added to g_N [m]
+  /// Added to g_N: closes an initial gap that counts as touching, and takes what a skin has sunk in while it
+  /// was soft [m].
+  double offset = 0;
   double penetration = 0;  ///< g_N [m] (3.5)
   double pressure = 0;     ///< t_N [Pa]
   /// Contact pressure in the balance of forces at t_n [Pa]: equal to t_N, except with the energy-conserving
@@ -26,6 +28,9 @@ struct ContactPointState {
   /// Pressure of the atmosphere in the step that led here, where liquid metal wets the wall; else zero
   /// (normal.hpp) [Pa].
   double suction = 0;
+  /// ε_N of the step that led here over that of the pair: more than one where the skin gets solid
+  /// (PointLaw::stiffen).
+  double stiffening = 1;
   /// In the step that led here the metal at the point is below coherency: it does not rub. Known from the
   /// start of a step on; checkpoints do without it.
   bool molten = false;

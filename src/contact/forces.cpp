@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "contact/penalty.hpp"
@@ -14,11 +15,13 @@ namespace {
 PointLaw law_of(const ContactParameters& spec, double penalty) {
   PointLaw law;
   law.normal = {spec.normal, penalty};
+  if (spec.normal == NormalKind::penalty) law.stiffening = std::max(spec.solid_penalty / penalty, 1.0);
   if (!spec.friction) return law;
   const FrictionParameters& friction = *spec.friction;
   law.friction.emplace(friction,
                        friction.tangential_penalty.value_or(friction.tangential_penalty_factor * penalty),
                        spec.interface_heat_capacity);
+  law.friction_stiffens = !friction.tangential_penalty;
   law.wear = spec.wear;
   return law;
 }

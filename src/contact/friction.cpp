@@ -55,13 +55,14 @@ FrictionLaw::FrictionLaw(const FrictionParameters& spec, double tangential_penal
 /// at which the coefficient vanishes.
 template <class Radius>
 FrictionLaw::Slip FrictionLaw::find_slip(const FrictionInput& in, Radius radius, double first) const {
-  double low = 0, high = in.trial / penalty_, step = high, older_step = high;
+  const double penalty = tangential_penalty(in);
+  double low = 0, high = in.trial / penalty, step = high, older_step = high;
   bool vanishes = false;
   Slip s{FrictionStatus::not_converged, first, {}, {}};
   for (int i = 0; i < k_max_iterations; ++i) {
     s.at = growth(in, s.gamma);
     s.mu = radius(s.at.zeta);
-    const double value = in.trial - penalty_ * s.gamma - s.mu.value * in.pressure;
+    const double value = in.trial - penalty * s.gamma - s.mu.value * in.pressure;
     const double reach = s.at.zeta + s.at.trial * in.trial;  // what ζ is made of
     const double terms = in.trial + in.pressure * (std::abs(s.mu.value) + std::abs(s.mu.zeta) * reach);
     if (s.mu.value > 0 && std::isfinite(value) && std::abs(value) <= k_rounding * terms) {
@@ -79,7 +80,7 @@ FrictionLaw::Slip FrictionLaw::find_slip(const FrictionInput& in, Radius radius,
       return s;
     }
     // Newton's method, unless it leaves the bracket or does not halve its step in two iterations.
-    double next = s.gamma + value / (penalty_ + s.mu.zeta * in.pressure * s.at.gamma);
+    double next = s.gamma + value / (penalty + s.mu.zeta * in.pressure * s.at.gamma);
     if (!(next > low && next < high) || std::abs(next - s.gamma) > 0.5 * older_step)
       next = 0.5 * (low + high);
     older_step = step;
@@ -102,19 +103,20 @@ FrictionResponse FrictionLaw::solve(const FrictionInput& in, Radius radius) cons
   }
   const double overstress = in.trial - r.coefficient * in.pressure;
   if (overstress <= 0) return r;
+  const double penalty = tangential_penalty(in);
 
-  const Slip s = find_slip(in, radius, overstress / penalty_);
+  const Slip s = find_slip(in, radius, overstress / penalty);
   const double hardening = s.mu.zeta * in.pressure;
   r.status = s.status;
   r.sticks = false;
   r.slip = s.gamma;
   r.internal_variable = s.at.zeta;
-  r.stiffness = penalty_ + hardening * s.at.gamma;
+  r.stiffness = penalty + hardening * s.at.gamma;
   // ‖T‖ from the side that rounding of γ changes less.
-  r.traction = hardening * s.at.gamma > penalty_ ? in.trial - penalty_ * s.gamma : s.mu.value * in.pressure;
+  r.traction = hardening * s.at.gamma > penalty ? in.trial - penalty * s.gamma : s.mu.value * in.pressure;
   r.coefficient = in.pressure > 0 ? r.traction / in.pressure : s.mu.value;
-  r.trial_slope = hardening * (s.at.gamma + penalty_ * s.at.trial) / r.stiffness;
-  r.pressure_slope = penalty_ * (s.mu.value + hardening * s.at.pressure) / r.stiffness;
+  r.trial_slope = hardening * (s.at.gamma + penalty * s.at.trial) / r.stiffness;
+  r.pressure_slope = penalty * (s.mu.value + hardening * s.at.pressure) / r.stiffness;
   return r;
 }
 
@@ -139,7 +141,7 @@ bool FrictionLaw::unique_between(const FrictionInput& in, const FrictionResponse
   if (kind_ == InternalVariable::frictional_work)
     growth = p * (coefficient_.value(from, held).value + std::max(0.0, slope.high) * (to - from));
   const bool follows = kind_ != InternalVariable::frictional_work || r.slip * p * slope.high < 1;
-  if (follows && penalty_ + std::min(0.0, slope.low) * p * growth > 0) return true;
+  if (follows && tangential_penalty(in) + std::min(0.0, slope.low) * p * growth > 0) return true;
   if (halvings == 0) return false;
   const double middle = 0.5 * (from + to);
   return unique_between(in, r, from, middle, halvings - 1) && unique_between(in, r, middle, to, halvings - 1);

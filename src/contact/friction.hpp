@@ -53,6 +53,7 @@ struct FrictionInput {
     double internal_variable = 0;  ///< ζ_c
   };
   std::optional<Iterate> iterate{};
+  double stiffening = 1;  ///< ε_T of the point over that of the law (ContactPointState::stiffening)
   /// Θ_c and ζ_c whose temperature or entropy the mechanical phase holds.
   Iterate held() const { return iterate.value_or(Iterate{temperature, internal_variable}); }
 };
@@ -101,7 +102,9 @@ class FrictionLaw {
 
   const FrictionCoefficient& coefficient() const { return coefficient_; }
   InternalVariable internal_variable() const { return kind_; }
-  double tangential_penalty() const { return penalty_; }
+  /// ε_T of a point [Pa/m].
+  double tangential_penalty(double stiffening = 1) const { return stiffening * penalty_; }
+  double tangential_penalty(const FrictionInput& in) const { return in.stiffening * penalty_; }
   double heat_capacity() const { return heat_capacity_; }
   /// K_c is there: it is normal work that hardens.
   bool stores() const { return kind_ == InternalVariable::normal_work; }
@@ -139,8 +142,8 @@ class FrictionLaw {
 inline FrictionLaw::Growth FrictionLaw::growth(const FrictionInput& in, double gamma) const {
   switch (kind_) {
     case InternalVariable::frictional_work: {  // μ t_N is ‖T‖ = ‖T^trial‖ − ε_T γ
-      const double traction = in.trial - penalty_ * gamma;
-      return {in.internal_variable + gamma * traction, traction - penalty_ * gamma, gamma, 0};
+      const double penalty = tangential_penalty(in), traction = in.trial - penalty * gamma;
+      return {in.internal_variable + gamma * traction, traction - penalty * gamma, gamma, 0};
     }
     case InternalVariable::slip:
       return {in.internal_variable + gamma, 1, 0, 0};

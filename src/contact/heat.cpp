@@ -91,8 +91,11 @@ HeatPoint ContactHeat::point(const ContactStep& step, const ContactPointState& f
   if (point_law_.friction && spec_.friction->thermal_return_mapping && step.coupled.law == nullptr &&
       step.iterate.empty() && forces.status != PointStatus::open) {
     point.friction = &*point_law_.friction;
-    point.slip = {forces.trial, rubbing_pressure(now.pressure, now.molten), from.internal_variable,
-                  from.temperature};
+    point.slip = {.trial = forces.trial,
+                  .pressure = rubbing_pressure(now.pressure, now.molten),
+                  .internal_variable = from.internal_variable,
+                  .temperature = from.temperature,
+                  .stiffening = point_law_.friction_stiffens ? from.stiffening : 1.0};
   }
   point.step = {step.dt, spec_.interface_heat_capacity, from.temperature, forces.friction.structural_entropy,
                 forces.friction.dissipation};
@@ -216,7 +219,7 @@ void ContactHeat::add_displacement_tangent(const ContactKinematics& kinematics, 
     kinematics.add_share_rates(p, share);
     trial.clear();
     if (point_law_.friction && now[at(p)].status != PointStatus::open) {
-      const double spring = point_law_.friction->tangential_penalty();
+      const double spring = point_law_.tangential_penalty(from);
       const Point whole = add_scaled(motion.carried, spring, motion.slip);
       const double size = norm(whole);
       for (std::size_t b = 0; b < n && size > 0; ++b) {

@@ -3,43 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace solidus::contact {
 
 namespace {
 
-/// A mean of coherencies below it is that of melt: shape functions add up to one but for rounding.
-constexpr double k_coherent = 1 - 1e-9;
-
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
-}
-
-/// The metal at a point that has a partner.
-struct Skin {
-  bool molten = false;  ///< on either side it is below coherency in the mean of the nodes
-  bool liquid = false;  ///< there no node of the face is coherent
-};
-
-Skin skin_at(const PointMotion& motion, std::span<const double> coherency) {
-  const auto n_slave = static_cast<std::size_t>(motion.n_slave);
-  std::array<double, 2> side{};
-  std::array<bool, 2> molten{true, true};
-  for (std::size_t b = 0; b < motion.nodes.size(); ++b) {
-    const std::size_t of = b < n_slave ? 0 : 1;
-    const double at_node = coherency[at(motion.nodes[b])];
-    side[of] += (of == 0 ? motion.share[b] : -motion.share[b]) * at_node;
-    molten[of] = molten[of] && at_node < k_coherent;
-  }
-  Skin skin;
-  for (std::size_t of = 0; of < (motion.nodes.size() > n_slave ? 2 : 1); ++of) {
-    if (side[of] >= k_coherent) continue;
-    skin.molten = true;
-    skin.liquid = skin.liquid || molten[of];
-  }
-  return skin;
 }
 
 }  // namespace
@@ -64,6 +35,7 @@ ContactState ContactHistory::initial() const {
     const ContactKinematics::Particle particle = kinematics.particle(p);
     point.number = particle.number;
     point.counted = particle.counted;
+    point.stiffening = law_.stiffening;  // an overlap of the drawing is that of solid bodies
     const PointMotion motion = kinematics.motion(p, {}, ContactKinematics::Asked::motion);
     if (!motion.partnered) continue;
     point.anchored = true;
@@ -73,7 +45,7 @@ ContactState ContactHistory::initial() const {
     point.penetration = motion.penetration + point.offset;
     if (point.penetration < 0) continue;
     point.status = law_.friction ? PointStatus::sticks : PointStatus::slips;
-    point.pressure = point.balance_pressure = law_.normal.penalty * point.penetration;
+    point.pressure = point.balance_pressure = law_.normal_at(point).penalty * point.penetration;
   }
   if (worn_) state.master = worn_->initial_state();
   return state;
@@ -117,11 +89,12 @@ void ContactHistory::set_out_from(const ContactState& state, ContactStep& step) 
   step.worn_from = std::move(start.master);
 }
 
-void ContactHistory::find_wet_points(std::span<const double> coherency, ContactStep& step) const {
+void ContactHistory::find_skins(const Solidity& of_nodes, ContactStep& step) const {
   const auto molten = [](double c) { return c < k_coherent; };
-  const bool wets = spec_.atmosphere > 0, rubs = law_.friction.has_value();
-  const bool any = (wets || rubs) && std::ranges::any_of(coherency, molten);
-  if (any) geometry_.at(step.begun, step.displacement);
+  const bool wets = spec_.atmosphere > 0, rubs = law_.friction.has_value(), stiffens = law_.stiffening > 1;
+  const bool any = (wets || rubs) && std::ranges::any_of(of_nodes.coherency, molten);
+  const bool mushy = stiffens && !std::ranges::equal(of_nodes.coherency, of_nodes.of_solid);
+  if (any || mushy) geometry_.at(step.begun, step.displacement);
   const ContactKinematics& kinematics = geometry_.kinematics();
   step.liquid.assign(step.from.size(), 0);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
@@ -129,14 +102,18 @@ void ContactHistory::find_wet_points(std::span<const double> coherency, ContactS
     const bool touched = from.status != PointStatus::open || from.suction > 0;
     from.suction = 0;
     from.molten = false;
-    if (any && (touched || rubs)) {
+    Skin skin;
+    if (mushy || (any && (touched || rubs))) {
       const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::motion);
-      const Skin skin = motion.partnered ? skin_at(motion, coherency) : Skin{};
-      from.molten = skin.molten;
-      if (wets && touched && skin.molten) from.suction = spec_.atmosphere;
+      const ContactKinematics::Particle slave = kinematics.particle(p);
+      skin = motion.partnered ? skin_at(motion.nodes, motion.share, at(motion.n_slave), of_nodes)
+                              : skin_at(slave.nodes, slave.share, slave.nodes.size(), of_nodes);
+      from.molten = motion.partnered && skin.molten;
+      if (wets && touched && from.molten) from.suction = spec_.atmosphere;
       step.liquid[at(p)] = from.suction > 0 && skin.liquid;
     }
     from.multiplier = std::max(from.multiplier, least_multiplier(from));
+    if (stiffens) law_.stiffen(skin.strength, from);
   }
 }
 

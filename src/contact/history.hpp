@@ -9,6 +9,7 @@
 #include "contact/geometry.hpp"
 #include "contact/master_wear.hpp"
 #include "contact/point_law.hpp"
+#include "contact/skin.hpp"
 #include "contact/step.hpp"
 
 namespace solidus::contact {
@@ -26,11 +27,12 @@ class ContactHistory {
                        std::span<const double> displacement, double time) const;
   /// Makes a state (empty: initial()) the one that a step sets out from.
   void set_out_from(const ContactState& state, ContactStep& step) const;
-  /// Sets what metal below coherency does at a point: it does not rub there; and where it touches its wall it
-  /// wets it, if the pair knows an atmosphere, and stays so while it is below coherency, whatever gap opens.
-  /// A gap that was there before, or that a coherent skin has left, holds air until it closes.
-  /// @param coherency  ContactPass::coherency; empty: nothing is wet
-  void find_wet_points(std::span<const double> coherency, ContactStep& step) const;
+  /// Sets what the skin does at a point. Metal below coherency does not rub there; and where it touches its
+  /// wall it wets it, if the pair knows an atmosphere, and stays so while it is below coherency, whatever gap
+  /// opens. A gap that was there before, or that a coherent skin has left, holds air until it closes. The
+  /// penalty follows the strength of the skin (PointLaw::stiffen).
+  /// @param of_nodes  ContactPass::solidity; empty: nothing melts
+  void find_skins(const Solidity& of_nodes, ContactStep& step) const;
   /// Sets the temperature of interface points that have none yet to that at rest between the two sides at
   /// t_n, whatever the other iterates of the step; where no heat passes Θ_c has no balance and is the sides'
   /// mean in every step. A point without a partner at t_n counts no slip in the step in which it finds one,

@@ -40,7 +40,7 @@ void add_slopes(const FrictionLaw& law, const FrictionInput& in, double theta, d
                 InterfaceReturn& r) {
   const FrictionResponse& f = r.friction;
   if (f.sticks) return;
-  const double spring = law.tangential_penalty();
+  const double spring = law.tangential_penalty(in);
   const double slip_trial = (1 - f.trial_slope) / spring, slip_pressure = -f.pressure_slope / spring;
   if (!law.stores()) {  // D = γ ‖T‖
     const double by_slip = in.trial - 2 * spring * f.slip;
@@ -147,7 +147,8 @@ InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionI
   // γ(Θ) from Φ_c = 0 at the temperature Θ (5.41), then the balance in Θ alone (5.42); dγ/dΘ = −t_N μ_Θ/Φ_γ.
   double slope = 0;
   const auto balance = [&](double theta) {
-    r.friction = law.update({in.trial, in.pressure, in.internal_variable, theta});
+    r.friction =
+        law.update({in.trial, in.pressure, in.internal_variable, theta, /*iterate=*/{}, in.stiffening});
     FrictionResponse& f = r.friction;
     double entropy = 0, entropy_slip = 0, heat_theta = 0, slip_theta = 0, heat_slip = 0;
     if (!f.sticks) {
@@ -160,7 +161,7 @@ InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionI
         heat_theta = f.slip * now.initial_theta * in.pressure;
         heat_slip = now.initial * in.pressure;
       } else {
-        heat_slip = in.trial - 2 * law.tangential_penalty() * f.slip;
+        heat_slip = in.trial - 2 * law.tangential_penalty(in) * f.slip;
       }
     }
     f.structural_entropy = entropy;
@@ -197,7 +198,7 @@ InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionI
   if (!r.friction.sticks) {
     const auto now = coefficient.point(r.friction.internal_variable, theta);
     r.traction_by_temperature =
-        law.tangential_penalty() * in.pressure * (now.theta + now.initial_theta) / r.friction.stiffness;
+        law.tangential_penalty(in) * in.pressure * (now.theta + now.initial_theta) / r.friction.stiffness;
   }
   add_slopes(law, in, theta, rate, r);
   return r;

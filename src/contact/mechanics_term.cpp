@@ -114,12 +114,13 @@ void MechanicsTerm::log(const Count& count) const {
 
 template <int dim>
 void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) {
-  const PointForces f =
-      law_.forces(motion, step_.from[at(point)], step_.coupled.around(motion), step_.iterate_of(point));
+  const ContactPointState& from = step_.from[at(point)];
+  const PointForces f = law_.forces(motion, from, step_.coupled.around(motion), step_.iterate_of(point));
   if (!f.normal.closed && f.normal.balance_pressure == 0 && stabilisation_ == 0) return;
   const std::size_t n = motion.nodes.size();
   const double w = motion.weight;
   const bool frictional = law_.friction.has_value() && f.normal.closed;
+  const double spring = frictional ? law_.tangential_penalty(from) : 0.0;
   Point traction_by_penetration{};
   if (frictional && !symmetric_) {
     traction_by_penetration = scale(f.normal.tangent, f.traction_by_pressure);
@@ -136,7 +137,7 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
     if (frictional) {
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
-          traction_rate[i][j] = law_.friction->tangential_penalty() * motion.slip_rate[c][i][j];
+          traction_rate[i][j] = spring * motion.slip_rate[c][i][j];
           if (!motion.carried_rate.empty()) traction_rate[i][j] += motion.carried_rate[c][i][j];
         }
       traction_rate = times(f.traction_by_trial, traction_rate);

@@ -63,7 +63,7 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   step_.time = pass.time;
   step_.displacement.assign(pass.displacement.begin(), pass.displacement.end());
   step_.begun = pass.time - pass.dt;
-  history_->find_wet_points(active_ ? pass.coherency : std::span<const double>{}, step_);
+  history_->find_skins(active_ ? pass.solidity : Solidity{}, step_);
   const bool rubs = forces_->law().friction.has_value();
   step_.coupled = {};
   if (pass.simultaneous && heat_ && rubs)

@@ -40,10 +40,8 @@ struct ContactPass {
   double time = 0, dt = 0;                 ///< t_{n+1} and the step [s]
   std::span<const double> displacement{};  ///< u_n, [local node][component] [m]
   std::span<const double> temperature{};   ///< Θ_n, [local node] [K]; empty: unknown
-  /// f_S/f_c at t_n, the solid fraction over that at which metal is coherent, [local node]; one where nothing
-  /// melts. Empty: nothing does.
-  std::span<const double> coherency{};
-  bool isentropic = false;    ///< the pass holds the entropy of the interface, not Θ_c
+  Solidity solidity{};                     ///< at t_n
+  bool isentropic = false;                 ///< the pass holds the entropy of the interface, not Θ_c
   bool simultaneous = false;  ///< Θ_c is found together with the slip (5.40), see set_temperature()
   /// Result of the pass before in a scheme whose phases take turns within the step: friction holds its Θ_c,
   /// or its entropy, and multipliers start from the ones found there, so that passes that have not come to

@@ -51,6 +51,9 @@ struct ContactParameters {
   /// softer than the solid, a penalty of the solid's stiffness makes Newton's iteration open and close points
   /// without end.
   double largest_penalty = std::numeric_limits<double>::infinity();
+  /// ε_N of points with a solid skin where it is more than that of the pair [Pa/m]: the penalty alone, no
+  /// other law of pressure, rises to it as the skin gets solid (PointLaw::stiffen).
+  double solid_penalty = 0;
   /// Stiffness of every point in all directions, as a part of ε_N, that the tangent gets on top of the law's.
   /// It is not in the forces, so a converged solution does not feel it; it keeps the matrix regular while a
   /// body has lost support (all points open) or may slide freely. As a wrong part of the tangent it costs

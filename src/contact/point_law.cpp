@@ -1,6 +1,7 @@
 #include "contact/point_law.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace solidus::contact {
 
@@ -37,17 +38,22 @@ PointForces PointLaw::forces(const PointMotion& motion, const ContactPointState&
                              const std::optional<FrictionInput::Iterate>& iterate) const {
   PointForces f;
   if (!motion.partnered) return f;
-  f.normal = normal.update(
+  f.normal = normal_at(from).update(
       motion.penetration + from.offset,
       {from.anchored, from.penetration, from.balance_pressure, from.multiplier, from.suction}, share);
   if (!f.normal.closed) return f;
   f.status = friction ? PointStatus::sticks : PointStatus::slips;
   if (!friction) return f;
 
-  const Point trial = add_scaled(motion.carried, friction->tangential_penalty(), motion.slip);
+  const Point trial = add_scaled(motion.carried, tangential_penalty(from), motion.slip);
   f.trial = norm(trial);
   const double pressing = rubbing_pressure(f.normal.pressure, from.molten);
-  const FrictionInput in{f.trial, pressing, from.internal_variable, from.temperature, iterate};
+  const FrictionInput in{.trial = f.trial,
+                         .pressure = pressing,
+                         .internal_variable = from.internal_variable,
+                         .temperature = from.temperature,
+                         .iterate = iterate,
+                         .stiffening = friction_stiffens ? from.stiffening : 1.0};
   if (around)
     f.conductance =
         around->conductance(seen_by_heat(motion.penetration + from.offset, from.suction), f.normal.pressure);
@@ -106,11 +112,22 @@ ContactPointState PointLaw::next(const PointMotion& motion, const ContactPointSt
   return to;
 }
 
+void PointLaw::stiffen(double strength, ContactPointState& state) const {
+  const double before = state.stiffening;
+  state.stiffening = std::pow(stiffening, strength);
+  if (state.stiffening < before && friction_stiffens)
+    state.traction = scale(state.stiffening / before, state.traction);
+  if (state.stiffening <= before || !(state.penetration > 0) || !(state.pressure > 0)) return;
+  const double sunk = (1 - before / state.stiffening) * state.penetration;
+  state.offset -= sunk;
+  state.penetration -= sunk;
+}
+
 double PointLaw::stored(const ContactPointState& state) const {
   if (!state.anchored) return 0;
-  double energy = normal.energy(state.penetration, state.suction);
+  double energy = normal_at(state).energy(state.penetration, state.suction);
   if (friction && normal.kind != NormalKind::augmented_lagrangian)
-    energy += 0.5 * dot(state.traction, state.traction) / friction->tangential_penalty();
+    energy += 0.5 * dot(state.traction, state.traction) / tangential_penalty(state);
   return energy;
 }
 

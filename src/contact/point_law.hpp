@@ -76,9 +76,26 @@ struct PointLaw {
   NormalLaw normal;
   std::optional<FrictionLaw> friction;
   std::optional<WearParameters> wear;  ///< with friction
-  bool isentropic = false;             ///< the mechanical phase holds the entropy of the interface (5.24)
-  double share = 1;                    ///< s of normal.hpp
+  /// ε_N of a point with a solid skin over that of `normal`; one: the same everywhere.
+  double stiffening = 1;
+  bool friction_stiffens = true;  ///< ε_T of a point follows its ε_N: it was not given in Pa/m
+  bool isentropic = false;        ///< the mechanical phase holds the entropy of the interface (5.24)
+  double share = 1;               ///< s of normal.hpp
 
+  /// The normal law of a point, with its own ε_N.
+  NormalLaw normal_at(const ContactPointState& state) const {
+    return {normal.kind, state.stiffening * normal.penalty};
+  }
+  /// ε_T of a point [Pa/m]; with friction.
+  double tangential_penalty(const ContactPointState& state) const {
+    return friction->tangential_penalty(friction_stiffens ? state.stiffening : 1.0);
+  }
+  /// Gives a point at the start of a step the penalty of its skin, ε_N stiffening^strength. A stiffer one
+  /// leaves the pressure as it is: the point takes what it had sunk in, but for p/ε_N, for its wall
+  /// (ContactPointState::offset). A softer one leaves the penetration, and pressure and traction fall. Either
+  /// way the energy of the springs does not grow.
+  /// @param strength  Skin::strength
+  void stiffen(double strength, ContactPointState& state) const;
   /// @param from the state at t_n with the present multipliers: λ_N, and T_n or the traction that replaces it
   /// @param around   where slip and Θ_c are found together: the simultaneous scheme
   /// @param iterate  of a scheme whose phases take turns within the step

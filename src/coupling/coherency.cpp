@@ -16,6 +16,10 @@ Coherency::Coherency(const mesh::Mesh& mesh, const std::vector<material::Materia
       if (node < mesh.n_owned_nodes && material_[static_cast<std::size_t>(node)] == nullptr)
         material_[static_cast<std::size_t>(node)] = &material;
   }
+  of_solid_.assign(mesh.x.size(), 1.0);
+  for (std::size_t i = 0; i < material_.size(); ++i)
+    if (material_[i] != nullptr) of_solid_[i] = 1 / material_[i]->casting.coherency_fraction;
+  parallel::GhostExchange(mesh_).update(of_solid_, 1);
 }
 
 std::vector<double> Coherency::at(const heat::ThermalPhase* heat, const heat::ThermalState& state,

@@ -21,12 +21,15 @@ namespace solidus::coupling {
 class Coherency {
  public:
   /// @param materials  [body]; kept by reference
+  /// Collective.
   /// @param active   of the mechanical phase at the start: bodies that only conduct heat do not count
   Coherency(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
             const linear::ActiveSet& active);
 
   /// Whether a body that deforms can melt. The same on every process.
   bool melts() const { return melts_; }
+  /// 1/f_c of every node, [local node], ghosts up to date; one where nothing melts.
+  const std::vector<double>& of_solid() const { return of_solid_; }
   /// f_S/f_c of every node, [local node], ghosts up to date; one where nothing melts. A node that bodies
   /// share goes with the first one that can melt. Empty unless melts(). Collective.
   /// @param heat         null: mechanics alone, at `temperature` [local node] [K]
@@ -36,6 +39,7 @@ class Coherency {
  private:
   const mesh::Mesh& mesh_;
   std::vector<const material::Material*> material_;  ///< [owned node]; null where nothing melts
+  std::vector<double> of_solid_;
   bool melts_ = false;
 };
 

@@ -86,7 +86,7 @@ void begin_contacts(const Phases& phases, const std::vector<contact::ContactStat
       .dt = pass.dt,
       .displacement = old.displacement,
       .temperature = pass.temperature,
-      .coherency = coherency,
+      .solidity = solidity_of(phases, coherency),
       .isentropic = phases.heat != nullptr && phases.mechanics->mapping() == mechanics::Mapping::isentropic,
       .simultaneous =
           phases.heat != nullptr && phases.mechanics->mapping() == mechanics::Mapping::simultaneous,

@@ -59,7 +59,7 @@ void find_interface_temperatures(const Phases& phases, const State& old, double 
                      .dt = 0,
                      .displacement = old.mechanics.displacement,
                      .temperature = old.heat.temperature,
-                     .coherency = coherency});
+                     .solidity = solidity_of(phases, coherency)});
     pair->update(old.mechanics.displacement);
   }
 }

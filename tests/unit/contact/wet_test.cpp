@@ -60,7 +60,7 @@ struct OneStep {
   }
   /// A step from the state so far to a displacement.
   ContactSums step(const std::vector<double>& displacement, const std::vector<double>& coherent) {
-    pair.begin(state, {.time = 1, .dt = 1, .displacement = displacement, .coherency = coherent});
+    pair.begin(state, {.time = 1, .dt = 1, .displacement = displacement, .solidity = {coherent}});
     pair.update(displacement);
     state = pair.state();
     return contact::sums(pair.view(), {});
@@ -124,7 +124,7 @@ TEST_P(Wet, HasTheTangentThatFiniteDifferencesShow) {
   OneStep run(mesh_, spec(GetParam().formulation));
   const std::vector<double> u = lifted(mesh_, -0.5 * k_reach, 3.17 * k_reach);  // closed, pulled, void
   run.step(lifted(mesh_, 0), liquid());
-  run.pair.begin(run.state, {.time = 2, .dt = 1, .displacement = u, .coherency = liquid()});
+  run.pair.begin(run.state, {.time = 2, .dt = 1, .displacement = u, .solidity = {liquid()}});
   linear::NodeGraph graph(mesh_);
   linear::Contribution& term = run.pair.mechanics();
   term.add_to_graph(graph);
@@ -354,7 +354,7 @@ TEST(WetContact, MultipliersHoldTensionDownToTheAtmosphere) {
   s.normal = NormalKind::augmented_lagrangian;
   OneStep run(mesh, s);
   const std::vector<double> melt = coherency(mesh, 0.2, 1), u = lifted(mesh, 0.3 * k_reach);
-  run.pair.begin(run.state, {.time = 1, .dt = 1, .displacement = u, .coherency = melt});
+  run.pair.begin(run.state, {.time = 1, .dt = 1, .displacement = u, .solidity = {melt}});
   for (int turn = 1; turn <= 5; ++turn) {
     run.pair.update(u);
     const double expected = -std::min(0.3 * turn, 1.0) * k_atmosphere * 0.3;
