@@ -130,8 +130,47 @@ void face_centre_and_normal(const RawMesh& mesh, const std::vector<Index>& face,
   for (double& c : normal) c /= length;
 }
 
-// Faces that only one element of the grid has.
-void add_boundary(RawMesh& mesh, const Grid& grid, const std::vector<Index>& elements) {
+/// Whether a cell exists.
+bool exists(const Grid& grid, const std::array<int, 3>& cell) {
+  for (std::size_t d = 0; d < grid.axes.size(); ++d)
+    if (cell[d] < 0 || cell[d] + 1 >= static_cast<int>(grid.axes[d].size())) return false;
+  return !grid.keep || grid.keep(cell);
+}
+
+/// Where a cell lies: it lacks a neighbour, is the neighbour of one that does, or neither.
+enum class Layer : char { outermost, second, inner };
+
+template <class F>
+bool any_neighbour(const Grid& grid, std::array<int, 3> cell, const F& f) {
+  for (std::size_t d = 0; d < grid.axes.size(); ++d)
+    for (const int way : {-1, 1}) {
+      cell[d] += way;
+      const bool found = f(cell);
+      cell[d] -= way;
+      if (found) return true;
+    }
+  return false;
+}
+
+Layer layer_of(const Grid& grid, const std::array<int, 3>& cell) {
+  const auto lacks_one = [&](const std::array<int, 3>& c) {
+    return any_neighbour(grid, c, [&](const auto& other) { return !exists(grid, other); });
+  };
+  if (lacks_one(cell)) return Layer::outermost;
+  return any_neighbour(grid, cell, lacks_one) ? Layer::second : Layer::inner;
+}
+
+/// Elements of a grid, cell by cell.
+struct Cells {
+  std::vector<Index> elements;  ///< [cell][element][node]
+  std::vector<Layer> layer;     ///< of each cell
+};
+
+// Faces that only one element of the grid has. They belong to the outermost cells, whose other faces these and
+// the second layer have twice.
+void add_boundary(RawMesh& mesh, const Grid& grid, const Cells& cells) {
+  const std::vector<Index>& elements = cells.elements;
+  const std::size_t per_cell = elements.size() / std::max<std::size_t>(cells.layer.size(), 1);
   const int nn = node_count(grid.shape), n_vertices = vertex_count(face_shape(grid.shape));
   // A second element takes the face out again: the remaining faces are the boundary, and the set stays small
   // on the way.
@@ -142,7 +181,7 @@ void add_boundary(RawMesh& mesh, const Grid& grid, const std::vector<Index>& ele
     for (const int a : face_nodes(grid.shape, f)) face.push_back(elements[e + static_cast<std::size_t>(a)]);
   };
   for (std::size_t e = 0; e < elements.size(); e += static_cast<std::size_t>(nn))
-    for (int f = 0; f < face_count(grid.shape); ++f) {
+    for (int f = 0; f < face_count(grid.shape) && cells.layer[e / per_cell] != Layer::inner; ++f) {
       collect(e, f);
       const auto [place, first] = alone.insert(face_key(face.data(), n_vertices));
       if (!first) alone.erase(place);
@@ -154,7 +193,7 @@ void add_boundary(RawMesh& mesh, const Grid& grid, const std::vector<Index>& ele
   const auto is_outside = [&](Index vertex) { return outside[static_cast<std::size_t>(vertex)] != 0; };
   GlobalIndex number = count_elements(mesh);
   for (std::size_t e = 0; e < elements.size(); e += static_cast<std::size_t>(nn))
-    for (int f = 0; f < face_count(grid.shape); ++f) {
+    for (int f = 0; f < face_count(grid.shape) && cells.layer[e / per_cell] == Layer::outermost; ++f) {
       collect(e, f);
       if (!std::all_of(face.begin(), face.begin() + n_vertices, is_outside)) continue;
       if (!alone.contains(face_key(face.data(), n_vertices))) continue;
@@ -198,16 +237,18 @@ void add_grid(RawMesh& mesh, const Grid& grid) {
   mesh.dimension = dimension(grid.shape);
   Lattice lattice(grid, mesh);
   const auto pattern = cell_pattern(grid.shape);
-  std::array<int, 3> cells{1, 1, 1};
-  for (std::size_t d = 0; d < grid.axes.size(); ++d) cells[d] = static_cast<int>(grid.axes[d].size()) - 1;
+  std::array<int, 3> n_cells{1, 1, 1};
+  for (std::size_t d = 0; d < grid.axes.size(); ++d) n_cells[d] = static_cast<int>(grid.axes[d].size()) - 1;
 
   RawGroup& group = mesh.groups[grid.body];
   group.dimension = mesh.dimension;
-  std::vector<Index> elements;
-  for (int k = 0; k < cells[2]; ++k)
-    for (int j = 0; j < cells[1]; ++j)
-      for (int i = 0; i < cells[0]; ++i) {
-        if (grid.keep && !grid.keep({i, j, k})) continue;
+  Cells cells;
+  std::vector<Index>& elements = cells.elements;
+  for (int k = 0; k < n_cells[2]; ++k)
+    for (int j = 0; j < n_cells[1]; ++j)
+      for (int i = 0; i < n_cells[0]; ++i) {
+        if (!exists(grid, {i, j, k})) continue;
+        if (grid.surface) cells.layer.push_back(layer_of(grid, {i, j, k}));
         for (const auto& element : pattern)
           for (const Offset& o : element)
             elements.push_back(lattice.node({2 * i + o[0], 2 * j + o[1], 2 * k + o[2]}));
@@ -217,7 +258,7 @@ void add_grid(RawMesh& mesh, const Grid& grid) {
   block.nodes.insert(block.nodes.end(), elements.begin(), elements.end());
   const auto n = static_cast<GlobalIndex>(elements.size()) / node_count(grid.shape);
   for (GlobalIndex e = 0; e < n; ++e) block.input_element.push_back(++number);
-  if (grid.surface) add_boundary(mesh, grid, elements);
+  if (grid.surface) add_boundary(mesh, grid, cells);
 }
 
 }  // namespace solidus::mesh

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "mesh/number_runs.hpp"
 #include "mesh/shape.hpp"
 #include "numbers/types.hpp"
 
@@ -23,7 +22,8 @@ struct ElementBlock {
   Shape shape = Shape::tri3;
   int body = -1;             ///< index into Mesh::bodies; −1 for faces of no body
   std::vector<Index> nodes;  ///< [element][node] local numbers
-  NumberRuns input_element;  ///< number in the input file (for messages), same length as elements
+  std::vector<GlobalIndex>
+      input_element;  ///< number in the input file (for messages), same length as elements
   Index n_counted = 0;
 
   Index size() const { return static_cast<Index>(nodes.size()) / node_count(shape); }

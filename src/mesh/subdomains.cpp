@@ -203,7 +203,7 @@ Mesh unpack_part(const std::vector<char>& buffer) {
     block.body = header.body;
     block.n_counted = header.n_counted;
     block.nodes = u.vector<Index>();
-    block.input_element = NumberRuns(u.vector<GlobalIndex>());
+    block.input_element = u.vector<GlobalIndex>();
     return block;
   };
   for (std::size_t n = u.size(); n > 0; --n) mesh.blocks.push_back(take_block());

@@ -107,7 +107,7 @@ void take_history(TableReader& in, const std::string& name, const std::string& v
                   const mesh::ElementBlock& block, mechanics::BlockHistory& history) {
   const auto per_element = static_cast<std::size_t>(history.n_points * history.n_components);
   if (per_element == 0) return;
-  const Places places = places_of(block.input_element.first(block.input_element.size()));
+  const Places places = places_of(block.input_element);
   std::size_t taken = 0;
   in.each(name + "/element", values, [&](std::int64_t number, std::span<const double> row) {
     const auto place = places.find(number);
@@ -302,7 +302,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
     const mechanics::BlockHistory& history = c.state.mechanics.history[b];
     const std::string name = block_name(mesh, b);
     out.rows<std::int64_t>(name + "/element", 1,
-                           block.input_element.first(static_cast<std::size_t>(block.n_counted)));
+                           std::span(block.input_element).first(static_cast<std::size_t>(block.n_counted)));
     const int width = history.n_points * history.n_components;
     out.rows<double>(name + "/values", width, pack_history(block, history));
     if (c.state.mechanics.dt_before > 0)

@@ -23,27 +23,22 @@ std::string element_path(std::size_t block, const std::string& name) {
 
 /// Rows of a column that belong to all nodes, or to the elements of a block.
 struct Part {
-  std::size_t first = 0, owned = 0;  ///< rows of the column; those that this process writes
-  const mesh::ElementBlock* block;   ///< whose elements the rows are; null: they are nodes
-  std::string keys, values;          ///< tables of the file
-
-  /// In the input, one per row.
-  std::vector<GlobalIndex> numbers(const mesh::Mesh& mesh) const {
-    return block == nullptr ? mesh.input_node : block->input_element.first(block->input_element.size());
-  }
+  std::size_t first = 0, owned = 0;      ///< rows of the column; those that this process writes
+  std::span<const GlobalIndex> numbers;  ///< in the input, one per row
+  std::string keys, values;              ///< tables of the file
 };
 
 std::vector<Part> parts(const mesh::Mesh& mesh, const CriterionRecord& record,
                         const CriterionColumn& column) {
   const std::string values = path(record, column.name);
   if (column.place == mesh::FieldPlace::node)
-    return {{0, static_cast<std::size_t>(mesh.n_owned_nodes), nullptr, "node", values}};
+    return {{0, static_cast<std::size_t>(mesh.n_owned_nodes), mesh.input_node, "node", values}};
   std::vector<Part> result;
   std::size_t first = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const mesh::ElementBlock& block = mesh.blocks[b];
-    result.push_back({first, static_cast<std::size_t>(block.n_counted), &block, element_path(b, "element"),
-                      element_path(b, record.name + "_" + column.name)});
+    result.push_back({first, static_cast<std::size_t>(block.n_counted), block.input_element,
+                      element_path(b, "element"), element_path(b, record.name + "_" + column.name)});
     first += block.input_element.size();
   }
   return result;
@@ -56,10 +51,9 @@ bool has_cells(const criteria::CriteriaState& state) {
   });
 }
 
-void take_part(TableReader& in, const mesh::Mesh& mesh, const Part& part, CriterionColumn& column) {
-  const std::vector<GlobalIndex> numbers = part.numbers(mesh);
+void take_part(TableReader& in, const Part& part, CriterionColumn& column) {
   std::unordered_map<std::int64_t, std::size_t> places;
-  for (std::size_t i = 0; i < numbers.size(); ++i) places.emplace(numbers[i], i);
+  for (std::size_t i = 0; i < part.numbers.size(); ++i) places.emplace(part.numbers[i], i);
   const auto width = static_cast<std::size_t>(column.components);
   std::size_t taken = 0;
   in.each(part.keys, part.values, [&](std::int64_t number, std::span<const double> row) {
@@ -79,7 +73,7 @@ void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::Cr
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
       out.rows<std::int64_t>(
           element_path(b, "element"), 1,
-          mesh.blocks[b].input_element.first(static_cast<std::size_t>(mesh.blocks[b].n_counted)));
+          std::span(mesh.blocks[b].input_element).first(static_cast<std::size_t>(mesh.blocks[b].n_counted)));
   for (const CriterionRecord& record : state.records) {
     for (const criteria::CriterionColumn& column : record.columns) {
       const auto width = static_cast<std::size_t>(column.components);
@@ -101,7 +95,7 @@ void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::Cr
 void take_criteria(TableReader& in, const mesh::Mesh& mesh, criteria::CriteriaState& state) {
   for (CriterionRecord& record : state.records) {
     for (criteria::CriterionColumn& column : record.columns)
-      for (const Part& part : parts(mesh, record, column)) take_part(in, mesh, part, column);
+      for (const Part& part : parts(mesh, record, column)) take_part(in, part, column);
     for (criteria::CriterionTable& table : record.tables) {
       table.values.clear();
       in.each(path(record, table.name) + "_row", path(record, table.name),

@@ -31,7 +31,7 @@ Mesh whole_block(Shape shape) {
   for (const RawBlock& block : raw.groups.at("block").blocks) {
     ElementBlock copy{.shape = block.shape, .body = 0, .nodes = block.nodes, .input_element = {}};
     copy.n_counted = copy.size();
-    copy.input_element = NumberRuns(std::vector<GlobalIndex>(static_cast<std::size_t>(copy.size())));
+    copy.input_element.resize(static_cast<std::size_t>(copy.size()));
     mesh.blocks.push_back(copy);
   }
   return mesh;

@@ -65,8 +65,7 @@ TEST_P(Med, HoldsTheMeshInItsOwnNumberingAndTheFieldsOfAllTimes) {
   std::vector<double> temperature, number;
   for (const mesh::Point& x : mesh.x) temperature.push_back(300 + 10 * x[0] + x[1]);
   for (const mesh::ElementBlock& b : mesh.blocks)
-    for (const GlobalIndex e : b.input_element.first(b.input_element.size()))
-      number.push_back(static_cast<double>(e));
+    for (const GlobalIndex e : b.input_element) number.push_back(static_cast<double>(e));
   FieldSet fields;
   fields.add({"temperature", "K", 1, mesh::FieldPlace::node, temperature});
   fields.add({"number", "1", 1, mesh::FieldPlace::cell, number});
