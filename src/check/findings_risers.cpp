@@ -2,10 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "build/mechanics_input.hpp"
 #include "case/roles.hpp"
 #include "check/findings.hpp"
 #include "input/units.hpp"
@@ -56,41 +54,6 @@ void risers_larger_than_castings(const CaseSpec& spec, const CaseMeasures& m, Fi
                       fmt::format("what is poured as riser ('{}') is {:.2g} times as large as what it feeds",
                                   spec.bodies[largest->body].name, risers / castings),
                       "a tenth of the casting's volume to all of it; are the groups swapped?"});
-}
-
-/// Melt stands as high in a riser as in what it feeds: what lies higher than the highest riser runs out of
-/// it.
-void risers_below_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_much = 0.1;  // of the casting's height
-  const std::array<double, 3> g = gravity(spec.analysis);
-  const double size = std::hypot(g[0], g[1], g[2]);
-  if (size == 0) return;
-  const auto ends = [&](std::size_t body) {  // lowest and highest, against gravity [m]
-    std::array<double, 2> found{};
-    for (std::size_t d = 0; d < 3; ++d) {
-      const double one = -g[d] / size * m.bodies[body].low[d], other = -g[d] / size * m.bodies[body].high[d];
-      found[0] += std::min(one, other), found[1] += std::max(one, other);
-    }
-    return found;
-  };
-  for (const Pour& fed : m.pours) {
-    if (is_riser(spec, fed)) continue;
-    const Pour* highest = nullptr;
-    for (const Pour& riser : m.pours)
-      if (is_riser(spec, riser) && m.bodies[riser.body].shared_nodes[fed.body] > 0 &&
-          (highest == nullptr || ends(riser.body)[1] > ends(highest->body)[1]))
-        highest = &riser;
-    if (highest == nullptr) continue;
-    const auto [bottom, top] = ends(fed.body);
-    const double below = top - ends(highest->body)[1];
-    if (below < k_much * (top - bottom)) continue;
-    findings.push_back(
-        {false, spec.bodies[highest->body].where,
-         fmt::format("the riser '{}' ends {:.3g} mm below the top of '{}', as gravity acts: melt above it "
-                     "runs out of the riser",
-                     spec.bodies[highest->body].name, 1e3 * below, spec.bodies[fed.body].name),
-         "risers reach above what they feed; is gravity_direction right?"});
-  }
 }
 
 /// The box of a body in space; round an axis it reaches as far on the other side.
@@ -207,7 +170,6 @@ void find_in_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
   if (!spec.has_heat()) return;
   risers_that_freeze_first(spec, m, findings);
   risers_larger_than_castings(spec, m, findings);
-  risers_below_castings(spec, m, findings);
   swapped_cores_and_chills(spec, a, m, findings);
   moulds_as_hot_as_melt(spec, a, m, findings);
   castings_that_only_conduct(spec, m, findings);

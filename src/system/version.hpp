@@ -9,6 +9,7 @@ namespace solidus {
 const std::string& program_version();
 /// Call this first in main(): programs know the commit that they were built from, libraries do not, so that
 /// they need not be linked anew with each commit.
+/// The reader of meshes compares it with its own (same_build).
 void set_program_version(std::string version);
 /// Whether two versions can be of the same build. One that names no commit (behind a '+') is that of a
 /// program that links the libraries: it agrees with every commit of its version.

@@ -125,13 +125,6 @@ TEST_F(HubTest, ARiserThatFreezesFirstIsNamed) {
   EXPECT_THAT(said_of(k_hub_case), Contains(HasSubstr("the riser 'riser' freezes in some")));
 }
 
-TEST_F(HubTest, ARiserBelowWhatItFeedsIsNamed) {
-  const std::string gravity = "gravity = \"9.81 m/s2\"\n";
-  EXPECT_THAT(
-      said_of(changed(k_hub_case, gravity, gravity + "gravity_direction = [0, 1]\n")),
-      Contains(HasSubstr("the riser 'riser' ends 80 mm below the top of 'casting', as gravity acts")));
-}
-
 TEST_F(HubTest, ACoreAsHotAsMeltAndMeltThatDoesNotDeformAreNamed) {
   const std::string core = "material = \"chromite_sand\"\ninitial_temperature = \"";
   EXPECT_THAT(
