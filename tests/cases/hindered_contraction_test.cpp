@@ -50,7 +50,7 @@ kind = "axisymmetric"
 file = "tubes.geo"
 [time]
 end = "110 s"
-step = "2 s"
+step = "0.4 s"
 [[body]]
 name = "core"
 material = "core.toml"
@@ -97,8 +97,9 @@ double pressure(bool rigid_core) {
 TEST(HinderedContraction, ARingThatShrinksOntoACoreHasItsPressureAndDoesNotSinkIn) {
   const CaseFolder folder("hindered_contraction");
   folder.write("tubes.geo", k_tubes);
-  folder.write("core.toml", k_elastic + "expansion = \"0 1/K\"\nyoung_modulus = \"210 GPa\"\n"
-                                        "poisson_ratio = 0.3\n");
+  folder.write("core.toml", k_elastic +
+                                "expansion = \"0 1/K\"\nyoung_modulus = \"210 GPa\"\n"
+                                "poisson_ratio = 0.3\n");
   folder.write("casting.toml", k_elastic + R"(
 expansion = "2e-5 1/K"
 young_modulus = "70 GPa"
