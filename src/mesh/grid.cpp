@@ -166,8 +166,8 @@ struct Cells {
   std::vector<Layer> layer;     ///< of each cell
 };
 
-// Faces that only one element of the grid has. They belong to the outermost cells, whose other faces these and
-// the second layer have twice.
+// Faces that only one element of the grid has. They belong to the outermost cells, whose other faces these
+// and the second layer have twice.
 void add_boundary(RawMesh& mesh, const Grid& grid, const Cells& cells) {
   const std::vector<Index>& elements = cells.elements;
   const std::size_t per_cell = elements.size() / std::max<std::size_t>(cells.layer.size(), 1);
