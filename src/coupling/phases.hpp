@@ -34,7 +34,7 @@ std::vector<double> plateau_share(const Phases& phases, const heat::ThermalState
 
 /// Coherency::at of a state; empty where nothing that deforms melts. Collective.
 std::vector<double> coherency_of(const Phases& phases, const heat::ThermalState& heat);
-/// What contacts see of it; keeps a view of `coherency`.
+/// The solidity of nodes as contacts see it; keeps a view of `coherency`.
 inline contact::Solidity solidity_of(const Phases& phases, std::span<const double> coherency) {
   if (phases.coherency == nullptr) return {coherency};
   return {coherency, phases.coherency->of_solid()};

@@ -19,7 +19,7 @@ inline constexpr int k_request_descriptor = 3, k_answer_descriptor = 4;
 /// The first word of an answer. A mesh follows, or a text where it is an error with one.
 enum class ReaderAnswer : int { mesh, unusable_geometry, input_error, memory, internal };
 
-/// What the other end sent is none of these messages, or it has gone.
+/// Thrown where the other end sent none of these messages, or has gone.
 class MessageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
