@@ -243,7 +243,7 @@ INSTANTIATE_TEST_SUITE_P(
                                {"coupling.scheme=isothermal", "coupling.order=mechanics_first"}},
                       ShearRun{"block_iterative", 0.9, {"coupling.scheme=block_iterative"}},
                       ShearRun{"simultaneous", 0.9, {"coupling.scheme=simultaneous"}}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& of) { return of.param.name; });
 
 // Kelvin: a bar that is pulled without heat cools to Θ_0 exp(−α σ/C_p). What it cools too little is the work
 // of the stresses of the ends of steps, σ²/(2 E n), and nothing in schemes of second order.
