@@ -36,7 +36,7 @@ std::vector<double> plateau_share(const Phases& phases, const heat::ThermalState
 std::vector<double> coherency_of(const Phases& phases, const heat::ThermalState& heat);
 /// The solidity of nodes as contacts see it; keeps a view of `coherency`.
 inline contact::Solidity solidity_of(const Phases& phases, std::span<const double> coherency) {
-  if (phases.coherency == nullptr) return {coherency};
+  if (phases.coherency == nullptr || coherency.empty()) return {coherency};
   return {coherency, phases.coherency->of_solid()};
 }
 
