@@ -99,4 +99,23 @@ std::string Factorisation::failure(Mat matrix) const {
   return "the matrix is singular";
 }
 
+double foreseen_operations(Mat matrix, bool symmetric) {
+  petsc::check(MatSetOption(matrix, MAT_SYMMETRIC, symmetric ? PETSC_TRUE : PETSC_FALSE), "MatSetOption");
+  petsc::MatHandle factor;
+  petsc::check(
+      MatGetFactor(matrix, MATSOLVERMUMPS, symmetric ? MAT_FACTOR_CHOLESKY : MAT_FACTOR_LU, factor.out()),
+      "MatGetFactor");
+  constexpr PetscInt k_matching = 6, k_compression = 12, k_none = 0, k_usual = 1;
+  petsc::check(MatMumpsSetIcntl(factor, k_matching, k_none), "MatMumpsSetIcntl");
+  petsc::check(MatMumpsSetIcntl(factor, k_compression, k_usual), "MatMumpsSetIcntl");
+  MatFactorInfo info;
+  petsc::check(MatFactorInfoInitialize(&info), "MatFactorInfoInitialize");
+  petsc::check(symmetric ? MatCholeskyFactorSymbolic(factor, matrix, nullptr, &info)
+                         : MatLUFactorSymbolic(factor, matrix, nullptr, nullptr, &info),
+               "symbolic factorisation");
+  double operations = 0;
+  petsc::check(MatMumpsGetRinfog(factor, 1, &operations), "MatMumpsGetRinfog");
+  return operations;
+}
+
 }  // namespace solidus::linear

@@ -8,6 +8,7 @@
 #include "linear/factorisation.hpp"
 #include "linear/interruption.hpp"
 #include "parallel/petsc_vectors.hpp"
+#include "system/free_memory.hpp"
 #include "system/profile.hpp"
 
 namespace solidus::linear {
@@ -59,6 +60,7 @@ KSPConvergedReason KrylovSolver::Implementation::run(int& iterations) {
   PetscTime(&t0);
   {
     const profile::Part set_up("solver set-up");
+    const FreedArraysStay for_the_next_factors;
     petsc::check(KSPSetReusePreconditioner(ksp, stale ? PETSC_FALSE : PETSC_TRUE),
                  "KSPSetReusePreconditioner");
     petsc::check(KSPSetUp(ksp), "KSPSetUp");

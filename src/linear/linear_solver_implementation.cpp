@@ -5,6 +5,7 @@
 
 #include "linear/interruption.hpp"
 #include "parallel/petsc_options.hpp"
+#include "system/free_memory.hpp"
 #include "system/processes.hpp"
 #include "system/profile.hpp"
 
@@ -335,6 +336,7 @@ KSPConvergedReason LinearSolver::Implementation::run(Vec rhs, Vec solution, int&
   PetscTime(&t0);
   {
     const profile::Part set_up("solver set-up");
+    const FreedArraysStay for_the_next_factors;
     petsc::check(KSPSetReusePreconditioner(ksp, reuse_hierarchy && !stale ? PETSC_TRUE : PETSC_FALSE),
                  "KSPSetReusePreconditioner");
     petsc::check(KSPSetUp(ksp), "KSPSetUp");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/factorisation.hpp"
 #include "system/profile.hpp"
 #include "system/stopwatch.hpp"
 
@@ -10,8 +11,13 @@ namespace solidus::mechanics {
 
 namespace {
 
-/// Unknowns up to which a factorisation is the default: in three dimensions its factors fill up.
-constexpr GlobalIndex k_direct_limit_3d = 25000, k_direct_limit_2d = 60000;
+/// Unknowns up to which a factorisation is the default in the plane, and in three dimensions for any shape.
+constexpr GlobalIndex k_direct_limit_2d = 60000, k_direct_limit_3d = 8000;
+/// In three dimensions factors of a thin wall cost little and those of a lump fill up. Up to the second limit
+/// factors are the default where they take so few multiplications and additions, half a second of a processor
+/// (decision 0046).
+constexpr GlobalIndex k_direct_limit_of_walls = 80000;
+constexpr double k_cheap_factors = 4e9;
 /// Up to so many it takes over where multigrid fails.
 constexpr GlobalIndex k_rescue_limit = 200000;
 /// With a factorisation, whatever the forcing term: a step of flexible GMRES costs a hundredth of it.
@@ -27,8 +33,7 @@ SaddleSolver::SaddleSolver(const mesh::Mesh& mesh, linear::BlockMatrix& displace
       ghosts_(ghosts),
       options_(options),
       matrix_(displacement, pressure.fields()) {
-  find_unknowns();
-  make_solver(factorises());
+  reset();
 }
 
 SaddleSolver::~SaddleSolver() = default;
@@ -40,18 +45,36 @@ void SaddleSolver::find_unknowns() {
   copy_.reset();
 }
 
-bool SaddleSolver::factorises() const {
+std::optional<bool> SaddleSolver::prefers_factors() const {
   if (!SaddlePreconditioner::serves(displacement_)) return true;
   if (options_.kind != linear::SolverKind::automatic) return options_.kind == linear::SolverKind::direct;
-  return unknowns_->n_global() < (mesh_.dimension == 2 ? k_direct_limit_2d : k_direct_limit_3d);
+  const GlobalIndex n = unknowns_->n_global();
+  if (mesh_.dimension == 2) return n < k_direct_limit_2d;
+  if (n < k_direct_limit_3d) return true;
+  if (n >= k_direct_limit_of_walls) return false;
+  return {};
 }
 
-void SaddleSolver::make_solver(bool direct) {
-  direct_ = direct;
+void SaddleSolver::choose() {
+  if (!chosen_) {
+    chosen_ = true;
+    const bool before = direct_;
+    const std::optional<bool> preferred = prefers_factors();
+    direct_ = preferred ? *preferred
+                        : linear::foreseen_operations(copy_.copy(mesh_, matrix_, *unknowns_),
+                                                      options_.symmetric) < k_cheap_factors;
+    // A factorisation keeps only the analysis of a pattern, which does not depend on earlier steps.
+    made_ = made_ && before && direct_ && options_.symmetric;
+  }
+  if (!made_) make_solver();
+}
+
+void SaddleSolver::make_solver() {
+  made_ = true;
   hierarchy_.renew();
   copy_.reset();
   const auto product = [this](std::span<const double> x, std::span<double> y) { multiply(x, y); };
-  if (direct) {
+  if (direct_) {
     preconditioner_.reset();  // the factors need its memory
     iterative_.reset();
     factorised_.emplace(linear::KrylovOptions{.prefix = "mechanics_mixed_", .symmetric = options_.symmetric});
@@ -69,7 +92,7 @@ void SaddleSolver::make_solver(bool direct) {
 void SaddleSolver::assemble() {
   if (matrix_.set_zero()) {
     find_unknowns();
-    make_solver(direct_);
+    made_ = false;
   }
   for (const MixedKernel* kernel : pressure_.kernels()) kernel->add_saddle(pressure_.unit(), matrix_);
 }
@@ -109,6 +132,7 @@ linear::LinearReport SaddleSolver::solve(linear::BlockMatrix&, std::span<const d
 void SaddleSolver::set_up() {
   const profile::Part part("solver set-up");
   const Stopwatch watch(seconds_setup_);
+  choose();
   if (direct_) {
     Mat assembled = copy_.copy(mesh_, matrix_, *unknowns_);
     factorised_->set(pressure_.orthogonal() ? operator_->matrix() : assembled, assembled);
@@ -148,7 +172,8 @@ linear::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::s
         set_up();
         again = true;
       } else if (!report.converged && unknowns_->n_global() < k_rescue_limit) {
-        make_solver(true);
+        direct_ = true;
+        made_ = false;
         set_up();
         again = true;
       }
@@ -161,14 +186,13 @@ linear::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::s
 }
 
 void SaddleSolver::forget() {
-  // A factorisation keeps only the analysis of a pattern, which does not depend on earlier steps.
-  if (direct_ == factorises() && direct_ && options_.symmetric) return;
-  make_solver(factorises());
+  chosen_ = false;
 }
 
 void SaddleSolver::reset() {
   find_unknowns();
-  make_solver(factorises());
+  chosen_ = made_ = false;
+  if (prefers_factors()) choose();
 }
 
 std::size_t SaddleSolver::bytes() const {

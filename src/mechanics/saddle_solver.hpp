@@ -4,9 +4,10 @@
 ///   ⎣ Bᵀ −(C+S) ⎦ ⎩δp⎭ = ⎩−r_p⎭
 ///
 /// one linear solve an iteration, on the degrees of freedom that are unknown: nodes of bodies that only
-/// conduct heat have no rows. Few unknowns are factorised, LDLᵀ by MUMPS; many take GMRES that recycles its
-/// slow directions (recycling_gmres.hpp), with the preconditioner of saddle_preconditioner.hpp. Where that
-/// does not converge and a factorisation is possible, it takes over until forget().
+/// conduct heat have no rows. Where factors, LDLᵀ by MUMPS, are cheap they are taken: for few unknowns, and
+/// for as many in thin walls as MUMPS foresees little work for. Others take GMRES that recycles its slow
+/// directions (recycling_gmres.hpp), with the preconditioner of saddle_preconditioner.hpp. Where that does
+/// not converge and a factorisation is possible, it takes over until forget().
 ///
 /// Orthogonal sub-scales couple neighbours of neighbours. That part of S is applied and never assembled:
 /// GMRES has it in its operator and goes without it in what preconditions it, the factors included.
@@ -61,9 +62,12 @@ class SaddleSolver final : public linear::TangentSolver {
 
  private:
   void find_unknowns();
-  void make_solver(bool direct);
+  /// Whether factors are the faster way for the matrix of now; nothing where only their analysis can say.
+  std::optional<bool> prefers_factors() const;
+  /// Settles that, and makes the solver, unless there is one that serves.
+  void choose();
+  void make_solver();
   void set_up();
-  bool factorises() const;
   /// y = K x of the unknowns.
   void multiply(std::span<const double> x, std::span<double> y);
   void precondition(std::span<const double> r, std::span<double> z);
@@ -76,6 +80,8 @@ class SaddleSolver final : public linear::TangentSolver {
   linear::SaddleMatrix matrix_;
   std::optional<linear::SaddleUnknowns> unknowns_;
   linear::SaddleCopy copy_;
+  bool chosen_ = false;  ///< direct_ is settled
+  bool made_ = false;    ///< there is a solver for this pattern
   bool direct_ = true;
   std::unique_ptr<linear::FunctionMatrix> operator_;
   std::optional<linear::KrylovSolver> factorised_;   ///< where few are unknown

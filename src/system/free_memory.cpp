@@ -1,6 +1,7 @@
 #include "system/free_memory.hpp"
 
 #include <cstdlib>  // which says whether the C library is GNU's
+#include <limits>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -15,6 +16,8 @@ namespace {
 /// no memory.
 constexpr int k_end_of_heap = 64 << 20;
 constexpr int k_most_arrays = 65536;  ///< the C library's own limit
+/// What the C library does is the program's matter: nothing changes before it has said so.
+bool gives_back = false;
 }  // namespace
 #endif
 
@@ -30,6 +33,21 @@ void give_large_arrays_back() {
   mallopt(M_MMAP_THRESHOLD, static_cast<int>(k_large_array));
   mallopt(M_TRIM_THRESHOLD, k_end_of_heap);
   mallopt(M_TOP_PAD, k_end_of_heap);
+  gives_back = true;
+#endif
+}
+
+FreedArraysStay::FreedArraysStay() {
+#ifdef __GLIBC__
+  if (!gives_back) return;
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+#endif
+}
+
+FreedArraysStay::~FreedArraysStay() {
+#ifdef __GLIBC__
+  if (gives_back) give_large_arrays_back();
 #endif
 }
 

@@ -17,4 +17,15 @@ void return_free_memory();
 /// as soon as it is loaded to keep whatever it ever had.
 void give_large_arrays_back();
 
+/// While it lives, freed arrays stay with the program for the next ones of their size, whatever
+/// give_large_arrays_back() has said; without it nothing changes. For libraries that allocate the same large
+/// arrays anew in each call: the system clears every page that it gives.
+class FreedArraysStay {
+ public:
+  FreedArraysStay();
+  ~FreedArraysStay();
+  FreedArraysStay(const FreedArraysStay&) = delete;
+  FreedArraysStay& operator=(const FreedArraysStay&) = delete;
+};
+
 }  // namespace solidus

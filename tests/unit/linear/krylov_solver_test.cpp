@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <petscksp.h>
 
+#include <array>
 #include <vector>
 
+#include "linear/factorisation.hpp"
 #include "parallel/petsc_handles.hpp"
 #include "system/processes.hpp"
 
@@ -50,6 +52,46 @@ TEST(KrylovSolver, FactorsThatNeedMoreWorkspaceThanForeseenGetIt) {
       PetscOptionsGetString(nullptr, nullptr, "-tight_mat_mumps_icntl_14", value, sizeof value, nullptr),
       "PetscOptionsGetString");
   EXPECT_STRNE(value, "0") << "the first attempt did; the matrix does not test what it is to test";
+}
+
+/// Springs between neighbours of a grid, whose stiffness is a function of the number of the spring.
+template <class Stiffness>
+petsc::MatHandle grid_of_springs(std::array<PetscInt, 3> nodes, Stiffness&& stiffness) {
+  const PetscInt n = nodes[0] * nodes[1] * nodes[2];
+  petsc::MatHandle matrix;
+  petsc::check(MatCreateSeqAIJ(PETSC_COMM_SELF, n, n, 7, nullptr, matrix.out()), "MatCreateSeqAIJ");
+  PetscInt springs = 0;
+  for (PetscInt i = 0; i < n; ++i) {
+    petsc::check(MatSetValue(matrix, i, i, 8.0, ADD_VALUES), "MatSetValue");
+    const std::array<PetscInt, 3> at{i % nodes[0], i / nodes[0] % nodes[1], i / (nodes[0] * nodes[1])},
+        next{1, nodes[0], nodes[0] * nodes[1]};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (at[axis] + 1 == nodes[axis]) continue;
+      const double value = -stiffness(springs++);
+      petsc::check(MatSetValue(matrix, i, i + next[axis], value, ADD_VALUES), "MatSetValue");
+      petsc::check(MatSetValue(matrix, i + next[axis], i, value, ADD_VALUES), "MatSetValue");
+    }
+  }
+  petsc::check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
+  petsc::check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
+  return matrix;
+}
+
+TEST(Factorisation, AWallIsForeseenToCostLessThanALump) {
+  if (processes::count() > 1) GTEST_SKIP() << "a matrix of one process";
+  const auto alike = [](PetscInt) { return 1.0; };
+  const petsc::MatHandle wall = grid_of_springs({32, 64, 2}, alike),
+                         lump = grid_of_springs({16, 16, 16}, alike);
+  for (const bool symmetric : {true, false})
+    EXPECT_LT(4 * foreseen_operations(wall, symmetric), foreseen_operations(lump, symmetric));
+}
+
+TEST(Factorisation, IsForeseenFromThePatternAlone) {
+  if (processes::count() > 1) GTEST_SKIP() << "a matrix of one process";
+  const petsc::MatHandle even = grid_of_springs({12, 12, 12}, [](PetscInt) { return 1.0; }),
+                         uneven = grid_of_springs({12, 12, 12},
+                                                  [](PetscInt i) { return i % 3 == 0 ? 1e6 : 1e-6; });
+  EXPECT_EQ(foreseen_operations(even, true), foreseen_operations(uneven, true));
 }
 
 }  // namespace

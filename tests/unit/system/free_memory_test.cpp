@@ -55,6 +55,30 @@ TEST(FreeMemory, GoesBackToTheSystemAlsoWhereALibraryWantsToKeepIt) {
 #endif
 }
 
+/// Pages that the system had to clear for an array that comes ten times.
+[[maybe_unused]] long pages_of_ten(std::size_t bytes) {
+  left_by(bytes);
+  rusage before{}, after{};
+  getrusage(RUSAGE_SELF, &before);
+  for (int i = 0; i < 10; ++i) left_by(bytes);
+  getrusage(RUSAGE_SELF, &after);
+  return after.ru_minflt - before.ru_minflt;
+}
+
+TEST(FreeMemory, LargeArraysKeepTheirPagesOnlyWhereALibraryTakesThemAgainAndAgain) {
+#ifdef SOLIDUS_OTHER_ALLOCATOR
+  GTEST_SKIP() << "another allocator";
+#else
+  constexpr std::size_t k_size = std::size_t{160} << 20, k_page = 4096;
+  give_large_arrays_back();
+  {
+    const FreedArraysStay during_the_call;
+    EXPECT_LT(pages_of_ten(k_size), static_cast<long>(k_size / k_page)) << "less than once";
+  }
+  EXPECT_LT(left_by(k_size), static_cast<long>(k_size / 8));
+#endif
+}
+
 TEST(FreeMemory, ArraysThatComeAndGoKeepTheirPages) {
 #ifdef SOLIDUS_OTHER_ALLOCATOR
   GTEST_SKIP() << "another allocator";
