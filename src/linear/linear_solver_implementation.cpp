@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "linear/interruption.hpp"
 #include "parallel/petsc_options.hpp"
@@ -336,7 +337,8 @@ KSPConvergedReason LinearSolver::Implementation::run(Vec rhs, Vec solution, int&
   PetscTime(&t0);
   {
     const profile::Part set_up("solver set-up");
-    const FreedArraysStay for_the_next_factors;
+    std::optional<FreedArraysStay> for_the_next_factors;
+    if (is_direct()) for_the_next_factors.emplace();
     petsc::check(KSPSetReusePreconditioner(ksp, reuse_hierarchy && !stale ? PETSC_TRUE : PETSC_FALSE),
                  "KSPSetReusePreconditioner");
     petsc::check(KSPSetUp(ksp), "KSPSetUp");
