@@ -15,7 +15,7 @@ namespace {
 constexpr GlobalIndex k_direct_limit_2d = 60000, k_direct_limit_3d = 8000;
 /// In three dimensions factors of a thin wall cost little and those of a lump fill up. Up to the second limit
 /// factors are the default where they take so few multiplications and additions, half a second of a processor
-/// (decision 0046).
+/// (decision 0047).
 constexpr GlobalIndex k_direct_limit_of_walls = 80000;
 constexpr double k_cheap_factors = 4e9;
 /// Up to so many it takes over where multigrid fails.
