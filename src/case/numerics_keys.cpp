@@ -65,6 +65,12 @@ Section<heat::HeatOptions> heat_keys() {
           "Closed rule: limits conduction where obtuse, bent or quadratic elements would let temperatures "
           "leave the range of the initial and boundary ones (docs/theory/thermal.md); linear fields and "
           "smooth temperatures stay as they are.");
+  s.key("edges", &HeatOptions::edges)
+      .initially(true)
+      .doc(
+          "Corrects conduction in linear triangles and tetrahedra that touch re-entrant edges of a body, "
+          "such as "
+          "the sand along the rims of a casting, where they conduct too well (docs/theory/thermal.md).");
   solver_choice(s).doc("Linear solver; PETSc options with the prefix -heat_ change it further.");
   return s;
 }

@@ -71,9 +71,15 @@ mesh::BlockGeometry geometry_of(const mesh::Mesh& mesh, const mesh::ElementBlock
 template <int n_nodes, int dim>
 class Conduction final : public ConductionBlock {
  public:
-  Conduction(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind, bool closed)
+  Conduction(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind, bool closed,
+             const EdgeConduction& edges)
       : geometry_(geometry_of(mesh, block, kind, closed)) {
     PackVector<Lane>().swap(geometry_.counted);  // nothing is summed over elements here
+    if (edges.empty()) return;
+    for (Index e = 0; e < block.size(); ++e) {
+      const double factor = edges.factor(mesh, block.shape, block.element(e));
+      if (factor != 1) scale(e, factor);
+    }
   }
 
   void bind(const linear::BlockMatrix& matrix) override {
@@ -107,6 +113,15 @@ class Conduction final : public ConductionBlock {
  private:
   using Nodal = std::array<Lane, n_nodes>;
 
+  void scale(Index element, double factor) {
+    const Index batch = element / k_lanes;
+    const int lane = static_cast<int>(element % k_lanes);
+    for (int q = 0; q < geometry_.n_points; ++q) {
+      Lane& weight = geometry_.weight[static_cast<std::size_t>(batch * geometry_.n_points + q)];
+      weight.set(lane, factor * weight[lane]);
+    }
+  }
+
   void add_batch(Index batch, double factor, std::span<const double> columns,
                  const linear::LaneSlots::Slot* slots, linear::BlockMatrix& matrix) const {
     ConductionMatrix<n_nodes> m{};
@@ -139,9 +154,9 @@ class Conduction final : public ConductionBlock {
 
 std::unique_ptr<ConductionBlock> make_conduction_block(const mesh::Mesh& mesh,
                                                        const mesh::ElementBlock& block, AnalysisKind kind,
-                                                       bool closed) {
+                                                       bool closed, const EdgeConduction& edges) {
   return for_shape(block.shape, [&]<int n, int dim>() -> std::unique_ptr<ConductionBlock> {
-    return std::make_unique<Conduction<n, dim>>(mesh, block, kind, closed);
+    return std::make_unique<Conduction<n, dim>>(mesh, block, kind, closed, edges);
   });
 }
 

@@ -17,6 +17,7 @@
 #include <memory>
 #include <span>
 
+#include "heat/edge_conduction.hpp"
 #include "linear/block_matrix.hpp"
 #include "mesh/mesh.hpp"
 
@@ -37,8 +38,9 @@ class ConductionBlock {
   virtual std::size_t bytes() const = 0;
 };
 
+/// @param edges  factors of the elements at re-entrant edges
 std::unique_ptr<ConductionBlock> make_conduction_block(const mesh::Mesh& mesh,
                                                        const mesh::ElementBlock& block, AnalysisKind kind,
-                                                       bool closed);
+                                                       bool closed, const EdgeConduction& edges = {});
 
 }  // namespace solidus::heat

@@ -17,11 +17,12 @@ namespace solidus::heat {
 HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
                        const std::vector<material::Material>& materials, const ThermalConditions& conditions,
                        bool closed, std::vector<linear::Contribution*> contributions,
-                       linear::BlockMatrix::Storage storage)
+                       linear::BlockMatrix::Storage storage, bool correct_edges)
     : mesh_(mesh), kind_(kind), closed_(closed), contributions_(std::move(contributions)), active_(mesh) {
   contributions_heat_ = std::any_of(contributions_.begin(), contributions_.end(),
                                     [](const linear::Contribution* c) { return !c->stores(); });
   for (const material::Material& m : materials) at_nodes_.push_back(closed || m.changes_isothermally());
+  if (correct_edges) edges_ = EdgeConduction(mesh);
   add_conduction(materials);
   if (!conditions.absent_bodies.empty()) throw std::invalid_argument("every body is there when a run begins");
   add_conditions(conditions);
@@ -172,7 +173,7 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
 
 ConductionBlock& HeatSystem::conduction(std::size_t block) {
   if (!conduction_[block]) {
-    conduction_[block] = make_conduction_block(mesh_, mesh_.blocks[block], kind_, closed_);
+    conduction_[block] = make_conduction_block(mesh_, mesh_.blocks[block], kind_, closed_, edges_);
     conduction_[block]->bind(*matrix_);
   }
   return *conduction_[block];

@@ -28,13 +28,15 @@ namespace solidus::heat {
 
 class HeatSystem {
  public:
-  /// @param storage  of the matrix: half of it where no tangent that is added is unsymmetric
+  /// @param storage        of the matrix: half of it where no tangent that is added is unsymmetric
+  /// @param correct_edges  whether conduction beside re-entrant edges is corrected (edge_conduction.hpp)
   /// Throws InputError for a condition that names no group of the mesh, std::invalid_argument for absent
   /// bodies: they leave later.
   HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
              const ThermalConditions& conditions, bool closed,
              std::vector<linear::Contribution*> contributions,
-             linear::BlockMatrix::Storage storage = linear::BlockMatrix::Storage::whole);
+             linear::BlockMatrix::Storage storage = linear::BlockMatrix::Storage::whole,
+             bool correct_edges = false);
   ~HeatSystem();
 
   /// Replaces the conditions from here on. If bodies leave or come back, the matrix gets another pattern;
@@ -212,6 +214,7 @@ class HeatSystem {
   linear::ActiveSet active_;
   /// One per mesh block; null until it is asked for, and of a body that left.
   std::vector<std::unique_ptr<ConductionBlock>> conduction_;
+  EdgeConduction edges_;
   std::vector<KirchhoffPotential> potentials_;  ///< one per body
   std::vector<Field> fields_;                   ///< one per body
   std::unique_ptr<NodalPotential> nodal_;

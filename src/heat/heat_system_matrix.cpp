@@ -55,7 +55,7 @@ void HeatSystem::keep_conduction() {
       if (mesh_.blocks[b].body != static_cast<int>(body) || !active_.body(static_cast<int>(body))) continue;
       if (contributions_.empty() && !conduction_[b])
         mesh::for_parts(mesh_.blocks[b], [&](const mesh::ElementBlock& part, Index) {
-          make_conduction_block(mesh_, part, kind_, closed_)->add_tangent_once(1.0, *matrix_);
+          make_conduction_block(mesh_, part, kind_, closed_, edges_)->add_tangent_once(1.0, *matrix_);
         });
       else
         conduction(b).add_tangent_once(1.0, *matrix_);

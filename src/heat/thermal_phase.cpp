@@ -58,7 +58,8 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
   system_ = std::make_unique<HeatSystem>(
       mesh, kind, materials_, conditions, closed, contributions_,
       options_.alone ? HeatSolver::storage_for(mesh, options_.solver, options_.symmetric)
-                     : linear::BlockMatrix::Storage::whole);
+                     : linear::BlockMatrix::Storage::whole,
+      options_.edges);
   solver_ =
       std::make_unique<HeatSolver>(mesh, options_.solver, options_.symmetric, options_.linear_tolerance);
   if (nodal) {

@@ -75,6 +75,8 @@ struct HeatOptions {
   /// Limits conduction where the mesh would let temperatures leave the range of those around them
   /// (conduction_limiter.hpp); closed rule only.
   bool bounds = true;
+  /// Corrects conduction of linear simplices beside re-entrant edges (edge_conduction.hpp).
+  bool edges = true;
   bool symmetric = true;  ///< false when a contribution's tangent is not
   /// No scheme makes its tangent part of a larger, unsymmetric one: half of a symmetric matrix will do.
   bool alone = false;
