@@ -80,6 +80,13 @@ kind = "minimum"
 field = "gap"
 group = "casting_bore"
 unit = "um"
+[[probe]]
+name = "moved"
+kind = "minimum"
+field = "displacement"
+component = "r"
+group = "casting_bore"
+unit = "um"
 )",
                      rigid_core ? "physics = \"heat\"" : "");
 }
@@ -92,6 +99,15 @@ double pressure(bool rigid_core) {
   const double of_ring = ((c + b) / (c - b) + k_poisson) / k_young,
                of_core = rigid_core ? 0 : ((b + a) / (b - a) - k_core_poisson) / k_core_young;
   return k_contraction / (of_ring + of_core);
+}
+
+/// The overlap that the summary of a run tells [um].
+double told_overlap(const CaseFolder& folder, const std::string& run) {
+  const std::string summary = testing::read_text(folder.root() / run / "summary.json");
+  const std::string key = "\"value[m]\":";
+  const std::size_t value = summary.find(key, summary.find("\"deepest_overlaps\""));
+  return value == std::string::npos ? NAN
+                                    : 1e6 * std::strtod(summary.c_str() + value + key.size(), nullptr);
 }
 
 TEST(HinderedContraction, ARingThatShrinksOntoACoreHasItsPressureAndDoesNotSinkIn) {
@@ -117,6 +133,11 @@ fraction = { solidus = "600 degC", liquidus = "602 degC" }
     EXPECT_NEAR(run.history.at("contact_force[N]").back() / area, exact, 0.01 * exact) << rigid;
     const double shrinks = 1e6 * k_contraction * k_bore;  // freely [um]
     EXPECT_GT(run.history.at("gap[um]").back(), -0.01 * shrinks) << rigid;
+    // Into a core that does not move the bore has gone as far as it moved, while its skin was soft too.
+    if (!rigid) continue;
+    const double sunk = told_overlap(folder, "rigid");
+    EXPECT_NEAR(sunk, -run.history.at("moved[um]").back(), 1e-6 * shrinks);
+    EXPECT_GT(sunk, -1.01 * run.history.at("gap[um]").back());
   }
 }
 
