@@ -110,13 +110,12 @@ double told_overlap(const CaseFolder& folder, const std::string& run) {
                                     : 1e6 * std::strtod(summary.c_str() + value + key.size(), nullptr);
 }
 
-TEST(HinderedContraction, ARingThatShrinksOntoACoreHasItsPressureAndDoesNotSinkIn) {
-  const CaseFolder folder("hindered_contraction");
+void write_tubes(const CaseFolder& folder, int solidus) {
   folder.write("tubes.geo", k_tubes);
   folder.write("core.toml", k_elastic +
                                 "expansion = \"0 1/K\"\nyoung_modulus = \"210 GPa\"\n"
                                 "poisson_ratio = 0.3\n");
-  folder.write("casting.toml", k_elastic + R"(
+  folder.write("casting.toml", k_elastic + fmt::format(R"(
 expansion = "2e-5 1/K"
 young_modulus = "70 GPa"
 poisson_ratio = 0.33
@@ -124,8 +123,14 @@ poisson_ratio = 0.33
 name = "solidification"
 solidification = true
 latent_heat = "390 kJ/kg"
-fraction = { solidus = "600 degC", liquidus = "602 degC" }
-)");
+fraction = {{ solidus = "{} degC", liquidus = "602 degC" }}
+)",
+                                                       solidus));
+}
+
+TEST(HinderedContraction, ARingThatShrinksOntoACoreHasItsPressureAndDoesNotSinkIn) {
+  const CaseFolder folder("hindered_contraction");
+  write_tubes(folder, 600);
   for (const bool rigid : {true, false}) {
     const CaseRun run = folder.run(rigid ? "rigid" : "elastic", ring(rigid));
     ASSERT_TRUE(run.finished) << run.reason;
@@ -133,12 +138,18 @@ fraction = { solidus = "600 degC", liquidus = "602 degC" }
     EXPECT_NEAR(run.history.at("contact_force[N]").back() / area, exact, 0.01 * exact) << rigid;
     const double shrinks = 1e6 * k_contraction * k_bore;  // freely [um]
     EXPECT_GT(run.history.at("gap[um]").back(), -0.01 * shrinks) << rigid;
-    // Into a core that does not move the bore has gone as far as it moved, while its skin was soft too.
-    if (!rigid) continue;
-    const double sunk = told_overlap(folder, "rigid");
-    EXPECT_NEAR(sunk, -run.history.at("moved[um]").back(), 1e-6 * shrinks);
-    EXPECT_GT(sunk, -1.01 * run.history.at("gap[um]").back());
   }
+}
+
+TEST(HinderedContraction, TheOverlapThatIsToldHasWhatASoftSkinSankIn) {
+  const CaseFolder folder("hindered_contraction_mushy");
+  write_tubes(folder, 500);
+  const CaseRun run = folder.run("rigid", ring(true));
+  ASSERT_TRUE(run.finished) << run.reason;
+  // Into a core that does not move the bore has gone as far as it moved; overlaps are means around nodes.
+  const double moved = -run.history.at("moved[um]").back(), told = told_overlap(folder, "rigid");
+  EXPECT_NEAR(told, moved, 0.005 * moved);
+  EXPECT_LT(-run.history.at("gap[um]").back(), 0.7 * told) << "a third of it while soft";
 }
 
 }  // namespace
