@@ -34,7 +34,7 @@ class SheetSliding(unittest.TestCase):
 
         rows = list(zip(history["pass"], history["tool_displacement[mm]"], history["tangential_force[N]"],
                         history["normal_force[N]"]))
-        ratios = {int(n): tangential / force for n, way, tangential, normal in rows
+        ratios = {int(n): tangential / normal for n, way, tangential, normal in rows
                   if abs(way - 10) < 1e-6 and normal > 0.98 * force}
         self.assertEqual(sorted(ratios), list(range(1, PASSES + 1)))
         strip = {int(row["pass"]): float(row["ratio"]) for row in reference("sheet_sliding_strip.csv", (steel, law, force))
