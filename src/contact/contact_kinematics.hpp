@@ -32,6 +32,9 @@ struct PointMotion {
   int n_slave = 0;                ///< how many of them are the slave's
   std::span<const double> share;  ///< B_b
   double weight = 0;              ///< w [m²]
+  /// Share of the point's area that faces the master, w over Particle::area: less than one beyond the rim of
+  /// the master.
+  double covered = 1;
   double penetration = 0;         ///< g_N [m]
   Point normal{};                 ///< n
   Tensor push{};                  ///< F
@@ -71,11 +74,12 @@ class ContactKinematics {
   enum class Asked { motion, rates };
   virtual ~ContactKinematics() = default;
   virtual Index n_points() const = 0;
-  /// Data of a contact point that do not depend on the motion.
+  /// Data of a contact point; all but `weight` do not depend on the motion.
   struct Particle {
     GlobalIndex number = 0;         ///< of all processes alike, and of runs on another number of them
     bool counted = false;           ///< this process counts it in sums; over all processes every point once
     Point position{};               ///< on the slave, reference configuration [m]
+    double area = 0;                ///< that the point stands for, wherever it is [m²]
     double weight = 0;              ///< w of motion() as last placed [m²]
     std::span<const Index> nodes;   ///< of the slave's face, local numbers
     std::span<const double> share;  ///< their shape functions

@@ -66,8 +66,8 @@ ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
     const double w = particle.weight;
     s[0] += 1;
     s[1] += w * (pair.active ? pair.law.stored(state) : 0.0);
-    s[2] += w * state.work;
-    s[3] += w * state.dissipation;
+    s[2] += particle.area * state.work;
+    s[3] += particle.area * state.dissipation;
     if (state.suction > 0) {
       s[18] += w;
       s[19] += seems_left(pair, p) ? 1 : 0;

@@ -52,6 +52,9 @@ struct ContactSums {
 struct ContactNodalFields {
   std::vector<Index> nodes;         ///< local numbers of owned nodes, slave's and master's, sorted
   std::vector<double> opening;      ///< [m], negative: penetration
+  /// How far the bodies lie in each other: the penetration, and what a skin has sunk in before, while it was
+  /// soft (ContactPointState::sunk); negative: a gap [m].
+  std::vector<double> overlap;
   std::vector<double> pressure;     ///< t_N [Pa]
   std::vector<double> conductance;  ///< h without radiation [W/(m² K)]; zero without heat
   /// ∫ N_a dA over the points that have a partner, of which the values here are means; zero where there is

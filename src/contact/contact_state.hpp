@@ -2,6 +2,7 @@
 /// rest of the state.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "contact/vector.hpp"
@@ -12,6 +13,7 @@ namespace solidus::contact {
 enum class PointStatus { open, sticks, slips };
 
 /// The history of one point of the slave surface: it travels with the slave's particle, whatever it meets.
+/// Slip, ζ_c, work, dissipation and wear are means over the area that the point stands for.
 struct ContactPointState {
   GlobalIndex number = 0;  ///< ContactKinematics::Particle: of all processes alike
   bool counted = false;    ///< this process writes it to checkpoints
@@ -19,6 +21,7 @@ struct ContactPointState {
   /// Added to g_N: closes an initial gap that counts as touching, and takes what a skin has sunk in while it
   /// was soft [m].
   double offset = 0;
+  double sunk = 0;         ///< what of `offset` the skin has sunk in while it was soft, taken for the wall [m]
   double penetration = 0;  ///< g_N [m] (3.5)
   double pressure = 0;     ///< t_N [Pa]
   /// Contact pressure in the balance of forces at t_n [Pa]: equal to t_N, except with the energy-conserving
@@ -44,10 +47,19 @@ struct ContactPointState {
   double work = 0;               ///< ∫ ‖T‖ γ_c dt, of which the dissipation is a part [J/m²]
   double dissipation = 0;        ///< ∫ D_c,mech dt [J/m²] (3.58)
   double wear_depth = 0;         ///< by Archard's law [m]
+  /// PointMotion::covered of the step that led here. Checkpoints do without it.
+  double covered = 1;
   // The interface as a body of its own.
   double temperature = 0;      ///< Θ_c [K]; zero: not known yet
   double plastic_entropy = 0;  ///< S^p_c [J/(m² K)] (3.53c)
 };
+
+/// ζ_c at the end of a step of the part of a point that rubbed in it; the history holds the mean with the part
+/// that lies beyond the rim of the master.
+inline double rubbed_variable(const ContactPointState& from, const ContactPointState& now) {
+  return now.covered < 1 ? std::lerp(from.internal_variable, now.internal_variable, 1 / now.covered)
+                         : now.internal_variable;
+}
 
 /// The pressure with which a point rubs [Pa]: that of a coherent skin. Metal below coherency has no strength
 /// to rub with, and tension makes no friction.

@@ -41,6 +41,7 @@ FixedKinematics::Particle FixedKinematics::particle(Index point) const {
           pairing.counted,
           points_.position[p],
           points_.weight[p],
+          points_.weight[p],
           std::span(points_.nodes).subspan(pairing.first_node, of_a_node ? 1 : n_slave),
           of_a_node ? std::span(&k_whole, 1) : std::span(points_.shape).subspan(shape, n_slave)};
 }

@@ -147,7 +147,7 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
   for (std::size_t p = 0; p < found.size(); ++p)
     if (const auto particle = geometry_.kinematics().particle(static_cast<Index>(p));
         particle.counted && step.from[p].temperature > 0)
-      sums.hardening += particle.weight * hardening(p);
+      sums.hardening += particle.area * hardening(p);
   take_slip(temperature, step, now);
   if (term_.stores() && !predicted_.empty()) show_whole_step();
   term_.end_phase();
@@ -175,13 +175,14 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
     const ContactKinematics::Particle particle = geometry_.kinematics().particle(static_cast<Index>(p));
     if (!particle.counted) continue;
     const double w = particle.weight, between = before_[p];
+    const double rubbed = rubbed_variable(from, to);
     const double old_energy = energy(from.temperature, from.internal_variable);
     const double old_entropy = entropy(from.temperature, from.internal_variable);
-    sums.energy += w * (energy(to.temperature, to.internal_variable) - old_energy);
-    sums.entropy += w * (entropy(to.temperature, to.internal_variable) - old_entropy);
-    sums.mechanical_energy += w * (energy(between, to.internal_variable) - old_energy);
-    sums.mechanical_entropy += w * (entropy(between, to.internal_variable) - old_entropy);
-    sums.plastic_entropy += w * made;
+    sums.energy += w * (energy(to.temperature, rubbed) - old_energy);
+    sums.entropy += w * (entropy(to.temperature, rubbed) - old_entropy);
+    sums.mechanical_energy += w * (energy(between, rubbed) - old_energy);
+    sums.mechanical_entropy += w * (entropy(between, rubbed) - old_entropy);
+    sums.plastic_entropy += particle.area * made;
   }
   processes::sum(std::span(reinterpret_cast<double*>(&sums), sizeof(sums) / sizeof(double)));
   return sums;
@@ -193,15 +194,11 @@ void ContactHeat::take_slip(std::span<const double> temperature, const ContactSt
   for (std::size_t p = 0; p < found.size(); ++p) {
     if (!found[p]) continue;
     const FrictionResponse& slip = *found[p];
-    const ContactPointState& from = step.from[p];
     ContactPointState& to = now[p];
     to.status = slip.sticks ? PointStatus::sticks : PointStatus::slips;
     if (const double size = norm(to.traction); size > 0)
       to.traction = scale(slip.traction / size, to.traction);
-    to.internal_variable = slip.internal_variable;
-    to.slip = from.slip + slip.slip;
-    to.dissipation = from.dissipation + slip.dissipation;
-    to.work = from.work + slip.slip * slip.traction;
+    contact::take_slip(slip, step.from[p], to);
   }
 }
 

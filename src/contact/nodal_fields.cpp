@@ -11,8 +11,8 @@ namespace solidus::contact {
 namespace {
 
 /// Values of points that have a partner, on both sides: opening, pressure, conductance, heat in all and by
-/// friction, status and the three components of the traction.
-constexpr std::size_t k_met = 9;
+/// friction, status, the three components of the traction, and what was sunk in.
+constexpr std::size_t k_met = 10;
 /// Number of fields that are means over all points, on the slave: slip, ζ_c, μ, dissipation, wear, Θ_c.
 constexpr std::size_t k_kept = 6;
 
@@ -64,7 +64,7 @@ ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double>
       const double mu =
           friction ? friction->coefficient().value(state.internal_variable, state.temperature).value : 0.0;
       for (std::size_t b = 0; b < particle.nodes.size(); ++b)
-        kept.add(particle.nodes[b], particle.weight * particle.share[b],
+        kept.add(particle.nodes[b], particle.area * particle.share[b],
                  {state.slip, state.internal_variable, mu, state.dissipation, state.wear_depth,
                   state.temperature});
     }
@@ -77,7 +77,7 @@ ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double>
       met.add(
           node, motion.weight * share * share,
           {-state.penetration, state.pressure, conductance[static_cast<std::size_t>(p)], q.total[side],
-           q.by_friction[side], static_cast<double>(state.status), traction[0], traction[1], traction[2]});
+           q.by_friction[side], static_cast<double>(state.status), traction[0], traction[1], traction[2], state.sunk});
     };
     for (std::size_t b = 0; b < particle.nodes.size(); ++b) meet(particle.nodes[b], particle.share[b], 0);
     for (auto b = static_cast<std::size_t>(motion.n_slave); b < motion.nodes.size(); ++b)
@@ -88,6 +88,7 @@ ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double>
   for (const Index node : fields.nodes) {
     const auto m = met.at(node);
     fields.opening.push_back(m[0]);
+    fields.overlap.push_back(m[9] - m[0]);
     fields.pressure.push_back(m[1]);
     fields.conductance.push_back(m[2]);
     fields.paired_area.push_back(paired_area[static_cast<std::size_t>(node)]);

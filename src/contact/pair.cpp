@@ -79,7 +79,7 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   for (std::size_t p = 0; p < step_.from.size(); ++p) {
     const ContactPointState &before = pass.iterate->points[p], &from = step_.from[p];
     step_.iterate.push_back(
-        {before.temperature > 0 ? before.temperature : from.temperature, before.internal_variable});
+        {before.temperature > 0 ? before.temperature : from.temperature, rubbed_variable(from, before)});
     step_.from[p].multiplier = std::max(before.multiplier, least_multiplier(from));
   }
 }

@@ -100,16 +100,21 @@ ContactPointState PointLaw::next(const PointMotion& motion, const ContactPointSt
     to.master_normal = motion.master_normal;
   }
   if (!friction || f.status == PointStatus::open) return to;
-  to.internal_variable = f.friction.internal_variable;
   to.temperature = f.friction.temperature;
-  to.slip += f.friction.slip;
-  to.dissipation += f.friction.dissipation;
-  to.work += f.friction.slip * f.friction.traction;
+  to.covered = motion.covered;
+  take_slip(f.friction, from, to);
   if (wear)
-    to.wear_depth +=
-        (1 - wear->master_share) * wear->depth_increment(rubbing_pressure(f.normal.pressure, from.molten),
-                                                         f.friction.slip, to.temperature);
+    to.wear_depth += motion.covered * (1 - wear->master_share) *
+                     wear->depth_increment(rubbing_pressure(f.normal.pressure, from.molten), f.friction.slip,
+                                           to.temperature);
   return to;
+}
+
+void take_slip(const FrictionResponse& friction, const ContactPointState& from, ContactPointState& to) {
+  to.internal_variable = std::lerp(from.internal_variable, friction.internal_variable, to.covered);
+  to.slip = from.slip + to.covered * friction.slip;
+  to.dissipation = from.dissipation + to.covered * friction.dissipation;
+  to.work = from.work + to.covered * friction.slip * friction.traction;
 }
 
 void PointLaw::stiffen(double strength, ContactPointState& state) const {
@@ -120,6 +125,7 @@ void PointLaw::stiffen(double strength, ContactPointState& state) const {
   if (state.stiffening <= before || !(state.penetration > 0) || !(state.pressure > 0)) return;
   const double sunk = (1 - before / state.stiffening) * state.penetration;
   state.offset -= sunk;
+  state.sunk += sunk;
   state.penetration -= sunk;
 }
 

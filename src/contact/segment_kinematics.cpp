@@ -83,8 +83,10 @@ SegmentKinematics::Particle SegmentKinematics::particle(Index point) const {
   const std::size_t c = at(point);
   const auto nodes = slave_.nodes(face_[c]);
   return {.number = face_[c] * k_points_of_a_face + number_[c],
-          .counted =
-              nodes[0]<n_owned_, .position = position_[c], .weight = covered_[c]> 0 ? covered_[c] : whole_[c],
+          .counted = nodes[0] < n_owned_,
+          .position = position_[c],
+          .area = whole_[c],
+          .weight = covered_[c] > 0 ? covered_[c] : whole_[c],
           .nodes = nodes,
           .share = std::span(shape_[c]).first(nodes.size())};
 }
@@ -169,6 +171,7 @@ PointMotion SegmentKinematics::motion(Index point, const ContactPointState& old,
   PointMotion m;
   m.weight = particle(point).weight;
   if (covered_[c] == 0) return m;
+  m.covered = std::min(covered_[c] / whole_[c], 1.0);
   nodes_.clear();
   share_.clear();
   for (auto* points : {&normal_share_, &penetration_rate_}) points->clear();

@@ -144,6 +144,7 @@ ContactKinematics::Particle SlidingKinematics::particle(Index point) const {
   return {.number = face_[p] * k_points_of_a_face + number_[p],
           .counted = nodes[0] < mesh_.n_owned_nodes,
           .position = position_[p],
+          .area = weight_[p],
           .weight = weight_of(p),
           .nodes = nodes,
           .share = std::span(shape_[p]).first(nodes.size())};
@@ -197,6 +198,7 @@ PointMotion SlidingKinematics::motion(Index point, const ContactPointState& old,
   const Partner& partner = partner_[p];
   PointMotion m;
   m.weight = weight_of(p);
+  m.covered = partner.covered;
   if (partner.face < 0) return m;
   master_->frame(partner, asked == Asked::rates, frame_);
   list_nodes(p);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "contact/contact_report.hpp"
 #include "criteria/gather.hpp"
 #include "criteria/pools.hpp"
 #include "heat/nodal_enthalpy.hpp"
@@ -120,22 +121,46 @@ std::optional<Answers::CutOffPools> cut_off_pools(const criteria::CriteriaState&
   return {};
 }
 
-/// The largest gap of each contact, or with `sign` −1 the deepest overlap; none where there is none.
-std::vector<GapAnswer> largest_gaps(const mesh::Mesh& mesh, const coupling::Phases& phases,
-                                    const FieldSet& fields, double sign) {
-  std::vector<GapAnswer> gaps;
-  const Values gap(fields, "gap");
-  for (const contact::ContactPair* pair : phases.contacts) {
+/// The largest value of each contact at the nodes of its slave.
+/// @param value  of a contact, by its index and an owned node: nothing where it is of no interest
+template <class Value>
+std::vector<GapAnswer> largest_of_contacts(const mesh::Mesh& mesh, const coupling::Phases& phases,
+                                           const Value& value) {
+  std::vector<GapAnswer> found;
+  for (std::size_t k = 0; k < phases.contacts.size(); ++k) {
+    const contact::ContactParameters& pair = phases.contacts[k]->spec();
     std::vector<char> nodes(static_cast<std::size_t>(mesh.n_owned_nodes), 0);
-    if (const auto slave = mesh.surfaces.find(pair->spec().slave); slave != mesh.surfaces.end())
+    if (const auto slave = mesh.surfaces.find(pair.slave); slave != mesh.surfaces.end())
       for (const Index node : slave->second.nodes)
         if (node < mesh.n_owned_nodes) nodes[static_cast<std::size_t>(node)] = 1;
-    const std::optional<ValueAt> largest = largest_at(mesh, nodes, [&](std::size_t i) {
-      return !gap.empty() && sign * gap[i] > 0 ? std::optional(sign * gap[i]) : std::nullopt;
-    });
-    if (largest) gaps.push_back({pair->spec().name, *largest});
+    const std::optional<ValueAt> largest =
+        largest_at(mesh, nodes, [&](std::size_t i) { return value(k, i); });
+    if (largest) found.push_back({pair.name, *largest});
   }
-  return gaps;
+  return found;
+}
+
+std::vector<GapAnswer> largest_gaps(const mesh::Mesh& mesh, const coupling::Phases& phases,
+                                    const FieldSet& fields) {
+  const Values gap(fields, "gap");
+  return largest_of_contacts(mesh, phases, [&](std::size_t, std::size_t i) {
+    return !gap.empty() && gap[i] > 0 ? std::optional(gap[i]) : std::nullopt;
+  });
+}
+
+/// With what soft skins have sunk in, which the field of the gaps leaves out.
+std::vector<GapAnswer> deepest_overlaps(const mesh::Mesh& mesh, const coupling::Phases& phases,
+                                        std::span<const double> temperature) {
+  std::vector<std::vector<double>> overlap(phases.contacts.size());
+  for (std::size_t k = 0; k < overlap.size(); ++k) {
+    overlap[k].resize(static_cast<std::size_t>(mesh.n_owned_nodes), 0.0);
+    const contact::ContactNodalFields here = contact::nodal_fields(phases.contacts[k]->view(), temperature);
+    for (std::size_t a = 0; a < here.nodes.size(); ++a)
+      overlap[k][static_cast<std::size_t>(here.nodes[a])] = here.overlap[a];
+  }
+  return largest_of_contacts(mesh, phases, [&](std::size_t k, std::size_t i) {
+    return overlap[k][i] > 0 ? std::optional(overlap[k][i]) : std::nullopt;
+  });
 }
 
 mesh::Point centre(const mesh::Mesh& mesh, const mesh::ElementBlock& block, Index element) {
@@ -222,8 +247,8 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
   if (!castings.empty()) a.pools = cut_off_pools(state.criteria);
   if (phases.mechanics == nullptr || !mechanical) return a;
   if (!castings.empty()) a.pores = pores(mesh, phases.mechanics->kind(), fields, stressed);
-  a.gaps = largest_gaps(mesh, phases, fields, 1);
-  a.overlaps = largest_gaps(mesh, phases, fields, -1);
+  a.gaps = largest_gaps(mesh, phases, fields);
+  a.overlaps = deepest_overlaps(mesh, phases, state.heat.temperature);
   if (const Field* field = fields.find("distortion"); field != nullptr && !castings.empty()) {
     const Values distortion(fields, "distortion");
     const auto n = static_cast<std::size_t>(field->components);

@@ -25,7 +25,7 @@ namespace {
 
 /// Characters that stand for a pair in State::steady_gaps.
 constexpr char k_steady = 's', k_unsteady = '-';
-constexpr const char* k_format = "Solidus checkpoint 18";
+constexpr const char* k_format = "Solidus checkpoint 19";
 constexpr const char* k_known = "known";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {

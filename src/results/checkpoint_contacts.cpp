@@ -16,7 +16,7 @@ std::string table(std::size_t pair) {
 template <class Point, class Visit>
 void each_number(Point& p, const Visit& visit) {
   const auto all = [&visit](auto&... n) { (visit(n), ...); };
-  all(p.offset, p.penetration, p.pressure, p.balance_pressure, p.multiplier, p.suction, p.stiffening);
+  all(p.offset, p.sunk, p.penetration, p.pressure, p.balance_pressure, p.multiplier, p.suction, p.stiffening);
   for (std::size_t i = 0; i < 3; ++i) all(p.traction[i], p.anchor[i], p.master_normal[i]);
   all(p.internal_variable, p.slip, p.work, p.dissipation, p.wear_depth, p.temperature, p.plastic_entropy);
 }

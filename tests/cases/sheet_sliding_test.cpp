@@ -74,19 +74,20 @@ struct Sliding {
   }
 };
 
-const Sliding& slide(const std::string& variant, int passes) {
+const Sliding& slide(const std::string& variant, int passes, const std::string& integration = "gauss") {
   static std::map<std::string, Sliding> runs;
-  const auto found = runs.find(variant);
+  const std::string name = "sheet_sliding_" + variant + "_" + integration;
+  const auto found = runs.find(name);
   if (found != runs.end()) return found->second;
-  const std::string name = "sheet_sliding_" + variant;
   const double end = 32.0 * passes;
   Sliding s{solidus::testing::run("cases/sheet_sliding:" + variant, name,
                                   {"cycle.pass.repeat=" + std::to_string(passes),
+                                   "contact.interface.integration=" + integration,
                                    "output.times=[\"" + std::to_string(end) + " s\"]"}),
             {}};
   EXPECT_TRUE(s.run.finished) << s.run.reason;
   s.wear = solidus::testing::read_csv(fs::path(SOLIDUS_BINARY_DIR) / "case_runs" / name / "wear_profile.csv");
-  return runs[variant] = s;
+  return runs[name] = s;
 }
 
 double mean(const std::vector<double>& values) {

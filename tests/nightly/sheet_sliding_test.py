@@ -24,19 +24,27 @@ class SheetSliding(unittest.TestCase):
         self.assertEqual(len(plateau), 21)
         exact = closed[PASSES - 1][0]
         self.assertLess(abs(sum(plateau) / len(plateau) - exact), 0.015 * exact, "mean on the plateau")
+        # Steps of 1 mm leave a ripple of that period, two nodes, on the plateau; where the sheet yields and its wear
+        # by the work of friction stiffens itself, it grows.
+        yields = (steel, force, suffix) == ("eg", 3920, "_work")
         for zeta in plateau:
-            self.assertLess(abs(zeta - exact), 0.025 * exact, "at a node of the plateau")
+            self.assertLess(abs(zeta - exact), (0.03 if yields else 0.015) * exact, "at a node of the plateau")
+        for one, other in zip(plateau, plateau[1:]):
+            self.assertLess(abs(0.5 * (one + other) - exact), (0.02 if yields else 0.01) * exact, "mean over the ripple")
 
         rows = list(zip(history["pass"], history["tool_displacement[mm]"], history["tangential_force[N]"],
                         history["normal_force[N]"]))
-        ratios = {int(n): tangential / force for n, way, tangential, normal in rows
+        ratios = {int(n): tangential / normal for n, way, tangential, normal in rows
                   if abs(way - 10) < 1e-6 and normal > 0.98 * force}
         self.assertEqual(sorted(ratios), list(range(1, PASSES + 1)))
         strip = {int(row["pass"]): float(row["ratio"]) for row in reference("sheet_sliding_strip.csv", (steel, law, force))
                  if abs(float(row["tool_displacement[mm]"]) - 10) < 1e-6}
         for n, ratio in ratios.items():
             self.assertLess(abs(ratio / closed[n - 1][1] - 1), 0.006, f"pass {n} against the closed form")
-            self.assertLess(abs(ratio / strip[n] - 1), 0.006, f"pass {n} against the strip")
+            self.assertLess(abs(ratio / strip[n] - 1), 0.0035, f"pass {n} against the strip")
+
+        dissipated = history["interface_friction_dissipation[J]"]
+        self.assertEqual(dissipated, sorted(dissipated), "friction takes nothing back")
 
         steps = numbers(folder / "steps.csv")
         self.assertEqual(len(steps["step[1]"]), 640)

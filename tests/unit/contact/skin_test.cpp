@@ -74,6 +74,7 @@ TEST(StiffeningPoint, KeepsItsPressureAndTakesWhatItSankInForItsWall) {
   EXPECT_DOUBLE_EQ(of.law.normal_at(p).penalty, 1e12);
   EXPECT_NEAR(of.pressure_at(p), 1e6, 1e-9 * 1e6);
   EXPECT_NEAR(p.penetration - p.offset, sunk, 1e-12 * sunk);  // the body has not moved
+  EXPECT_DOUBLE_EQ(p.sunk, -p.offset);
   EXPECT_EQ(p.traction[0], 1e5);
   EXPECT_LT(of.law.stored(p), before);
   const ContactPointState once = p;
