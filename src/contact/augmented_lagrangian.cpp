@@ -19,8 +19,7 @@ std::size_t at(Index i) {
 
 }  // namespace
 
-std::vector<double> AugmentedLagrangian::nodal_mean(const ContactState& now,
-                                                    double ContactPointState::*value) const {
+std::vector<double> AugmentedLagrangian::nodal_penetration(const ContactState& now) const {
   const mesh::Mesh& mesh = geometry_.mesh();
   const ContactKinematics& kinematics = geometry_.kinematics();
   std::vector<double> weight(mesh.x.size(), 0.0), mean(mesh.x.size(), 0.0);
@@ -31,16 +30,12 @@ std::vector<double> AugmentedLagrangian::nodal_mean(const ContactState& now,
     for (std::size_t b = 0; b < particle.nodes.size(); ++b) {
       const double w = particle.weight * particle.share[b] * particle.share[b];
       weight[at(particle.nodes[b])] += w;
-      mean[at(particle.nodes[b])] += w * point.*value;
+      mean[at(particle.nodes[b])] += w * point.penetration;
     }
   }
   for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = weight[i] > 0 ? mean[i] / weight[i] : 0.0;
   parallel::GhostExchange(mesh).update(mean, 1);
   return mean;
-}
-
-std::vector<double> AugmentedLagrangian::nodal_penetration(const ContactState& now) const {
-  return nodal_mean(now, &ContactPointState::penetration);
 }
 
 void AugmentedLagrangian::accelerate(const std::vector<double>& penetration) {
@@ -121,13 +116,7 @@ double AugmentedLagrangian::pressure_error(const ContactState& now) const {
   }
   force = parallel::global_sum(force);
   area = parallel::global_sum(area);
-  if (!(force > 0)) return 0;
-  const std::vector<double> penetration = nodal_penetration(now),
-                            pressure = nodal_mean(now, &ContactPointState::pressure);
-  double worst = 0;
-  for (std::size_t i = 0; i < penetration.size(); ++i)
-    worst = std::max(worst, std::abs(penetration[i]) / std::max(force / area, pressure[i]));
-  return parallel::global_max(worst) * stiffness_;
+  return force > 0 ? largest(now).penetration * stiffness_ * area / force : 0;
 }
 
 std::string AugmentedLagrangian::worst_penetration(const ContactState& now) const {

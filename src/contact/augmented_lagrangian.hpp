@@ -46,10 +46,6 @@ class AugmentedLagrangian {
         stiffness_(stiffness > 0 ? stiffness : law.penalty) {}
   /// Whether the law has multipliers; without them the functions below do nothing.
   bool acts() const { return law_.kind == NormalKind::augmented_lagrangian; }
-  /// Whether the penalty alone is a substitute in steps that find no solution: the user has asked for the
-  /// law, and the penalty is at least half of the default one, ten times ⟨E/h⟩, so that it leaves a fifth of
-  /// the pressure at most.
-  bool may_be_left_out() const { return acts() && !pressure_tolerance_ && law_.penalty >= 5 * stiffness_; }
   /// The turns of another step follow.
   void begin() { last_penetration_.clear(); }
   /// Takes the next turn: raises the multipliers of the step's start from the state that this turn has led
@@ -57,10 +53,9 @@ class AugmentedLagrangian {
   void augment(const ContactState& now, ContactStep& step, AugmentedBy by);
   /// The largest mean penetration around a node of the slave, as a share of what is allowed. Collective.
   double excess(const ContactState& now) const;
-  /// An estimate of the error of the pressures, the largest of all nodes a of the slave: the mean penetration
-  /// left around a node, taken up by the elements next to the surface, ⟨E/h⟩ ḡ_a, as a share of the mean
-  /// pressure around that node or, where that is larger, of the mean t_N of all closed points; zero without
-  /// pressure. The default penalty alone, ten times ⟨E/h⟩, would leave t_N/(10 ⟨E/h⟩), a tenth. Collective.
+  /// An estimate of the error of the pressures, as a share of their mean: the largest mean penetration left
+  /// around a node of the slave, taken up by the elements next to the surface, ⟨E/h⟩ ḡ_a over the mean t_N of
+  /// the closed points; zero without pressure. The default penalty alone would leave a tenth. Collective.
   double pressure_error(const ContactState& now) const;
   /// Describes the place of the largest mean penetration, for messages. Collective.
   std::string worst_penetration(const ContactState& now) const;
@@ -73,8 +68,6 @@ class AugmentedLagrangian {
     double penetration = 0, pressure = 0;
   };
   Largest largest(const ContactState& now) const;
-  /// Means over the closed points around the nodes, as of ḡ_a, [local node]. Collective.
-  std::vector<double> nodal_mean(const ContactState& now, double ContactPointState::*value) const;
   /// Mean penetrations ḡ_a, [local node] [m]. Collective.
   std::vector<double> nodal_penetration(const ContactState& now) const;
 

@@ -61,11 +61,11 @@ PointForces ContactForces::at(const PointMotion& motion, Index point) const {
 
 void ContactForces::augment(const ContactState& now, ContactStep& step, AugmentedBy by) {
   term_.restart();
-  if (active_ && !leaves_multipliers_out()) multipliers_.augment(now, step, by);
+  if (active_) multipliers_.augment(now, step, by);
 }
 
 double ContactForces::excess(const ContactState& now) const {
-  return active_ && !leaves_multipliers_out() ? multipliers_.excess(now) : 0.0;
+  return active_ ? multipliers_.excess(now) : 0.0;
 }
 
 double ContactForces::pressure_error(const ContactState& now) const {

@@ -34,9 +34,6 @@ class ContactForces {
   const MechanicsTerm& term() const { return term_; }
   /// Whether the derivative of the term is symmetric.
   bool symmetric() const { return symmetric_; }
-  /// Whether the augmented Lagrangian that the user asks for takes turns.
-  void use_multipliers(bool on) { uses_multipliers_ = on; }
-  bool leaves_multipliers_out() const { return multipliers_.may_be_left_out() && !uses_multipliers_; }
   /// The next turn of the augmented Lagrangian, how far it still is from its end, and where
   /// (augmented_lagrangian.hpp). Collective.
   void augment(const ContactState& now, ContactStep& step, AugmentedBy by);
@@ -52,7 +49,7 @@ class ContactForces {
   std::string name_;
   const ContactStep& step_;
   PointLaw law_;
-  bool symmetric_, active_ = true, uses_multipliers_ = true;
+  bool symmetric_, active_ = true;
   AugmentedLagrangian multipliers_;
   MechanicsTerm term_;
 };

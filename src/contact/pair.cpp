@@ -58,8 +58,6 @@ void ContactPair::set_temperature(std::span<const double> temperature) {
 
 void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   history_->set_out_from(old, step_);
-  if (forces_->leaves_multipliers_out())
-    for (ContactPointState& from : step_.from) from.multiplier = 0;
   forces_->begin(pass.isentropic, pass.share);
   step_.dt = pass.dt;
   step_.time = pass.time;

@@ -144,12 +144,6 @@ class ContactPair {
   /// commits them to state(). Zero without friction or heat. Collective.
   InterfaceSums commit_heat(std::span<const double> temperature);
 
-  /// Whether the steps that begin from now on follow the augmented Lagrangian where the user asks for it.
-  /// Else they set out without multipliers and take no turns: the penalty alone acts, and the next step that
-  /// uses multipliers brings its penetrations down again.
-  void use_multipliers(bool on) { forces_->use_multipliers(on); }
-  /// Whether the user asks for the augmented Lagrangian, and it is not used.
-  bool leaves_multipliers_out() const { return active_ && forces_->leaves_multipliers_out(); }
   /// Takes a turn of the augmented Lagrangian from the last update() (augmented_lagrangian.hpp). Collective.
   void augment(AugmentedBy by = AugmentedBy::means) { forces_->augment(end_.state, step_, by); }
   /// The largest mean penetration around a node of the slave at the last update(), over closed points, as a

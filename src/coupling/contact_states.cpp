@@ -70,7 +70,7 @@ void end_turns(const contact::ContactPair& pair, int turns, double excess) {
         pair.forces().worst_penetration(pair.state()));
   logging::warn(
       "contact '{}': in some steps {} turns of the augmented Lagrangian do not settle; its multipliers are "
-      "taken as they are there, off by up to {} % of the contact pressure there; normal = \"penalty\" or a "
+      "taken as they are there, off by up to {} % of the mean contact pressure; normal = \"penalty\" or a "
       "larger penetration_tolerance costs fewer turns",
       pair.spec().name, k_most_augmentations, rounded_up(share));
 }

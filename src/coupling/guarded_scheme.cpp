@@ -12,7 +12,6 @@
 #include "numbers/types.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
-#include "system/log.hpp"
 
 namespace solidus::coupling {
 
@@ -104,10 +103,6 @@ void require_continued(const Phases& phases, const State& old, const State& tria
 GuardedScheme::GuardedScheme(std::unique_ptr<CouplingScheme> scheme, Phases phases)
     : scheme_(std::move(scheme)), phases_(std::move(phases)) {}
 
-void GuardedScheme::use_multipliers(bool on) {
-  for (contact::ContactPair* pair : phases_.contacts) pair->use_multipliers(on);
-}
-
 StepEffort GuardedScheme::advance(const State& old, State& trial, double time, double dt) {
   return *advance_unless(old, trial, time, dt, {});
 }
@@ -115,14 +110,7 @@ StepEffort GuardedScheme::advance(const State& old, State& trial, double time, d
 std::optional<StepEffort> GuardedScheme::advance_unless(const State& old, State& trial, double time,
                                                         double dt, const HeatJudge& stop) {
   std::optional<StepEffort> effort = scheme_->advance_unless(old, trial, time, dt, stop);
-  if (!effort) return effort;
-  require_continued(phases_, old, trial, time, dt);
-  for (const contact::ContactPair* pair : phases_.contacts)
-    if (pair->leaves_multipliers_out())
-      logging::warn(
-          "contact '{}': some steps, for which the augmented Lagrangian finds no solution however short they "
-          "are, are solved with its penalty alone, whose penetrations are those of normal = \"penalty\"",
-          pair->spec().name);
+  if (effort) require_continued(phases_, old, trial, time, dt);
   return effort;
 }
 

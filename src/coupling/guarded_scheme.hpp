@@ -40,7 +40,6 @@ class GuardedScheme final : public CouplingScheme {
   void synchronise(const State& state) override { scheme_->synchronise(state); }
   void forget() override { scheme_->forget(); }
   void conditions_changed() override { scheme_->conditions_changed(); }
-  void use_multipliers(bool on) override;
   StepEffort advance(const State& old, State& trial, double time, double dt) override;
   std::optional<StepEffort> advance_unless(const State& old, State& trial, double time, double dt,
                                            const HeatJudge& stop) override;

@@ -27,9 +27,6 @@ class CouplingScheme {
   virtual void forget() = 0;
   /// The phases got other conditions, and with them perhaps other matrices; synchronise() follows.
   virtual void conditions_changed() {}
-  /// Whether contacts with the augmented Lagrangian follow it in the steps to come, or their penalty alone
-  /// acts.
-  virtual void use_multipliers(bool) {}
   /// Advances from `old` (t_n) to `trial` (old.time + dt). Collective. Throws StepRejected on every process
   /// alike when the physics does not go through; `trial` is then meaningless and `old` untouched.
   virtual StepEffort advance(const State& old, State& trial, double time, double dt) = 0;

@@ -320,8 +320,6 @@ Simulation::Try Simulation::try_step(Progress& p) {
   StepMeasure measure;
   StepRecord record;
   if (heat_ != nullptr) heat_->begin_burning(p.committed.burning, p.committed.time, step.time);
-  constexpr int k_with_multipliers = 2;  // attempts at a step that fails, each with a shorter one
-  scheme_->use_multipliers(p.control->state().failures < k_with_multipliers);
   try {
     const auto measured = [](const LocalError& error) {
       StepMeasure of_error;

@@ -68,7 +68,6 @@ PlannedStep StepControl::plan(double time) const {
 }
 
 void StepControl::accepted(const PlannedStep& step, const StepMeasure& measure) {
-  state_.failures = 0;
   if (!options_.adaptive) return recover();
   const Strictest limit = strictest(options_.limits, measure);
   const bool jump = is_jump(step, limit);
@@ -108,7 +107,6 @@ void StepControl::recover() {
 }
 
 bool StepControl::rejected(const PlannedStep& step, const std::string& why) {
-  ++state_.failures;
   state_.size = step.dt * options_.cut;
   state_.reason = "rejected: " + why;
   return state_.size >= smallest_of_failures(options_) * (1 - k_same_time);

@@ -42,7 +42,6 @@ struct ControlState {
   std::string reason = "as asked";  ///< why
   /// Data of the first step from here that exceeded a limit, and the size wanted before it; zero: none did.
   double refused = 0, refused_ratio = 0, before_refusal = 0;
-  int failures = 0;  ///< steps from here that did not go through
 };
 
 class StepControl {

@@ -53,8 +53,6 @@ struct Script {
   int iterations = 3;
   int calls = 0, synchronised = 0;
   std::vector<State> starts;  ///< the `old` of every call
-  bool use_multipliers = true;
-  std::vector<bool> multipliers;  ///< whether they were used, of every call
 };
 
 class Relaxation : public coupling::CouplingScheme {
@@ -62,10 +60,8 @@ class Relaxation : public coupling::CouplingScheme {
   explicit Relaxation(Script& script) : script_(script) {}
   void synchronise(const State&) override { ++script_.synchronised; }
   void forget() override {}
-  void use_multipliers(bool on) override { script_.use_multipliers = on; }
   coupling::StepEffort advance(const State& old, State& trial, double time, double dt) override {
     script_.starts.push_back(old);
-    script_.multipliers.push_back(script_.use_multipliers);
     for (double& v : trial.heat.temperature) v = std::nan("");  // a trial that is left behind is no state
     if (script_.fail_at.contains(++script_.calls)) throw StepRejected("heat: as the script says", "");
     const auto relax = [dt](const std::vector<double>& from, std::vector<double>& to) {
@@ -143,19 +139,6 @@ TEST_P(Adaptive, TheEstimateIsTheErrorThatAStepCommits) {
     // The part that the estimate neglects is of third order in the step.
     EXPECT_NEAR(diary_.steps[n].temperature_error, exact, diary_.steps[n].dt * exact) << "step " << n + 1;
   }
-}
-
-TEST_P(Adaptive, AStepThatFailsTwiceIsTriedWithoutMultipliersAndTheNextOneWithThem) {
-  script_.fail_at = {3, 4};
-  ASSERT_EQ(run(options(10)), Outcome::finished);
-  ASSERT_GT(script_.multipliers.size(), 8u);
-  const std::vector<bool> first(script_.multipliers.begin(), script_.multipliers.begin() + 4);
-  EXPECT_EQ(first, std::vector<bool>(4, true));
-  EXPECT_FALSE(script_.multipliers[4]);
-  // Doubling takes a step in three calls, and so does the one that went through without multipliers.
-  EXPECT_TRUE(script_.multipliers[7]);
-  EXPECT_EQ(std::count(script_.multipliers.begin(), script_.multipliers.end(), false),
-            GetParam() == ErrorControl::doubling ? 3 : 1);
 }
 
 TEST_P(Adaptive, TheErrorOfEveryStepStaysWithinTheTolerance) {

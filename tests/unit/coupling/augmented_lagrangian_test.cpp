@@ -130,7 +130,7 @@ TEST(AugmentedLagrangian, IsTakenAsItIsAfterTwoHundredTurnsUnlessTheDefaultPenal
   EXPECT_TRUE(coupling::penetrations_small(run.phases, 200));
   EXPECT_TRUE(coupling::penetrations_small(run.phases, 60, 140)) << "passes share their turns";
   ASSERT_EQ(logging::warnings().size(), 1);
-  EXPECT_THAT(logging::warnings()[0], ::testing::HasSubstr("% of the contact pressure there"));
+  EXPECT_THAT(logging::warnings()[0], ::testing::HasSubstr("% of the mean contact pressure"));
 
   // Apart, with the pressures of multipliers that know nothing of it.
   const double lift = 0.8 * blocks.largest(&contact::ContactPointState::pressure) / 1e13;
@@ -171,38 +171,6 @@ TEST(AugmentedLagrangian, LeavesNoPenetrationWhereThePenaltyDoes) {
     // The next step starts from the multipliers and has nothing to do.
     EXPECT_LE(run.step(1).mechanics.iterations, 2);
   }
-}
-
-// What a run does in steps that fail: the penalty alone, without what multipliers have grown to.
-TEST(AugmentedLagrangian, IsLeftOutWithoutATraceWhereThePenaltyIsStiffEnough) {
-  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
-  mechanics::MechanicalConditions c = test::symmetric_supports(2);
-  c.pressures.push_back({"upper_y_max", 1e8});
-  contact::ContactParameters s = test::interface();
-  s.penalty = 10;
-  Rubbed penalty(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
-  penalty.step(1);
-  s.normal = contact::NormalKind::augmented_lagrangian;
-  s.penetration_tolerance = 1e-8;
-  Rubbed run(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
-  run.step(1);
-  EXPECT_LE(run.pair.excess(), 1);
-  EXPECT_FALSE(run.pair.leaves_multipliers_out());
-  run.pair.use_multipliers(false);
-  EXPECT_TRUE(run.pair.leaves_multipliers_out());
-  run.step(1);
-  EXPECT_NEAR(run.pair.pressure_error(), 0.1, 0.01) << "of a penalty of ten times the stiffness";
-  const auto& with_penalty = penalty.state.mechanics.displacement;
-  for (std::size_t i = 0; i < with_penalty.size(); ++i)
-    EXPECT_NEAR(run.state.mechanics.displacement[i], with_penalty[i], 1e-9 * 0.06);
-  run.pair.use_multipliers(true);
-  run.step(1);
-  EXPECT_LE(run.pair.excess(), 1) << "the next step brings the penetrations down";
-
-  s.penalty = 1;  // half of the pressure would be missing where the body is stiff
-  Rubbed soft(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
-  soft.pair.use_multipliers(false);
-  EXPECT_FALSE(soft.pair.leaves_multipliers_out());
 }
 
 // A scheme that takes one Newton iteration in every pass: multipliers that grew from iterates out of

@@ -120,9 +120,7 @@ TEST(StepControl, ARejectedStepIsHalvedAndGrowsBackToWhatWasAsked) {
   step = control.plan(0);
   EXPECT_DOUBLE_EQ(step.dt, 0.5);
   EXPECT_EQ(step.reason, "rejected: mechanics: no convergence in 25 iterations");
-  EXPECT_EQ(control.state().failures, 1);
   control.accepted(step, iterations(3));
-  EXPECT_EQ(control.state().failures, 0);
   step = control.plan(0.5);
   EXPECT_DOUBLE_EQ(step.dt, 0.75);
   EXPECT_EQ(step.reason, "growing after a cut");
