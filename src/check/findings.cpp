@@ -36,6 +36,7 @@ Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   find_in_numerics(spec, a, m, found);
   find_in_roles(spec, a, m, found);
   find_in_risers(spec, a, m, found);
+  find_in_open_risers(spec, a, m, found);
   find_in_burning(spec, a, m, found);
   find_in_probes(spec, a, m, found);
   find_in_coupling(spec, a, m, found);

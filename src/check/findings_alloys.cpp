@@ -6,6 +6,7 @@
 #include "build/body_input.hpp"
 #include "check/findings.hpp"
 #include "material/laws/rate_law.hpp"
+#include "material/melt.hpp"
 
 namespace solidus::model {
 
@@ -73,6 +74,36 @@ void compare_creep(const BodySpec& body, const material::Material& m, Findings& 
        "half to three times the flow stress there; is the viscosity in its unit?", findings);
 }
 
+/// A melt as stiff as the solid does not flow, but for a viscosity with a source, which is that of a
+/// published case. The viscosity of molten metal itself has no effect on stress (material/melt.hpp).
+void compare_melt_viscosity(const BodySpec& body, const material::Material& m, double step,
+                            Findings& findings) {
+  if (m.chooses_viscosity() || m.liquid_model != material::LiquidModel::maxwell || !(step > 0)) return;
+  const double solidus = m.solidification()->fraction.solidus();
+  const double young = m.young_modulus.value(solidus), poisson = m.poisson_ratio.value(solidus);
+  const double shear = young / (1 + poisson), bulk = young / (3 * (1 - 2 * poisson));  // 2 G and k [Pa]
+  const double viscosity = m.liquid_viscosity.max_value(), melt = viscosity / step;
+  constexpr double k_nothing = 1e-3 * material::k_least_melt_share;
+  const char* usual = "no twice_shear_viscosity: the run chooses one by the weight of the melt and the step";
+  if (melt < k_nothing * bulk)
+    warn(body,
+         fmt::format(
+             "a twice_shear_viscosity of {:g} Pa s makes melt {:.1g} times as stiff in shear as under "
+             "pressure, in a step of {:g} s: it has no effect on stress and makes equations hard to solve",
+             viscosity, melt / bulk, step),
+         usual, findings);
+  const bool has_source = std::ranges::any_of(m.notes, [](const material::PropertyNote& note) {
+    return note.property == "twice_shear_viscosity" && !note.source.empty();
+  });
+  if (melt > shear && !has_source)
+    warn(body,
+         fmt::format(
+             "a twice_shear_viscosity of {:g} Pa s makes melt {:.2g} times as stiff as the solid in a step "
+             "of {:g} s: it does not flow",
+             viscosity, melt / shear, step),
+         usual, findings);
+}
+
 /// Data of the criteria.
 void compare_casting(const BodySpec& body, const material::Material& m, Findings& findings) {
   constexpr double k_minute = 60, k_finest = 1e-6, k_coarsest = 1e-3;  // [s], [m], [m]
@@ -99,6 +130,7 @@ void find_in_alloys(const CaseSpec& spec, const Assembly& a, Findings& findings)
     compare_softening(spec.bodies[b], m, findings);
     compare_stiffness(spec.bodies[b], m, findings);
     compare_creep(spec.bodies[b], m, findings);
+    compare_melt_viscosity(spec.bodies[b], m, spec.time.step.value_or(0), findings);
   }
 }
 

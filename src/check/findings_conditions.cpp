@@ -76,6 +76,31 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
   }
 }
 
+/// Less than what radiation alone takes from any mould: 5 W/m²K of an emissivity of 0.85 at room temperature.
+void films_below_radiation(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  using Kind = ThermalConditionSpec::Kind;
+  constexpr double k_named_already = 0.5, k_least = 4;  // [W/m2/K]
+  if (m.pours.empty()) return;
+  for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
+    const ThermalConditionSpec& film = spec.thermal_conditions[t];
+    if (film.kind != Kind::film || !always_on(film)) continue;
+    const double h = film.coefficient.table.value(0) * film.factor.table.value(0);
+    const bool radiates = std::ranges::any_of(spec.thermal_conditions, [&](const ThermalConditionSpec& c) {
+      return c.kind == Kind::radiation && c.group == film.group;
+    });
+    const int body = m.surfaces[t].body;
+    // A cover on a riser may let as little pass.
+    if (h < k_named_already || h >= k_least || radiates || body < 0 ||
+        m.is_poured(static_cast<std::size_t>(body)))
+      continue;
+    findings.push_back(
+        {false, film.where,
+         fmt::format("the film '{}' has {:g} W/m2/K, and nothing radiates there", film.name, h),
+         "radiation alone takes 5 W/m2/K from a cold mould, still air and radiation 10 to 20; is it in "
+         "kW/m2/K?"});
+  }
+}
+
 /// Room temperature in K is a slip where it is read in degrees Celsius.
 bool looks_like_kelvins(double temperature) {
   const double celsius = temperature - k_zero_celsius;
@@ -294,6 +319,7 @@ void surfaces_on_the_axis(const CaseSpec& spec, const CaseMeasures& m, Findings&
 void find_in_conditions(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (spec.has_heat()) surfaces_on_the_axis(spec, m, findings);
   if (spec.has_heat()) surroundings(spec, findings);
+  if (spec.has_heat()) films_below_radiation(spec, m, findings);
   if (spec.has_heat()) sinks(spec, a, findings);
   if (spec.has_heat()) heaters(spec, a, findings);
   residuals(spec, findings);

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 #include <string>
 
 #include "case/roles.hpp"
@@ -27,6 +29,21 @@ int hottest(const Assembly& a) {
   return static_cast<int>(hot - a.start.begin());
 }
 
+/// Whether another body is part of a mould, by its role, its name or that of its material.
+bool has_mould(const CaseSpec& spec, std::size_t other_than) {
+  const auto of_mould = [](std::optional<Role> role) {
+    return role && *role != Role::casting && *role != Role::riser;
+  };
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const BodySpec& body = spec.bodies[b];
+    const std::string material = std::filesystem::path(body.material).stem().string();
+    if (b != other_than &&
+        (of_mould(body.role) || of_mould(role_in_name(body.name)) || of_mould(role_in_name(material))))
+      return true;
+  }
+  return false;
+}
+
 /// Bodies that are to be cast, of what does not freeze, where nothing else is poured.
 void castings_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   for (const material::Material& material : a.materials)
@@ -39,7 +56,9 @@ void castings_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findin
     const bool told = body.role ? *body.role == Role::casting || *body.role == Role::riser : false;
     const bool of_sand = hottest(a) >= 0 && b == hot && !body.role && a.start[b].high > k_hot &&
                          a.materials[b].conductivity.value(a.start[b].high) < k_conducts;
-    if (!told && !of_sand) continue;
+    const bool in_a_mould =
+        hottest(a) >= 0 && b == hot && !body.role && a.start[b].high > k_hot && has_mould(spec, b);
+    if (!told && !of_sand && !in_a_mould) continue;
     findings.push_back(
         {false, body.where,
          fmt::format(

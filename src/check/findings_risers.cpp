@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <string>
 
 #include "case/roles.hpp"
 #include "check/findings.hpp"
@@ -120,6 +122,34 @@ void moulds_as_hot_as_melt(const CaseSpec& spec, const Assembly& a, const CaseMe
            "moulds and cores at 20 to 400 degC, shells for precision casting up to 1100 degC"});
 }
 
+/// What binds sand burns or breaks long before it is as hot as a ceramic shell may be.
+void hot_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_hottest = 673.15;  // [K]
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const std::string file = std::filesystem::path(spec.bodies[b].material).stem().string();
+    const bool sand = file.find("sand") != std::string::npos;
+    if (m.pours.empty() || m.is_poured(b) || !sand || a.start[b].low < k_hottest) continue;
+    findings.push_back({false, spec.bodies[b].where,
+                        fmt::format("the body '{}' of '{}' starts at {:.0f} degC", spec.bodies[b].name,
+                                    spec.bodies[b].material, celsius(a.start[b].low)),
+                        "sand starts at 10 to 200 degC; ceramic shells at up to 1100 degC"});
+  }
+}
+
+/// 373, 473 and 573 degC are 100, 200 and 300 degC in kelvins.
+void moulds_in_kelvins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    if (m.pours.empty() || m.is_poured(b) || a.start[b].low != a.start[b].high) continue;
+    const double read = celsius(a.start[b].low);
+    for (const double meant : {100.0, 200.0, 300.0})
+      for (const double zero : {k_zero_celsius, 273.0})
+        if (std::abs(read - zero - meant) < 0.01)
+          findings.push_back({false, spec.bodies[b].where,
+                              fmt::format("the body '{}' starts at {:g} degC", spec.bodies[b].name, read),
+                              fmt::format("is it in K? {:g} K are {:.0f} degC", read, meant)});
+  }
+}
+
 /// Melt that only conducts, beside melt that deforms: neither draws on the other.
 void castings_that_only_conduct(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_mechanics()) return;
@@ -172,6 +202,8 @@ void find_in_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
   risers_larger_than_castings(spec, m, findings);
   swapped_cores_and_chills(spec, a, m, findings);
   moulds_as_hot_as_melt(spec, a, m, findings);
+  hot_sand(spec, a, m, findings);
+  moulds_in_kelvins(spec, a, m, findings);
   castings_that_only_conduct(spec, m, findings);
   pressed_sand(spec, a, m, findings);
 }

@@ -138,16 +138,6 @@ bool has_edge(const Triangle& t, Index from, Index to) {
   return false;
 }
 
-double volume_of(const ClosedShells& all, const Shell& shell) {
-  double volume = 0;
-  const Point& o = all.points[static_cast<std::size_t>(shell.triangles.front()[0])];
-  for (const auto& t : shell.triangles) {
-    const auto from = [&](std::size_t k) { return minus(all.points[static_cast<std::size_t>(t[k])], o); };
-    volume += dot(from(0), cross(from(1), from(2))) / 6;
-  }
-  return volume;
-}
-
 /// The shell of all triangles that hang together with one, all looking to the same side.
 Shell shell_from(std::size_t first, std::vector<Triangle>& triangles, const Neighbours& neighbours,
                  std::vector<char>& taken, const std::vector<Facets>& parts, const std::string& path) {
@@ -179,6 +169,16 @@ Shell shell_from(std::size_t first, std::vector<Triangle>& triangles, const Neig
 }
 
 }  // namespace
+
+double enclosed_volume(const ClosedShells& all, const Shell& shell) {
+  double volume = 0;
+  const Point& o = all.points[static_cast<std::size_t>(shell.triangles.front()[0])];
+  for (const auto& t : shell.triangles) {
+    const auto from = [&](std::size_t k) { return minus(all.points[static_cast<std::size_t>(t[k])], o); };
+    volume += dot(from(0), cross(from(1), from(2))) / 6;
+  }
+  return volume;
+}
 
 double winding_number(const ClosedShells& all, const Shell& shell, const Point& point) {
   double angle = 0;
@@ -224,7 +224,7 @@ ClosedShells closed_shells(const std::vector<Facets>& parts, const std::string& 
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (taken[t] != 0) continue;
     Shell& shell = all.shells.emplace_back(shell_from(t, triangles, neighbours, taken, parts, path));
-    volumes.push_back(volume_of(all, shell));
+    volumes.push_back(enclosed_volume(all, shell));
     if (volumes.back() < 0)
       for (auto& nodes : shell.triangles) std::swap(nodes[0], nodes[1]);
     volumes.back() = std::abs(volumes.back());

@@ -31,6 +31,9 @@ ClosedShells closed_shells(const std::vector<Facets>& parts, const std::string& 
 /// The triangles of a shell by their corners.
 std::vector<std::array<Point, 3>> corners_of(const ClosedShells& all, const Shell& shell);
 
+/// The volume that a shell encloses; positive where its triangles look outward.
+double enclosed_volume(const ClosedShells& all, const Shell& shell);
+
 /// The winding number of a closed skin about a point: 1 inside where its triangles look outward, 0 outside.
 /// Van Oosterom and Strackee 1983, "The solid angle of a plane triangle", IEEE Trans. Biomed. Eng. 30,
 /// 125-126.

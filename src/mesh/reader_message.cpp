@@ -2,7 +2,9 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdint>
 
 #include "mesh/parametric_meshes.hpp"
@@ -171,6 +173,17 @@ CastingGeometry take_casting(const TakeBytes& take) {
   if (take_number<bool>(take)) casting.symmetry = take_number<HalfSpace>(take);
   casting.attempt = take_number<int>(take);
   return casting;
+}
+
+void put_outlook(const MeshingOutlook& o, const PutBytes& put) {
+  put_number(std::array{o.sides[0], o.sides[1], o.sides[2], o.volume, o.smallest, o.largest, o.nodes}, put);
+}
+
+MeshingOutlook take_outlook(const TakeBytes& take) {
+  const auto numbers = take_number<std::array<double, 7>>(take);
+  for (const double number : numbers)
+    if (!std::isfinite(number) || number < 0) throw MessageError("an outlook that is no number");
+  return {{numbers[0], numbers[1], numbers[2]}, numbers[3], numbers[4], numbers[5], numbers[6]};
 }
 
 void put_mesh(const RawMesh& mesh, const PutBytes& put) {

@@ -10,14 +10,16 @@
 #include <vector>
 
 #include "mesh/casting_geometry.hpp"
+#include "mesh/meshing_outlook.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::mesh {
 
 /// Descriptors of files by which the reader knows its ends of the pipes.
 inline constexpr int k_request_descriptor = 3, k_answer_descriptor = 4;
-/// The first word of an answer. A mesh follows, or a text where it is an error with one.
-enum class ReaderAnswer : int { mesh, unusable_geometry, input_error, memory, internal };
+/// The first word of an answer. A mesh follows, or a text where it is an error with one. An outlook precedes
+/// the answer, where a geometry is meshed.
+enum class ReaderAnswer : int { mesh, unusable_geometry, input_error, memory, internal, outlook };
 
 /// Thrown where the other end sent none of these messages, or has gone.
 class MessageError : public std::runtime_error {
@@ -40,6 +42,10 @@ MeshSource take_source(const TakeBytes& take);
 
 void put_casting(const CastingGeometry& casting, const PutBytes& put);
 CastingGeometry take_casting(const TakeBytes& take);
+
+void put_outlook(const MeshingOutlook& outlook, const PutBytes& put);
+/// Throws MessageError for numbers that are none, or negative.
+MeshingOutlook take_outlook(const TakeBytes& take);
 
 void put_mesh(const RawMesh& mesh, const PutBytes& put);
 /// Throws MessageError for data that are no mesh: an unknown shape, a node that is not there, more than

@@ -25,6 +25,7 @@
 
 #include "input/units.hpp"
 #include "mesh/file_format.hpp"
+#include "mesh/meshing_outlook.hpp"
 #include "mesh/reader_message.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
@@ -89,6 +90,9 @@ class Reader {
   /// Reads as much, whatever time it takes within the limit. Throws InputError where the reader ends before,
   /// or does not end.
   void take(void* bytes, std::size_t n);
+  /// What is told of the mesh from now on while it is waited for. Throws UnusableGeometry where it needs more
+  /// memory than the reader may use.
+  void hear(const MeshingOutlook& outlook);
   const std::string& program() const { return program_; }
 
  private:
@@ -102,6 +106,7 @@ class Reader {
   std::string program_;
   const MeshSource& source_;
   ReaderLimits limits_;
+  std::string outlook_;  ///< ": " and a text; empty where nothing is known yet
   Clock::time_point begun_ = Clock::now();
   double next_report_ = 5;  ///< after so many seconds, then after twice as many, it is said that it goes on
   pid_t pid_ = -1;
@@ -181,8 +186,8 @@ void Reader::wait_for(int descriptor, short event) {
     const double taken = std::chrono::duration<double>(Clock::now() - begun_).count();
     if (taken > next_report_) {
       logging::info(
-          "'{}' is being read or meshed for {:.0f} s; it may take up to {:.0f} s (SOLIDUS_MESH_TIME)",
-          source_.path, taken, limits_.time);
+          "'{}' is being read or meshed for {:.0f} s{}; it may take up to {:.0f} s (SOLIDUS_MESH_TIME)",
+          source_.path, taken, outlook_, limits_.time);
       next_report_ *= 2;
     }
     if (taken > limits_.time)
@@ -191,6 +196,25 @@ void Reader::wait_for(int descriptor, short event) {
                            " s and was ended",
                        "larger elements, a script that ends, or more time: SOLIDUS_MESH_TIME=\"2 h\"");
   }
+}
+
+void Reader::hear(const MeshingOutlook& outlook) {
+  const std::string text = outlook_text(outlook);
+  if (const double memory = meshing_memory(outlook); memory > limits_.memory)
+    throw UnusableGeometry(
+        {source_.path},
+        fmt::format("the geometry is {}: meshing it takes some {:.2g} GB, and {:.2g} GB may be used", text,
+                    1e-9 * memory, 1e-9 * limits_.memory),
+        "the unit of lengths in the file, larger elements ([[mesh.size]], --fineness), or more memory: "
+        "SOLIDUS_MESH_MEMORY=\"32 GB\"");
+  outlook_ = ": " + text;
+  logging::debug("'{}' is {}", source_.path, text);
+  constexpr double k_many = 1e6;  // castings of many parts and thin walls have less
+  if (outlook.nodes > k_many)
+    logging::warn(
+        "'{}' is {}, where castings usually have 5 thousand to 500 thousand: are its unit and the sizes of "
+        "elements meant so?",
+        source_.path, text);
 }
 
 void Reader::take(void* bytes, std::size_t n) {
@@ -259,6 +283,10 @@ RawMesh take_answer(Reader& reader, const MeshSource& source, const ReaderLimits
   const TakeBytes take = [&](void* bytes, std::size_t n) { reader.take(bytes, n); };
   ReaderAnswer answer = ReaderAnswer::internal;
   take(&answer, sizeof answer);
+  while (answer == ReaderAnswer::outlook) {
+    reader.hear(take_outlook(take));
+    take(&answer, sizeof answer);
+  }
   switch (answer) {
     case ReaderAnswer::mesh:
       return take_mesh(take, limits.memory);
@@ -270,6 +298,8 @@ RawMesh take_answer(Reader& reader, const MeshSource& source, const ReaderLimits
       too_little_memory(source, limits);
     case ReaderAnswer::internal:
       throw InputError({source.path}, "the mesh cannot be read: " + take_text(take));
+    case ReaderAnswer::outlook:
+      break;  // taken above
   }
   throw MessageError("an answer of no kind");
 }

@@ -124,6 +124,11 @@ double SizeField::at(const Point& x) const {
   return h_[index(cell(x[0], 0), cell(x[1], 1), cell(x[2], 2))];
 }
 
+SkinPiece skin_piece(const std::array<Point, 3>& triangle, const SizeField& field, double largest) {
+  const Point n = cross(minus(triangle[1], triangle[0]), minus(triangle[2], triangle[0]));
+  return {0.5 * std::sqrt(dot(n, n)), std::min(largest, field.at(centre_of(triangle)))};
+}
+
 bool looks_inward(const std::vector<std::array<Point, 3>>& skin, std::size_t triangle) {
   const Point from = centre_of(skin[triangle]), direction = normal_of(skin[triangle]);
   const double nothing = 1e-6 * radius_of(skin[triangle], from);

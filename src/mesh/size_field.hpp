@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "mesh/meshing_outlook.hpp"
 
 namespace solidus::mesh {
 
@@ -38,6 +39,9 @@ class SizeField {
   std::array<int, 3> n_{1, 1, 1};
   std::vector<double> h_;
 };
+
+/// The area of a triangle of a skin and the size in its middle, `largest` at most.
+SkinPiece skin_piece(const std::array<Point, 3>& triangle, const SizeField& field, double largest);
 
 /// Whether the normal of a triangle, by the order of its corners, looks into the closed body that the
 /// triangles bound: a ray along it meets an odd number of them.

@@ -73,6 +73,22 @@ TEST_F(ForeignFiles, MemoryAndTimeOfAReaderAreLimited) {
   expect_refused("ulimit -v 4000000; solidus mesh-info part.msh", {"part.msh"});
 }
 
+TEST_F(ForeignFiles, AWrongUnitIsNamedBeforeTheMeshIsMade) {
+  const std::string check =
+      "cp -r '" SOLIDUS_SOURCE_DIR
+      "/cases/bracket_from_step' bracket; "
+      "export SOLIDUS_MESH_MEMORY=${M:-'2 GB'}; solidus check bracket --heat-only --set ";
+  expect_refused(check + "mesh.unit=m", {"bracket.step", "100 x 60 x 80 m and ", " billion nodes",
+                                         "2 GB may be used", "the unit of lengths"});
+  // A few million nodes fit, and are told at once.
+  const Outcome slow = shell("M='16 GB'; export SOLIDUS_MESH_TIME='4 s'; " + check + "mesh.unit=cm");
+  EXPECT_EQ(slow.code, 1) << slow.said;
+  EXPECT_THAT(
+      slow.said,
+      AllOf(HasSubstr("1 x 0.6 x 0.8 m and 143 dm3 in elements of 5 mm, some "), HasSubstr(" million nodes"),
+            HasSubstr("are its unit and the sizes of elements meant so?"), HasSubstr("longer than 4 s")));
+}
+
 TEST_F(ForeignFiles, WhatNeverEndsOrIsFarTooMuchIsRefused) {
   write("zero.toml", "include = \"/dev/zero\"\n");
   expect_refused("solidus check zero.toml", {"/dev/zero", "device"});

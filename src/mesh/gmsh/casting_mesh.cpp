@@ -10,6 +10,7 @@
 #include "mesh/gmsh/casting_parts.hpp"
 #include "mesh/gmsh/casting_sizes.hpp"
 #include "mesh/gmsh/seam_cuts.hpp"
+#include "mesh/meshing_outlook.hpp"
 #include "mesh/meshing_ways.hpp"
 #include "mesh/size_field.hpp"
 #include "system/errors.hpp"
@@ -90,6 +91,7 @@ class Mesher {
       for (const auto& [volume, growth] : sizes.growth())
         if (!fields.contains(growth)) fields.emplace(growth, SizeField(all.low, all.high, sampled, growth));
       const SizeField* least = fields.empty() ? nullptr : &fields.begin()->second;
+      if (least != nullptr) tell_outlook(sizes.outlook(*least, source_.element_order));
       gmsh::model::mesh::setSizeCallback([&](int dimension, int tag, double x, double y, double z) {
         const auto limit = limits.find({dimension, tag});
         double size = limit != limits.end() ? limit->second : coarse;

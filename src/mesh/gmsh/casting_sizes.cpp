@@ -101,6 +101,39 @@ std::vector<SizeSample> CastingSizes::samples() {
   return all;
 }
 
+MeshingOutlook CastingSizes::outlook(const SizeField& field, int element_order) const {
+  MeshingOutlook o;
+  gmsh::vectorpair parts;
+  for (const BodyVolumes& part : parts_) {
+    const BodySize* size = size_of(geometry_, part.name);
+    if (size == nullptr) continue;
+    const double largest = scale_ * size->size / unit_;
+    double volume = 0;
+    for (const auto& entity : part.volumes) {
+      double one = 0;
+      occ::getMass(3, entity.second, one);
+      volume += one;
+    }
+    std::vector<SkinPiece> skin;
+    for (const std::array<Point, 3>& t : skin_of(part)) skin.push_back(skin_piece(t, field, largest));
+    o.nodes += expected_nodes(skin, volume, largest, size->growth);
+    const bool made_around = geometry_.mould && (part.name == geometry_.mould->name ||
+                                                 part.name.starts_with(geometry_.mould->core));
+    if (made_around) continue;
+    parts.insert(parts.end(), part.volumes.begin(), part.volumes.end());
+    o.volume += volume * unit_ * unit_ * unit_;
+    for (const SkinPiece& piece : skin) {
+      o.smallest = o.smallest > 0 ? std::min(o.smallest, unit_ * piece.size) : unit_ * piece.size;
+      o.largest = std::max(o.largest, unit_ * piece.size);
+    }
+  }
+  if (element_order == 2) o.nodes *= k_nodes_of_second_order;
+  if (parts.empty()) parts = all_volumes();
+  const Extent all = extent_of(parts);
+  for (std::size_t i = 0; i < 3; ++i) o.sides[i] = unit_ * (all.high[i] - all.low[i]);
+  return o;
+}
+
 /// On a face that is narrower than an element, of the width 2 area / boundary, elements are as small.
 void CastingSizes::sample_narrow_faces(std::vector<SizeSample>& all) const {
   constexpr double k_least =

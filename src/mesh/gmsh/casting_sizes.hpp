@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/gmsh/casting_parts.hpp"
+#include "mesh/meshing_outlook.hpp"
 #include "mesh/size_field.hpp"
 
 namespace solidus::mesh {
@@ -31,6 +32,9 @@ class CastingSizes {
   /// Measures the thickness of the walls, narrow faces and short curves on a first mesh of the surfaces,
   /// which Gmsh holds.
   std::vector<SizeSample> samples();
+  /// What the mesh will be like, after samples().
+  /// @param field  of the samples: the size on all surfaces
+  MeshingOutlook outlook(const SizeField& field, int element_order) const;
 
  private:
   void limit_entities();

@@ -11,6 +11,7 @@
 #include "mesh/closed_shells.hpp"
 #include "mesh/gmsh/casting_parts.hpp"
 #include "mesh/gmsh/session.hpp"
+#include "mesh/meshing_outlook.hpp"
 #include "mesh/meshing_ways.hpp"
 #include "mesh/size_field.hpp"
 #include "mesh/skin.hpp"
@@ -256,8 +257,47 @@ class FacetedMaker {
         samples.push_back({skin[t], thickness[t] > 0
                                         ? std::clamp(way_.scale * thickness[t] / across, smallest, largest)
                                         : largest});
+      skins_[region.volume] = std::move(skin);
     }
     return samples;
+  }
+
+  /// What the mesh will be like, after limits_and_samples().
+  MeshingOutlook outlook(const SizeField& field) const {
+    MeshingOutlook o;
+    Point low = all_.points.front(), high = low;
+    for (const Point& p : all_.points)
+      for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
+    double of_shells = 0;  // all that the outermost shells enclose
+    for (const Shell& shell : all_.shells)
+      if (shell.depth == 0) of_shells += enclosed_volume(all_, shell);
+    for (const Region& region : regions_) {
+      const double largest = limit_.at({3, region.volume});
+      std::vector<SkinPiece> pieces;
+      double volume = 0;
+      if (const auto skin = skins_.find(region.volume); skin != skins_.end()) {
+        for (const std::size_t s : region.shells)
+          volume += (s == region.shells.front() ? 1 : -1) * enclosed_volume(all_, all_.shells[s]);
+        for (const std::array<Point, 3>& t : skin->second) pieces.push_back(skin_piece(t, field, largest));
+        if (all_.shells[region.shells.front()].depth % 2 == 0) {  // a part and no core
+          o.volume += volume * unit_ * unit_ * unit_;
+          for (const SkinPiece& piece : pieces) {
+            o.smallest = o.smallest > 0 ? std::min(o.smallest, unit_ * piece.size) : unit_ * piece.size;
+            o.largest = std::max(o.largest, unit_ * piece.size);
+          }
+        }
+      } else {  // the block around them, whose elements grow from the skins that it encloses
+        volume = (high_[0] - low_[0]) * (high_[1] - low_[1]) * (high_[2] - low_[2]) - of_shells;
+        for (std::size_t s = 0; s < all_.shells.size(); ++s)
+          if (all_.shells[s].depth == 0)
+            for (const std::array<Point, 3>& t : corners_of(all_, all_.shells[s]))
+              pieces.push_back(skin_piece(t, field, largest));
+      }
+      o.nodes += expected_nodes(pieces, volume, largest, growth_.at(region.volume));
+    }
+    if (source_.element_order == 2) o.nodes *= k_nodes_of_second_order;
+    for (std::size_t i = 0; i < 3; ++i) o.sides[i] = unit_ * (high[i] - low[i]);
+    return o;
   }
 
   void mesh() {
@@ -276,6 +316,7 @@ class FacetedMaker {
     for (const auto& [volume, growth] : growth_)
       if (!fields.contains(growth)) fields.emplace(growth, SizeField(low_, high_, samples, growth));
     const SizeField& least = fields.begin()->second;
+    tell_outlook(outlook(least));
     gmsh::model::mesh::setSizeCallback([&](int dimension, int tag, double x, double y, double z) {
       const auto limit = limit_.find({dimension, tag});
       const double size = limit != limit_.end() ? limit->second : coarse;
@@ -305,8 +346,9 @@ class FacetedMaker {
   std::vector<Tags> faces_;  ///< of each shell
   std::vector<Region> regions_;
   Point low_{}, high_{};
-  std::map<std::pair<int, int>, double> limit_;  ///< largest size by dimension and number
-  std::map<int, double> growth_;                 ///< by volume
+  std::map<std::pair<int, int>, double> limit_;             ///< largest size by dimension and number
+  std::map<int, double> growth_;                            ///< by volume
+  std::map<int, std::vector<std::array<Point, 3>>> skins_;  ///< by volume, without the block
 };
 
 }  // namespace

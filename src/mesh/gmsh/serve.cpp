@@ -11,6 +11,7 @@
 #include "mesh/casting_geometry.hpp"
 #include "mesh/gmsh/import.hpp"
 #include "mesh/gmsh/reader_sandbox.hpp"
+#include "mesh/meshing_outlook.hpp"
 #include "mesh/reader_message.hpp"
 #include "system/errors.hpp"
 #include "system/version.hpp"
@@ -55,6 +56,10 @@ void serve_request() {
   take(&memory, sizeof memory);
   limit_memory(k_limits_memory ? memory : 0);
   if (!source.trust_script) forbid_all_but_reading();
+  listen_to_outlook([&](const MeshingOutlook& outlook) {
+    say(ReaderAnswer::outlook);
+    put_outlook(outlook, put);
+  });
   try {
     const RawMesh mesh = read_mesh_here(source, casting ? &*casting : nullptr);
     say(ReaderAnswer::mesh);

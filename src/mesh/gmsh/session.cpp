@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -21,6 +22,7 @@
 #include "mesh/gmsh/geometry_groups.hpp"
 #include "mesh/gmsh/session.hpp"
 #include "mesh/gmsh_elements.hpp"
+#include "mesh/meshing_outlook.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "system/errors.hpp"
 
@@ -148,6 +150,38 @@ void check_constants(const std::string& path, const std::map<std::string, double
       throw InputError({path}, "the script declares no constant '" + name + "'",
                        declared.empty() ? "DefineConstant[ " + name + " = {value, Name \"" + name + "\"} ];"
                                         : one_of(declared, name));
+}
+
+/// What the mesh of the geometry that Gmsh has will be like. Throws std::string where Gmsh complains. The
+/// sizes of a script are its own, and then nothing is expected of the number of nodes.
+MeshingOutlook outlook_of(const MeshSource& source, FileFormat format) {
+  namespace occ = gmsh::model::occ;
+  MeshingOutlook o;
+  const double unit = source.unit_in_metres;
+  Point low{}, high{};
+  gmsh::model::getBoundingBox(-1, -1, low[0], low[1], low[2], high[0], high[1], high[2]);
+  for (std::size_t i = 0; i < 3; ++i)
+    if (high[i] > low[i] && std::isfinite(high[i] - low[i])) o.sides[i] = unit * (high[i] - low[i]);
+  gmsh::vectorpair volumes;
+  if (is_cad(format)) occ::getEntities(volumes, 3);
+  for (const auto& [dimension, tag] : volumes) {
+    double volume = 0, area = 0;
+    occ::getMass(dimension, tag, volume);
+    o.volume += volume * unit * unit * unit;
+    if (!(source.element_size > 0)) continue;
+    gmsh::vectorpair faces;
+    gmsh::model::getBoundary({{dimension, tag}}, faces, false, false, false);
+    for (const auto& [surface, number] : faces) {
+      double one = 0;
+      occ::getMass(surface, std::abs(number), one);
+      area += one;
+    }
+    const double size = source.element_size / unit;
+    o.nodes += expected_nodes({{area, size}}, volume, size, 0);
+  }
+  if (o.nodes > 0) o.smallest = o.largest = source.element_size;
+  if (source.element_order == 2) o.nodes *= k_nodes_of_second_order;
+  return o;
 }
 
 void generate(const std::string& path, double size, int element_order) {
@@ -316,6 +350,10 @@ RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const Castin
     make_casting(source, [&] { make_casting_mesh(source, *casting); });
   } else if (is_geometry(format)) {
     name_groups(path, source.geometry, source.unit_in_metres, format);
+    try {
+      tell_outlook(outlook_of(source, format));
+    } catch (const std::string&) {  // NOLINT: a geometry that cannot be measured can perhaps be meshed
+    }
     generate(path, source.element_size / source.unit_in_metres, source.element_order);
   }
   return mesh_of_session(source, casting != nullptr || is_geometry(format));

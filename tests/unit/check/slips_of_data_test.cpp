@@ -54,6 +54,18 @@ TEST_F(DataTest, ArmsAndViscositiesInOtherUnitsAreNamed) {
   EXPECT_THAT(said_of(of_own(k_casting)), Contains(HasSubstr("a melt_viscosity of 1.3e+03 mPa s")));
 }
 
+TEST_F(DataTest, AMeltThatIsStiffOrHasTheViscosityOfTheMetalIsNamed) {
+  write_own("[twice_shear_viscosity]\nvalue = \"1e6 Pa s\"\n");
+  EXPECT_THAT(said_of(of_own(deforming())), IsEmpty());
+  write_own("[twice_shear_viscosity]\nvalue = \"2e-3 Pa s\"\n");
+  EXPECT_THAT(said_of(of_own(deforming())),
+              Contains(HasSubstr("a twice_shear_viscosity of 0.002 Pa s makes melt")));
+  write_own("[twice_shear_viscosity]\nvalue = \"1e12 Pa s\"\n");
+  EXPECT_THAT(said_of(of_own(deforming())), Contains(HasSubstr("it does not flow")));
+  write_own("[twice_shear_viscosity]\nvalue = \"1e12 Pa s\"\nsource = \"a published case\"\n");
+  EXPECT_THAT(said_of(of_own(deforming())), IsEmpty()) << "meant so";
+}
+
 TEST_F(DataTest, AnInterfaceLawOfOtherBodiesIsNamed) {
   std::string sand = changed(changed(k_casting, "\"steel_mould\"\ninitial_temperature = \"200 degC\"",
                                      "\"green_sand\"\ninitial_temperature = \"20 degC\""),

@@ -136,6 +136,34 @@ TEST_F(HubTest, ACoreAsHotAsMeltAndMeltThatDoesNotDeformAreNamed) {
       Contains(HasSubstr("'casting' only conducts heat, but 'riser', with which it is poured, deforms")));
 }
 
+TEST_F(HubTest, AnOpenRiserThatNothingCoolsIsNamed) {
+  const std::string all = k_hub_case;
+  const std::size_t film = all.find("[[thermal_condition]]"), end = all.find("[criteria]");
+  const std::vector<std::string> bare = said_of(all.substr(0, film) + all.substr(end));
+  EXPECT_THAT(bare, Contains(HasSubstr("of the skin of the riser 'riser' face up and have neither")));
+}
+
+TEST_F(HubTest, ARiserThatLiesOnItsSideIsNamed) {
+  const std::string plane = changed(k_hub_case, "\"axisymmetric\"", "\"plane_strain\"");
+  EXPECT_THAT(said_of(plane), Not(Contains(HasSubstr("is closed on top and open beside"))));
+  EXPECT_THAT(said_of(changed(plane, "gravity = \"9.81 m/s2\"",
+                              "gravity = \"9.81 m/s2\"\ngravity_direction = [1, 0]")),
+              Contains(HasSubstr("the riser 'riser' is closed on top and open beside, as gravity acts")));
+}
+
+TEST_F(HubTest, SandAsHotAsAShellAndAChillInKelvinsAreNamed) {
+  const auto start = [](const std::string& material, const std::string& temperature) {
+    const std::string at = "\"" + material + "\"\ninitial_temperature = \"";
+    return changed(k_hub_case, at + "20 degC", at + temperature);
+  };
+  EXPECT_THAT(said_of(start("green_sand", "800 degC")),
+              Contains(HasSubstr("the body 'mould' of 'green_sand' starts at 800 degC")));
+  EXPECT_THAT(said_of(start("green_sand", "150 degC")), IsEmpty());
+  for (const char* kelvins : {"473 degC", "473.15 degC"})
+    EXPECT_THAT(said_of(start("iron_chill", kelvins)), Contains(HasSubstr("is it in K? 473")));
+  EXPECT_THAT(said_of(start("iron_chill", "480 degC")), Not(Contains(HasSubstr("is it in K?"))));
+}
+
 TEST_F(HubTest, PressuresOfADieInSandAreNamed) {
   const auto pressed = [](const std::string& pressure) {
     return std::string(k_hub_case) +
