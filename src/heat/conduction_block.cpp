@@ -4,6 +4,7 @@
 #include <cassert>
 #include <optional>
 #include <stdexcept>
+#include <unordered_map>
 #include <utility>
 
 #include "heat/block_shapes.hpp"
@@ -77,8 +78,8 @@ class Conduction final : public ConductionBlock {
     PackVector<Lane>().swap(geometry_.counted);  // nothing is summed over elements here
     if (edges.empty()) return;
     for (Index e = 0; e < block.size(); ++e) {
-      const double factor = edges.factor(mesh, block.shape, block.element(e));
-      if (factor != 1) scale(e, factor);
+      const EdgeFactor c = edges.factor(mesh, block.shape, block.element(e));
+      if (c.across != 1) correct(e, c);
     }
   }
 
@@ -113,18 +114,39 @@ class Conduction final : public ConductionBlock {
  private:
   using Nodal = std::array<Lane, n_nodes>;
 
-  void scale(Index element, double factor) {
-    const Index batch = element / k_lanes;
+  /// Elements of a batch that lie beside edges: 1 − c of each, and the direction of its edge.
+  struct Correction {
+    Lane less{0.0};
+    std::array<Lane, dim> tangent;
+  };
+
+  void correct(Index element, const EdgeFactor& c) {
+    Correction& of = corrections_.try_emplace(element / k_lanes, Correction{}).first->second;
     const int lane = static_cast<int>(element % k_lanes);
-    for (int q = 0; q < geometry_.n_points; ++q) {
-      Lane& weight = geometry_.weight[static_cast<std::size_t>(batch * geometry_.n_points + q)];
-      weight.set(lane, factor * weight[lane]);
+    of.less.set(lane, 1 - c.across);
+    for (std::size_t i = 0; i < dim; ++i) of.tangent[i].set(lane, c.along[i]);
+  }
+
+  /// ∇N_a · (1 − (1 − c)(1 − t ⊗ t)) ∇N_b instead of ∇N_a · ∇N_b.
+  static void add_correction(const Correction& of, const Lane* g, Lane w, ConductionMatrix<n_nodes>& m) {
+    const Lane less = w * of.less;
+    std::array<Lane, n_nodes> along{};
+    for (std::size_t a = 0; a < n_nodes; ++a) {
+      along[a] = g[a * dim] * of.tangent[0];
+      for (std::size_t i = 1; i < dim; ++i) along[a] += g[a * dim + i] * of.tangent[i];
     }
+    for (std::size_t a = 0; a < n_nodes; ++a)
+      for (std::size_t b = a; b < n_nodes; ++b) {
+        Lane dot = g[a * dim] * g[b * dim];
+        for (std::size_t i = 1; i < dim; ++i) dot += g[a * dim + i] * g[b * dim + i];
+        m[a][b] -= less * (dot - along[a] * along[b]);
+      }
   }
 
   void add_batch(Index batch, double factor, std::span<const double> columns,
                  const linear::LaneSlots::Slot* slots, linear::BlockMatrix& matrix) const {
     ConductionMatrix<n_nodes> m{};
+    const auto correction = corrections_.find(batch);
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Lane* g = geometry_.gradients_at(batch, q);
       const Lane w = geometry_.weight_at(batch, q) * Lane(factor);
@@ -134,6 +156,7 @@ class Conduction final : public ConductionBlock {
           for (std::size_t i = 1; i < dim; ++i) dot += g[a * dim + i] * g[b * dim + i];
           m[a][b] += w * dot;
         }
+      if (correction != corrections_.end()) add_correction(correction->second, g, w, m);
     }
     for (std::size_t a = 0; a < n_nodes; ++a)
       for (std::size_t b = 0; b < a; ++b) m[a][b] = m[b][a];
@@ -146,6 +169,7 @@ class Conduction final : public ConductionBlock {
   }
 
   mesh::BlockGeometry geometry_;
+  std::unordered_map<Index, Correction> corrections_;  ///< of batches beside edges
   const linear::BlockMatrix* matrix_ = nullptr;
   mutable std::optional<linear::LaneSlots> slots_;  ///< from the first tangent on
 };

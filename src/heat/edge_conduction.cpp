@@ -164,16 +164,23 @@ const mesh::Wedge* EdgeConduction::wedge(Index node) const {
   return found == wedges_.end() ? nullptr : &found->second;
 }
 
-double EdgeConduction::factor(const mesh::Mesh& mesh, mesh::Shape shape, const Index* nodes) const {
-  if (wedges_.empty() || (shape != mesh::Shape::tri3 && shape != mesh::Shape::tet4)) return 1;
+EdgeFactor EdgeConduction::factor(const mesh::Mesh& mesh, mesh::Shape shape, const Index* nodes) const {
+  if (wedges_.empty() || (shape != mesh::Shape::tri3 && shape != mesh::Shape::tet4)) return {};
   const auto n = static_cast<std::size_t>(mesh::node_count(shape));
   std::array<const mesh::Wedge*, k_nodes> wedges{};
   bool any = false;
   for (std::size_t a = 0; a < n; ++a) any = (wedges[a] = wedge(nodes[a])) != nullptr || any;
-  if (!any) return 1;
+  if (!any) return {};
   const Simplex s(mesh, {nodes, n});
-  double sum = 0;
+  EdgeFactor mean{.across = 0, .along = {}};
   int n_edges = 0;
+  const auto add = [&](double across, const Point& tangent) {
+    // Directions have either sense.
+    const double sense = product(mean.along, tangent) < 0 ? -1 : 1;
+    for (std::size_t i = 0; i < 3; ++i) mean.along[i] += sense * tangent[i];
+    mean.across += across;
+    ++n_edges;
+  };
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = a + 1; b < n; ++b) {
       if (wedges[a] == nullptr || wedges[b] == nullptr) continue;
@@ -183,17 +190,13 @@ double EdgeConduction::factor(const mesh::Mesh& mesh, mesh::Shape shape, const I
       for (std::size_t i = 0; i < 3; ++i) bisector[i] += wedges[b]->bisector[i];
       bisector = direction(difference(bisector, scaled(product(bisector, between), between)));
       const mesh::Wedge joined{bisector, between, (wedges[a]->angle + wedges[b]->angle) / 2};
-      sum += factor_of(s, {s.x[a], joined}, 1U << a | 1U << b);
-      ++n_edges;
+      add(factor_of(s, {s.x[a], joined}, 1U << a | 1U << b), between);
     }
-  if (n_edges > 0) return sum / n_edges;
-  // The element touches the edge with single nodes.
-  for (std::size_t a = 0; a < n; ++a)
-    if (wedges[a] != nullptr) {
-      sum += factor_of(s, {s.x[a], *wedges[a]}, 1U << a);
-      ++n_edges;
-    }
-  return sum / n_edges;
+  const bool with_a_side = n_edges > 0;
+  // Else the element touches the edge with single nodes.
+  for (std::size_t a = 0; a < n && !with_a_side; ++a)
+    if (wedges[a] != nullptr) add(factor_of(s, {s.x[a], *wedges[a]}, 1U << a), wedges[a]->tangent);
+  return {mean.across / n_edges, direction(mean.along)};
 }
 
 }  // namespace solidus::heat

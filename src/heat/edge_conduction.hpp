@@ -7,13 +7,15 @@
 /// with the distance r from the edge and the angle φ from the bisector: its gradient has no bound, and linear
 /// elements conduct too well there. That error does not stay there. It goes with h^(2α) everywhere, h^(4/3)
 /// for sand along a rim of 90 degrees of the casting, and is the largest one of a mould of coarse elements.
-/// In the elements that touch such an edge conduction is multiplied by
+/// In the elements that touch such an edge conduction across the edge is multiplied by
 ///
 ///   c = Σ_s ∫∇s · ∇I s dV / Σ_s ∫|∇I s|² dV,        I s: s interpolated by the element
 ///
 /// so that the interpolated function conducts what the function itself does: Σ_e c_e ∫|∇I s|² is then
-/// ∫∇s · ∇I s = ∫|∇s|², as ∇s has no divergence and s − I s no value on the boundary. Elements keep their
-/// symmetry and the signs of their entries; a linear temperature across such an edge is no longer exact.
+/// ∫∇s · ∇I s = ∫|∇s|², as ∇s has no divergence and s − I s no value on the boundary. Conduction along the
+/// edge stays as it is: its conductivity is k (t ⊗ t + c (1 − t ⊗ t)), with the direction t of the edge, so
+/// that a temperature that is linear along the edge remains exact. One that is linear across it is no longer
+/// so.
 ///
 /// Idea: H. Egger, U. Rüde and B. Wohlmuth, SIAM J. Numer. Anal. 52 (2014) 171 (energy-corrected finite
 /// elements: conduction reduced in the elements at the corner takes the error away from everywhere else).
@@ -27,15 +29,21 @@
 
 namespace solidus::heat {
 
+/// c of an element, and the direction t of its edge, of length one; the third axis in two dimensions.
+struct EdgeFactor {
+  double across = 1;
+  mesh::Point along{};
+};
+
 class EdgeConduction {
  public:
   /// Nothing is corrected.
   EdgeConduction() = default;
   /// Collective.
   explicit EdgeConduction(const mesh::Mesh& mesh);
-  /// c of an element; 1 where it touches no such edge or is neither a linear triangle nor a tetrahedron.
+  /// Of an element; 1 where it touches no such edge or is neither a linear triangle nor a tetrahedron.
   /// @param nodes  of the element, local numbers
-  double factor(const mesh::Mesh& mesh, mesh::Shape shape, const Index* nodes) const;
+  EdgeFactor factor(const mesh::Mesh& mesh, mesh::Shape shape, const Index* nodes) const;
   /// No element of this process has another factor than one.
   bool empty() const { return wedges_.empty(); }
 

@@ -211,6 +211,26 @@ TEST_P(Angle, ALinearTemperatureIsOffByASmallPartOfWhatAnElementSpans) {
   EXPECT_LT(parallel::global_max(worst), 0.1 * cell);
 }
 
+TEST_P(Angle, ATemperatureLinearAlongTheEdgeIsExact) {
+  const auto [shape, graded] = GetParam();
+  if (!test::is_3d(shape)) GTEST_SKIP() << "a plane has no such direction";
+  const mesh::Mesh mesh = angle_mesh(shape, graded);
+  heat::HeatSystem system(mesh, kind_of(shape), {conductor()}, {}, true, {},
+                          linear::BlockMatrix::Storage::whole, true);
+  system.set_time(0);
+  std::vector<double> t, r(static_cast<std::size_t>(mesh.n_owned_nodes));
+  for (const Point& x : mesh.x) t.push_back(400 + x[2]);
+  system.residual(t, r);
+  double worst = 0, sum = 0;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    sum += r[i] * (t[i] - 400);
+    const bool inside = mesh.x[i][2] > 1e-9 && mesh.x[i][2] < k_height - 1e-9;
+    if (inside) worst = std::max(worst, std::abs(r[i]));
+  }
+  EXPECT_LT(parallel::global_max(worst), 1e-12);
+  EXPECT_NEAR(parallel::global_sum(sum), 3 * k_height, 1e-12) << "k |grad T|^2 times the volume";
+}
+
 INSTANTIATE_TEST_SUITE_P(EdgeConduction, Angle,
                          testing::Combine(testing::Values(Shape::tri3, Shape::tet4), testing::Bool()),
                          [](const auto& instance) {
