@@ -35,9 +35,9 @@ struct PointMotion {
   /// Share of the point's area that faces the master, w over Particle::area: less than one beyond the rim of
   /// the master.
   double covered = 1;
-  double penetration = 0;         ///< g_N [m]
-  Point normal{};                 ///< n
-  Tensor push{};                  ///< F
+  double penetration = 0;  ///< g_N [m]
+  Point normal{};          ///< n
+  Tensor push{};           ///< F
   /// Where a point stands for a part of the slave, its forces take these means of B_b n and B_b F over that
   /// part in place of the products at the point. They are empty for a single point.
   std::span<const Point> normal_share;

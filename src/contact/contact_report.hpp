@@ -50,8 +50,8 @@ struct ContactSums {
 /// has a partner. Weighted with w N_a²; the history of friction, with w N_a over all points of the slave,
 /// which keeps its integral, NaN on the master.
 struct ContactNodalFields {
-  std::vector<Index> nodes;         ///< local numbers of owned nodes, slave's and master's, sorted
-  std::vector<double> opening;      ///< [m], negative: penetration
+  std::vector<Index> nodes;     ///< local numbers of owned nodes, slave's and master's, sorted
+  std::vector<double> opening;  ///< [m], negative: penetration
   /// How far the bodies lie in each other: the penetration, and what a skin has sunk in before, while it was
   /// soft (ContactPointState::sunk); negative: a gap [m].
   std::vector<double> overlap;

@@ -21,7 +21,7 @@ struct ContactPointState {
   /// Added to g_N: closes an initial gap that counts as touching, and takes what a skin has sunk in while it
   /// was soft [m].
   double offset = 0;
-  double sunk = 0;         ///< what of `offset` the skin has sunk in while it was soft, taken for the wall [m]
+  double sunk = 0;  ///< what of `offset` the skin has sunk in while it was soft, taken for the wall [m]
   double penetration = 0;  ///< g_N [m] (3.5)
   double pressure = 0;     ///< t_N [Pa]
   /// Contact pressure in the balance of forces at t_n [Pa]: equal to t_N, except with the energy-conserving
@@ -54,8 +54,8 @@ struct ContactPointState {
   double plastic_entropy = 0;  ///< S^p_c [J/(m² K)] (3.53c)
 };
 
-/// ζ_c at the end of a step of the part of a point that rubbed in it; the history holds the mean with the part
-/// that lies beyond the rim of the master.
+/// ζ_c at the end of a step of the part of a point that rubbed in it; the history holds the mean with the
+/// part that lies beyond the rim of the master.
 inline double rubbed_variable(const ContactPointState& from, const ContactPointState& now) {
   return now.covered < 1 ? std::lerp(from.internal_variable, now.internal_variable, 1 / now.covered)
                          : now.internal_variable;

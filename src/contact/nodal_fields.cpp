@@ -74,10 +74,10 @@ ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double>
     const InterfaceHeatFlux& q = heat[static_cast<std::size_t>(p)];
     const auto meet = [&](Index node, double share, std::size_t side) {
       if (const auto i = static_cast<std::size_t>(node); i < n) paired_area[i] += motion.weight * share;
-      met.add(
-          node, motion.weight * share * share,
-          {-state.penetration, state.pressure, conductance[static_cast<std::size_t>(p)], q.total[side],
-           q.by_friction[side], static_cast<double>(state.status), traction[0], traction[1], traction[2], state.sunk});
+      met.add(node, motion.weight * share * share,
+              {-state.penetration, state.pressure, conductance[static_cast<std::size_t>(p)], q.total[side],
+               q.by_friction[side], static_cast<double>(state.status), traction[0], traction[1], traction[2],
+               state.sunk});
     };
     for (std::size_t b = 0; b < particle.nodes.size(); ++b) meet(particle.nodes[b], particle.share[b], 0);
     for (auto b = static_cast<std::size_t>(motion.n_slave); b < motion.nodes.size(); ++b)

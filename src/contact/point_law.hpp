@@ -72,8 +72,9 @@ inline Point force_on_master(const PointMotion& motion, const ContactPointState&
   return add_scaled(times(motion.push, state.traction), pressure, motion.normal);
 }
 
-/// Takes the slip of a step into the history of a point: what friction leaves is a mean over the area that the
-/// point stands for, of which the part beyond the rim of the master does not rub (ContactPointState::covered).
+/// Takes the slip of a step into the history of a point: what friction leaves is a mean over the area that
+/// the point stands for, of which the part beyond the rim of the master does not rub
+/// (ContactPointState::covered).
 void take_slip(const FrictionResponse& friction, const ContactPointState& from, ContactPointState& to);
 
 struct PointLaw {

@@ -83,10 +83,9 @@ SegmentKinematics::Particle SegmentKinematics::particle(Index point) const {
   const std::size_t c = at(point);
   const auto nodes = slave_.nodes(face_[c]);
   return {.number = face_[c] * k_points_of_a_face + number_[c],
-          .counted = nodes[0] < n_owned_,
-          .position = position_[c],
-          .area = whole_[c],
-          .weight = covered_[c] > 0 ? covered_[c] : whole_[c],
+          .counted = nodes[0]<n_owned_, .position = position_[c], .area = whole_[c], .weight = covered_[c]> 0
+                         ? covered_[c]
+                         : whole_[c],
           .nodes = nodes,
           .share = std::span(shape_[c]).first(nodes.size())};
 }

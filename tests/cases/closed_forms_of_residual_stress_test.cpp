@@ -17,12 +17,13 @@ using solidus::testing::at;
 using solidus::testing::CaseFolder;
 using solidus::testing::CaseRun;
 
-/// A free ball of the radius b in steady state, with q heat per volume and time, T = T_middle − q r²/(6 k). Of
-/// an elastic ball σ_θ − σ_r = D r² with D = 2 E α/(5 (1 − ν)) q/(6 k) (S. P. Timoshenko, J. N. Goodier, Theory
-/// of Elasticity, 1951, § 136): it yields from its skin to the radius c = √(Y/D), where σ_θ − σ_r is the yield
-/// stress Y and equilibrium asks for σ_r = 2 Y ln(r/b); within, σ_r = 2 Y ln(c/b) + D (r² − c²). Without the
-/// source all of it unloads elastically while D b² < 2 Y. The stresses of a free body have no mean, nor has
-/// plastic flow a volume, so that the skin moves by b α times the mean of the rise, whatever has yielded.
+/// A free ball of the radius b in steady state, with q heat per volume and time, T = T_middle − q r²/(6 k).
+/// Of an elastic ball σ_θ − σ_r = D r² with D = 2 E α/(5 (1 − ν)) q/(6 k) (S. P. Timoshenko, J. N. Goodier,
+/// Theory of Elasticity, 1951, § 136): it yields from its skin to the radius c = √(Y/D), where σ_θ − σ_r is
+/// the yield stress Y and equilibrium asks for σ_r = 2 Y ln(r/b); within, σ_r = 2 Y ln(c/b) + D (r² − c²).
+/// Without the source all of it unloads elastically while D b² < 2 Y. The stresses of a free body have no
+/// mean, nor has plastic flow a volume, so that the skin moves by b α times the mean of the rise, whatever
+/// has yielded.
 struct YieldingBall {
   double b = 0.05, q = 22.4e6, k = 40, h = 5000, young = 200e9, poisson = 0.3, alpha = 1.2e-5, yield = 200e6;
 
@@ -30,7 +31,7 @@ struct YieldingBall {
   double skin() const { return 20 + q * b / (3 * h); }
   double middle() const { return skin() + drop(b); }
   double slope() const { return 2 * young * alpha / (5 * (1 - poisson)) * q / (6 * k); }  // D
-  double front() const { return std::sqrt(yield / slope()); }                            // c
+  double front() const { return std::sqrt(yield / slope()); }                             // c
   /// σ_θ [Pa]
   double hot(double r) const {
     const double c = front();
@@ -65,8 +66,9 @@ Physical Line("skin") = {{2}};
 Physical Surface("ball") = {{1}};
 )",
                                           size));
-  return folder.run(name,
-                    fmt::format(R"(title = "A ball is heated within, yields and cools"
+  return folder.run(
+      name,
+      fmt::format(R"(title = "A ball is heated within, yields and cools"
 [analysis]
 kind = "axisymmetric"
 physics = "thermomechanical"
@@ -104,14 +106,11 @@ group = "equator"
 kind = "displacement"
 uz = "0 mm"
 )",
-                                name) +
-                        probe("T_middle", "temperature", "", 0, "degC") +
-                        probe("T_skin", "temperature", "", 50, "degC") +
-                        probe("s_0", "nodal_stress", "tt", 0, "MPa") +
-                        probe("s_30", "nodal_stress", "tt", 30, "MPa") +
-                        probe("s_50", "nodal_stress", "tt", 50, "MPa") +
-                        probe("u", "displacement", "r", 50, "um"),
-                    overrides);
+                  name) +
+          probe("T_middle", "temperature", "", 0, "degC") + probe("T_skin", "temperature", "", 50, "degC") +
+          probe("s_0", "nodal_stress", "tt", 0, "MPa") + probe("s_30", "nodal_stress", "tt", 30, "MPa") +
+          probe("s_50", "nodal_stress", "tt", 50, "MPa") + probe("u", "displacement", "r", 50, "um"),
+      overrides);
 }
 
 TEST(ClosedFormsOfResidualStress, ABallThatAHeatSourceMadeYieldKeepsTheStressesOfItsFlow) {
@@ -149,8 +148,7 @@ TEST(ClosedFormsOfResidualStress, ABallThatAHeatSourceMadeYieldKeepsTheStressesO
   // order in the size of the elements: 37 and 21 of −120 MPa. Orthogonal ones do not.
   EXPECT_LT(worst[1][1], 22);
   EXPECT_LT(worst[1][1], 0.6 * worst[0][1]);
-  const CaseRun orthogonal =
-      heated_ball(folder, "orthogonal", 2.5, {"mechanics.stabilisation=orthogonal"});
+  const CaseRun orthogonal = heated_ball(folder, "orthogonal", 2.5, {"mechanics.stabilisation=orthogonal"});
   ASSERT_TRUE(orthogonal.finished) << orthogonal.reason;
   EXPECT_NEAR(at(orthogonal.history, "s_50[MPa]", 600), 1e-6 * ball.cold(ball.b), 5);
 }

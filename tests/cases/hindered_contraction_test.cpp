@@ -106,8 +106,7 @@ double told_overlap(const CaseFolder& folder, const std::string& run) {
   const std::string summary = testing::read_text(folder.root() / run / "summary.json");
   const std::string key = "\"value[m]\":";
   const std::size_t value = summary.find(key, summary.find("\"deepest_overlaps\""));
-  return value == std::string::npos ? NAN
-                                    : 1e6 * std::strtod(summary.c_str() + value + key.size(), nullptr);
+  return value == std::string::npos ? NAN : 1e6 * std::strtod(summary.c_str() + value + key.size(), nullptr);
 }
 
 void write_tubes(const CaseFolder& folder, int solidus) {

@@ -68,7 +68,8 @@ TEST(FreeBoundary, IsLeftLittleByLittle) {
       }
 }
 
-// A body that slides off another one, evenly pressed: dissipation and ζ_c are those of the force along the way.
+// A body that slides off another one, evenly pressed: dissipation and ζ_c are those of the force along the
+// way.
 TEST(FreeBoundary, APointThatIsLeftInPartTakesItsShareOfSlipAndWear) {
   for (const Shape shape : {Shape::quad4, Shape::hex8})
     for (const IntegrationRule rule : {IntegrationRule::gauss, IntegrationRule::segments}) {
