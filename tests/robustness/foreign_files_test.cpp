@@ -92,7 +92,7 @@ TEST_F(ForeignFiles, AWrongUnitIsNamedBeforeTheMeshIsMade) {
 TEST_F(ForeignFiles, ASmallestSizeAboveTheLargestIsRefused) {
   expect_refused("cp -r '" SOLIDUS_SOURCE_DIR
                  "/cases/bracket_from_step' bracket; sed -i 's/smallest = \"5 mm\"/smallest = \"50 mm\"/' "
-                 "bracket/case.toml; solidus check bracket",
+                 "bracket/case.toml; solidus check bracket --heat-only",
                  {"case.toml:14:1", "'smallest' is 0.05 m, larger than 'size', 0.005 m"});
 }
 
