@@ -1,5 +1,7 @@
 #include "build/mesh_input.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -15,6 +17,7 @@
 #include "mesh/parametric_meshes.hpp"
 #include "mesh/wall_layers.hpp"
 #include "results/output_error.hpp"
+#include "system/errors.hpp"
 #include "system/log.hpp"
 #include "system/processes.hpp"
 #include "system/profile.hpp"
@@ -64,8 +67,13 @@ mesh::GeometryChoice geometry_choice(const MeshSpec& m) {
 
 mesh::CastingGeometry casting_geometry(const MeshSpec& m) {
   mesh::CastingGeometry geometry;
-  for (const MeshSizeSpec& s : m.sizes)
+  for (const MeshSizeSpec& s : m.sizes) {
+    if (s.smallest && *s.smallest > s.size)
+      throw InputError(s.where,
+                       fmt::format("'smallest' is {:g} m, larger than 'size', {:g} m", *s.smallest, s.size),
+                       "a smallest size of at most the largest one");
     geometry.sizes.push_back({s.body, s.size, s.smallest.value_or(s.size / 4), s.across, s.growth});
+  }
   if (m.mould) {
     mesh::MouldBlock& mould = geometry.mould.emplace();
     mould.name = m.mould->name;

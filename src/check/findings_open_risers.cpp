@@ -71,8 +71,7 @@ std::map<std::size_t, OpenSkin> open_skins(const CaseSpec& spec, const Assembly&
 
 }  // namespace
 
-void find_in_open_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
-                         Findings& findings) {
+void find_in_open_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   constexpr double k_little = 0.02;  // of the skin
   const std::array<double, 3> g = gravity(spec.analysis);
   const double size = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -29,18 +28,14 @@ int hottest(const Assembly& a) {
   return static_cast<int>(hot - a.start.begin());
 }
 
-/// Whether another body is part of a mould, by its role, its name or that of its material.
+/// Whether another body is part of a mould, by its role or name.
 bool has_mould(const CaseSpec& spec, std::size_t other_than) {
   const auto of_mould = [](std::optional<Role> role) {
     return role && *role != Role::casting && *role != Role::riser;
   };
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    const BodySpec& body = spec.bodies[b];
-    const std::string material = std::filesystem::path(body.material).stem().string();
-    if (b != other_than &&
-        (of_mould(body.role) || of_mould(role_in_name(body.name)) || of_mould(role_in_name(material))))
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+    if (b != other_than && (of_mould(spec.bodies[b].role) || of_mould(role_in_name(spec.bodies[b].name))))
       return true;
-  }
   return false;
 }
 

@@ -42,6 +42,31 @@ void risers_that_freeze_first(const CaseSpec& spec, const CaseMeasures& m, Findi
   }
 }
 
+/// A riser that touches no other melt feeds nothing.
+void risers_apart(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  const auto touches = [&](std::size_t one, std::size_t other) {
+    return m.bodies[one].shared_nodes[other] > 0 ||
+           std::ranges::any_of(m.contacts, [&](const ContactMeasures& contact) {
+             const auto a = static_cast<int>(one), b = static_cast<int>(other);
+             return (contact.slave_body == a && contact.master_body == b) ||
+                    (contact.slave_body == b && contact.master_body == a);
+           });
+  };
+  for (const Pour& riser : m.pours) {
+    bool castings = false, apart = true;
+    for (const Pour& other : m.pours) {
+      if (other.body == riser.body) continue;
+      castings = castings || !is_riser(spec, other);
+      apart = apart && !touches(riser.body, other.body);
+    }
+    if (is_riser(spec, riser) && castings && apart)
+      findings.push_back({false, spec.bodies[riser.body].where,
+                          fmt::format("the riser '{}' touches no other body that is poured: it feeds nothing",
+                                      spec.bodies[riser.body].name),
+                          "nodes that it shares with its casting; is its foot on it?"});
+  }
+}
+
 void risers_larger_than_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   constexpr double k_much = 2;
   double castings = 0, risers = 0;
@@ -199,6 +224,7 @@ void pressed_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
 void find_in_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat()) return;
   risers_that_freeze_first(spec, m, findings);
+  risers_apart(spec, m, findings);
   risers_larger_than_castings(spec, m, findings);
   swapped_cores_and_chills(spec, a, m, findings);
   moulds_as_hot_as_melt(spec, a, m, findings);

@@ -12,10 +12,10 @@
 namespace solidus::mesh {
 
 struct MeshingOutlook {
-  Point sides{};       ///< of the box around the parts, without a mould that is made around them [m]
-  double volume = 0;   ///< of the parts [m³]; 0: not known
+  Point sides{};      ///< of the box around the parts, without a mould that is made around them [m]
+  double volume = 0;  ///< of the parts [m³]; 0: not known
   double smallest = 0, largest = 0;  ///< sizes of the elements of the parts [m]; 0: as the file says
-  double nodes = 0;    ///< expected, of all bodies, within a factor of two; 0: not known
+  double nodes = 0;                  ///< expected, of all bodies, within a factor of two; 0: not known
 };
 
 /// A piece of the skin of a body and the size of elements on it.
@@ -38,7 +38,8 @@ std::string outlook_text(const MeshingOutlook& outlook);
 /// The memory that meshing takes [byte], 0 where the number of nodes is not known.
 double meshing_memory(const MeshingOutlook& outlook);
 
-/// From now on tell_outlook() calls `listener`; an empty function: nothing listens. In the process that meshes.
+/// From now on tell_outlook() calls `listener`; an empty function: nothing listens. In the process that
+/// meshes.
 void listen_to_outlook(std::function<void(const MeshingOutlook&)> listener);
 void tell_outlook(const MeshingOutlook& outlook);
 

@@ -108,6 +108,7 @@ class Reader {
   ReaderLimits limits_;
   std::string outlook_;  ///< ": " and a text; empty where nothing is known yet
   Clock::time_point begun_ = Clock::now();
+  bool many_nodes_ = false;
   double next_report_ = 5;  ///< after so many seconds, then after twice as many, it is said that it goes on
   pid_t pid_ = -1;
   int to_ = -1, from_ = -1;
@@ -190,11 +191,14 @@ void Reader::wait_for(int descriptor, short event) {
           source_.path, taken, outlook_, limits_.time);
       next_report_ *= 2;
     }
-    if (taken > limits_.time)
-      throw InputError({source_.path},
-                       "reading or meshing took longer than " + std::to_string(std::lround(limits_.time)) +
-                           " s and was ended",
-                       "larger elements, a script that ends, or more time: SOLIDUS_MESH_TIME=\"2 h\"");
+    if (taken > limits_.time) {
+      const std::string what = "reading or meshing took longer than " +
+                               std::to_string(std::lround(limits_.time)) + " s and was ended";
+      const char* allowed = "larger elements, a script that ends, or more time: SOLIDUS_MESH_TIME=\"2 h\"";
+      // Other ways of meshing have as many elements or more.
+      if (many_nodes_) throw UnusableGeometry({source_.path}, what, allowed);
+      throw InputError({source_.path}, what, allowed);
+    }
   }
 }
 
@@ -210,7 +214,8 @@ void Reader::hear(const MeshingOutlook& outlook) {
   outlook_ = ": " + text;
   logging::debug("'{}' is {}", source_.path, text);
   constexpr double k_many = 1e6;  // castings of many parts and thin walls have less
-  if (outlook.nodes > k_many)
+  many_nodes_ = outlook.nodes > k_many;
+  if (many_nodes_)
     logging::warn(
         "'{}' is {}, where castings usually have 5 thousand to 500 thousand: are its unit and the sizes of "
         "elements meant so?",

@@ -89,6 +89,13 @@ TEST_F(ForeignFiles, AWrongUnitIsNamedBeforeTheMeshIsMade) {
             HasSubstr("are its unit and the sizes of elements meant so?"), HasSubstr("longer than 4 s")));
 }
 
+TEST_F(ForeignFiles, ASmallestSizeAboveTheLargestIsRefused) {
+  expect_refused("cp -r '" SOLIDUS_SOURCE_DIR
+                 "/cases/bracket_from_step' bracket; sed -i 's/smallest = \"5 mm\"/smallest = \"50 mm\"/' "
+                 "bracket/case.toml; solidus check bracket --heat-only",
+                 {"case.toml:14:1", "'smallest' is 0.05 m, larger than 'size', 0.005 m"});
+}
+
 TEST_F(ForeignFiles, WhatNeverEndsOrIsFarTooMuchIsRefused) {
   write("zero.toml", "include = \"/dev/zero\"\n");
   expect_refused("solidus check zero.toml", {"/dev/zero", "device"});

@@ -51,7 +51,6 @@ TEST_F(FindingsTest, EachSlipIsNamed) {
       {"ambient = \"20 degC\"", "ambient = \"2000 degC\"", "surroundings of 2000 degC"},
       {"\"20 W/m2/K\"", "\"2000 W/mm2/K\"", "error"},
       {"\"20 W/m2/K\"", "\"3 W/m2/K\"", "has 3 W/m2/K, and nothing radiates there"},
-      {"material = \"aluminium_alsi7mg\"", "material = \"h13_tool_steel\"", "which does not freeze"},
       {"\"9.81 m/s2\"", "\"9.81 mm/s2\"", "gravity is 0.00981"},
       {"\"9.81 m/s2\"", "\"98.1 m/s2\"", "gravity is 98.1"},
       {"step = \"1 s\"", "step = \"600 s\"", "one step of 600 s"},

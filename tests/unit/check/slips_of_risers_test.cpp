@@ -136,6 +136,14 @@ TEST_F(HubTest, ACoreAsHotAsMeltAndMeltThatDoesNotDeformAreNamed) {
       Contains(HasSubstr("'casting' only conducts heat, but 'riser', with which it is poured, deforms")));
 }
 
+TEST_F(HubTest, ARiserThatStandsApartIsNamed) {
+  // Five millimetres above its casting, with the sand of the mould between.
+  mesh(changed(k_hub, "Rectangle(4) = {30,80,0, 28,50};", "Rectangle(4) = {30,85,0, 28,45};"));
+  EXPECT_THAT(
+      said_of(k_hub_case),
+      Contains(HasSubstr("the riser 'riser' touches no other body that is poured: it feeds nothing")));
+}
+
 TEST_F(HubTest, AnOpenRiserThatNothingCoolsIsNamed) {
   const std::string all = k_hub_case;
   const std::size_t film = all.find("[[thermal_condition]]"), end = all.find("[criteria]");

@@ -168,6 +168,9 @@ TEST_F(FindingsTest, ACastingOfWhatDoesNotFreezeIsNamed) {
   EXPECT_THAT(said_of(of_steel("role = \"casting\"\n")),
               Contains(HasSubstr("the casting 'upper', which starts")));
   EXPECT_THAT(said_of(of_steel("")), IsEmpty()) << "a hot block that cools on another one";
+  EXPECT_THAT(
+      said_of(changed(of_steel(""), "name = \"lower\"\n", "name = \"lower\"\nrole = \"mould\"\n")),
+      Contains(HasSubstr("the hottest body, 'upper', which starts at 700 degC, is of 'h13_tool_steel'")));
 }
 
 TEST_F(FindingsTest, FurtherNumbersOfContactAreNamed) {
