@@ -77,10 +77,9 @@ class Conduction final : public ConductionBlock {
       : geometry_(geometry_of(mesh, block, kind, closed)) {
     PackVector<Lane>().swap(geometry_.counted);  // nothing is summed over elements here
     if (edges.empty()) return;
-    for (Index e = 0; e < block.size(); ++e) {
-      const EdgeFactor c = edges.factor(mesh, block.shape, block.element(e));
-      if (c.across != 1) correct(e, c);
-    }
+    for (Index e = 0; e < block.size(); ++e)
+      if (const std::optional<EdgeLoss> loss = edges.loss(mesh, block.shape, block.element(e)))
+        keep(e, *loss);
   }
 
   void bind(const linear::BlockMatrix& matrix) override {
@@ -114,39 +113,35 @@ class Conduction final : public ConductionBlock {
  private:
   using Nodal = std::array<Lane, n_nodes>;
 
-  /// Elements of a batch that lie beside edges: 1 − c of each, and the direction of its edge.
-  struct Correction {
-    Lane less{0.0};
-    std::array<Lane, dim> tangent;
-  };
+  using Loss = std::array<std::array<Lane, dim>, dim>;  ///< EdgeLoss of a batch
 
-  void correct(Index element, const EdgeFactor& c) {
-    Correction& of = corrections_.try_emplace(element / k_lanes, Correction{}).first->second;
+  void keep(Index element, const EdgeLoss& loss) {
+    Loss& of = losses_[element / k_lanes];
     const int lane = static_cast<int>(element % k_lanes);
-    of.less.set(lane, 1 - c.across);
-    for (std::size_t i = 0; i < dim; ++i) of.tangent[i].set(lane, c.along[i]);
+    for (std::size_t i = 0; i < dim; ++i)
+      for (std::size_t j = 0; j < dim; ++j) of[i][j].set(lane, loss[i][j]);
   }
 
-  /// ∇N_a · (1 − (1 − c)(1 − t ⊗ t)) ∇N_b instead of ∇N_a · ∇N_b.
-  static void add_correction(const Correction& of, const Lane* g, Lane w, ConductionMatrix<n_nodes>& m) {
-    const Lane less = w * of.less;
-    std::array<Lane, n_nodes> along{};
-    for (std::size_t a = 0; a < n_nodes; ++a) {
-      along[a] = g[a * dim] * of.tangent[0];
-      for (std::size_t i = 1; i < dim; ++i) along[a] += g[a * dim + i] * of.tangent[i];
-    }
-    for (std::size_t a = 0; a < n_nodes; ++a)
-      for (std::size_t b = a; b < n_nodes; ++b) {
-        Lane dot = g[a * dim] * g[b * dim];
-        for (std::size_t i = 1; i < dim; ++i) dot += g[a * dim + i] * g[b * dim + i];
-        m[a][b] -= less * (dot - along[a] * along[b]);
+  /// m −= w ∇N_a · loss ∇N_b.
+  static void subtract(const Loss& loss, const Lane* g, Lane w, ConductionMatrix<n_nodes>& m) {
+    for (std::size_t b = 0; b < n_nodes; ++b) {
+      std::array<Lane, dim> lost{};
+      for (std::size_t i = 0; i < dim; ++i) {
+        lost[i] = loss[i][0] * g[b * dim];
+        for (std::size_t j = 1; j < dim; ++j) lost[i] += loss[i][j] * g[b * dim + j];
       }
+      for (std::size_t a = 0; a <= b; ++a) {
+        Lane dot = g[a * dim] * lost[0];
+        for (std::size_t i = 1; i < dim; ++i) dot += g[a * dim + i] * lost[i];
+        m[a][b] -= w * dot;
+      }
+    }
   }
 
   void add_batch(Index batch, double factor, std::span<const double> columns,
                  const linear::LaneSlots::Slot* slots, linear::BlockMatrix& matrix) const {
     ConductionMatrix<n_nodes> m{};
-    const auto correction = corrections_.find(batch);
+    const auto loss = losses_.find(batch);
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Lane* g = geometry_.gradients_at(batch, q);
       const Lane w = geometry_.weight_at(batch, q) * Lane(factor);
@@ -156,7 +151,7 @@ class Conduction final : public ConductionBlock {
           for (std::size_t i = 1; i < dim; ++i) dot += g[a * dim + i] * g[b * dim + i];
           m[a][b] += w * dot;
         }
-      if (correction != corrections_.end()) add_correction(correction->second, g, w, m);
+      if (loss != losses_.end()) subtract(loss->second, g, w, m);
     }
     for (std::size_t a = 0; a < n_nodes; ++a)
       for (std::size_t b = 0; b < a; ++b) m[a][b] = m[b][a];
@@ -169,7 +164,7 @@ class Conduction final : public ConductionBlock {
   }
 
   mesh::BlockGeometry geometry_;
-  std::unordered_map<Index, Correction> corrections_;  ///< of batches beside edges
+  std::unordered_map<Index, Loss> losses_;  ///< of batches beside edges; zero at first
   const linear::BlockMatrix* matrix_ = nullptr;
   mutable std::optional<linear::LaneSlots> slots_;  ///< from the first tangent on
 };

@@ -164,7 +164,8 @@ const mesh::Wedge* EdgeConduction::wedge(Index node) const {
   return found == wedges_.end() ? nullptr : &found->second;
 }
 
-EdgeFactor EdgeConduction::factor(const mesh::Mesh& mesh, mesh::Shape shape, const Index* nodes) const {
+std::optional<EdgeLoss> EdgeConduction::loss(const mesh::Mesh& mesh, mesh::Shape shape,
+                                             const Index* nodes) const {
   if (wedges_.empty() || (shape != mesh::Shape::tri3 && shape != mesh::Shape::tet4)) return {};
   const auto n = static_cast<std::size_t>(mesh::node_count(shape));
   std::array<const mesh::Wedge*, k_nodes> wedges{};
@@ -172,13 +173,11 @@ EdgeFactor EdgeConduction::factor(const mesh::Mesh& mesh, mesh::Shape shape, con
   for (std::size_t a = 0; a < n; ++a) any = (wedges[a] = wedge(nodes[a])) != nullptr || any;
   if (!any) return {};
   const Simplex s(mesh, {nodes, n});
-  EdgeFactor mean{.across = 0, .along = {}};
+  EdgeLoss mean{};
   int n_edges = 0;
-  const auto add = [&](double across, const Point& tangent) {
-    // Directions have either sense.
-    const double sense = product(mean.along, tangent) < 0 ? -1 : 1;
-    for (std::size_t i = 0; i < 3; ++i) mean.along[i] += sense * tangent[i];
-    mean.across += across;
+  const auto add = [&](double c, const Point& t) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) mean[i][j] += (1 - c) * ((i == j ? 1.0 : 0.0) - t[i] * t[j]);
     ++n_edges;
   };
   for (std::size_t a = 0; a < n; ++a)
@@ -192,11 +191,13 @@ EdgeFactor EdgeConduction::factor(const mesh::Mesh& mesh, mesh::Shape shape, con
       const mesh::Wedge joined{bisector, between, (wedges[a]->angle + wedges[b]->angle) / 2};
       add(factor_of(s, {s.x[a], joined}, 1U << a | 1U << b), between);
     }
-  const bool with_a_side = n_edges > 0;
   // Else the element touches the edge with single nodes.
+  const bool with_a_side = n_edges > 0;
   for (std::size_t a = 0; a < n && !with_a_side; ++a)
     if (wedges[a] != nullptr) add(factor_of(s, {s.x[a], *wedges[a]}, 1U << a), wedges[a]->tangent);
-  return {mean.across / n_edges, direction(mean.along)};
+  for (auto& row : mean)
+    for (double& value : row) value /= n_edges;
+  return mean;
 }
 
 }  // namespace solidus::heat

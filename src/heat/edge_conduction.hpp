@@ -22,6 +22,8 @@
 /// Their factor is one number for a family of meshes; this one follows from each element.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <unordered_map>
 
 #include "mesh/mesh.hpp"
@@ -29,11 +31,9 @@
 
 namespace solidus::heat {
 
-/// c of an element, and the direction t of its edge, of length one; the third axis in two dimensions.
-struct EdgeFactor {
-  double across = 1;
-  mesh::Point along{};
-};
+/// The part of its conductivity that an element loses, (1 − c)(1 − t ⊗ t), or the mean of that over all edges
+/// that it touches; symmetric.
+using EdgeLoss = std::array<std::array<double, 3>, 3>;
 
 class EdgeConduction {
  public:
@@ -41,10 +41,10 @@ class EdgeConduction {
   EdgeConduction() = default;
   /// Collective.
   explicit EdgeConduction(const mesh::Mesh& mesh);
-  /// Of an element; 1 where it touches no such edge or is neither a linear triangle nor a tetrahedron.
+  /// Nothing where the element touches no such edge or is neither a linear triangle nor a tetrahedron.
   /// @param nodes  of the element, local numbers
-  EdgeFactor factor(const mesh::Mesh& mesh, mesh::Shape shape, const Index* nodes) const;
-  /// No element of this process has another factor than one.
+  std::optional<EdgeLoss> loss(const mesh::Mesh& mesh, mesh::Shape shape, const Index* nodes) const;
+  /// No element of this process has another conduction than its own.
   bool empty() const { return wedges_.empty(); }
 
  private:

@@ -177,13 +177,14 @@ CastingGeometry take_casting(const TakeBytes& take) {
 
 void put_outlook(const MeshingOutlook& o, const PutBytes& put) {
   put_number(std::array{o.sides[0], o.sides[1], o.sides[2], o.volume, o.smallest, o.largest, o.nodes}, put);
+  put_text(o.overlap, put);
 }
 
 MeshingOutlook take_outlook(const TakeBytes& take) {
   const auto numbers = take_number<std::array<double, 7>>(take);
   for (const double number : numbers)
     if (!std::isfinite(number) || number < 0) throw MessageError("an outlook that is no number");
-  return {{numbers[0], numbers[1], numbers[2]}, numbers[3], numbers[4], numbers[5], numbers[6]};
+  return {{numbers[0], numbers[1], numbers[2]}, numbers[3], numbers[4], numbers[5], numbers[6], take_text(take)};
 }
 
 void put_mesh(const RawMesh& mesh, const PutBytes& put) {

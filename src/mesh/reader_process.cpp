@@ -215,6 +215,10 @@ void Reader::hear(const MeshingOutlook& outlook) {
   logging::debug("'{}' is {}", source_.path, text);
   constexpr double k_many = 1e6;  // castings of many parts and thin walls have less
   many_nodes_ = outlook.nodes > k_many;
+  if (!outlook.overlap.empty())
+    logging::warn(
+        "bodies of '{}' overlap: {}; it goes to the first of them, where CAD programs have bodies that touch",
+        source_.path, outlook.overlap);
   if (many_nodes_)
     logging::warn(
         "'{}' is {}, where castings usually have 5 thousand to 500 thousand: are its unit and the sizes of "

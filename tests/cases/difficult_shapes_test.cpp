@@ -13,6 +13,7 @@
 #include "mesh/quality.hpp"
 #include "mesh/reader_process.hpp"
 #include "mesh/worst_tetrahedron.hpp"
+#include "system/log.hpp"
 
 namespace {
 
@@ -72,6 +73,44 @@ TEST(DifficultShapes, AnErrorOfGmshInASurfaceNamesTheFaceByItsBodyAndPlace) {
   } catch (const solidus::InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("Impossible to mesh periodic surface"));
     EXPECT_THAT(error.what(), HasSubstr("at fault: a face of 'body_1' around (0, 0, 25)"));
+  }
+}
+
+/// A yoke with a pin in its bores and another through its base, which are not cut out of it.
+std::string pins_in_a_yoke(bool with_boss) {
+  return step_file(with_boss ? "pins_in_a_yoke_with_boss" : "pins_in_a_yoke", [&] {
+    const int base = occ::addBox(-60, -30, 0, 120, 60, 12);
+    gmsh::vectorpair others{{3, occ::addBox(-55, -30, 12, 15, 60, 45)},
+                            {3, occ::addBox(40, -30, 12, 15, 60, 45)}},
+        all;
+    if (with_boss) {
+      others.emplace_back(3, occ::addCylinder(0, 0, 12, 0, 0, 20, 18));
+      others.emplace_back(3, occ::addBox(-42, -4, 12, 84, 8, 14));
+    }
+    std::vector<gmsh::vectorpair> map;
+    occ::fuse({{3, base}}, others, all, map);
+    occ::addCylinder(-60, 0, 45, 120, 0, 0, 13);
+    occ::addCylinder(0, 0, -1, 0, 0, 40, 9);
+  });
+}
+
+TEST(DifficultShapes, BodiesThatOverlapAreSaidToDoSo) {
+  solidus::logging::clear_warnings();
+  const mesh::RawMesh raw = mesh::mesh_casting({pins_in_a_yoke(false), 1e-3}, in_a_mould(0));
+  EXPECT_GT(volume(raw, "body_1"), 0);
+  // A pin of 26 mm through two lugs of 15 mm.
+  EXPECT_THAT(solidus::logging::warnings(),
+              ::testing::Contains(HasSubstr("'body_1' and 'body_2' have 15.7 cm3 in common")));
+}
+
+// Nine ways took a minute and said nine times that Gmsh had made no elements.
+TEST(DifficultShapes, BodiesThatOverlapAreNamedWhereGmshCannotMeshThem) {
+  try {
+    mesh::mesh_casting({pins_in_a_yoke(true), 1e-3}, in_a_mould(0));
+    ADD_FAILURE() << "meshed";
+  } catch (const mesh::UnusableGeometry& error) {
+    EXPECT_THAT(error.what(), HasSubstr("bodies overlap"));
+    EXPECT_THAT(error.what(), HasSubstr("cm3 in common"));
   }
 }
 

@@ -1,6 +1,7 @@
 // Makes the bodies of a casting, its riser and its mould out of a geometry (mesh/gmsh/casting_parts.hpp).
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <map>
 #include <set>
 
@@ -35,14 +36,14 @@ class PartMaker {
   PartMaker(const MeshSource& source, const CastingGeometry& geometry, double healing)
       : source_(source), geometry_(geometry), healing_(healing), unit_(source.unit_in_metres) {}
 
-  std::vector<BodyVolumes> make() {
+  CastingParts make() {
     close_shells();
     if (healing_ > 0) heal();
     name_parts();
     if (geometry_.symmetry) halve();
     fragment();
     occ::synchronize();
-    return std::move(parts_);
+    return {std::move(parts_), std::move(overlap_)};
   }
 
  private:
@@ -189,6 +190,7 @@ class PartMaker {
       objects.pop_back();
     }
     occ::fragment(objects, tools, out, map);
+    note_overlaps(map, part_of);
     std::set<int> taken;
     const auto take = [&](std::size_t input) {
       gmsh::vectorpair pieces;
@@ -209,6 +211,34 @@ class PartMaker {
       if (part.volumes.empty())
         refuse("nothing is left of the body '" + part.name + "' beside the others: they overlap",
                "bodies that touch and do not overlap");
+  }
+
+  /// @param pieces   of each volume of the file
+  /// @param part_of  the body of each, of those that are of a body
+  void note_overlaps(const std::vector<gmsh::vectorpair>& pieces, const std::vector<std::size_t>& part_of) {
+    constexpr double k_cm3 = 1e6, k_sliver = 1e-4;  // of the smaller body: neighbours whose faces do not fit
+    const std::size_t n = std::min(pieces.size(), part_of.size());
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = i + 1; j < n; ++j) {
+        if (part_of[i] == part_of[j]) continue;
+        const double of_i = volume_of(pieces[i]), of_j = volume_of(pieces[j]);
+        gmsh::vectorpair both;
+        for (const auto& piece : pieces[i])
+          if (std::count(pieces[j].begin(), pieces[j].end(), piece) > 0) both.push_back(piece);
+        const double common = volume_of(both), smaller = std::min(of_i, of_j);
+        if (common < k_sliver * smaller || common > (1 - k_sliver) * smaller) continue;
+        char text[32];
+        std::snprintf(text, sizeof text, "%.3g", common * unit_ * unit_ * unit_ * k_cm3);
+        overlap_ += (overlap_.empty() ? "'" : ", '") + parts_[part_of[i]].name + "' and '" +
+                    parts_[part_of[j]].name + "' have " + text + " cm3 in common";
+      }
+  }
+
+  static double volume_of(const gmsh::vectorpair& pieces) {
+    double sum = 0, one = 0;
+    for (const auto& [dimension, tag] : pieces)
+      if (dimension == 3) occ::getMass(3, tag, one), sum += one;
+    return sum;
   }
 
   int half_of(int volume) {
@@ -270,14 +300,14 @@ class PartMaker {
   const CastingGeometry& geometry_;
   double healing_, unit_;
   std::vector<BodyVolumes> parts_;
+  std::string overlap_;
   std::map<int, std::string> healed_label_;
   Extent block_{};
 };
 
 }  // namespace
 
-std::vector<BodyVolumes> make_parts(const MeshSource& source, const CastingGeometry& geometry,
-                                    double healing) {
+CastingParts make_parts(const MeshSource& source, const CastingGeometry& geometry, double healing) {
   return PartMaker(source, geometry, healing).make();
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "input/keys.hpp"
 #include "mesh/casting_geometry.hpp"
@@ -22,7 +23,11 @@ namespace {
 class Mesher {
  public:
   Mesher(const MeshSource& source, const CastingGeometry& geometry, const SolidWay& way)
-      : source_(source), geometry_(geometry), way_(way), parts_(make_parts(source, geometry, way.healing)) {}
+      : source_(source), geometry_(geometry), way_(way) {
+    CastingParts parts = make_parts(source, geometry, way.healing);
+    parts_ = std::move(parts.bodies);
+    overlap_ = std::move(parts.overlap);
+  }
 
   /// Throws UnusableGeometry where a size is of a body that is not there.
   void check_sizes() const {
@@ -46,6 +51,9 @@ class Mesher {
         mesh_once();
         return;
       } catch (const InputError&) {
+        if (!overlap_.empty())
+          throw UnusableGeometry({source_.path}, "bodies overlap, and Gmsh could not mesh them: " + overlap_,
+                                 "bodies that touch and do not overlap");
         if (!way_.cuts || cuts == k_most_cuts || !cut_along_seams(parts_, surfaces_at_fault())) throw;
         gmsh::model::mesh::clear();
         gmsh::logger::stop();  // what is complained of so far is mended
@@ -91,7 +99,11 @@ class Mesher {
       for (const auto& [volume, growth] : sizes.growth())
         if (!fields.contains(growth)) fields.emplace(growth, SizeField(all.low, all.high, sampled, growth));
       const SizeField* least = fields.empty() ? nullptr : &fields.begin()->second;
-      if (least != nullptr) tell_outlook(sizes.outlook(*least, source_.element_order));
+      if (least != nullptr) {
+        MeshingOutlook outlook = sizes.outlook(*least, source_.element_order);
+        if (geometry_.attempt == 0) outlook.overlap = overlap_;  // said once
+        tell_outlook(outlook);
+      }
       gmsh::model::mesh::setSizeCallback([&](int dimension, int tag, double x, double y, double z) {
         const auto limit = limits.find({dimension, tag});
         double size = limit != limits.end() ? limit->second : coarse;
@@ -140,6 +152,7 @@ class Mesher {
   const CastingGeometry& geometry_;
   const SolidWay& way_;
   std::vector<BodyVolumes> parts_;
+  std::string overlap_;  ///< of CastingParts
 };
 
 }  // namespace

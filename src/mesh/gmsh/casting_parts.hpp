@@ -33,12 +33,16 @@ struct BodyVolumes {
   gmsh::vectorpair volumes;
 };
 
+struct CastingParts {
+  std::vector<BodyVolumes> bodies;
+  std::string overlap;  ///< as in MeshingOutlook
+};
+
 /// The bodies of the geometry that Gmsh has open, closed, healed, halved, with riser and mould, cut with each
 /// other so that they share the faces in which they touch.
 /// @param healing  tolerance, of the extent of each body; 0: the bodies stay as the file has them
 /// Throws InputError where nothing solid is there, bodies overlap, or a group of the case fits none.
-std::vector<BodyVolumes> make_parts(const MeshSource& source, const CastingGeometry& geometry,
-                                    double healing);
+CastingParts make_parts(const MeshSource& source, const CastingGeometry& geometry, double healing);
 
 /// gmsh::model::mesh::generate(), whose errors come as std::string also where several threads mesh surfaces:
 /// Gmsh itself would end the process there.

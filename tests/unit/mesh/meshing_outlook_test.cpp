@@ -60,8 +60,9 @@ TEST(MeshingOutlook, ArrivesAsItWasAndIsRefusedWhereItIsNoNumber) {
     bytes.copy(static_cast<char*>(to), n, at);
     at += n;
   };
-  put_outlook({{1, 2, 3}, 4, 5, 6, 7}, put);
+  put_outlook({{1, 2, 3}, 4, 5, 6, 7, "'a' and 'b'"}, put);
   const MeshingOutlook back = take_outlook(take);
+  EXPECT_EQ(back.overlap, "'a' and 'b'");
   EXPECT_THAT(back.sides, ::testing::ElementsAre(1, 2, 3));
   EXPECT_EQ(back.volume, 4);
   EXPECT_EQ(back.smallest, 5);
