@@ -147,7 +147,7 @@ void moulds_as_hot_as_melt(const CaseSpec& spec, const Assembly& a, const CaseMe
            "moulds and cores at 20 to 400 degC, shells for precision casting up to 1100 degC"});
 }
 
-/// What binds sand burns or breaks long before it is as hot as a ceramic shell may be.
+/// The binder of sand burns or breaks long before it is as hot as a ceramic shell may be.
 void hot_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   constexpr double k_hottest = 673.15;  // [K]
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {

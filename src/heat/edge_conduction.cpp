@@ -122,7 +122,7 @@ double factor_of(const Simplex& s, const SingularFunctions& functions, unsigned 
   }
   const double exact = product(gradient[0], interpolated[0]) + product(gradient[1], interpolated[1]);
   const double own = product(interpolated[0], interpolated[0]) + product(interpolated[1], interpolated[1]);
-  // What is outside of this is of elements whose edge is not as straight as the functions have it.
+  // Elements whose edge is not as straight as the functions have it may have values outside of this.
   constexpr double k_least = 0.1, k_greatest = 1.25;
   return own > 0 ? std::clamp(exact / own, k_least, k_greatest) : 1.0;
 }

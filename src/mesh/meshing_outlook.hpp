@@ -1,4 +1,4 @@
-/// What a geometry that is about to be meshed will give: its extent and the expected number of nodes. The
+/// The outlook on a mesh before it is made: the extent of the geometry and the expected number of nodes. The
 /// reader of meshes tells it before the long part of its work begins (mesh/reader_process.hpp), so that a
 /// wrong unit or element size is named at once and not after the machine's memory has run out.
 #pragma once

@@ -184,7 +184,8 @@ MeshingOutlook take_outlook(const TakeBytes& take) {
   const auto numbers = take_number<std::array<double, 7>>(take);
   for (const double number : numbers)
     if (!std::isfinite(number) || number < 0) throw MessageError("an outlook that is no number");
-  return {{numbers[0], numbers[1], numbers[2]}, numbers[3], numbers[4], numbers[5], numbers[6], take_text(take)};
+  return {
+      {numbers[0], numbers[1], numbers[2]}, numbers[3], numbers[4], numbers[5], numbers[6], take_text(take)};
 }
 
 void put_mesh(const RawMesh& mesh, const PutBytes& put) {

@@ -32,7 +32,7 @@ class CastingSizes {
   /// Measures the thickness of the walls, narrow faces and short curves on a first mesh of the surfaces,
   /// which Gmsh holds.
   std::vector<SizeSample> samples();
-  /// What the mesh will be like, after samples().
+  /// The outlook on the mesh, after samples().
   /// @param field  of the samples: the size on all surfaces
   MeshingOutlook outlook(const SizeField& field, int element_order) const;
 

@@ -262,7 +262,7 @@ class FacetedMaker {
     return samples;
   }
 
-  /// What the mesh will be like, after limits_and_samples().
+  /// The outlook on the mesh, after limits_and_samples().
   MeshingOutlook outlook(const SizeField& field) const {
     MeshingOutlook o;
     Point low = all_.points.front(), high = low;

@@ -152,7 +152,7 @@ void check_constants(const std::string& path, const std::map<std::string, double
                                         : one_of(declared, name));
 }
 
-/// What the mesh of the geometry that Gmsh has will be like. Throws std::string where Gmsh complains. The
+/// The outlook on a mesh of the geometry that Gmsh has. Throws std::string where Gmsh complains. The
 /// sizes of a script are its own, and then nothing is expected of the number of nodes.
 MeshingOutlook outlook_of(const MeshSource& source, FileFormat format) {
   namespace occ = gmsh::model::occ;
