@@ -82,10 +82,13 @@ void SegmentKinematics::add_cells() {
 SegmentKinematics::Particle SegmentKinematics::particle(Index point) const {
   const std::size_t c = at(point);
   const auto nodes = slave_.nodes(face_[c]);
+  const bool counted = nodes[0] < n_owned_;
+  const bool met = covered_[c] > 0;
   return {.number = face_[c] * k_points_of_a_face + number_[c],
-          .counted = nodes[0]<n_owned_, .position = position_[c], .area = whole_[c], .weight = covered_[c]> 0
-                         ? covered_[c]
-                         : whole_[c],
+          .counted = counted,
+          .position = position_[c],
+          .area = whole_[c],
+          .weight = met ? covered_[c] : whole_[c],
           .nodes = nodes,
           .share = std::span(shape_[c]).first(nodes.size())};
 }

@@ -90,7 +90,7 @@ class Reader {
   /// Reads as much, whatever time it takes within the limit. Throws InputError where the reader ends before,
   /// or does not end.
   void take(void* bytes, std::size_t n);
-  /// What is told of the mesh from now on while it is waited for. Throws UnusableGeometry where it needs more
+  /// Takes what messages say of the mesh while it is waited for. Throws UnusableGeometry where it needs more
   /// memory than the reader may use.
   void hear(const MeshingOutlook& outlook);
   const std::string& program() const { return program_; }
@@ -217,7 +217,9 @@ void Reader::hear(const MeshingOutlook& outlook) {
   many_nodes_ = outlook.nodes > k_many;
   if (!outlook.overlap.empty())
     logging::warn(
-        "bodies of '{}' overlap: {}; it goes to the first of them, where CAD programs have bodies that touch",
+        "bodies of '{}' overlap: {}; the first of each two keeps it. Bodies that belong together touch: cut "
+        "one "
+        "out of the other",
         source_.path, outlook.overlap);
   if (many_nodes_)
     logging::warn(

@@ -16,7 +16,7 @@ namespace {
 /// no memory.
 constexpr int k_end_of_heap = 64 << 20;
 constexpr int k_most_arrays = 65536;  ///< the C library's own limit
-/// What the C library does is the program's matter: nothing changes before it has said so.
+/// Set by give_large_arrays_back(): other programs that use the library have their own ways with memory.
 bool gives_back = false;
 }  // namespace
 #endif

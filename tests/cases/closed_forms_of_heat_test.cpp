@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "case_folder.hpp"
+#include "quarter_ball.hpp"
 
 namespace {
 
@@ -59,30 +60,9 @@ struct Ball {
   }
 };
 
-std::string probe(const std::string& name, const std::string& field, const std::string& component, int radius,
-                  const std::string& unit) {
-  return fmt::format(
-      "[[probe]]\nname = \"{}\"\nfield = \"{}\"\n{}point = [\"{} mm\", \"0 mm\"]\nunit = \"{}\"\n", name,
-      field, component, radius, unit);
-}
-
 CaseRun quenched_ball(const CaseFolder& folder, const std::string& name, double size, double step) {
-  folder.write(name + ".geo", fmt::format(R"(h = {};
-Point(1) = {{0, 0, 0, h}};
-Point(2) = {{50, 0, 0, h}};
-Point(3) = {{0, 50, 0, h}};
-Line(1) = {{1, 2}};
-Circle(2) = {{2, 1, 3}};
-Line(3) = {{3, 1}};
-Line Loop(1) = {{1, 2, 3}};
-Plane Surface(1) = {{1}};
-Physical Line("equator") = {{1}};
-Physical Line("skin") = {{2}};
-Physical Line("axis") = {{3}};
-Physical Surface("ball") = {{1}};
-)",
-                                          size));
-  const std::string hoop = "component = \"tt\"\n";
+  folder.write(name + ".geo", solidus::testing::quarter_ball(size));
+  const std::string hoop = "tt";
   return folder.run(name, fmt::format(R"(title = "A ball is quenched"
 [analysis]
 kind = "axisymmetric"
@@ -110,10 +90,10 @@ kind = "displacement"
 uz = "0 mm"
 )",
                                       name, step) +
-                              probe("T_middle", "temperature", "", 0, "degC") +
-                              probe("T_skin", "temperature", "", 50, "degC") +
-                              probe("s_middle", "nodal_stress", hoop, 0, "MPa") +
-                              probe("s_skin", "nodal_stress", hoop, 50, "MPa"));
+                              solidus::testing::probe_on_equator("T_middle", "temperature", "", 0, "degC") +
+                              solidus::testing::probe_on_equator("T_skin", "temperature", "", 50, "degC") +
+                              solidus::testing::probe_on_equator("s_middle", "nodal_stress", hoop, 0, "MPa") +
+                              solidus::testing::probe_on_equator("s_skin", "nodal_stress", hoop, 50, "MPa"));
 }
 
 TEST(ClosedFormsOfHeat, AQuenchedBallHasTheTemperaturesAndStressesOfItsSeries) {

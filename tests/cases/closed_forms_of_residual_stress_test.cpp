@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "case_folder.hpp"
+#include "quarter_ball.hpp"
 
 namespace {
 
@@ -18,7 +19,7 @@ using solidus::testing::CaseFolder;
 using solidus::testing::CaseRun;
 
 /// A free ball of the radius b in steady state, with q heat per volume and time, T = T_middle − q r²/(6 k).
-/// Of an elastic ball σ_θ − σ_r = D r² with D = 2 E α/(5 (1 − ν)) q/(6 k) (S. P. Timoshenko, J. N. Goodier,
+/// While it is elastic σ_θ − σ_r = D r² with D = 2 E α/(5 (1 − ν)) q/(6 k) (S. P. Timoshenko, J. N. Goodier,
 /// Theory of Elasticity, 1951, § 136): it yields from its skin to the radius c = √(Y/D), where σ_θ − σ_r is
 /// the yield stress Y and equilibrium asks for σ_r = 2 Y ln(r/b); within, σ_r = 2 Y ln(c/b) + D (r² − c²).
 /// Without the source all of it unloads elastically while D b² < 2 Y. The stresses of a free body have no
@@ -42,33 +43,12 @@ struct YieldingBall {
   double moves() const { return b * alpha * (skin() - 20 + drop(b) * 2 / 5); }
 };
 
-std::string probe(const std::string& name, const std::string& field, const std::string& component, int radius,
-                  const std::string& unit) {
-  return fmt::format(
-      "[[probe]]\nname = \"{}\"\nfield = \"{}\"\n{}point = [\"{} mm\", \"0 mm\"]\nunit = \"{}\"\n", name,
-      field, component.empty() ? "" : "component = \"" + component + "\"\n", radius, unit);
-}
-
 /// Triangles of a size [mm] in a quarter of the ball's section.
 CaseRun heated_ball(const CaseFolder& folder, const std::string& name, double size,
                     const std::vector<std::string>& overrides = {}) {
-  folder.write(name + ".geo", fmt::format(R"(h = {};
-Point(1) = {{0, 0, 0, h}};
-Point(2) = {{50, 0, 0, h}};
-Point(3) = {{0, 50, 0, h}};
-Line(1) = {{1, 2}};
-Circle(2) = {{2, 1, 3}};
-Line(3) = {{3, 1}};
-Line Loop(1) = {{1, 2, 3}};
-Plane Surface(1) = {{1}};
-Physical Line("equator") = {{1}};
-Physical Line("skin") = {{2}};
-Physical Surface("ball") = {{1}};
-)",
-                                          size));
-  return folder.run(
-      name,
-      fmt::format(R"(title = "A ball is heated within, yields and cools"
+  folder.write(name + ".geo", solidus::testing::quarter_ball(size));
+  return folder.run(name,
+                    fmt::format(R"(title = "A ball is heated within, yields and cools"
 [analysis]
 kind = "axisymmetric"
 physics = "thermomechanical"
@@ -106,11 +86,14 @@ group = "equator"
 kind = "displacement"
 uz = "0 mm"
 )",
-                  name) +
-          probe("T_middle", "temperature", "", 0, "degC") + probe("T_skin", "temperature", "", 50, "degC") +
-          probe("s_0", "nodal_stress", "tt", 0, "MPa") + probe("s_30", "nodal_stress", "tt", 30, "MPa") +
-          probe("s_50", "nodal_stress", "tt", 50, "MPa") + probe("u", "displacement", "r", 50, "um"),
-      overrides);
+                                name) +
+                        solidus::testing::probe_on_equator("T_middle", "temperature", "", 0, "degC") +
+                        solidus::testing::probe_on_equator("T_skin", "temperature", "", 50, "degC") +
+                        solidus::testing::probe_on_equator("s_0", "nodal_stress", "tt", 0, "MPa") +
+                        solidus::testing::probe_on_equator("s_30", "nodal_stress", "tt", 30, "MPa") +
+                        solidus::testing::probe_on_equator("s_50", "nodal_stress", "tt", 50, "MPa") +
+                        solidus::testing::probe_on_equator("u", "displacement", "r", 50, "um"),
+                    overrides);
 }
 
 TEST(ClosedFormsOfResidualStress, ABallThatAHeatSourceMadeYieldKeepsTheStressesOfItsFlow) {

@@ -37,20 +37,25 @@ double force_at(ContactPair& pair, const mesh::Mesh& mesh, double shift) {
   return contact::sums(pair.view(), {}).force;
 }
 
+ContactParameters between_blocks(IntegrationRule rule) {
+  ContactParameters spec;
+  spec.name = "edge";
+  spec.slave = "upper_bottom";
+  spec.master = "lower_top";
+  spec.formulation = Formulation::large_sliding;
+  spec.integration = rule;
+  spec.penalty = 1e10;
+  spec.penalty_is_factor = false;
+  return spec;
+}
+
 TEST(FreeBoundary, IsLeftLittleByLittle) {
   for (const Shape shape : {Shape::quad4, Shape::quad8, Shape::hex8, Shape::tet10})
     for (const bool smoothing : {false, true})
       for (const IntegrationRule rule : {IntegrationRule::nodal, IntegrationRule::gauss}) {
         const mesh::Mesh mesh = test::two_blocks(shape);
-        ContactParameters spec;
-        spec.name = "edge";
-        spec.slave = "upper_bottom";
-        spec.master = "lower_top";
-        spec.formulation = Formulation::large_sliding;
+        ContactParameters spec = between_blocks(rule);
         spec.smoothing = smoothing;
-        spec.integration = rule;
-        spec.penalty = 1e10;
-        spec.penalty_is_factor = false;
         const auto kind = mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
         ContactPair pair(mesh, kind, std::move(spec));
         const double whole = force_at(pair, mesh, 0);
@@ -74,14 +79,7 @@ TEST(FreeBoundary, APointThatIsLeftInPartTakesItsShareOfSlipAndWear) {
   for (const Shape shape : {Shape::quad4, Shape::hex8})
     for (const IntegrationRule rule : {IntegrationRule::gauss, IntegrationRule::segments}) {
       const mesh::Mesh mesh = test::two_blocks(shape);
-      ContactParameters spec;
-      spec.name = "edge";
-      spec.slave = "upper_bottom";
-      spec.master = "lower_top";
-      spec.formulation = Formulation::large_sliding;
-      spec.integration = rule;
-      spec.penalty = 1e10;
-      spec.penalty_is_factor = false;
+      ContactParameters spec = between_blocks(rule);
       spec.friction = FrictionParameters{};
       spec.friction->coefficient.terms = {Table(0.3)};
       spec.friction->tangential_penalty = 1e12;

@@ -1,4 +1,4 @@
-// What is expected of a mesh before it is made.
+// The outlook on a mesh before it is made.
 #include "mesh/meshing_outlook.hpp"
 
 #include <gmock/gmock.h>
