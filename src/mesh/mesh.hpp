@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/input_numbers.hpp"
 #include "mesh/shape.hpp"
 #include "numbers/types.hpp"
 
@@ -20,10 +21,9 @@ namespace solidus::mesh {
 /// counts in sums: over all processes each element is counted exactly once.
 struct ElementBlock {
   Shape shape = Shape::tri3;
-  int body = -1;             ///< index into Mesh::bodies; −1 for faces of no body
-  std::vector<Index> nodes;  ///< [element][node] local numbers
-  std::vector<GlobalIndex>
-      input_element;  ///< number in the input file (for messages), same length as elements
+  int body = -1;               ///< index into Mesh::bodies; −1 for faces of no body
+  std::vector<Index> nodes;    ///< [element][node] local numbers
+  InputNumbers input_element;  ///< number in the input file (for messages), same length as elements
   Index n_counted = 0;
 
   Index size() const { return static_cast<Index>(nodes.size()) / node_count(shape); }
@@ -47,10 +47,9 @@ struct Body {
 struct Mesh {
   int dimension = 2;  ///< 2 or 3
   Index n_owned_nodes = 0;
-  std::vector<Point> x;                  ///< [local node] coordinates [m]
-  std::vector<GlobalIndex> global_node;  ///< [local node] number over all processes, contiguous per process
-  std::vector<GlobalIndex>
-      input_node;  ///< [local node] number in the input, the same whatever the number of processes
+  std::vector<Point> x;      ///< [local node] coordinates [m]
+  InputNumbers global_node;  ///< [local node] number over all processes, contiguous per process
+  InputNumbers input_node;   ///< [local node] number in the input, the same whatever the number of processes
   GlobalIndex n_global_nodes = 0;
   GlobalIndex first_owned = 0;  ///< global number of local node 0
 

@@ -206,7 +206,7 @@ QualityReport assess(const RawMesh& mesh, std::size_t n_worst) {
   std::vector<char> used(mesh.x.size(), 0);
   for (const auto& [name, group] : mesh.groups)
     for (const RawBlock& block : group.blocks) {
-      report.bytes += block.nodes.size() * sizeof(Index) + block.input_element.size() * sizeof(GlobalIndex);
+      report.bytes += block.nodes.size() * sizeof(Index) + block.input_element.bytes();
       if (group.dimension == mesh.dimension)
         for (const Index i : block.nodes) used[static_cast<std::size_t>(i)] = 1;
     }

@@ -13,7 +13,7 @@ namespace solidus::mesh {
 struct RawBlock {
   Shape shape;
   std::vector<Index> nodes;  ///< [element][node], numbers into RawMesh::x
-  std::vector<GlobalIndex> input_element;
+  InputNumbers input_element;
 };
 struct RawGroup {
   int dimension;  ///< of its elements; 0 for points

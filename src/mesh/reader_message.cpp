@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -12,6 +13,8 @@
 namespace solidus::mesh {
 
 namespace {
+
+constexpr std::size_t k_at_a_time = 8192;  // numbers
 
 template <class T>
 void put_number(T value, const PutBytes& put) {
@@ -44,6 +47,30 @@ std::vector<T> take_list(const TakeBytes& take, double& left) {
   return list;
 }
 
+/// Some thousand at a time, so that there is no second list of all of them with 8 bytes each.
+void put_numbers(const InputNumbers& numbers, const PutBytes& put) {
+  put_number<std::uint64_t>(numbers.size(), put);
+  for (std::size_t i = 0; i < numbers.size(); i += k_at_a_time) {
+    const std::vector<GlobalIndex> some = numbers.part(i, std::min(k_at_a_time, numbers.size() - i));
+    put(some.data(), some.size() * sizeof(GlobalIndex));
+  }
+}
+
+InputNumbers take_numbers(const TakeBytes& take, double& left) {
+  const auto n = take_number<std::uint64_t>(take);
+  left -= static_cast<double>(n) * sizeof(GlobalIndex);
+  if (left < 0) throw MessageError("the mesh is larger than its limit");
+  InputNumbers numbers;
+  numbers.reserve(n);
+  std::vector<GlobalIndex> some;
+  while (numbers.size() < n) {
+    some.resize(std::min<std::size_t>(k_at_a_time, n - numbers.size()));
+    take(some.data(), some.size() * sizeof(GlobalIndex));
+    for (const GlobalIndex number : some) numbers.push_back(number);
+  }
+  return numbers;
+}
+
 void put_group_choice(const GeometryGroup& group, const PutBytes& put) {
   put_text(group.name, put);
   put_number(group.bodies, put);
@@ -68,7 +95,7 @@ RawBlock take_block(const TakeBytes& take, double& left, std::size_t n_nodes) {
   const auto shape = take_number<int>(take);
   if (shape < 0 || shape > static_cast<int>(Shape::hex20)) throw MessageError("an element of no shape");
   RawBlock block{static_cast<Shape>(shape), take_list<Index>(take, left), {}};
-  block.input_element = take_list<GlobalIndex>(take, left);
+  block.input_element = take_numbers(take, left);
   const auto per_element = static_cast<std::size_t>(node_count(block.shape));
   if (block.nodes.size() != per_element * block.input_element.size())
     throw MessageError("elements without their nodes");
@@ -200,7 +227,7 @@ void put_mesh(const RawMesh& mesh, const PutBytes& put) {
     for (const RawBlock& block : group.blocks) {
       put_number(static_cast<int>(block.shape), put);
       put_list(block.nodes, put);
-      put_list(block.input_element, put);
+      put_numbers(block.input_element, put);
     }
   }
 }

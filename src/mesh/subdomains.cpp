@@ -111,7 +111,8 @@ std::size_t Subdomains::element_bytes(int process) const {
   const auto add = [&](const RawBlock& block, const std::vector<Elements>& of_process) {
     const Elements& elements = of_process[at(process)];
     bytes += (elements.counted.size() + elements.others.size()) *
-             (at(node_count(block.shape)) * sizeof(Index) + sizeof(GlobalIndex));
+             (at(node_count(block.shape)) * sizeof(Index) +
+              (block.input_element.is_wide() ? sizeof(GlobalIndex) : sizeof(Index)));
   };
   for (std::size_t b = 0; b < volumes_.size(); ++b) add(*whole_.blocks[b], volumes_[b]);
   for (std::size_t s = 0; s < faces_.size(); ++s)
@@ -139,8 +140,14 @@ std::vector<char> Subdomains::pack(int process) {
     for (const Index i : nodes) p.put_values(&values[at(i)], 1);
   };
   put_of_nodes(raw_.x);
-  put_of_nodes(whole_.number);
-  put_of_nodes(raw_.input_node);
+  const auto put_numbers_of_nodes = [&](const std::vector<GlobalIndex>& numbers) {
+    InputNumbers here;
+    here.reserve(nodes.size());
+    for (const Index i : nodes) here.push_back(numbers[at(i)]);
+    here.pack(p);
+  };
+  put_numbers_of_nodes(whole_.number);
+  put_numbers_of_nodes(raw_.input_node);
   p.put_size(bodies_.size());
   for (const std::string& name : bodies_) p.put(name);
   const auto put_block = [&](const RawBlock& block, int body, Elements& elements) {
@@ -154,12 +161,12 @@ std::vector<char> Subdomains::pack(int process) {
         for (std::size_t a = 0; a < nn; ++a) local[a] = local_[at(block.nodes[at(e) * nn + a])];
         p.put_values(local.data(), nn);
       }
-    p.put_size(n_elements);
+    InputNumbers numbers;
+    numbers.reserve(n_elements);
     for (const auto* list : {&elements.counted, &elements.others})
-      for (const Index e : *list) {
-        const GlobalIndex number = block.input_element.empty() ? 0 : block.input_element[at(e)];
-        p.put_values(&number, 1);
-      }
+      for (const Index e : *list)
+        numbers.push_back(block.input_element.empty() ? 0 : block.input_element[at(e)]);
+    numbers.pack(p);
     elements = {};
   };
   p.put_size(volumes_.size());
@@ -193,8 +200,8 @@ Mesh unpack_part(const std::vector<char>& buffer) {
   mesh.n_global_nodes = numbers[2];
   mesh.first_owned = numbers[3];
   mesh.x = u.vector<Point>();
-  mesh.global_node = u.vector<GlobalIndex>();
-  mesh.input_node = u.vector<GlobalIndex>();
+  mesh.global_node = InputNumbers(u);
+  mesh.input_node = InputNumbers(u);
   for (std::size_t n = u.size(); n > 0; --n) mesh.bodies.push_back({u.string()});
   const auto take_block = [&u] {
     const BlockHeader header = u.vector<BlockHeader>().front();
@@ -203,7 +210,7 @@ Mesh unpack_part(const std::vector<char>& buffer) {
     block.body = header.body;
     block.n_counted = header.n_counted;
     block.nodes = u.vector<Index>();
-    block.input_element = u.vector<GlobalIndex>();
+    block.input_element = InputNumbers(u);
     return block;
   };
   for (std::size_t n = u.size(); n > 0; --n) mesh.blocks.push_back(take_block());

@@ -44,7 +44,8 @@ struct GhostExchange::Implementation {
 
 GhostExchange::GhostExchange(const mesh::Mesh& mesh)
     : GhostExchange(mesh.n_owned_nodes, mesh.first_owned,
-                    std::span(mesh.global_node).subspan(static_cast<std::size_t>(mesh.n_owned_nodes))) {}
+                    mesh.global_node.part(static_cast<std::size_t>(mesh.n_owned_nodes),
+                                          static_cast<std::size_t>(mesh.n_nodes() - mesh.n_owned_nodes))) {}
 
 GhostExchange::GhostExchange(Index n_owned, GlobalIndex first_owned, std::span<const GlobalIndex> ghosts)
     : n_owned_nodes_(n_owned), implementation_(std::make_unique<Implementation>()) {

@@ -141,7 +141,7 @@ class Driver {
     d["types"] = py::array_t<std::uint8_t>(py::cast(types));
     d["body"] = py::array_t<std::int32_t>(py::cast(body));
     d["element"] = py::array_t<std::int64_t>(py::cast(element));
-    d["node"] = py::array_t<std::int64_t>(py::cast(m.input_node));
+    d["node"] = py::array_t<std::int64_t>(py::cast(m.input_node.part(0, m.input_node.size())));
     d["owned"] = m.n_owned_nodes;
     return d;
   }

@@ -82,7 +82,8 @@ std::vector<double> pack_history(const mesh::ElementBlock& block, const mechanic
 
 using Places = std::unordered_map<std::int64_t, std::size_t>;
 
-Places places_of(const std::vector<GlobalIndex>& numbers) {
+template <class Numbers>
+Places places_of(const Numbers& numbers) {
   Places places;
   places.reserve(numbers.size());
   for (std::size_t i = 0; i < numbers.size(); ++i) places.emplace(numbers[i], i);
@@ -255,7 +256,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   out.numbers("numbers", numbers_of(c));
 
   const auto owned = static_cast<std::size_t>(mesh.n_owned_nodes);
-  out.rows<std::int64_t>("node", 1, std::span(mesh.input_node).first(owned));
+  out.rows<std::int64_t>("node", 1, mesh.input_node.part(0, owned));
   const auto nodal = [&](const char* name, const std::vector<double>& field) {
     const std::size_t width = mesh.x.empty() ? 0 : field.size() / mesh.x.size();
     out.rows<double>(name, static_cast<int>(width), std::span(field).first(owned * width));
@@ -302,7 +303,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
     const mechanics::BlockHistory& history = c.state.mechanics.history[b];
     const std::string name = block_name(mesh, b);
     out.rows<std::int64_t>(name + "/element", 1,
-                           std::span(block.input_element).first(static_cast<std::size_t>(block.n_counted)));
+                           block.input_element.part(0, static_cast<std::size_t>(block.n_counted)));
     const int width = history.n_points * history.n_components;
     out.rows<double>(name + "/values", width, pack_history(block, history));
     if (c.state.mechanics.dt_before > 0)

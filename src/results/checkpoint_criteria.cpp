@@ -1,6 +1,7 @@
 #include "results/checkpoint_criteria.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <vector>
 
@@ -23,21 +24,24 @@ std::string element_path(std::size_t block, const std::string& name) {
 
 /// Rows of a column that belong to all nodes, or to the elements of a block.
 struct Part {
-  std::size_t first = 0, owned = 0;      ///< rows of the column; those that this process writes
-  std::span<const GlobalIndex> numbers;  ///< in the input, one per row
-  std::string keys, values;              ///< tables of the file
+  std::size_t first = 0, owned = 0;                ///< rows of the column; those that this process writes
+  std::size_t here = 0;                            ///< rows that this process has
+  std::function<GlobalIndex(std::size_t)> number;  ///< of a row, in the input
+  std::string keys, values;                        ///< tables of the file
 };
 
 std::vector<Part> parts(const mesh::Mesh& mesh, const CriterionRecord& record,
                         const CriterionColumn& column) {
   const std::string values = path(record, column.name);
   if (column.place == mesh::FieldPlace::node)
-    return {{0, static_cast<std::size_t>(mesh.n_owned_nodes), mesh.input_node, "node", values}};
+    return {{0, static_cast<std::size_t>(mesh.n_owned_nodes), mesh.input_node.size(),
+             [&mesh](std::size_t row) { return mesh.input_node[row]; }, "node", values}};
   std::vector<Part> result;
   std::size_t first = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const mesh::ElementBlock& block = mesh.blocks[b];
-    result.push_back({first, static_cast<std::size_t>(block.n_counted), block.input_element,
+    result.push_back({first, static_cast<std::size_t>(block.n_counted), block.input_element.size(),
+                      [&block](std::size_t row) { return block.input_element[row]; },
                       element_path(b, "element"), element_path(b, record.name + "_" + column.name)});
     first += block.input_element.size();
   }
@@ -53,7 +57,7 @@ bool has_cells(const criteria::CriteriaState& state) {
 
 void take_part(TableReader& in, const Part& part, CriterionColumn& column) {
   std::unordered_map<std::int64_t, std::size_t> places;
-  for (std::size_t i = 0; i < part.numbers.size(); ++i) places.emplace(part.numbers[i], i);
+  for (std::size_t i = 0; i < part.here; ++i) places.emplace(part.number(i), i);
   const auto width = static_cast<std::size_t>(column.components);
   std::size_t taken = 0;
   in.each(part.keys, part.values, [&](std::int64_t number, std::span<const double> row) {
@@ -73,7 +77,7 @@ void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::Cr
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
       out.rows<std::int64_t>(
           element_path(b, "element"), 1,
-          std::span(mesh.blocks[b].input_element).first(static_cast<std::size_t>(mesh.blocks[b].n_counted)));
+          mesh.blocks[b].input_element.part(0, static_cast<std::size_t>(mesh.blocks[b].n_counted)));
   for (const CriterionRecord& record : state.records) {
     for (const criteria::CriterionColumn& column : record.columns) {
       const auto width = static_cast<std::size_t>(column.components);

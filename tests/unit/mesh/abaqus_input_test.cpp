@@ -80,7 +80,7 @@ TEST(AbaqusInput, NodesElementsSetsAndSurfacesAreRead) {
   EXPECT_DOUBLE_EQ(raw.x[4][1], 0.01);
   EXPECT_EQ(raw.groups.at("Quads").blocks.at(0).shape, Shape::quad4);
   EXPECT_EQ(raw.groups.at("Tris").blocks.at(0).nodes, (std::vector<Index>{1, 2, 5, 1, 5, 4}));
-  EXPECT_EQ(raw.groups.at("some").blocks.at(0).input_element, (std::vector<GlobalIndex>{12, 13}));
+  EXPECT_EQ(raw.groups.at("some").blocks.at(0).input_element, (InputNumbers{12, 13}));
   EXPECT_EQ(raw.groups.at("both").blocks.size(), 2u);
   EXPECT_EQ(raw.groups.at("left").dimension, 0);
   EXPECT_EQ(raw.groups.at("left").blocks.at(0).nodes, (std::vector<Index>{0, 3}));
