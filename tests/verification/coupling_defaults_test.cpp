@@ -41,9 +41,9 @@ double difference(const CaseRun& found, const CaseRun& exact, const std::string&
   return largest / (*high - *low);
 }
 
-constexpr double k_coupling = 0.36;           // δ
-constexpr double k_length = 0.1;              // [m]
-constexpr double k_diffusion_time = 100;      // l²/a [s]
+constexpr double k_coupling = 0.36;             // δ
+constexpr double k_length = 0.1;                // [m]
+constexpr double k_diffusion_time = 100;        // l²/a [s]
 constexpr std::array k_times{5.0, 10.0, 20.0};  // [s]
 
 /// The layer of analytic/coupled_layer.hpp as a case, with probes at quarters of its length; as many steps
@@ -85,7 +85,8 @@ unit = "Pa"
   for (const auto& [group, component] :
        {std::pair{"x_min", "ux"}, {"x_max", "ux"}, {"y_min", "uy"}, {"y_max", "uy"}})
     text += fmt::format(
-        "[[mechanical_condition]]\nname = \"{0}\"\ngroup = \"{0}\"\nkind = \"displacement\"\n{1} = \"0 mm\"\n",
+        "[[mechanical_condition]]\nname = \"{0}\"\ngroup = \"{0}\"\nkind = \"displacement\"\n{1} = \"0 "
+        "mm\"\n",
         group, component);
   for (int i = 0; i < 4; ++i)
     text += fmt::format(
@@ -124,11 +125,11 @@ Errors errors(const CaseRun& run) {
     for (int i = 0; i <= 100; ++i) largest = std::max(largest, std::abs(exact.displacement(0.01 * i, time)));
     for (int i = 0; i < 4; ++i) {
       const double rise = at(run.history, fmt::format("T{}[K]", i), seconds) - LinearSolid::k_start;
-      e.temperature = std::max(e.temperature,
-                               std::abs(rise / LinearSolid::k_rise - exact.temperature(0.25 * i, time)));
+      e.temperature =
+          std::max(e.temperature, std::abs(rise / LinearSolid::k_rise - exact.temperature(0.25 * i, time)));
       const double moved = 1e-9 * at(run.history, fmt::format("u{}[nm]", i), seconds);
-      u = std::max(u, std::abs(moved / (solid.displacement() * k_length) -
-                               exact.displacement(0.25 * i, time)));
+      u = std::max(u,
+                   std::abs(moved / (solid.displacement() * k_length) - exact.displacement(0.25 * i, time)));
     }
     e.displacement = std::max(e.displacement, u / largest);
     e.pressure = std::max(e.pressure, std::abs(-at(run.history, "stress[Pa]", seconds) / solid.stress() -
@@ -149,8 +150,8 @@ TEST(CouplingDefaults, ACoupledLayerNearsItsSeriesWhenStepsAndElementsAreHalved)
     const CaseRun usual = folder.run(name, layer_case(quads)),
                   tight = folder.run(name + "_tight", layer_case(quads), k_tight);
     ASSERT_TRUE(usual.finished && tight.finished) << usual.reason << tight.reason;
-    for (const std::string column : {"T0[K]", "T1[K]", "T2[K]", "T3[K]", "u1[nm]", "u2[nm]", "u3[nm]",
-                                     "stress[Pa]"})
+    for (const std::string column :
+         {"T0[K]", "T1[K]", "T2[K]", "T3[K]", "u1[nm]", "u2[nm]", "u3[nm]", "stress[Pa]"})
       EXPECT_LT(difference(usual, tight, column), 5e-6) << column << ", " << quads;
     const Errors e = all.emplace_back(errors(usual));
     out << quads << "," << e.temperature << "," << e.displacement << "," << e.pressure << "\n";
@@ -220,7 +221,8 @@ uz = "0 mm"
     text += fmt::format(
         "[[probe]]\nname = \"u_{0}\"\nfield = \"displacement\"\ncomponent = \"r\"\n"
         "point = [\"{1} mm\", \"0 mm\"]\nunit = \"mm\"\n"
-        "[[probe]]\nname = \"T_{0}\"\nfield = \"temperature\"\npoint = [\"{1} mm\", \"0 mm\"]\nunit = \"K\"\n",
+        "[[probe]]\nname = \"T_{0}\"\nfield = \"temperature\"\npoint = [\"{1} mm\", \"0 mm\"]\nunit = "
+        "\"K\"\n",
         name, radius);
   return text;
 }
@@ -244,8 +246,8 @@ TEST(CouplingDefaults, PassesThatAgreeAreTheTightSolutionOfBothFieldsAtOnce) {
   }
 }
 
-// The double pass and two stages of both fields at once are different methods of second order: what is left of
-// their difference is the step's, most of it in the first steps after the jump of the film's temperature.
+// The double pass and two stages of both fields at once are different methods of second order: what is left
+// of their difference is the step's, most of it in the first steps after the jump of the film's temperature.
 TEST(CouplingDefaults, TheDoublePassIsThatOfTightToleranceAndNearBothFieldsAtOnce) {
   auto out = verification::table("coupling_defaults_double_pass", "material,probe,from_tight[range]");
   const CaseFolder folder("coupling_defaults_double_pass");
@@ -261,9 +263,9 @@ TEST(CouplingDefaults, TheDoublePassIsThatOfTightToleranceAndNearBothFieldsAtOnc
       out << material << "," << probe << "," << d << "\n";
     }
     if (material != "te_x1") continue;
-    const CaseRun at_once = folder.run(
-        material + "_at_once", text,
-        with({"coupling.scheme=\"simultaneous\"", "coupling.integration=\"sdirk2\""}, k_tight));
+    const CaseRun at_once =
+        folder.run(material + "_at_once", text,
+                   with({"coupling.scheme=\"simultaneous\"", "coupling.integration=\"sdirk2\""}, k_tight));
     ASSERT_TRUE(at_once.finished) << at_once.reason;
     for (const std::string probe : k_probes) {
       EXPECT_LT(difference(usual, at_once, probe, 100), 8e-5) << probe;
