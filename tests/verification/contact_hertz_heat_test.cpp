@@ -1,8 +1,9 @@
 /// Heat through a Hertz contact: a warm ball pressed on a cold block of the same metal by a given force, as
 /// case files that set nothing but the interface.
 ///
-///          │ 120 °C, F        1/(2 k a)    between half spaces whose contact, of radius a, is at one temperature
-///          │ upper  ╱         0.6/(k a)    between their mean temperatures, where the flux goes with Hertz's
+///          │ 120 °C, F        1/(2 k a)    between half spaces whose contact, of radius a, is at one
+///          temperature │ upper  ╱         0.6/(k a)    between their mean temperatures, where the flux goes
+///          with Hertz's
 ///   x = 0  │     _╱                        pressure, q = q_0 √(1 − r²/a²)
 ///          ├───''─────────    − 2·0.35245 ε/(k a)   both in cylinders of radius b, ε = a/b, whose length L
 ///          │ lower                                  adds L/(π k b²) each
@@ -13,9 +14,9 @@
 /// pressure the temperature of a face is π q_0 (2 a² − r²)/(8 k a), as its displacement under that pressure;
 /// weighted by the flux it makes 0.3/(k a) each.
 ///
-/// Both bodies expand with heat. The temperature is the mean of both ends and a part that changes sign with z.
-/// The expansion by that part moves both faces alike, so that pressures and radius of the contact remain those
-/// of Hertz, however much heat passes.
+/// Both bodies expand with heat. The temperature is the mean of both ends and a part that changes sign with
+/// z. The expansion by that part moves both faces alike, so that pressures and radius of the contact remain
+/// those of Hertz, however much heat passes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -36,15 +37,16 @@ using testing::CaseFolder;
 using testing::CaseRun;
 using verification::BallOnBlock;
 
-constexpr double k_conductivity = 40, k_warmer = 100;             // [W/(m K)], [K]
-constexpr double k_star = 200e9 / (1 - 0.3 * 0.3) / 2;            // E* [Pa]
-constexpr double k_contact = 0.01;                                // a [m]
+constexpr double k_conductivity = 40, k_warmer = 100;                           // [W/(m K)], [K]
+constexpr double k_star = 200e9 / (1 - 0.3 * 0.3) / 2;                          // E* [Pa]
+constexpr double k_contact = 0.01;                                              // a [m]
 constexpr double k_force = 4 * k_star * k_contact * k_contact * k_contact / 3;  // of R = 1 m [N]
 constexpr double k_area = std::numbers::pi * k_contact * k_contact;
 constexpr double k_pressure = 1.5 * k_force / k_area;  // p_0 [Pa]
 constexpr double k_width = BallOnBlock{}.width, k_slender = k_contact / k_width;
 
-const double k_through_bodies = 2 * k_width / (k_conductivity * std::numbers::pi * k_width * k_width);  // [K/W]
+const double k_through_bodies =
+    2 * k_width / (k_conductivity * std::numbers::pi * k_width * k_width);  // [K/W]
 
 const std::string k_metal = R"(
 density = "7800 kg/m3"
@@ -146,13 +148,13 @@ TEST(HertzHeat, ThroughAContactThatConductsWellIsThatOfHolm) {
   auto out = verification::table("contact_hertz_heat", "law,n,heat[exact],p0[exact]");
   constexpr double conductance = 1e6;  // [W/(m² K)], 0.3 % of the resistance
   const double psi = 1 - 1.40978 * k_slender + 0.34406 * std::pow(k_slender, 3);
-  const double exact = k_warmer / (k_through_bodies + psi / (2 * k_conductivity * k_contact) +
-                                   1 / (conductance * k_area));
+  const double exact =
+      k_warmer / (k_through_bodies + psi / (2 * k_conductivity * k_contact) + 1 / (conductance * k_area));
   for (const bool penalty : {false, true})
     for (const int n : {24, 40}) {
-      const CaseRun run =
-          Ball().run("holm", n, k_steady,
-                     "conductance = \"1e6 W/m2/K\"\ngap_law = \"gas\"\ngas_conductivity = \"1e-7 W/m/K\"", penalty);
+      const CaseRun run = Ball().run(
+          "holm", n, k_steady,
+          "conductance = \"1e6 W/m2/K\"\ngap_law = \"gas\"\ngas_conductivity = \"1e-7 W/m/K\"", penalty);
       ASSERT_TRUE(run.finished) << run.reason;
       const double heat = run.history.at("contact_heat[W]").back() / exact,
                    pressure = run.history.at("p_0[Pa]").back() / k_pressure;
@@ -167,7 +169,8 @@ TEST(HertzHeat, ThroughAConductanceThatGrowsWithPressureIsThatOfTheForce) {
   auto out = verification::table("contact_hertz_heat_of_pressure", "law,n,heat[exact]");
   constexpr double resistance = 20, hardness = 1e9;  // [K/W], [Pa]
   const double exact =
-      k_warmer / (k_through_bodies + (0.6 - 2 * 0.35245 * k_slender) / (k_conductivity * k_contact) + resistance);
+      k_warmer /
+      (k_through_bodies + (0.6 - 2 * 0.35245 * k_slender) / (k_conductivity * k_contact) + resistance);
   for (const bool penalty : {false, true}) {
     double coarse = 0;
     for (const int n : {16, 32}) {
@@ -192,7 +195,8 @@ TEST(HertzHeat, ThroughAConductanceThatGrowsWithPressureIsThatOfTheForce) {
 // Whether points at the edge of the contact are open or closed is decided in every step anew.
 TEST(HertzHeat, StandsStillWhenTheBodiesHaveWarmed) {
   auto out = verification::table("contact_hertz_heat_in_time", "law,spread[steady],off[steady]");
-  const std::string heat = "conductance = \"1e4 W/m2/K\"\ngap_law = \"gas\"\ngas_conductivity = \"0.03 W/m/K\"";
+  const std::string heat =
+      "conductance = \"1e4 W/m2/K\"\ngap_law = \"gas\"\ngas_conductivity = \"0.03 W/m/K\"";
   for (const bool penalty : {false, true}) {
     const CaseRun steady = Ball().run("rest", 24, k_steady, heat, penalty),
                   in_time = Ball().run("time", 24, "end = \"20000 s\"\nstep = \"500 s\"", heat, penalty);
