@@ -107,7 +107,7 @@ def draw_hardening(images):
     return style.save(figure, images, "sheet_sliding_7_11a", vector=False)
 
 
-CYCLE = ((0, "(a) before the press"), (15, "(b) it slides, half way"), (25, "(c) the end of the stroke, still pressed"),
+CYCLE = ((0, "(a) before the press"), (15, "(b) it slides, half way"), (30, "(c) at the end of the stroke, the force released"),
          (31, "(d) lifted, on its way back"))
 
 

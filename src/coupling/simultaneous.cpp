@@ -32,6 +32,9 @@ constexpr int k_whole_turns = 8;
 constexpr double k_settled = 1e-9;
 /// The difference that may be left where the residuals with the new fractions are within the tolerances.
 constexpr double k_balanced = 1e-3;
+/// Plastic work of the second of two stages over that of the first, below which the plastic strain that the
+/// second one starts from has gone too far: one where flow is steady, 0.22 where a load has jumped.
+constexpr double k_flow_falls = 0.5;
 
 const Phases& checked(const Phases& phases, const SimultaneousOptions& options) {
   if (phases.heat == nullptr || phases.mechanics == nullptr)
@@ -99,7 +102,9 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
     effort = *found;
   } else {
     logging::debug(
-        "both fields: the step to t = {:g} s would overshoot or finds no solution; it is of first order",
+        "both fields: the step to t = {:g} s would overshoot, in heat or in flow, or finds no solution; it "
+        "is of "
+        "first order",
         time);
     drop_carried();
     deformation.clear();  // its storage serves again
@@ -165,6 +170,9 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
     throw;
   }
   if (extrapolated && thermal.overshoots(trial.heat)) return std::nullopt;
+  // The second stage starts from a plastic strain that goes on as in the first, and flow does not go back.
+  if (extrapolated && effort.energy.plastic_work < k_flow_falls * of_first.energy.plastic_work)
+    return std::nullopt;
   deformation = drop_carried();
   if (phases_.structural != nullptr) phases_.structural->set_deformation(deformation);
   effort.energy.add_first_stage(of_first.energy, carried);
