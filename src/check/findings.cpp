@@ -35,6 +35,7 @@ Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   find_partly_in_contact(spec, a, found);
   find_in_numerics(spec, a, m, found);
   find_in_roles(spec, a, m, found);
+  find_in_moulds(spec, a, m, found);
   find_in_risers(spec, a, m, found);
   find_in_open_risers(spec, a, m, found);
   find_in_burning(spec, a, m, found);

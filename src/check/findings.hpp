@@ -78,9 +78,11 @@ void find_partly_in_contact(const CaseSpec& spec, const Assembly& a, Findings& f
 void find_in_numerics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Chills, moulds, risers and criteria that do not fit what they are to the foundry.
 void find_in_roles(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
-/// Risers that freeze before what they feed, stand apart or are larger, cores and chills that are swapped,
-/// moulds as hot as melt, sand that is too hot and moulds in kelvins, melt that does not deform beside melt
-/// that does, and pressures that no sand stands. Collective.
+/// Moulds of coating, walls of metres, and thin walls of sand that a condition holds cold. Collective.
+void find_in_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Risers that freeze before what they feed, stand apart, below it or are larger, cores and chills that are
+/// swapped, moulds as hot as melt, sand that is too hot and moulds in kelvins, melt that does not deform
+/// beside melt that does, and pressures that no sand stands. Collective.
 void find_in_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Risers that are open beside and not on top, as gravity acts, and open ones that nothing cools. Collective.
 void find_in_open_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);

@@ -229,13 +229,16 @@ void steps(const CaseSpec& spec, Findings& findings) {
                         "some hundred steps; time.adaptive chooses them"});
 }
 
-/// A table of time that begins when the run has ended is a number in it, and of one that goes on for long
-/// after it the run sees next to nothing.
-void tables_of_later(const CaseSpec& spec, Findings& findings) {
+/// A table of time that begins when the run has ended is a number in it, of one that goes on for long after
+/// it the run sees next to nothing, and one that ends when the run has hardly begun is a number from then on.
+/// Two points are a ramp, and tables of motion often end early: a tool moves and stays.
+void tables_of_other_times(const CaseSpec& spec, Findings& findings) {
   if (spec.time.steady || !spec.time.end) return;
-  const auto compare = [&](const std::string& what, const Function& f, const SourceLocation& where) {
+  const auto compare = [&](const std::string& what, const Function& f, const SourceLocation& where,
+                           bool may_end) {
     if (f.place != nullptr || f.of != Argument::time || f.table.constant()) return;
-    constexpr double k_second = 5, k_last = 20;  // times the end
+    constexpr double k_second = 5, k_last = 20, k_over = 0.01;  // times the end
+    constexpr std::size_t k_ramp = 2;                           // points
     const double end = *spec.time.end;
     const auto say = [&](const char* what_it_does, double at) {
       findings.push_back(
@@ -250,14 +253,16 @@ void tables_of_later(const CaseSpec& spec, Findings& findings) {
       say("has its second point at", x[1]);
     else if (x[x.size() - 1] > k_last * end)
       say("goes on to", x[x.size() - 1]);
+    else if (!may_end && x.size() > k_ramp && x[x.size() - 1] < k_over * end)
+      say("ends at", x[x.size() - 1]);
   };
   for (const ThermalConditionSpec& c : spec.thermal_conditions)
     for (const Function* f : {&c.coefficient, &c.ambient, &c.temperature, &c.flux, &c.emissivity, &c.power})
-      compare("'" + c.name + "'", *f, c.where);
+      compare("'" + c.name + "'", *f, c.where, !c.stages.empty());
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
-    compare("'" + c.name + "'", c.pressure, c.where);
+    compare("'" + c.name + "'", c.pressure, c.where, true);
     for (const auto* u : {&c.ux, &c.uy, &c.uz, &c.ur})
-      if (*u) compare("'" + c.name + "'", **u, c.where);
+      if (*u) compare("'" + c.name + "'", **u, c.where, true);
   }
 }
 
@@ -329,7 +334,7 @@ void find_in_conditions(const CaseSpec& spec, const Assembly& a, const CaseMeasu
   if (spec.has_heat()) tolerance(spec, a, findings);
   if (spec.has_heat()) rooms_in_kelvins(spec, a, findings);
   outputs(spec, findings);
-  tables_of_later(spec, findings);
+  tables_of_other_times(spec, findings);
   size(spec, a, findings);
 }
 

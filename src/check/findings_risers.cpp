@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "build/mechanics_input.hpp"
 #include "case/roles.hpp"
 #include "check/findings.hpp"
 #include "input/units.hpp"
@@ -81,6 +84,48 @@ void risers_larger_than_castings(const CaseSpec& spec, const CaseMeasures& m, Fi
                       fmt::format("what is poured as riser ('{}') is {:.2g} times as large as what it feeds",
                                   spec.bodies[largest->body].name, risers / castings),
                       "a tenth of the casting's volume to all of it; are the groups swapped?"});
+}
+
+/// Ends of the box of a body against gravity [m].
+struct Heights {
+  double low = 0, high = 0;
+};
+
+Heights heights(const BodyMeasures& body, const std::array<double, 3>& gravity) {
+  const double size = std::hypot(gravity[0], gravity[1], gravity[2]);
+  Heights ends;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const double first = -gravity[d] / size * body.low[d], second = -gravity[d] / size * body.high[d];
+    ends.low += std::min(first, second), ends.high += std::max(first, second);
+  }
+  return ends;
+}
+
+/// Melt flows down out of a riser: one whose top is below the middle of all castings that it touches feeds
+/// nothing. Feeders that [criteria] names: findings_freezing.cpp.
+void risers_below_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  const std::array<double, 3> g = gravity(spec.analysis);
+  if (!(std::hypot(g[0], g[1], g[2]) > 0)) return;
+  for (const Pour& riser : m.pours) {
+    const std::vector<std::string>& named = spec.criteria.feeders;
+    if (!is_riser(spec, riser) ||
+        std::ranges::find(named, spec.bodies[riser.body].mesh_group()) != named.end())
+      continue;
+    const double top = heights(m.bodies[riser.body], g).high;
+    const Pour* fed = nullptr;
+    bool above = false;
+    for (const Pour& casting : m.pours) {
+      if (is_riser(spec, casting) || m.bodies[riser.body].shared_nodes[casting.body] == 0) continue;
+      const Heights of_casting = heights(m.bodies[casting.body], g);
+      fed = &casting;
+      above = above || top > 0.5 * (of_casting.low + of_casting.high);
+    }
+    if (fed == nullptr || above) continue;
+    findings.push_back({false, spec.bodies[riser.body].where,
+                        fmt::format("the riser '{}' ends below the middle of '{}', as gravity acts",
+                                    spec.bodies[riser.body].name, spec.bodies[fed->body].name),
+                        "risers stand above what they feed or beside its top; is gravity_direction right?"});
+  }
 }
 
 /// The box of a body in space; round an axis it reaches as far on the other side.
@@ -191,9 +236,9 @@ void castings_that_only_conduct(const CaseSpec& spec, const CaseMeasures& m, Fin
   }
 }
 
-/// Sand gives way to pressures that dies stand.
+/// Sand gives way to pressures that dies stand; a riser under pressure has less than a die has.
 void pressed_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_sand = 3, k_stands = 2e6;  // [W/m/K], [Pa]
+  constexpr double k_sand = 3, k_stands = 2e6, k_on_riser = 0.6e6;  // [W/m/K], [Pa], [Pa]
   if (!spec.has_mechanics()) return;
   const auto sand_around = [&](int body) {
     return std::ranges::any_of(m.contacts, [&](const ContactMeasures& contact) {
@@ -208,14 +253,17 @@ void pressed_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
     if (c.kind != MechanicalConditionSpec::Kind::pressure) continue;
     const double pressure = c.pressure.table.max_value();
-    if (!(pressure > k_stands)) continue;
+    if (!(pressure > k_on_riser)) continue;
     const int body = measure_surface(a.mesh, c.group, spec.analysis.kind).body;
     if (body < 0 || !m.is_poured(static_cast<std::size_t>(body)) || !sand_around(body)) continue;
+    const bool on_riser = spec.bodies[static_cast<std::size_t>(body)].role == Role::riser;
+    if (!on_riser && !(pressure > k_stands)) continue;
     findings.push_back(
         {false, c.where,
          fmt::format("'{}' presses '{}' with {:.3g} MPa, and its mould conducts as sand does", c.name,
                      spec.bodies[static_cast<std::size_t>(body)].name, 1e-6 * pressure),
-         "sand stands 0.1 to 1 MPa; is the unit of the pressure right?"});
+         on_riser ? "risers under gas have 0.02 to 0.5 MPa; is the unit of the pressure right?"
+                  : "sand stands 0.1 to 1 MPa; is the unit of the pressure right?"});
   }
 }
 
@@ -226,6 +274,7 @@ void find_in_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
   risers_that_freeze_first(spec, m, findings);
   risers_apart(spec, m, findings);
   risers_larger_than_castings(spec, m, findings);
+  risers_below_castings(spec, m, findings);
   swapped_cores_and_chills(spec, a, m, findings);
   moulds_as_hot_as_melt(spec, a, m, findings);
   hot_sand(spec, a, m, findings);

@@ -41,8 +41,9 @@ std::string outlook_text(const MeshingOutlook& outlook);
 /// The memory that meshing takes [byte], 0 where the number of nodes is not known.
 double meshing_memory(const MeshingOutlook& outlook);
 
-/// From now on tell_outlook() calls `listener`; an empty function: nothing listens. In the process that
-/// meshes.
+/// From now on tell_outlook() calls `listener`; an empty function: nothing listens. A reader process has a
+/// listener of its own, which hands the outlook to the process that asked for the mesh; there it is told
+/// again.
 void listen_to_outlook(std::function<void(const MeshingOutlook&)> listener);
 void tell_outlook(const MeshingOutlook& outlook);
 

@@ -212,14 +212,14 @@ void Reader::hear(const MeshingOutlook& outlook) {
         "the unit of lengths in the file, larger elements ([[mesh.size]], --fineness), or more memory: "
         "SOLIDUS_MESH_MEMORY=\"32 GB\"");
   outlook_ = ": " + text;
+  tell_outlook(outlook);
   logging::debug("'{}' is {}", source_.path, text);
   constexpr double k_many = 1e6;  // castings of many parts and thin walls have less
   many_nodes_ = outlook.nodes > k_many;
   if (!outlook.overlap.empty())
     logging::warn(
         "bodies of '{}' overlap: {}; the first of each two keeps it. Bodies that belong together touch: cut "
-        "one "
-        "out of the other",
+        "one out of the other",
         source_.path, outlook.overlap);
   if (many_nodes_)
     logging::warn(

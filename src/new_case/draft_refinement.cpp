@@ -12,6 +12,7 @@
 #include "build/mesh_input.hpp"
 #include "input/keys.hpp"
 #include "mesh/kept_mesh.hpp"
+#include "mesh/meshing_outlook.hpp"
 #include "new_case/draft_choice.hpp"
 #include "new_case/rounding.hpp"
 #include "run/session.hpp"
@@ -23,6 +24,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// While an object of this class lives, it keeps what meshing tells of bodies that overlap. Warnings are
+/// silent then.
+class OverlapListener {
+ public:
+  explicit OverlapListener(std::string& overlap) {
+    mesh::listen_to_outlook([&overlap](const mesh::MeshingOutlook& outlook) {
+      if (!outlook.overlap.empty()) overlap = outlook.overlap;
+    });
+  }
+  ~OverlapListener() { mesh::listen_to_outlook({}); }
+  OverlapListener(const OverlapListener&) = delete;
+  OverlapListener& operator=(const OverlapListener&) = delete;
+};
+
 class Refinement {
  public:
   Refinement(Draft& draft, const CastingProcess& process, const material::Material& alloy, double fineness)
@@ -30,6 +45,7 @@ class Refinement {
 
   DraftEstimate refine() {
     mesh::KeptMesh kept;  // the case is built again and again, often with the same elements
+    const OverlapListener listener(estimate_.overlap);
     const logging::Level level = logging::level();
     logging::set_level(std::max(level, logging::Level::silent));
     try {

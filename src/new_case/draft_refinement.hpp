@@ -16,6 +16,7 @@ struct DraftEstimate {
   double freezing = 0;        ///< [s]
   double least_quality = 1;   ///< of elements where no way of meshing gave sound ones, else 1
   std::string worst_element;  ///< its place (mesh/worst_tetrahedron.hpp)
+  std::string overlap;        ///< MeshingOutlook::overlap of the part; empty where no bodies overlap
 };
 
 /// Writes the folder of the draft: case.toml and a copy of the geometry. Throws InputError.

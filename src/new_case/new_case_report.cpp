@@ -90,6 +90,16 @@ std::string poor_mesh_text(const DraftEstimate& estimate) {
       estimate.least_quality, mesh::k_sound_quality, estimate.worst_element);
 }
 
+/// A note where bodies of the geometry overlap; empty where none do.
+std::string overlap_text(const DraftEstimate& estimate) {
+  if (estimate.overlap.empty()) return "";
+  return fmt::format(
+      "\n  note        bodies of the geometry overlap: {}; the first of each two keeps it. Bodies that "
+      "belong "
+      "together touch: cut one out of the other",
+      estimate.overlap);
+}
+
 }  // namespace
 
 std::string report_text(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate,
@@ -136,6 +146,7 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
     out +=
         fmt::format("\n  cooling     {:g} W/m2/K outside the die take what the castings bring, an estimate",
                     draft.shots->cooling);
+  out += overlap_text(estimate);
   out += poor_mesh_text(estimate);
   out += twin_riser_text(draft);
   out += doubtful_unit_text(options, part);

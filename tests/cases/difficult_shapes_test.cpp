@@ -14,6 +14,7 @@
 #include "mesh/quality.hpp"
 #include "mesh/reader_process.hpp"
 #include "mesh/worst_tetrahedron.hpp"
+#include "new_case/new_case.hpp"
 
 namespace {
 
@@ -94,6 +95,14 @@ std::string pins_in_a_yoke(bool with_boss) {
   });
 }
 
+/// A block with a pin that stands 10 mm deep in it and is not cut out.
+std::string sunk_in_pin() {
+  return step_file("sunk_in_pin", [] {
+    occ::addBox(-30, -20, 0, 60, 40, 20);
+    occ::addCylinder(0, 0, 10, 0, 0, 40, 12);
+  });
+}
+
 TEST(DifficultShapes, BodiesThatOverlapAreSaidToDoSo) {
   std::string overlap;  // the program says it in a warning
   mesh::listen_to_outlook([&](const mesh::MeshingOutlook& outlook) { overlap = outlook.overlap; });
@@ -102,6 +111,28 @@ TEST(DifficultShapes, BodiesThatOverlapAreSaidToDoSo) {
   EXPECT_GT(volume(raw, "body_1"), 0);
   // A pin of 26 mm through two lugs of 15 mm.
   EXPECT_THAT(overlap, HasSubstr("'body_1' and 'body_2' have 15.7 cm3 in common"));
+}
+
+TEST(DifficultShapes, BodiesThatOverlapAreSaidToDoSoInWhateverWayTheyAreMeshed) {
+  std::string overlap;
+  mesh::CastingGeometry geometry;
+  geometry.sizes = {{"body_1", 15e-3, 8e-3}};
+  geometry.only_way = 1;
+  mesh::listen_to_outlook([&](const mesh::MeshingOutlook& outlook) { overlap = outlook.overlap; });
+  mesh::mesh_casting({sunk_in_pin(), 1e-3}, geometry);
+  mesh::listen_to_outlook({});
+  EXPECT_THAT(overlap, HasSubstr("'body_1' and 'body_2' have 4.52 cm3 in common"));
+}
+
+TEST(DifficultShapes, ANewCaseOfBodiesThatOverlapSaysSo) {
+  solidus::model::NewCaseOptions options;
+  options.geometry = sunk_in_pin();
+  options.alloy = "aluminium_alsi7mg";
+  options.fineness = 0.5;
+  options.folder = fs::path(SOLIDUS_BINARY_DIR) / "case_runs" / "difficult_shapes" / "sunk_in_pin";
+  fs::remove_all(options.folder);
+  EXPECT_THAT(solidus::model::make_new_case(options).text,
+              HasSubstr("bodies of the geometry overlap: 'body_1' and 'body_2' have 4.52 cm3 in common"));
 }
 
 // Nine ways took a minute and said nine times that Gmsh had made no elements.

@@ -101,7 +101,7 @@ class Mesher {
       const SizeField* least = fields.empty() ? nullptr : &fields.begin()->second;
       if (least != nullptr) {
         MeshingOutlook outlook = sizes.outlook(*least, source_.element_order);
-        if (geometry_.attempt == 0) outlook.overlap = overlap_;  // said once
+        outlook.overlap = overlap_;  // the log says what it has said once only
         tell_outlook(outlook);
       }
       gmsh::model::mesh::setSizeCallback([&](int dimension, int tag, double x, double y, double z) {

@@ -172,6 +172,39 @@ TEST_F(HubTest, SandAsHotAsAShellAndAChillInKelvinsAreNamed) {
   EXPECT_THAT(said_of(start("iron_chill", "480 degC")), Not(Contains(HasSubstr("is it in K?"))));
 }
 
+TEST_F(HubTest, ARiserBelowItsCastingIsNamed) {
+  const std::string unnamed = changed(k_hub_case, "feeders = [\"riser\"]", "follow = true");
+  const std::string said = "the riser 'riser' ends below the middle of 'casting', as gravity acts";
+  EXPECT_THAT(said_of(unnamed), IsEmpty());
+  EXPECT_THAT(said_of(changed(unnamed, "gravity = \"9.81 m/s2\"",
+                              "gravity = \"9.81 m/s2\"\ngravity_direction = [0, 1]")),
+              Contains(HasSubstr(said)));
+}
+
+TEST_F(HubTest, AMouldOfWashWallsOfMetresAndSandHeldColdAreNamed) {
+  EXPECT_THAT(said_of(changed(k_hub_case, "\"green_sand\"", "\"mould_wash\"")),
+              Contains(HasSubstr("the body 'mould' is of 'mould_wash' and")));
+  // Heat comes through 10 mm of sand beside the flange, and not through 60 mm.
+  const std::string cold =
+      "[[thermal_condition]]\nname = \"floor\"\ngroup = \"wall\"\nkind = \"temperature\"\n"
+      "temperature = \"20 degC\"\n";
+  const auto wall = [](const std::string& box) {
+    return changed(k_hub, "MeshSize{ PointsOf{Surface{m()};} }",
+                   "w() = Curve In BoundingBox{" + box +
+                       "};\nPhysical Curve(\"wall\") = w();\n"
+                       "MeshSize{ PointsOf{Surface{m()};} }");
+  };
+  mesh(wall("169.9,-70.1,-1, 170.1,130.1,1"));
+  const std::string held = changed(k_hub_case, "[criteria]", cold + "[criteria]");
+  EXPECT_THAT(said_of(held), IsEmpty());
+  mesh(changed(wall("119.9,-70.1,-1, 120.1,130.1,1"), "170,200", "120,200"));
+  EXPECT_THAT(said_of(held), Contains(HasSubstr("'floor' holds 'mould' at 20 degC, 10 mm from the melt")));
+  mesh(changed(changed(k_hub, "170,200", "1700,200"), "} = 14", "} = 60"));
+  EXPECT_THAT(said_of(k_hub_case),
+              Contains(HasSubstr("the body 'mould' reaches 1.59 m beyond what is poured, "
+                                 "which is 0.13 m large")));
+}
+
 TEST_F(HubTest, PressuresOfADieInSandAreNamed) {
   const auto pressed = [](const std::string& pressure) {
     return std::string(k_hub_case) +
@@ -180,6 +213,7 @@ TEST_F(HubTest, PressuresOfADieInSandAreNamed) {
            pressure + "\"\n";
   };
   EXPECT_THAT(said_of(pressed("0.5 bar")), IsEmpty());
+  EXPECT_THAT(said_of(pressed("1 MPa")), Contains(HasSubstr("'piston' presses 'riser' with 1 MPa")));
   EXPECT_THAT(said_of(pressed("1000 bar")), Contains(HasSubstr("'piston' presses 'riser' with 100 MPa")));
 }
 

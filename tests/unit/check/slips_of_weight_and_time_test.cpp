@@ -57,7 +57,7 @@ repeat = 3
   EXPECT_THAT(said_of(shots("open")), Contains(HasSubstr("'upper' leaves 2 s after its pour")));
 }
 
-TEST_F(FindingsTest, TablesThatGoOnLongAfterTheRunAreNamed) {
+TEST_F(FindingsTest, TablesThatGoOnLongAfterTheRunOrEndAtItsStartAreNamed) {
   const auto film = [](const std::string& unit, const std::string& points) {
     return changed(
         k_casting, "\"20 W/m2/K\"",
@@ -68,6 +68,9 @@ TEST_F(FindingsTest, TablesThatGoOnLongAfterTheRunAreNamed) {
               Contains(HasSubstr("the table of 'air' has its second point at 18000 s")));
   EXPECT_THAT(said_of(film("h", "[[0, 20], [0.5, 30], [5, 200]]")),
               Contains(HasSubstr("the table of 'air' goes on to 18000 s")));
+  EXPECT_THAT(said_of(film("s", "[[0, 20], [2, 30], [5, 200]]")),
+              Contains(HasSubstr("the table of 'air' ends at 5 s, but the run ends at 600 s")));
+  EXPECT_THAT(said_of(film("s", "[[0, 20], [5, 200]]")), IsEmpty()) << "a ramp";
 }
 
 TEST_F(FindingsTest, ACastingOfOneElementIsNamed) {

@@ -1,0 +1,117 @@
+// Findings on the sizes of moulds: moulds of coating, walls of metres, and thin walls of sand that a
+// condition holds cold.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "check/findings.hpp"
+#include "input/units.hpp"
+#include "mesh/locate.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// Coatings and washes are layers, which interfaces carry as a conductance; a body of one is thin.
+void thick_coatings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_thickest = 5e-3;  // [m]
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const BodySpec& body = spec.bodies[b];
+    const std::string file = std::filesystem::path(body.material).stem().string();
+    const bool coating = file.find("wash") != std::string::npos || file.find("coating") != std::string::npos;
+    if (!coating || !(m.bodies[b].skin > 0)) continue;
+    const double thickness = 2 * m.bodies[b].volume / m.bodies[b].skin;
+    if (thickness < k_thickest) continue;
+    findings.push_back(
+        {false, body.where,
+         fmt::format("the body '{}' is of '{}' and {:.3g} mm thick in the mean (2 V/A)", body.name,
+                     body.material, 1e3 * thickness),
+         "coatings and washes are 0.1 to 2 mm thick; a mould is of sand, ceramics or metal, and "
+         "a coating on it belongs to the [[contact]] or [[interface]]"});
+  }
+}
+
+/// Heat of a casting does not reach the outside of such walls while it freezes.
+void walls_of_metres(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_times = 5, k_least = 1;  // of the largest side of what is poured; [m]
+  if (m.pours.empty()) return;
+  mesh::Point low, high;
+  low.fill(std::numeric_limits<double>::max());
+  high.fill(std::numeric_limits<double>::lowest());
+  double size = 0;
+  for (std::size_t d = 0; d < 3; ++d) {
+    for (const Pour& pour : m.pours) {
+      low[d] = std::min(low[d], m.bodies[pour.body].low[d]);
+      high[d] = std::max(high[d], m.bodies[pour.body].high[d]);
+    }
+    size = std::max(size, high[d] - low[d]);
+  }
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    if (m.is_poured(b)) continue;
+    double reach = 0;
+    for (std::size_t d = 0; d < 3; ++d)
+      reach = std::max({reach, low[d] - m.bodies[b].low[d], m.bodies[b].high[d] - high[d]});
+    if (reach < k_times * size || reach < k_least) continue;
+    findings.push_back(
+        {false, spec.bodies[b].where,
+         fmt::format("the body '{}' reaches {:.3g} m beyond what is poured, which is {:.3g} m large",
+                     spec.bodies[b].name, reach, size),
+         "walls of moulds are a twentieth of the casting to all of it; is their unit right?"});
+  }
+}
+
+/// The distance of a surface from the nearest body that is poured, over some of its faces [m]. Collective.
+double distance_from_melt(const Assembly& a, const CaseMeasures& m, const SurfaceMeasures& surface) {
+  constexpr std::size_t k_faces = 24;
+  double least = std::numeric_limits<double>::max();
+  const std::size_t stride = std::max<std::size_t>(1, surface.centres.size() / k_faces);
+  for (std::size_t i = 0; i < surface.centres.size(); i += stride)
+    for (const Pour& pour : m.pours)
+      least = std::min(least, mesh::locate(a.mesh, surface.centres[i], static_cast<int>(pour.body)).distance);
+  return least;
+}
+
+/// Nothing keeps the outside of sand as cold as a room once heat has come through to it. Behind a wall that
+/// is thicker than that the condition has no effect, and a mould of metal may have channels. Collective.
+void cold_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_sand = 3, k_coldest = 333.15;  // [W/m/K], [K]
+  double freezing = 0;
+  for (const Pour& pour : m.pours) freezing = std::max(freezing, pour.freezing.time.value_or(0));
+  if (!(freezing > 0)) return;
+  for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
+    const ThermalConditionSpec& c = spec.thermal_conditions[t];
+    if (c.kind != ThermalConditionSpec::Kind::temperature || !is_number(c.temperature) || !c.stages.empty() ||
+        c.temperature.table.value(0) > k_coldest || m.surfaces[t].body < 0)
+      continue;
+    const auto b = static_cast<std::size_t>(m.surfaces[t].body);
+    const material::Material& of = a.materials[b];
+    const double start = a.start[b].low, k = of.conductivity.value(start);
+    if (m.is_poured(b) || k >= k_sand) continue;
+    const double reached = 2 * std::sqrt(k / (of.density * of.specific_heat.value(start)) * freezing);
+    const double wall = distance_from_melt(a, m, m.surfaces[t]);
+    if (wall >= reached) continue;
+    findings.push_back(
+        {false, c.where,
+         fmt::format(
+             "'{}' holds '{}' at {:.0f} degC, {:.3g} mm from the melt: it conducts as sand does, and heat "
+             "gets {:.3g} mm far until the casting is solid",
+             c.name, spec.bodies[b].name, units::to_display(c.temperature.table.value(0), "K", "degC"),
+             1e3 * wall, 1e3 * reached),
+         "sand stands in air: a film of 5 to 20 W/m2/K and radiation"});
+  }
+}
+
+}  // namespace
+
+void find_in_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  if (!spec.has_heat()) return;
+  thick_coatings(spec, m, findings);
+  walls_of_metres(spec, m, findings);
+  cold_sand(spec, a, m, findings);
+}
+
+}  // namespace solidus::model
