@@ -12,9 +12,22 @@
 
 namespace solidus::mechanics {
 
-/// c of τ = c h²/(2Ĝ). What orthogonal sub-scales leave out is of higher order, and the answer hardly depends
-/// on c; algebraic ones soften a body with c (docs/decisions/0007-mixed-simplices.md).
-inline constexpr double k_orthogonal = 1.0, k_algebraic = 0.25;
+/// c of τ = c h²/(2Ĝ) with orthogonal sub-scales. What they leave out is of higher order, and the answer
+/// hardly depends on c.
+inline constexpr double k_orthogonal = 1.0;
+/// c of algebraic sub-scales where the volume is nearly kept, and where it is not. They soften a body with c,
+/// and hold the gradient of the pressure at a boundary (docs/decisions/0048-less-stabilisation-in-solids.md).
+inline constexpr double k_algebraic = 0.25, k_algebraic_compressible = 0.05;
+/// The stabilisation grows from the second to the first where 2Ĝ is less than the bulk modulus over this.
+inline constexpr double k_nearly_incompressible = 5.0;
+
+/// c of algebraic sub-scales: c_0 + (c_1 − c_0) max(0, 1 − 5 · 2Ĝ/κ_v), since a volume that can change holds
+/// the pressure by itself.
+/// @param shear_over_bulk  2Ĝ/κ_v
+inline Lane algebraic_factor(const Lane& shear_over_bulk) {
+  const Lane kept = max(Lane(0.0), Lane(1.0) - Lane(k_nearly_incompressible) * shear_over_bulk);
+  return Lane(k_algebraic_compressible) + Lane(k_algebraic - k_algebraic_compressible) * kept;
+}
 
 template <int n_nodes, AnalysisKind kind>
 class PressureNodes : public MixedKernel {
@@ -149,7 +162,8 @@ class PressureNodes : public MixedKernel {
   /// Sets the modulus of the stabilisation at the start of a step, and 1/κ_v.
   void set_step(Index batch, const Operator& b, const Lane& twice_shear, const Lane& compliance) {
     twice_shear_[at(batch)] = tangent_shear_[at(batch)] = twice_shear;
-    tau_[at(batch)] = Lane(orthogonal_ ? k_orthogonal : k_algebraic) * squared_length(b) / twice_shear;
+    const Lane c = orthogonal_ ? Lane(k_orthogonal) : algebraic_factor(twice_shear * compliance);
+    tau_[at(batch)] = c * squared_length(b) / twice_shear;
     compliance_[at(batch)] = compliance;
     pore_compliance_[at(batch)] = Lane(0.0);
   }
