@@ -102,9 +102,8 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
     effort = *found;
   } else {
     logging::debug(
-        "both fields: the step to t = {:g} s would overshoot, in heat or in flow, or finds no solution; it "
-        "is of "
-        "first order",
+        "both fields: the step to t = {:g} s would overshoot, in heat or in flow, or finds no solution; "
+        "it is of first order",
         time);
     drop_carried();
     deformation.clear();  // its storage serves again

@@ -1,5 +1,5 @@
-/// What coupled schemes are worth without any numerical settings: a layer between rigid walls against its
-/// series, and the schemes that solve a phase more than once in a step against both fields at once.
+/// Coupled schemes without any numerical settings: a layer between rigid walls is held to its series, and the
+/// schemes that solve a phase more than once in a step to the solution of both fields at once.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
