@@ -188,7 +188,7 @@ TEST_F(MeshFiles, GridsOfVtkAreMeshesOfTheirBodies) {
   EXPECT_EQ(mesh.dimension, 2);
   EXPECT_EQ(mesh.x[4], (Point{0.002, 0, 0}));
   EXPECT_EQ(mesh.groups.at("body_1").blocks.at(0).input_element, InputNumbers{2});  // number 3
-  EXPECT_EQ(mesh.groups.at("body_2").blocks.at(0).input_element, std::vector<GlobalIndex>{1});
+  EXPECT_EQ(mesh.groups.at("body_2").blocks.at(0).input_element, InputNumbers{1});
   EXPECT_EQ(mesh.groups.at("surface_1").blocks.at(0).shape, Shape::line2);
   const RawMesh whole = read_mesh(write("one.vtu", head + tail), 1);
   EXPECT_EQ(whole.groups.at("body_1").blocks.at(0).nodes.size(), 8u);
