@@ -125,7 +125,7 @@ TEST(MixedPatch, TrianglesAndQuadsTogetherReproduceAConstantStress) {
     const Index* n = quads.nodes.data() + 4 * e;
     if (e % 3 == 0) {
       split.nodes.insert(split.nodes.end(), {n[0], n[1], n[2], n[0], n[2], n[3]});
-      split.input_element.insert(split.input_element.end(), 2, quads.input_element[e]);
+      for (int half = 0; half < 2; ++half) split.input_element.push_back(quads.input_element[e]);
     } else {
       kept.nodes.insert(kept.nodes.end(), n, n + 4);
       kept.input_element.push_back(quads.input_element[e]);
