@@ -76,10 +76,10 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
         tangent_[i] = volume_tangent(this->update(batch, 0, held));
         stiffness = tangent_[i].stiffness;
       }
+      const Properties at_start = stabilisation_properties(start, batch);
       this->set_step(batch, b,
-                     secant_shear(this->law_, stabilisation_properties(start, batch),
-                                  this->start_state(batch, 0), this->effective_.dt),
-                     Lane(1.0) / stiffness);
+                     secant_shear(this->law_, at_start, this->start_state(batch, 0), this->effective_.dt),
+                     elastic_part(this->law_, at_start).bulk, Lane(1.0) / stiffness);
       Vectors f{};
       this->add_stiffness(b, bulk * weight(batch), f);
       scale += this->counted(batch) * this->squares(f);

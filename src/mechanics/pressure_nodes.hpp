@@ -21,9 +21,9 @@ inline constexpr double k_algebraic = 0.25, k_algebraic_compressible = 0.05;
 /// The stabilisation grows from the second to the first where 2Ĝ is less than the bulk modulus over this.
 inline constexpr double k_nearly_incompressible = 5.0;
 
-/// c of algebraic sub-scales: c_0 + (c_1 − c_0) max(0, 1 − 5 · 2Ĝ/κ_v), since a volume that can change holds
+/// c of algebraic sub-scales: c_0 + (c_1 − c_0) max(0, 1 − 5 · 2Ĝ/κ), since a volume that can change holds
 /// the pressure by itself.
-/// @param shear_over_bulk  2Ĝ/κ_v
+/// @param shear_over_bulk  2Ĝ/κ, both at the start of a step, so that Newton's method need not derive c
 inline Lane algebraic_factor(const Lane& shear_over_bulk) {
   const Lane kept = max(Lane(0.0), Lane(1.0) - Lane(k_nearly_incompressible) * shear_over_bulk);
   return Lane(k_algebraic_compressible) + Lane(k_algebraic - k_algebraic_compressible) * kept;
@@ -159,10 +159,11 @@ class PressureNodes : public MixedKernel {
     return Operator(geometry_.gradients_at(batch, 0), geometry_.values.data(), inverse_radius(batch),
                     nullptr);
   }
-  /// Sets the modulus of the stabilisation at the start of a step, and 1/κ_v.
-  void set_step(Index batch, const Operator& b, const Lane& twice_shear, const Lane& compliance) {
+  /// Sets the moduli of the stabilisation, 2Ĝ and κ at the start of a step, and 1/κ_v.
+  void set_step(Index batch, const Operator& b, const Lane& twice_shear, const Lane& bulk,
+                const Lane& compliance) {
     twice_shear_[at(batch)] = tangent_shear_[at(batch)] = twice_shear;
-    const Lane c = orthogonal_ ? Lane(k_orthogonal) : algebraic_factor(twice_shear * compliance);
+    const Lane c = orthogonal_ ? Lane(k_orthogonal) : algebraic_factor(twice_shear / bulk);
     tau_[at(batch)] = c * squared_length(b) / twice_shear;
     compliance_[at(batch)] = compliance;
     pore_compliance_[at(batch)] = Lane(0.0);
