@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "mesh/message.hpp"
+
 namespace solidus::mesh {
 
 namespace {

@@ -7,10 +7,12 @@
 #include <iterator>
 #include <vector>
 
-#include "mesh/message.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::mesh {
+
+class Packer;
+class Unpacker;
 
 /// A list of numbers from 0 on. Each takes 4 bytes until one comes that needs 8; then all take 8. A mesh of
 /// tetrahedra has five to six elements a node, and hardly a file numbers them beyond 2^31.

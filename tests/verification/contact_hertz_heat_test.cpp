@@ -1,13 +1,17 @@
 /// Heat through a Hertz contact: a warm ball pressed on a cold block of the same metal by a given force, as
 /// case files that set nothing but the interface.
 ///
-///          │ 120 °C, F        1/(2 k a)    between half spaces whose contact, of radius a, is at one
-///          temperature │ upper  ╱         0.6/(k a)    between their mean temperatures, where the flux goes
-///          with Hertz's
-///   x = 0  │     _╱                        pressure, q = q_0 √(1 − r²/a²)
-///          ├───''─────────    − 2·0.35245 ε/(k a)   both in cylinders of radius b, ε = a/b, whose length L
-///          │ lower                                  adds L/(π k b²) each
+///          │ 120 °C, F
+///          │ upper  ╱
+///   x = 0  │     _╱
+///          ├───''─────────
+///          │ lower
 ///          │ 20 °C
+///
+/// Resistance of the contact, of radius a, between two half spaces: 1/(2 k a) where the contact is at one
+/// temperature, 0.6/(k a) between the mean temperatures of the faces where the flux goes as Hertz's pressure,
+/// q = q_0 √(1 − r²/a²). Both bodies are cylinders of radius b and length L: with ε = a/b that takes away
+/// 2 · 0.35245 ε/(k a), and L/(π k b²) is added for each.
 ///
 /// R. Holm, Electric Contacts, 1967 (half spaces); M. M. Yovanovich, IEEE Trans. Compon. Packag. Technol. 28
 /// (2005) 182 (the cylinder: ψ = 1 − 1.40978 ε + 0.34406 ε³ of 1/(4 k a) each). With the flux of Hertz's

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
+#include "mesh/message.hpp"
+
 namespace solidus::mesh {
 namespace {
 
