@@ -29,15 +29,17 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
 
   // Nearly all nodes belong to one body: what others have of a node stands apart.
   constexpr int k_none = -1;
-  std::vector<Share> first(static_cast<std::size_t>(mesh.n_owned_nodes), Share{k_none, 0.0});
-  std::map<Index, std::vector<Share>> further;
-  const auto share = [&](Index node, int body) -> Share& {
-    Share& own = first[static_cast<std::size_t>(node)];
-    if (own.body == k_none) own.body = body;
-    if (own.body == body) return own;
-    std::vector<Share>& list = further[node];
-    const auto found = std::ranges::find(list, body, &Share::body);
-    return found != list.end() ? *found : list.emplace_back(Share{body, 0.0});
+  const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
+  std::vector<int> body_of(n_owned, k_none);
+  std::vector<double> volume_of(n_owned, 0.0);
+  std::map<Index, std::vector<NodeShare>> further;
+  const auto volume_in = [&](Index node, int body) -> double& {
+    int& own = body_of[static_cast<std::size_t>(node)];
+    if (own == k_none) own = body;
+    if (own == body) return volume_of[static_cast<std::size_t>(node)];
+    std::vector<NodeShare>& list = further[node];
+    const auto found = std::ranges::find(list, body, &NodeShare::body);
+    return (found != list.end() ? *found : list.emplace_back(NodeShare{body, 0.0})).weight;
   };
   for (const mesh::ElementBlock& block : mesh.blocks)
     mesh::for_parts(block, [&](const mesh::ElementBlock& part, Index) {
@@ -46,38 +48,34 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
       for (Index e = 0; e < part.size(); ++e)
         for (Index a = 0; a < n; ++a)
           if (const Index node = part.element(e)[a]; node < mesh.n_owned_nodes)
-            share(node, block.body).weight +=
-                weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
+            volume_in(node, block.body) += weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
     });
-  start_.reserve(first.size() + 1);
-  start_.assign(1, 0);
-  if (further.empty()) {
-    for (std::size_t i = 0; i < first.size(); ++i) start_.push_back(static_cast<Index>(i) + 1);
-    shares_ = std::move(first);
+  if (n_owned > 0 && further.empty() && std::ranges::count(body_of, body_of.front()) == std::ssize(body_of)) {
+    shares_ = NodeShares(body_of.front(), std::move(volume_of));
     return;
   }
-  std::size_t n_shares = first.size();
+  std::size_t n_shares = n_owned;
   for (const auto& [node, list] : further) n_shares += list.size();
   shares_.reserve(n_shares);
   auto more = further.begin();
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    assert(first[i].body != k_none && "every owned node belongs to an element");
-    shares_.push_back(first[i]);
+  for (std::size_t i = 0; i < n_owned; ++i) {
+    assert(body_of[i] != k_none && "every owned node belongs to an element");
+    shares_.add({body_of[i], volume_of[i]});
     if (more != further.end() && static_cast<std::size_t>(more->first) == i) {
-      shares_.insert(shares_.end(), more->second.begin(), more->second.end());
+      for (const NodeShare& share : more->second) shares_.add(share);
       ++more;
     }
-    start_.push_back(static_cast<Index>(shares_.size()));
+    shares_.end_node();
   }
 }
 
 double NodalEnthalpy::held_by(const linear::ActiveSet& active, Index node, double heat,
                               double temperature) const {
-  const auto list = shares(node);
-  if (std::all_of(list.begin(), list.end(), [&](const Share& s) { return active.body(s.body); })) return heat;
+  const NodeShares::List list = shares_[node];
+  if (std::all_of(list.begin(), list.end(), [&](const NodeShare& s) { return active.body(s.body); })) return heat;
   const double share = plateau_share(node, heat, temperature);
   double held = 0;
-  for (const Share& s : list) {
+  for (const NodeShare s : list) {
     if (!active.body(s.body)) continue;
     const double low = curve(s).lower(temperature);
     held += s.weight * (low + share * (curve(s).upper(temperature) - low));
@@ -86,54 +84,50 @@ double NodalEnthalpy::held_by(const linear::ActiveSet& active, Index node, doubl
 }
 
 void NodalEnthalpy::set_active(const linear::ActiveSet& active) {
-  if (all_.start.empty()) all_ = {start_, shares_};
+  if (!all_) all_ = shares_;
   std::vector<char> kept;
   for (std::size_t b = 0; b < materials_.size(); ++b) kept.push_back(active.body(static_cast<int>(b)));
-  filter(all_, kept);
+  filter(*all_, kept);
 }
 
 void NodalEnthalpy::keep_bodies(std::span<const char> kept) {
-  filter({start_, shares_}, kept);
-  all_ = {};
+  filter(shares_, kept);
+  all_.reset();
 }
 
-void NodalEnthalpy::filter(const Shares& from, std::span<const char> kept) {
-  std::vector<Index> start = {0};
-  std::vector<Share> left;
-  for (std::size_t node = 0; node + 1 < from.start.size(); ++node) {
-    for (const Share& share : std::span(from.shares)
-                                  .subspan(static_cast<std::size_t>(from.start[node]),
-                                           static_cast<std::size_t>(from.start[node + 1] - from.start[node])))
-      if (kept[static_cast<std::size_t>(share.body)] != 0) left.push_back(share);
-    start.push_back(static_cast<Index>(left.size()));
+void NodalEnthalpy::filter(const NodeShares& from, std::span<const char> kept) {
+  NodeShares left;
+  for (Index node = 0; node < from.n_nodes(); ++node) {
+    for (const NodeShare share : from[node])
+      if (kept[static_cast<std::size_t>(share.body)] != 0) left.add(share);
+    left.end_node();
   }
-  start_ = std::move(start);
   shares_ = std::move(left);
 }
 
 double NodalEnthalpy::lower(Index node, double temperature) const {
   double h = 0;
-  for (const Share& s : shares(node)) h += s.weight * curve(s).lower(temperature);
+  for (const NodeShare s : shares_[node]) h += s.weight * curve(s).lower(temperature);
   return h;
 }
 
 double NodalEnthalpy::upper(Index node, double temperature) const {
   double h = 0;
-  for (const Share& s : shares(node)) h += s.weight * curve(s).upper(temperature);
+  for (const NodeShare s : shares_[node]) h += s.weight * curve(s).upper(temperature);
   return h;
 }
 
 double NodalEnthalpy::capacity(Index node, double temperature) const {
   double c = 0;
-  for (const Share& s : shares(node)) c += s.weight * curve(s).capacity(temperature);
+  for (const NodeShare s : shares_[node]) c += s.weight * curve(s).capacity(temperature);
   return c;
 }
 
 /// Nodes of several materials: the break below the heat by bisection, then the sum's own quadratic.
-double NodalEnthalpy::mixed_temperature(std::span<const Share> shares, double heat, bool& plateau) const {
+double NodalEnthalpy::mixed_temperature(const NodeShares::List& shares, double heat, bool& plateau) const {
   const auto sum = [&](auto f) {
     double h = 0;
-    for (const Share& s : shares) h += s.weight * f(curve(s));
+    for (const NodeShare s : shares) h += s.weight * f(curve(s));
     return h;
   };
   const auto lower_at = [&](double t) { return sum([t](const auto& c) { return c.lower(t); }); };
@@ -156,7 +150,7 @@ double NodalEnthalpy::mixed_temperature(std::span<const Share> shares, double he
 }
 
 double NodalEnthalpy::temperature(Index node, double heat) const {
-  const auto list = shares(node);
+  const NodeShares::List list = shares_[node];
   assert(!list.empty());
   if (list.size() == 1) return curve(list[0]).temperature(heat / list[0].weight);
   bool plateau = false;
@@ -164,7 +158,7 @@ double NodalEnthalpy::temperature(Index node, double heat) const {
 }
 
 double NodalEnthalpy::slope(Index node, double heat) const {
-  const auto list = shares(node);
+  const NodeShares::List list = shares_[node];
   if (list.empty()) return 0.0;
   if (list.size() == 1) return curve(list[0]).inverse_slope(heat / list[0].weight) / list[0].weight;
   bool plateau = false;
@@ -173,14 +167,14 @@ double NodalEnthalpy::slope(Index node, double heat) const {
 }
 
 NodalEnthalpy::Point NodalEnthalpy::point(Index node, double heat) const {
-  const auto list = shares(node);
+  const NodeShares::List list = shares_[node];
   if (list.empty()) return {std::numeric_limits<double>::quiet_NaN(), 0.0};  // it stores nothing
   if (list.size() != 1) {
     bool plateau = false;
     const double t = mixed_temperature(list, heat, plateau);
     return {t, plateau ? 0.0 : 1.0 / capacity(node, t)};
   }
-  const Share& share = list.front();
+  const NodeShare share = list.front();
   const std::vector<double>& starts = starts_[static_cast<std::size_t>(share.body)];
   const double h = heat / share.weight;
   const auto above =
@@ -205,7 +199,7 @@ NodalEnthalpy::Point NodalEnthalpy::point(Index node, double heat) const {
 
 /// Whether some curve of the node jumps at this very temperature.
 bool NodalEnthalpy::jumps_at(Index node, double temperature) const {
-  return std::ranges::any_of(shares(node), [&](const Share& s) {
+  return std::ranges::any_of(shares_[node], [&](const NodeShare& s) {
     return std::ranges::any_of(curve(s).jumps(), [&](const auto& j) { return j.temperature == temperature; });
   });
 }
@@ -218,7 +212,7 @@ double NodalEnthalpy::plateau_share(Index node, double heat, double temperature)
 
 int NodalEnthalpy::branch(Index node, double heat, double temperature) const {
   int branch = 0;
-  for (const Share& s : shares(node))
+  for (const NodeShare s : shares_[node])
     for (const auto& jump : curve(s).jumps()) {
       if (temperature < jump.temperature) continue;
       const double share = temperature > jump.temperature ? 1.0 : plateau_share(node, heat, temperature);
@@ -229,7 +223,7 @@ int NodalEnthalpy::branch(Index node, double heat, double temperature) const {
 
 double NodalEnthalpy::solid_fraction(Index node, double heat, double temperature) const {
   double volume = 0, solid = 0;
-  for (const Share& s : shares(node)) {
+  for (const NodeShare s : shares_[node]) {
     if (!can_melt(s.body)) continue;
     volume += s.weight;
     solid += solid_volume(node, s.body, heat, temperature);
@@ -238,7 +232,7 @@ double NodalEnthalpy::solid_fraction(Index node, double heat, double temperature
 }
 
 double NodalEnthalpy::volume(Index node, int body) const {
-  for (const Share& s : shares(node))
+  for (const NodeShare s : shares_[node])
     if (s.body == body) return s.weight;
   return 0.0;
 }
@@ -254,7 +248,7 @@ double NodalEnthalpy::solid_volume(Index node, int body, double heat, double tem
 
 double NodalEnthalpy::latent(Index node, double heat, double temperature) const {
   double latent = 0;
-  for (const Share& s : shares(node)) {
+  for (const NodeShare s : shares_[node]) {
     const material::Material& m = materials_[static_cast<std::size_t>(s.body)];
     for (const material::PhaseChange& change : m.phase_changes) {
       const double below = change.fraction.below(temperature), above = change.fraction.above(temperature);
@@ -268,7 +262,7 @@ double NodalEnthalpy::latent(Index node, double heat, double temperature) const 
 double NodalEnthalpy::entropy(Index node, double heat, double temperature) const {
   const double share = plateau_share(node, heat, temperature);
   double entropy = 0;
-  for (const Share& s : shares(node)) {
+  for (const NodeShare s : shares_[node]) {
     const double low = curve(s).lower_entropy(temperature);
     entropy += s.weight * (share > 0 ? low + share * (curve(s).upper_entropy(temperature) - low) : low);
   }
@@ -281,7 +275,7 @@ bool NodalEnthalpy::has_plateaus() const {
 
 double NodalEnthalpy::latent_capacity(Index node) const {
   double heat = 0;
-  for (const Share& s : shares(node)) {
+  for (const NodeShare s : shares_[node]) {
     if (curve(s).jumps().empty()) continue;
     const material::Material& m = materials_[static_cast<std::size_t>(s.body)];
     for (const material::PhaseChange& change : m.phase_changes)
@@ -291,8 +285,7 @@ double NodalEnthalpy::latent_capacity(Index node) const {
 }
 
 std::size_t NodalEnthalpy::bytes() const {
-  return (start_.capacity() + all_.start.capacity()) * sizeof start_[0] +
-         (shares_.capacity() + all_.shares.capacity()) * sizeof shares_[0];
+  return shares_.bytes() + (all_ ? all_->bytes() : 0);
 }
 
 }  // namespace solidus::heat

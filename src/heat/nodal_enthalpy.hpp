@@ -6,9 +6,11 @@
 /// a continuous function with slope zero there: a plateau.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "heat/node_shares.hpp"
 #include "linear/active_set.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
@@ -28,7 +30,7 @@ class NodalEnthalpy {
   /// Removes the bodies of which kept[body] is zero for good.
   void keep_bodies(std::span<const char> kept);
 
-  Index n_nodes() const { return static_cast<Index>(start_.size()) - 1; }  ///< owned ones
+  Index n_nodes() const { return shares_.n_nodes(); }  ///< owned ones
   /// Θ_i(H) [K]; H in joules. Not of a node that stores nothing.
   double temperature(Index node, double heat) const;
   /// dΘ_i/dH [K/J]; zero within a plateau and where nothing is stored.
@@ -39,15 +41,10 @@ class NodalEnthalpy {
     double slope;        ///< [K/J]
   };
   Point point(Index node, double heat) const;
-  /// Body of a node and the volume that it has of it.
-  struct Share {
-    int body;
-    double weight;  ///< [m³]
-  };
-  /// The share of the only body that stores heat at the node; null where there are several or none.
-  const Share* only_share(Index node) const {
-    const auto list = shares(node);
-    return list.size() == 1 ? list.data() : nullptr;
+  /// The share of the only body that stores heat at the node; nothing where there are several or none.
+  std::optional<NodeShare> only_share(Index node) const {
+    const NodeShares::List list = shares_[node];
+    return list.size() == 1 ? std::optional(list.front()) : std::nullopt;
   }
   std::size_t n_bodies() const { return curves_.size(); }
   const material::EnthalpyCurve& body_curve(int body) const {
@@ -76,7 +73,7 @@ class NodalEnthalpy {
   template <class PerVolume>
   double sum_of_bodies(Index node, const PerVolume& per_volume) const {
     double total = 0;
-    for (const Share& s : shares(node)) total += s.weight * per_volume(s.body);
+    for (const NodeShare s : shares_[node]) total += s.weight * per_volume(s.body);
     return total;
   }
   /// h(Θ) of the material of a body; molten at the temperature of a change [J/m³].
@@ -95,7 +92,7 @@ class NodalEnthalpy {
   template <class PerVolume>
   double sum(Index node, const PerVolume& per_volume) const {
     double total = 0;
-    for (const Share& s : shares(node))
+    for (const NodeShare s : shares_[node])
       total += s.weight * per_volume(materials_[static_cast<std::size_t>(s.body)]);
     return total;
   }
@@ -104,29 +101,19 @@ class NodalEnthalpy {
   std::size_t bytes() const;
 
  private:
-  std::span<const Share> shares(Index node) const {
-    const auto i = static_cast<std::size_t>(node);
-    return {shares_.data() + start_[i], static_cast<std::size_t>(start_[i + 1] - start_[i])};
-  }
-  const material::EnthalpyCurve& curve(const Share& share) const {
+  const material::EnthalpyCurve& curve(const NodeShare& share) const {
     return curves_[static_cast<std::size_t>(share.body)];
   }
   bool jumps_at(Index node, double temperature) const;
-  double mixed_temperature(std::span<const Share> shares, double heat, bool& plateau) const;
-  /// The shares of every owned node, [start[node], start[node + 1]).
-  struct Shares {
-    std::vector<Index> start;
-    std::vector<Share> shares;
-  };
-  void filter(const Shares& from, std::span<const char> kept);
+  double mixed_temperature(const NodeShares::List& shares, double heat, bool& plateau) const;
+  void filter(const NodeShares& from, std::span<const char> kept);
 
   std::vector<material::Material> materials_;
   std::vector<material::EnthalpyCurve> curves_;  ///< per body
   std::vector<std::vector<double>> starts_;      ///< per body, h at the start of each piece [J/m³]
   std::vector<double> breaks_;                   ///< temperatures where any curve bends or jumps, rising [K]
-  std::vector<Index> start_;                     ///< first share of each owned node
-  std::vector<Share> shares_;
-  Shares all_;  ///< with those of inactive bodies; empty as long as none has been inactive
+  NodeShares shares_;
+  std::optional<NodeShares> all_;  ///< with those of inactive bodies; none as long as none has been inactive
 };
 
 }  // namespace solidus::heat

@@ -1,6 +1,7 @@
 /// Finds temperature and potential of a node from its heat content, or the reverse, by one look-up.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "heat/heat_system.hpp"
@@ -19,8 +20,8 @@ class NodeCurves {
   /// @param heat  H of the node [J]
   /// Returns temperature and potential [K] and dv/dH [K/J], which is zero on a plateau.
   StorageCurve::AtHeat at_heat(Index node, double heat) const {
-    const NodalEnthalpy::Share* share = only_share(node);
-    if (share == nullptr) return sum_at_heat(node, heat);
+    const std::optional<NodeShare> share = only_share(node);
+    if (!share) return sum_at_heat(node, heat);
     StorageCurve::AtHeat at = curves_[static_cast<std::size_t>(share->body)].at_heat(heat / share->weight);
     at.slope /= share->weight;
     return at;
@@ -29,18 +30,18 @@ class NodeCurves {
   /// Returns the temperature [K], H [J] at both ends of a plateau and dv/dH [K/J]; zero where at_heat() has
   /// to tell it: at plateaus and at nodes of several materials.
   StorageCurve::AtPotential at_potential(Index node, double potential, double near) const {
-    const NodalEnthalpy::Share* share = only_share(node);
-    if (share == nullptr) return sum_at_potential(node, potential, near);
+    const std::optional<NodeShare> share = only_share(node);
+    if (!share) return sum_at_potential(node, potential, near);
     const StorageCurve::AtPotential at =
         curves_[static_cast<std::size_t>(share->body)].at_potential(potential);
     return {at.temperature, share->weight * at.lower, share->weight * at.upper, at.slope / share->weight};
   }
 
  private:
-  /// Null where several materials store heat or conduct it.
-  const NodalEnthalpy::Share* only_share(Index node) const {
-    const NodalEnthalpy::Share* share = storage_.only_share(node);
-    return share != nullptr && system_.potential().is_of(node, share->body) ? share : nullptr;
+  /// Nothing where several materials store heat or conduct it.
+  std::optional<NodeShare> only_share(Index node) const {
+    const std::optional<NodeShare> share = storage_.only_share(node);
+    return share && system_.potential().is_of(node, share->body) ? share : std::nullopt;
   }
   StorageCurve::AtHeat sum_at_heat(Index node, double heat) const;
   StorageCurve::AtPotential sum_at_potential(Index node, double potential, double near) const;

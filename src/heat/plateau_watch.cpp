@@ -15,7 +15,8 @@ bool PlateauWatch::passed_in_depth(std::span<const double> heat, std::span<const
   branch_.resize(n);
   std::vector<float> moved(mesh_.x.size());  // a number, as ghosts are exchanged
   for (std::size_t i = 0; i < n; ++i) {
-    const int branch = storage_.branch(static_cast<Index>(i), heat[i], temperature[i]);
+    const auto branch =
+        static_cast<std::int16_t>(storage_.branch(static_cast<Index>(i), heat[i], temperature[i]));
     moved[i] = branch != branch_[i] ? 1.0F : 0.0F;
     branch_[i] = branch;
   }

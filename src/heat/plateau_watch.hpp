@@ -1,6 +1,7 @@
 /// Detects that the front of an isothermal change passes many nodes in one iteration of a step.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -28,7 +29,7 @@ class PlateauWatch {
   const NodalEnthalpy& storage_;
   const linear::BlockMatrix& matrix_;
   const parallel::GhostExchange& ghosts_;
-  std::vector<int> branch_;  ///< NodalEnthalpy::branch() at the last call, [owned node]
+  std::vector<std::int16_t> branch_;  ///< NodalEnthalpy::branch() at the last call, [owned node]
 };
 
 }  // namespace solidus::heat

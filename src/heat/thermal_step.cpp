@@ -151,12 +151,12 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
   report.newton =
       truncated_newton_->solve(from, stage.dt, next.temperature, next.enthalpy, bounds, pass.newton_steps);
   report.hardest = report.newton.effort;
+  const std::vector<double> residual = truncated_newton_->take_residual();
   require_positive(next.temperature);
-  if (!may_end(report.newton, pass.newton_steps))
-    require(report.newton, truncated_newton_->residual(), next.temperature);
-  book(truncated_newton_->residual(), stage.dt, next.enthalpy);
-  report.balance = balance({old.temperature, std::move(from)}, next, truncated_newton_->residual(),
-                           truncated_newton_->moved(), stage.dt);
+  if (!may_end(report.newton, pass.newton_steps)) require(report.newton, residual, next.temperature);
+  book(residual, stage.dt, next.enthalpy);
+  report.balance = balance({old.temperature, std::move(from)}, next, residual, truncated_newton_->moved(),
+                           stage.dt);
   return report;
 }
 

@@ -33,11 +33,10 @@ TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, con
       solver_(solver),
       ghosts_(ghosts),
       options_(options),
-      relaxed_(std::move(relaxed)) {
-  r_.resize(static_cast<std::size_t>(mesh.n_owned_nodes));
-}
+      relaxed_(std::move(relaxed)) {}
 
 void TruncatedNewton::allocate() {
+  r_.resize(static_cast<std::size_t>(mesh_.n_owned_nodes));
   for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_}) v->resize(r_.size());
   step_.resize(mesh_.x.size());
 }

@@ -44,6 +44,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "heat/heat_solver.hpp"
@@ -78,9 +79,9 @@ class TruncatedNewton {
   linear::NewtonReport solve(std::span<const double> old_heat, double dt, std::span<double> temperature,
                              std::span<double> heat, const ConductionBounds& bounds = {},
                              int newton_steps = 0);
-  /// F at the end of the last solve, [owned node] [W]: where the temperature is prescribed, the heat that
-  /// holds it.
-  std::span<const double> residual() const { return r_; }
+  /// Takes away F at the end of the last solve, [owned node] [W]: where the temperature is prescribed, the
+  /// heat that holds it.
+  std::vector<double> take_residual() { return std::move(r_); }
   double moved() const { return moved_; }  ///< heat moved per time in the last residual, all processes [W]
 
  private:
@@ -113,6 +114,7 @@ class TruncatedNewton {
   double minimise(double start, double longest, double (TruncatedNewton::*slope_at)(double));
   double linear_slope(double alpha);
   double true_slope(double alpha);
+  double true_slope_here();
   double slope_along_step() const;
   void move(double alpha);
   void take(double alpha);
@@ -129,8 +131,8 @@ class TruncatedNewton {
   double dt_ = 1, rate_ = 1;  ///< Δt, 1/Δt
   std::span<const double> old_heat_;
   std::span<double> heat_, temperature_;
-  std::vector<double> r_;  ///< F, during sweeps that of the linear A, [owned node]
-  // The others are empty between solves.
+  // All are empty between solves, F when it has been taken away.
+  std::vector<double> r_;            ///< F, during sweeps that of the linear A, [owned node]
   std::vector<double> diagonal_;     ///< of A, with the magnitudes of the couplings to other processes' nodes
   std::vector<double> step_;         ///< change of v, [local node]
   std::vector<double> product_;      ///< A times it; before that the right-hand side, [owned node]

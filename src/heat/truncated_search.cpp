@@ -51,6 +51,11 @@ double TruncatedNewton::linear_slope(double alpha) {
 /// The same for F itself, which is evaluated.
 double TruncatedNewton::true_slope(double alpha) {
   move(alpha);
+  return true_slope_here();
+}
+
+/// dE/dα for F itself where move() has taken the nodes.
+double TruncatedNewton::true_slope_here() {
   ghosts_.update(temperature_, 1);
   evaluate();
   return slope_along_step();
@@ -86,13 +91,14 @@ bool TruncatedNewton::find_length(double least) {
   }
   // A holds the terms that are not linear in v by their derivatives only: the step must be checked with F
   // itself.
-  const double slope = true_slope(alpha);
+  const double slope = true_slope_here();
   if (start < 0 && !(slope <= -k_accept_rise * start))
     alpha = minimise(start, alpha, &TruncatedNewton::true_slope);
   take(alpha);
   return true;
 }
 
+/// Returns the length α that it ends with, to which move() has taken the nodes last.
 /// @param start   dE/dα at zero
 /// @param longest  α that is tried first
 double TruncatedNewton::minimise(double start, double longest, double (TruncatedNewton::*slope_at)(double)) {
