@@ -87,7 +87,8 @@ void compare_volume_change(const BodySpec& body, const material::Material& m, Fi
   const double change = m.solidification()->volume_change;
   if (change == 0 || std::abs(change) >= k_next_to_none) return;
   warn(body, fmt::format("'{}' changes the volume by {:.2g} %", m.solidification()->name, 100 * change),
-       "metals shrink by 1 to 7 % as they freeze, volume_change = -0.07 to -0.01; zero: not at all", findings);
+       "metals shrink by 1 to 7 % as they freeze, volume_change = -0.07 to -0.01; zero: not at all",
+       findings);
 }
 
 /// Metal at its solidus has next to nothing of its strength when cold.

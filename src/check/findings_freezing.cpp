@@ -146,8 +146,8 @@ void largest_step(const CaseSpec& spec, Findings& findings) {
   const double most = spec.time.adaptive ? spec.time.max_step.value_or(0) : 0;
   if (spec.time.steady || most <= k_half * *spec.time.end) return;
   findings.push_back({false, spec.time.where,
-                      fmt::format("time.max_step of {} limits nothing: the whole run takes {}", duration(most),
-                                  duration(*spec.time.end)),
+                      fmt::format("time.max_step of {} limits nothing: the whole run takes {}",
+                                  duration(most), duration(*spec.time.end)),
                       "a tenth of the run and less, or none; is its unit right?"});
 }
 

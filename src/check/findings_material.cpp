@@ -187,8 +187,8 @@ void compare_phase_changes(const BodySpec& body, const material::Material& m, Fi
       findings.push_back(
           {false, body.where,
            fmt::format("the {} '{}' is of '{}', which melts from {:.0f} degC on and takes up {:.4g} kJ/kg",
-                       name(*body.role), body.name, body.material,
-                       change.fraction.solidus() - k_zero_celsius, 1e-3 * change.latent_heat),
+                       name(*body.role), body.name, body.material, change.fraction.solidus() - k_zero_celsius,
+                       1e-3 * change.latent_heat),
            "materials of moulds, cores and chills have no phase change: a sand, 'steel_mould', 'iron_chill', "
            "'copper_chill'"});
     else if (change.latent_heat > k_much && !change.solidification)

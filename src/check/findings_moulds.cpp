@@ -17,6 +17,11 @@ namespace solidus::model {
 
 namespace {
 
+/// Whether the name of a body's material tells that it is sand.
+bool is_sand(const BodySpec& body) {
+  return std::filesystem::path(body.material).stem().string().find("sand") != std::string::npos;
+}
+
 /// Coatings and washes are layers, which interfaces carry as a conductance; a body of one is thin.
 void thick_coatings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   constexpr double k_thickest = 5e-3;  // [m]
@@ -106,33 +111,29 @@ void cold_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, F
   }
 }
 
-/// Sand that is thinner than heat goes deep while the casting freezes: its outside then decides. Ceramic
-/// shells are thin, and stand in air.
+/// Moulds of sand that together are thinner than heat goes deep while the casting freezes: their outside then
+/// decides. Ceramic shells are thin, and stand in air.
 void thin_sand(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  double reach = 0, metal = 0;
+  double reach = 0, metal = 0, volume = 0;
   for (const Pour& pour : m.pours) {
     if (pour.freezing.time) reach = std::max(reach, pour.freezing.mould_reach);
     metal += pour.cooled_area;
   }
-  double around = 0;  // of all bodies that are not poured
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b)
-    if (!m.is_poured(b)) around += m.bodies[b].volume;
+  const BodySpec* first = nullptr;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    const BodySpec& body = spec.bodies[b];
-    const std::string file = std::filesystem::path(body.material).stem().string();
-    if (m.is_poured(b) || body.role != Role::mould || file.find("sand") == std::string::npos ||
-        !(metal > 0) || m.bodies[b].volume < 0.5 * around)
-      continue;
-    const double thickness = around / metal;
-    constexpr double k_reaches = 1.5;
-    if (thickness >= k_reaches * reach) continue;
-    findings.push_back(
-        {false, body.where,
-         fmt::format("the mould '{}' of '{}' is {:.3g} mm thick in the mean around what is poured, and heat "
-                     "goes {:.3g} mm deep until that is solid",
-                     body.name, body.material, 1e3 * thickness, 1e3 * reach),
-         "walls of sand of 30 mm and more, five times as thick as heat goes deep; is their unit right?"});
+    if (m.is_poured(b) || spec.bodies[b].role != Role::mould) continue;
+    volume += m.bodies[b].volume;
+    if (first == nullptr && is_sand(spec.bodies[b])) first = &spec.bodies[b];
   }
+  constexpr double k_reaches = 1.5;
+  if (first == nullptr || !(metal > 0) || volume / metal >= k_reaches * reach) return;
+  findings.push_back(
+      {false, first->where,
+       fmt::format(
+           "the mould '{}' of '{}' is {:.3g} mm thick in the mean around what is poured, and heat goes "
+           "{:.3g} mm deep until that is solid",
+           first->name, first->material, 1e3 * volume / metal, 1e3 * reach),
+       "walls of sand of 30 mm and more, five times as thick as heat goes deep; is their unit right?"});
 }
 
 /// Sand that deforms as a body that never yields holds its casting back as no sand does: it crushes.
@@ -140,9 +141,8 @@ void elastic_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   if (!spec.has_mechanics() || m.pours.empty()) return;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const BodySpec& body = spec.bodies[b];
-    const std::string file = std::filesystem::path(body.material).stem().string();
     const material::Material& of = a.materials[b];
-    if (m.is_poured(b) || only_conducts(body) || file.find("sand") == std::string::npos || of.flow) continue;
+    if (m.is_poured(b) || only_conducts(body) || !is_sand(body) || of.flow) continue;
     findings.push_back(
         {false, body.where,
          fmt::format("the sand '{}' of '{}' deforms with a young_modulus of {:.3g} MPa and never yields",

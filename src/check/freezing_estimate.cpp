@@ -94,7 +94,8 @@ class Line {
   void add_mould(std::size_t number) {
     const MouldSide& mould = problem_.moulds[number];
     const std::size_t outermost = cells_.size();
-    add_shell({&curves_[number], &mould.material->conductivity, mould.share, mould.volume_ratio, mould.start});
+    add_shell(
+        {&curves_[number], &mould.material->conductivity, mould.share, mould.volume_ratio, mould.start});
     cells_[outermost].outside = cells_.back().mould = static_cast<int>(number);
     mould_skin_.push_back(cells_.size() - 1);
   }

@@ -65,7 +65,8 @@ struct PouredNeighbour {
   double start = 0;                           ///< [K]
   double share = 0;         ///< area of the shared faces over that of the body's cooled skin
   double volume_ratio = 0;  ///< its volume over that of the body
-  /// Heat into it through its own cooled skin, per its volume [W/m³], of its temperature [K] and the time [s].
+  /// Heat into it through its own cooled skin, per its volume [W/m³], of its temperature [K] and the time
+  /// [s].
   std::function<double(double temperature, double time)> heat;
 };
 

@@ -274,13 +274,15 @@ const StageRun* stage_of_pour(const CaseSpec& spec, const Assembly& a, std::size
 /// A pour and what its estimate was made of.
 struct EstimatedPour {
   Pour pour;
-  FreezingProblem problem;        ///< of the body alone; complete where the pour has a time
-  std::vector<CooledSkin> skins;  ///< all of them, but the faces that it shares with other metal that is poured
+  FreezingProblem problem;  ///< of the body alone; complete where the pour has a time
+  std::vector<CooledSkin>
+      skins;  ///< all of them, but the faces that it shares with other metal that is poured
 };
 
 /// Finds the parts of the skin that count as cooled, and the problem in one dimension, without the metal that
 /// is poured with the body: the skin that its mould cools is the A of V/A.
-void estimate_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, EstimatedPour& estimated) {
+void estimate_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+                    EstimatedPour& estimated) {
   Pour& pour = estimated.pour;
   const std::size_t body = pour.body;
   const StageRun* const stage = stage_of_pour(spec, a, body);
