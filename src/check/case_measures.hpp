@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,8 @@ struct Pour {
   double conductance = 0;  ///< mean over A at the start, closed [W/(m² K)]; zero: nothing cools
   /// The reason why there is no estimate; empty: there is one.
   std::string no_estimate;
-  FreezingEstimate freezing;
+  FreezingEstimate freezing;         ///< with the heat of what is poured with it
+  std::optional<double> alone_time;  ///< until it would be solid without that heat [s]
 };
 
 /// Estimate of time and memory of a run, from the number of its steps and nodes (docs/guide/findings.md

@@ -56,10 +56,20 @@ double time_there(const CaseSpec& spec, const Assembly& a, std::size_t body) {
 }
 
 /// Over all processes the same.
-void nothing_to_wait_for(const CaseSpec& spec, const std::vector<Pour>& pours, Findings& findings) {
-  if (spec.time.until == TimeSpec::Until::solid && pours.empty())
-    findings.push_back({true, spec.time.where, "the run lasts until all is solid, but nothing is poured",
-                        "until = \"end\", or a body that starts above its solidus"});
+void nothing_to_wait_for(const CaseSpec& spec, const Assembly& a, const std::vector<Pour>& pours,
+                         Findings& findings) {
+  if (spec.time.until != TimeSpec::Until::solid || !pours.empty()) return;
+  std::string what = "the run lasts until all is solid, but nothing is poured";
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+    if (const material::PhaseChange* freezing = a.materials[b].solidification()) {
+      what += fmt::format(": '{}' starts at {:.0f} degC, and '{}' is liquid from {:.0f} degC on",
+                          spec.bodies[b].name, celsius(a.start[b].high), spec.bodies[b].material,
+                          celsius(freezing->fraction.liquidus()));
+      break;
+    }
+  findings.push_back(
+      {true, spec.time.where, what,
+       "until = \"end\", or a body that starts above its solidus; is the initial temperature in its unit?"});
 }
 
 void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Findings& findings) {
@@ -89,7 +99,7 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
     return;
   }
   // An estimate is good to a factor of two.
-  constexpr double k_early = 0.25, k_fine = 4, k_days = 15 * 86400.0;
+  constexpr double k_early = 0.25, k_fine = 4, k_enough = 20, k_days = 15 * 86400.0;
   const double time = *pour.freezing.time;
   if (*spec.time.end < k_early * time)
     findings.push_back({false, spec.time.where,
@@ -106,7 +116,13 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
         {false, spec.time.where,
          fmt::format("steps of {}, but '{}' freezes within some {}", duration(step), name, duration(time)),
          "twenty steps and more while it freezes; time.adaptive chooses them"});
-  if (const double least = spec.time.adaptive ? spec.time.min_step.value_or(0) : 0; k_fine * least > time)
+  if (const double first = spec.time.adaptive && a.stages.empty() ? spec.time.step.value_or(0) : 0;
+      k_fine * first > time)
+    findings.push_back({false, spec.time.where,
+                        fmt::format("the first step is {}, but '{}' freezes within some {}", duration(first),
+                                    name, duration(time)),
+                        "time.step of a thousandth to a hundredth of that; is its unit right?"});
+  if (const double least = spec.time.adaptive ? spec.time.min_step.value_or(0) : 0; k_enough * least > time)
     findings.push_back({false, spec.time.where,
                         fmt::format("steps of {} at least, but '{}' freezes within some {}", duration(least),
                                     name, duration(time)),
@@ -122,6 +138,17 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
     findings.push_back({false, spec.mesh.where,
                         fmt::format("'{}' takes some {} to freeze", name, duration(time)),
                         "seconds to hours; are mesh.unit, the conductances and conductivities right?"});
+}
+
+/// Over all pours the same: a largest step that no step comes to.
+void largest_step(const CaseSpec& spec, Findings& findings) {
+  constexpr double k_half = 0.5;
+  const double most = spec.time.adaptive ? spec.time.max_step.value_or(0) : 0;
+  if (spec.time.steady || most <= k_half * *spec.time.end) return;
+  findings.push_back({false, spec.time.where,
+                      fmt::format("time.max_step of {} limits nothing: the whole run takes {}",
+                                  duration(most), duration(*spec.time.end)),
+                      "a tenth of the run and less, or none; is its unit right?"});
 }
 
 /// Rounds of a cycle in which no casting leaves go on with the one that was poured before. Where everything
@@ -201,6 +228,13 @@ void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
                  spec.bodies[b].name, celsius(a.start[b].high), spec.bodies[b].material,
                  celsius(freezing->fraction.liquidus())),
              "what is poured together is poured at one temperature, 20 to 150 K above the liquidus"});
+      continue;
+    }
+    if (spec.bodies[b].role == Role::riser) {
+      findings.push_back({false, spec.bodies[b].where,
+                          fmt::format("the riser '{}' starts solid at {:.0f} degC: it feeds nothing",
+                                      spec.bodies[b].name, celsius(a.start[b].high)),
+                          "the temperature of what is poured with it"});
       continue;
     }
     findings.push_back(
@@ -354,7 +388,8 @@ void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasure
     length_of_run(spec, a, pour, findings);
   }
   rounds_without_a_shot(spec, a, m, findings);
-  nothing_to_wait_for(spec, m.pours, findings);
+  nothing_to_wait_for(spec, a, m.pours, findings);
+  if (!m.pours.empty()) largest_step(spec, findings);
   cold_castings(spec, a, m, findings);
   bodies_that_melt(spec, a, m, findings);
   melts_side_by_side(spec, a, m, findings);

@@ -82,6 +82,8 @@ void shared_nodes(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
       const bool told = std::any_of(m.contacts.begin(), m.contacts.end(),
                                     [](const ContactMeasures& c) { return c.shared_nodes > 0; });
       if (told) continue;
+      const bool one_metal =
+          a.materials[b].solidification() != nullptr && a.materials[other].solidification() != nullptr;
       findings.push_back(
           {false, spec.bodies[b].where,
            fmt::format(
@@ -89,7 +91,8 @@ void shared_nodes(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
                "heat passes without resistance",
                spec.bodies[other].name, spec.bodies[b].name, std::abs(a.start[b].high - a.start[other].high),
                n),
-           "between casting and mould bodies with nodes of their own and a [[contact]]"});
+           one_metal ? "one temperature for what is poured together, as a riser with its casting"
+                     : "between casting and mould bodies with nodes of their own and a [[contact]]"});
     }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "build/body_input.hpp"
+#include "case/roles.hpp"
 #include "check/findings.hpp"
 #include "material/laws/rate_law.hpp"
 
@@ -176,11 +177,21 @@ void compare_latent_heat(const BodySpec& body, const material::Material& m, Find
                      findings);
 }
 
-/// Heat as of freezing that no solid fraction belongs to.
+/// Heat as of freezing that no solid fraction belongs to: of a body that is no casting by its role, or of a
+/// card that does not say that it freezes.
 void compare_phase_changes(const BodySpec& body, const material::Material& m, Findings& findings) {
   constexpr double k_much = 1.2e5;  // [J/kg]: above all that changes in the solid
   for (const material::PhaseChange& change : m.phase_changes)
-    if (change.latent_heat > k_much && !change.solidification)
+    if (change.latent_heat > k_much && !change.solidification && body.role && *body.role != Role::casting &&
+        *body.role != Role::riser)
+      findings.push_back(
+          {false, body.where,
+           fmt::format("the {} '{}' is of '{}', which melts from {:.0f} degC on and takes up {:.4g} kJ/kg",
+                       name(*body.role), body.name, body.material, change.fraction.solidus() - k_zero_celsius,
+                       1e-3 * change.latent_heat),
+           "materials of moulds, cores and chills have no phase change: a sand, 'steel_mould', 'iron_chill', "
+           "'copper_chill'"});
+    else if (change.latent_heat > k_much && !change.solidification)
       warn_of_material(body,
                        fmt::format("'{}' releases {:.4g} kJ/kg and is no solidification: nothing freezes",
                                    change.name, 1e-3 * change.latent_heat),

@@ -1,4 +1,4 @@
-// Findings on the sizes of moulds: moulds of coating, walls of metres, and thin walls of sand that a
+// Findings on the sizes of moulds: moulds of coating, walls of metres, thin walls of sand, and those that a
 // condition holds cold.
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+#include "case/roles.hpp"
 #include "check/findings.hpp"
 #include "input/units.hpp"
 #include "mesh/locate.hpp"
@@ -15,6 +16,11 @@
 namespace solidus::model {
 
 namespace {
+
+/// Whether the name of a body's material tells that it is sand.
+bool is_sand(const BodySpec& body) {
+  return std::filesystem::path(body.material).stem().string().find("sand") != std::string::npos;
+}
 
 /// Coatings and washes are layers, which interfaces carry as a conductance; a body of one is thin.
 void thick_coatings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
@@ -37,7 +43,7 @@ void thick_coatings(const CaseSpec& spec, const CaseMeasures& m, Findings& findi
 
 /// Heat of a casting does not reach the outside of such walls while it freezes.
 void walls_of_metres(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_times = 5, k_least = 1;  // of the largest side of what is poured; [m]
+  constexpr double k_times = 4, k_least = 0.5;  // of the largest side of what is poured; [m]
   if (m.pours.empty()) return;
   mesh::Point low, high;
   low.fill(std::numeric_limits<double>::max());
@@ -105,6 +111,46 @@ void cold_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, F
   }
 }
 
+/// Moulds of sand that together are thinner than heat goes deep while the casting freezes: their outside then
+/// decides. Ceramic shells are thin, and stand in air.
+void thin_sand(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  double reach = 0, metal = 0, volume = 0;
+  for (const Pour& pour : m.pours) {
+    if (pour.freezing.time) reach = std::max(reach, pour.freezing.mould_reach);
+    metal += pour.cooled_area;
+  }
+  const BodySpec* first = nullptr;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    if (m.is_poured(b) || spec.bodies[b].role != Role::mould) continue;
+    volume += m.bodies[b].volume;
+    if (first == nullptr && is_sand(spec.bodies[b])) first = &spec.bodies[b];
+  }
+  constexpr double k_reaches = 1.5;
+  if (first == nullptr || !(metal > 0) || volume / metal >= k_reaches * reach) return;
+  findings.push_back(
+      {false, first->where,
+       fmt::format(
+           "the mould '{}' of '{}' is {:.3g} mm thick in the mean around what is poured, and heat goes "
+           "{:.3g} mm deep until that is solid",
+           first->name, first->material, 1e3 * volume / metal, 1e3 * reach),
+       "walls of sand of 30 mm and more, five times as thick as heat goes deep; is their unit right?"});
+}
+
+/// Sand that deforms as a body that never yields holds its casting back as no sand does: it crushes.
+void elastic_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  if (!spec.has_mechanics() || m.pours.empty()) return;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const BodySpec& body = spec.bodies[b];
+    const material::Material& of = a.materials[b];
+    if (m.is_poured(b) || only_conducts(body) || !is_sand(body) || of.flow) continue;
+    findings.push_back(
+        {false, body.where,
+         fmt::format("the sand '{}' of '{}' deforms with a young_modulus of {:.3g} MPa and never yields",
+                     body.name, body.material, 1e-6 * of.young_modulus.max_value()),
+         "sand crushes: physics = \"heat\" for the body, or [plasticity] in its material"});
+  }
+}
+
 }  // namespace
 
 void find_in_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
@@ -112,6 +158,8 @@ void find_in_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
   thick_coatings(spec, m, findings);
   walls_of_metres(spec, m, findings);
   cold_sand(spec, a, m, findings);
+  thin_sand(spec, m, findings);
+  elastic_sand(spec, a, m, findings);
 }
 
 }  // namespace solidus::model

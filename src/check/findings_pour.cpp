@@ -39,10 +39,25 @@ bool has_mould(const CaseSpec& spec, std::size_t other_than) {
   return false;
 }
 
-/// Bodies that are to be cast, of what does not freeze, where nothing else is poured.
+/// Bodies with the role of a casting or riser that do not freeze, beside others that do.
+void risers_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const BodySpec& body = spec.bodies[b];
+    if (!body.role || (*body.role != Role::casting && *body.role != Role::riser) ||
+        a.materials[b].solidification() != nullptr)
+      continue;
+    findings.push_back({false, body.where,
+                        fmt::format("the {} '{}' is of '{}', which does not freeze", name(*body.role),
+                                    body.name, body.material),
+                        "the alloy that is poured, or the role of a chill, core or mould"});
+  }
+}
+
+/// Bodies that are to be cast, of what does not freeze: where nothing else is poured, those without a role
+/// too.
 void castings_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   for (const material::Material& material : a.materials)
-    if (material.solidification() != nullptr) return;
+    if (material.solidification() != nullptr) return risers_that_do_not_freeze(spec, a, findings);
   constexpr double k_hot = 573.15;  // [K]: hot for a mould
   constexpr double k_conducts = 5;  // [W/m/K]: more than sand, ceramics and insulation do
   const auto hot = static_cast<std::size_t>(std::max(hottest(a), 0));

@@ -25,21 +25,21 @@ bool is_riser(const CaseSpec& spec, const Pour& pour) {
   return spec.bodies[pour.body].role == Role::riser;
 }
 
-/// A riser that freezes long before its casting feeds nothing. Estimates of two bodies of one mould are
-/// compared, so what both leave out hardly counts.
+/// A riser that freezes long before its casting feeds nothing. Compared are the times that both would take
+/// alone: where they meet they freeze together.
 void risers_that_freeze_first(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   constexpr double k_early = 0.4;
   for (const Pour& riser : m.pours) {
-    if (!is_riser(spec, riser) || !riser.freezing.time) continue;
+    if (!is_riser(spec, riser) || !riser.alone_time) continue;
     for (const Pour& fed : m.pours) {
-      if (is_riser(spec, fed) || !fed.freezing.time || m.bodies[riser.body].shared_nodes[fed.body] == 0 ||
-          *riser.freezing.time > k_early * *fed.freezing.time)
+      if (is_riser(spec, fed) || !fed.alone_time || m.bodies[riser.body].shared_nodes[fed.body] == 0 ||
+          *riser.alone_time > k_early * *fed.alone_time)
         continue;
       findings.push_back(
           {false, spec.bodies[riser.body].where,
            fmt::format("the riser '{}' freezes in some {:.2g} min, '{}', which it feeds, in some {:.2g} min",
-                       spec.bodies[riser.body].name, *riser.freezing.time / 60, spec.bodies[fed.body].name,
-                       *fed.freezing.time / 60),
+                       spec.bodies[riser.body].name, *riser.alone_time / 60, spec.bodies[fed.body].name,
+                       *fed.alone_time / 60),
            "a riser freezes last: a larger one, a sleeve or a cover"});
     }
   }

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace solidus::model {
 
 namespace {
 
 constexpr int k_metal_cells = 16, k_mould_cells = 24;
+constexpr double k_mould_growth = 1.2;  // of its cells outward
 /// Between a bar and a ball: the thick place of a casting of several thicknesses.
 constexpr double k_thick_place = 2.5;
 
@@ -22,22 +24,26 @@ struct Cell {
   double own_half = 0, parent_half = 0;  ///< distances from the face to the two centres [m]
   int mould = -1;       ///< number of the mould whose skin this is, which meets the metal; else −1
   int outside = -1;     ///< number of the mould whose outer side this is; else −1
+  int neighbour = -1;   ///< number of the poured neighbour that this is a part of; else −1
   double enthalpy = 0;  ///< [J/m³]
 };
 
-/// The metal and its moulds on a line, by finite volumes and backward Euler.
+/// The metal, its moulds and poured neighbours on a line, by finite volumes and backward Euler.
 class Line {
  public:
   explicit Line(const FreezingProblem& problem) : problem_(problem), metal_(problem.metal->enthalpy()) {
     exponent_ = std::clamp(problem.depth / problem.modulus, 1.0, k_thick_place);
     radius_ = std::max(problem.depth, problem.modulus);
     for (const MouldSide& mould : problem.moulds) curves_.push_back(mould.material->enthalpy());
+    for (const PouredNeighbour& other : problem.neighbours) curves_.push_back(other.metal->enthalpy());
     for (std::size_t m = 0; m < problem.moulds.size(); ++m) add_mould(m);
+    for (std::size_t o = 0; o < problem.neighbours.size(); ++o) add_neighbour(o);
     add_metal();
-    for (Cell& cell : cells_) {
-      if (cell.parent < 0 && &cell != &cells_.back()) cell.parent = static_cast<int>(cells_.size()) - 1;
-      if (cell.mould >= 0) cell.parent_half = skin_half_;
-    }
+    for (Cell& cell : cells_)
+      if (cell.parent < 0 && &cell != &cells_.back()) {
+        cell.parent = static_cast<int>(cells_.size()) - 1;
+        cell.parent_half = skin_half_;
+      }
     old_.resize(cells_.size());
   }
 
@@ -45,6 +51,11 @@ class Line {
   double skin() const { return temperature(cells_.size() - 1); }
   double centre() const { return temperature(centre_); }
   double mould_skin(std::size_t mould) const { return temperature(mould_skin_[mould]); }
+  /// Whether a poured neighbour is solid where it meets the metal.
+  bool neighbour_frozen(std::size_t neighbour) const {
+    const material::PhaseChange* freezing = problem_.neighbours[neighbour].metal->solidification();
+    return temperature(neighbour_foot_[neighbour]) <= freezing->fraction.solidus() * (1 + 1e-9);
+  }
   /// The gap that shrinkage of the skin opens [m].
   double gap() const {
     const material::PhaseChange* freezing = problem_.metal->solidification();
@@ -82,28 +93,51 @@ class Line {
 
   void add_mould(std::size_t number) {
     const MouldSide& mould = problem_.moulds[number];
-    // The shell of the right volume, in cells that grow outward.
-    const double outer = radius_ * std::pow(1 + mould.volume_ratio / mould.share, 1 / exponent_);
-    const double thickness = outer - radius_, growth = 1.2;
-    double cell = thickness * (growth - 1) / (std::pow(growth, k_mould_cells) - 1);
+    const std::size_t outermost = cells_.size();
+    add_shell(
+        {&curves_[number], &mould.material->conductivity, mould.share, mould.volume_ratio, mould.start});
+    cells_[outermost].outside = cells_.back().mould = static_cast<int>(number);
+    mould_skin_.push_back(cells_.size() - 1);
+  }
+
+  void add_neighbour(std::size_t number) {
+    const PouredNeighbour& other = problem_.neighbours[number];
+    const std::size_t outermost = cells_.size();
+    add_shell({&curves_[problem_.moulds.size() + number], &other.metal->conductivity, other.share,
+               other.volume_ratio, other.start});
+    for (std::size_t i = outermost; i < cells_.size(); ++i) cells_[i].neighbour = static_cast<int>(number);
+    neighbour_foot_.push_back(cells_.size() - 1);
+  }
+
+  struct Shell {
+    const material::EnthalpyCurve* curve;
+    const Table* conductivity;
+    double share;         ///< of the cooled skin
+    double volume_ratio;  ///< its volume over that of the metal
+    double start;         ///< [K]
+  };
+
+  /// Adds a shell of the right volume on a share of the metal's skin, in cells that grow outward, the
+  /// outermost first.
+  void add_shell(const Shell& shell) {
+    const double outer = radius_ * std::pow(1 + shell.volume_ratio / shell.share, 1 / exponent_);
+    const double thickness = outer - radius_;
+    double cell = thickness * (k_mould_growth - 1) / (std::pow(k_mould_growth, k_mould_cells) - 1);
     std::array<double, k_mould_cells + 1> r{};
     r[0] = radius_;
-    for (std::size_t i = 0; i < k_mould_cells; ++i, cell *= growth) r[i + 1] = r[i] + cell;
-    for (std::size_t i = k_mould_cells; i-- > 0;) {  // the outermost first
+    for (std::size_t i = 0; i < k_mould_cells; ++i, cell *= k_mould_growth) r[i + 1] = r[i] + cell;
+    for (std::size_t i = k_mould_cells; i-- > 0;) {
       Cell c;
-      c.curve = &curves_[number];
-      c.conductivity = &mould.material->conductivity;
-      c.volume = mould.share * (volume(r[i + 1]) - volume(r[i]));
-      c.area = mould.share * area(r[i]);
+      c.curve = shell.curve;
+      c.conductivity = shell.conductivity;
+      c.volume = shell.share * (volume(r[i + 1]) - volume(r[i]));
+      c.area = shell.share * area(r[i]);
       c.own_half = (r[i + 1] - r[i]) / 2;
       c.parent_half = i > 0 ? (r[i] - r[i - 1]) / 2 : 0;
       c.parent = i > 0 ? static_cast<int>(cells_.size()) + 1 : -1;
-      c.mould = i > 0 ? -1 : static_cast<int>(number);
-      c.outside = i + 1 < k_mould_cells ? -1 : static_cast<int>(number);
-      c.enthalpy = c.curve->upper(mould.start);
+      c.enthalpy = c.curve->upper(shell.start);
       cells_.push_back(c);
     }
-    mould_skin_.push_back(cells_.size() - 1);
   }
 
   void add_metal() {
@@ -147,11 +181,11 @@ class Line {
       diagonal[i] = cells_[i].volume / dt;
       residual[i] = cells_[i].volume / dt * (cells_[i].enthalpy - old_[i]);
     }
-    const auto load = [&](std::size_t i, const auto& heat) {
+    const auto load = [&](std::size_t i, const auto& heat, double factor = 1) {
       constexpr double k_difference = 0.1;  // [K]
       const double q = heat(t[i], time + dt);
-      residual[i] -= q;
-      diagonal[i] -= std::min(0.0, (heat(t[i] + k_difference, time + dt) - q) / k_difference) * d[i];
+      residual[i] -= factor * q;
+      diagonal[i] -= factor * std::min(0.0, (heat(t[i] + k_difference, time + dt) - q) / k_difference) * d[i];
     };
     for (const OpenSide& side : problem_.open) load(n - 1, side.heat);
     for (std::size_t i = 0; i < n; ++i) {
@@ -159,6 +193,8 @@ class Line {
       if (cell.outside >= 0)
         if (const auto& heat = problem_.moulds[static_cast<std::size_t>(cell.outside)].outer_heat)
           load(i, heat);
+      if (cell.neighbour >= 0)
+        load(i, problem_.neighbours[static_cast<std::size_t>(cell.neighbour)].heat, cell.volume);
       if (cell.parent < 0) continue;
       const auto p = static_cast<std::size_t>(cell.parent);
       const double g = conductance(cell, cells_[p], t[i], t[p]), q = g * (t[i] - t[p]);
@@ -193,7 +229,7 @@ class Line {
   double radius_ = 0, exponent_ = 1, skin_half_ = 0;
   std::vector<Cell> cells_;
   std::vector<double> old_;
-  std::vector<std::size_t> mould_skin_;
+  std::vector<std::size_t> mould_skin_, neighbour_foot_;
   std::size_t centre_ = 0;
 };
 
@@ -249,6 +285,8 @@ FreezingEstimate estimate_freezing(const FreezingProblem& problem) {
       metal.conductivity.value(solidus) / (metal.density * metal.specific_heat.value(solidus));
   double time = 0, dt = 1e-3 * line.radius() * line.radius() / diffusivity;
   Drops sum;
+  constexpr double k_never = std::numeric_limits<double>::max();
+  estimate.neighbours.assign(problem.neighbours.size(), k_never);
   for (int n = 0; !line.frozen(); ++n) {
     if (n == k_most_steps) {
       estimate.gave_up = true;
@@ -263,6 +301,8 @@ FreezingEstimate estimate_freezing(const FreezingProblem& problem) {
       continue;
     }
     time += dt;
+    for (std::size_t o = 0; o < estimate.neighbours.size(); ++o)
+      if (line.neighbour_frozen(o)) estimate.neighbours[o] = std::min(estimate.neighbours[o], time);
     const Drops now = drops(line, problem);
     sum.metal += dt * now.metal;
     sum.interface += dt * now.interface;
@@ -270,6 +310,7 @@ FreezingEstimate estimate_freezing(const FreezingProblem& problem) {
     dt *= k_growth;
   }
   estimate.time = time;
+  for (double& neighbour : estimate.neighbours) neighbour = std::min(neighbour, time);
   estimate.governed_by = largest(sum, !problem.moulds.empty());
   estimate.mould_reach = reach(problem, time);
   return estimate;

@@ -17,9 +17,14 @@
 /// governs.
 ///
 /// A larger body behind a mould, such as the sand around a sleeve or a chill, takes heat as a half space
-/// does. The estimate neglects the exchange of heat between thick and thin places of a casting, smaller
-/// bodies behind a mould, and the flow of metal. Measured: within a factor of two of the runs of all cases
-/// that freeze (docs/guide/findings.md).
+/// does. Metal that is poured with it and shares faces with it, as a casting does with its riser, is a fin on
+/// its skin: a shell of its volume on the area that both share, that loses heat through its own cooled skin
+/// evenly over its volume. So a riser gives heat to the casting below it, and the casting is liquid where it
+/// meets the riser until its fin is solid there.
+///
+/// The estimate neglects the exchange of heat between thick and thin places of one body, smaller bodies
+/// behind a mould, and the flow of metal. Measured: within a factor of two of the runs of all cases that
+/// freeze (docs/guide/findings.md).
 ///
 /// Source: N. Chvorinov, "Theorie der Erstarrung von Gussstücken", Die Giesserei 27 (1940) 177–186, 201–208,
 /// 222–225.
@@ -54,6 +59,17 @@ struct OpenSide {
   std::function<double(double temperature, double time)> heat;
 };
 
+/// Metal that is poured with the body and shares faces with it.
+struct PouredNeighbour {
+  const material::Material* metal = nullptr;  ///< it solidifies
+  double start = 0;                           ///< [K]
+  double share = 0;         ///< area of the shared faces over that of the body's cooled skin
+  double volume_ratio = 0;  ///< its volume over that of the body
+  /// Heat into it through its own cooled skin, per its volume [W/m³], of its temperature [K] and the time
+  /// [s].
+  std::function<double(double temperature, double time)> heat;
+};
+
 struct FreezingProblem {
   const material::Material* metal = nullptr;  ///< it solidifies
   double start = 0;                           ///< [K]
@@ -61,6 +77,7 @@ struct FreezingProblem {
   double depth = 0;                           ///< R, of the deepest place below the cooled skin [m]
   std::vector<MouldSide> moulds;
   std::vector<OpenSide> open;
+  std::vector<PouredNeighbour> neighbours;
 };
 
 struct FreezingEstimate {
@@ -70,6 +87,8 @@ struct FreezingEstimate {
   /// Temperature that everything comes to where it never freezes [K].
   double rest = 0;
   bool gave_up = false;  ///< the estimate found no end: nothing of it holds
+  /// [neighbour] until it is at its solidus where it meets the body [s]; of an estimate with a time.
+  std::vector<double> neighbours;
 };
 
 /// Takes some milliseconds. No MPI.

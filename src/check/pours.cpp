@@ -232,6 +232,18 @@ std::function<double(double, double)> heat_from_behind(const CooledSkin& skin, c
   };
 }
 
+/// Heat into metal through its cooled skins, per its volume [W/m³]; moulds as half spaces.
+std::function<double(double, double)> heat_by_volume(std::vector<CooledSkin> skins, double volume,
+                                                     const Assembly& a) {
+  for (CooledSkin& skin : skins)
+    if (skin.other) skin.heat = heat_from_behind(skin, a);
+  return [skins = std::move(skins), volume](double temperature, double time) {
+    double q = 0;
+    for (const CooledSkin& skin : skins) q += skin.area / volume * skin.heat(temperature, time);
+    return q;
+  };
+}
+
 /// Heat into the outside of a mould per area of the casting's cooled skin.
 std::function<double(double, double)> outer_heat(std::size_t mould, double cooled_area, double part,
                                                  const CaseSpec& spec, const StageRun* stage,
@@ -259,10 +271,19 @@ const StageRun* stage_of_pour(const CaseSpec& spec, const Assembly& a, std::size
   return stage != a.stages.end() ? &*stage : nullptr;
 }
 
-/// Finds the parts of the skin that count as cooled, and the problem in one dimension. Metal that is
-/// poured with it, as a riser is with its casting, neither cools nor heats it: Chvorinov's rule counts each
-/// by the skin that its mould cools.
-void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Pour& pour) {
+/// A pour and what its estimate was made of.
+struct EstimatedPour {
+  Pour pour;
+  FreezingProblem problem;  ///< of the body alone; complete where the pour has a time
+  std::vector<CooledSkin>
+      skins;  ///< all of them, but the faces that it shares with other metal that is poured
+};
+
+/// Finds the parts of the skin that count as cooled, and the problem in one dimension, without the metal that
+/// is poured with the body: the skin that its mould cools is the A of V/A.
+void estimate_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+                    EstimatedPour& estimated) {
+  Pour& pour = estimated.pour;
   const std::size_t body = pour.body;
   const StageRun* const stage = stage_of_pour(spec, a, body);
   const double start = a.start[body].high, end = spec.time.end.value_or(0);
@@ -297,7 +318,7 @@ void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Po
   pour.cooled_area = std::min(pour.cooled_area, m.bodies[body].skin);  // two films on one surface
   pour.spanned = share_between(a.mesh, spec.analysis.kind, static_cast<int>(body), on_skin);
   pour.depth = depth_below(a.mesh, body, cloud);
-  FreezingProblem problem;
+  FreezingProblem& problem = estimated.problem;
   problem.metal = &a.materials[body];
   problem.start = start;
   problem.modulus = m.bodies[body].volume / pour.cooled_area;
@@ -321,18 +342,57 @@ void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Po
   const bool against_mould = coldest < start;
   const double drop = against_mould ? start - coldest : std::max(1.0, start - k_zero_celsius - 20);
   pour.conductance /= pour.cooled_area * drop;
+  estimated.skins = std::move(skins);
   pour.freezing = estimate_freezing(problem);
+  pour.alone_time = pour.freezing.time;
   if (pour.freezing.gave_up)
     pour.no_estimate = "it comes to no end: the conductance jumps where the gap opens";
+}
+
+/// Lets metal that shares faces exchange heat: what would freeze later alone, as a riser does, gives heat to
+/// what would freeze earlier, and that is liquid where both meet until the estimate of the other says that it
+/// is solid there. The slowest come first.
+void exchange_heat(const CaseMeasures& m, const Assembly& a, std::vector<EstimatedPour>& all) {
+  std::vector<EstimatedPour*> by_time;
+  for (EstimatedPour& one : all)
+    if (one.pour.alone_time) by_time.push_back(&one);
+  std::ranges::stable_sort(by_time, [](const EstimatedPour* one, const EstimatedPour* other) {
+    return *one->pour.alone_time > *other->pour.alone_time;
+  });
+  for (std::size_t i = 0; i < by_time.size(); ++i) {
+    Pour& slow = by_time[i]->pour;
+    const BodyMeasures& body = m.bodies[slow.body];
+    FreezingProblem problem = by_time[i]->problem;
+    std::vector<Pour*> fast;
+    for (std::size_t j = i + 1; j < by_time.size(); ++j) {
+      EstimatedPour& other = *by_time[j];
+      const double shared = body.shared[other.pour.body], volume = m.bodies[other.pour.body].volume;
+      if (!(shared > 0)) continue;
+      problem.neighbours.push_back({&a.materials[other.pour.body], a.start[other.pour.body].high,
+                                    shared / slow.cooled_area, volume / body.volume,
+                                    heat_by_volume(other.skins, volume, a)});
+      fast.push_back(&other.pour);
+    }
+    if (fast.empty()) continue;
+    const FreezingEstimate together = estimate_freezing(problem);
+    if (!together.time) continue;
+    // What a slower one has left liquid here stays so.
+    const double before = *slow.freezing.time, least = before > *slow.alone_time ? before : 0.0;
+    slow.freezing = together;
+    slow.freezing.time = std::max(least, *together.time);
+    for (std::size_t j = 0; j < fast.size(); ++j)
+      fast[j]->freezing.time = std::max(*fast[j]->freezing.time, together.neighbours[j]);
+  }
 }
 
 }  // namespace
 
 std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
-  std::vector<Pour> list;
+  std::vector<EstimatedPour> all;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     if (!comes_in_molten(a, b)) continue;
-    Pour pour;
+    EstimatedPour& estimated = all.emplace_back();
+    Pour& pour = estimated.pour;
     pour.body = b;
     const bool heated =
         std::any_of(spec.thermal_conditions.begin(), spec.thermal_conditions.end(),
@@ -342,9 +402,11 @@ std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasu
     else if (spec.time.steady)
       pour.no_estimate = "the analysis is steady";
     else
-      estimate(spec, a, m, pour);
-    list.push_back(std::move(pour));
+      estimate_alone(spec, a, m, estimated);
   }
+  exchange_heat(m, a, all);
+  std::vector<Pour> list;
+  for (EstimatedPour& estimated : all) list.push_back(std::move(estimated.pour));
   return list;
 }
 

@@ -169,8 +169,7 @@ class Refinement {
   bool adapt(const CheckedRun& checked) {
     double time = 0, reach = 0;
     estimate_.nodes = estimate_.metal_nodes = 0;
-    // The estimate knows of no heat that metal gives metal: a riser in a sleeve, or a casting that others
-    // enclose, would be liquid for hours.
+    // The estimate errs long for a riser in a sleeve, and for a casting that others enclose.
     constexpr double k_outlives = 2;
     const double of_castings = longest_freezing(checked);
     for (const results::PourOverview& pour : checked.overview.pours) {

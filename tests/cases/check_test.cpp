@@ -95,6 +95,26 @@ TEST(Check, EstimatesWhenCastingsAreSolid) {
   }
 }
 
+/// A riser gives heat to the casting below it (docs/guide/findings.md).
+TEST(Check, EstimatesWhenCastingsWithRisersAreSolid) {
+  struct Measured {
+    const char* file;
+    double casting, riser;  ///< until the last node is solid, by heat alone [s]
+  };
+  for (const Measured& m :
+       {Measured{"stepped_plate/case.toml", 320, 360}, {"riser_sleeve/sand.toml", 982, 973}}) {
+    const fs::path file = fs::path(SOLIDUS_SOURCE_DIR) / "cases" / m.file;
+    const model::CheckedRun checked = model::check_run(model::load_case(file));
+    ASSERT_EQ(checked.overview.pours.size(), 2u) << m.file;
+    for (const results::PourOverview& pour : checked.overview.pours) {
+      ASSERT_TRUE(pour.freezing_time) << m.file;
+      const double ratio = *pour.freezing_time / (pour.body == "riser" ? m.riser : m.casting);
+      EXPECT_GT(ratio, 0.5) << m.file << ' ' << pour.body;
+      EXPECT_LT(ratio, 2.0) << m.file << ' ' << pour.body;
+    }
+  }
+}
+
 /// Output of the program for a case, without the line on the effort of the run, which depends on the number
 /// of processes.
 std::string table(int processes) {

@@ -210,7 +210,9 @@ class PartMaker {
     for (const BodyVolumes& part : parts_)
       if (part.volumes.empty())
         refuse("nothing is left of the body '" + part.name + "' beside the others: they overlap",
-               "bodies that touch and do not overlap");
+               riser >= 0 && part.name == geometry_.riser->name
+                   ? "foot and height of [mesh.riser] above the parts; is the unit of the file right?"
+                   : "bodies that touch and do not overlap");
   }
 
   /// @param pieces   of each volume of the file
