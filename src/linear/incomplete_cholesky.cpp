@@ -1,6 +1,7 @@
 #include "linear/incomplete_cholesky.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 namespace solidus::linear {
@@ -13,6 +14,8 @@ constexpr float k_least_pivot = 1e-4F;
 constexpr float k_borne_fill = 0.3F;
 /// Share of a row's entries with nodes of other processes that goes to its diagonal.
 constexpr float k_across = 0.7F;
+/// Shares of the diagonal that are added to it in turn until no pivot is negative.
+constexpr std::array k_shifts = {0.0F, 0.01F, 0.04F, 0.16F, 0.64F, 2.56F};
 
 std::size_t at(std::int64_t i) {
   return static_cast<std::size_t>(i);
@@ -33,26 +36,34 @@ void IncompleteCholesky::set_up(BlockMatrix& a) {
   column_ = a.columns();
   work_.resize(start_.size() - 1);
   factor_.resize(column_.size());
-  a.constrained([&] { factorise(a.block(0)); });
+  a.constrained([&] {
+    for (const float shift : k_shifts)
+      if (factorise(a.block(0), shift)) break;
+  });
 }
 
-void IncompleteCholesky::factorise(const double* values) {
+/// Returns whether no pivot was negative beyond rounding.
+bool IncompleteCholesky::factorise(const double* values, float shift) {
+  bool positive = true;
   std::transform(values, values + column_.size(), factor_.begin(),
                  [](double v) { return static_cast<float>(v); });
   std::vector<float>& bears = work_;
   find_borne_fill(values, bears);
   for (std::size_t row = 0; row < work_.size(); ++row) {
     const std::int64_t diagonal = start_[row], end = end_of_owned(row);
-    const auto original = static_cast<float>(values[diagonal]);
     float& pivot = factor_[at(diagonal)];
+    const float original = (1.0F + shift) * static_cast<float>(values[diagonal]);
+    pivot += shift * static_cast<float>(values[diagonal]);
     for (std::int64_t s = end; s < start_[row + 1]; ++s) pivot += k_across * factor_[at(s)];
     if (bears[row] < 0.0F) pivot += bears[row];
+    if (pivot < -k_least_pivot * original) positive = false;
     if (!(pivot > k_least_pivot * original)) pivot = original;
     eliminate(static_cast<Index>(row), end, bears);
     const float inverse = pivot != 0.0F ? 1.0F / pivot : 1.0F;
     for (std::int64_t s = diagonal + 1; s < end; ++s) factor_[at(s)] *= inverse;
     pivot = inverse;
   }
+  return positive;
 }
 
 /// The fill that each row bears, from the sum of the row.

@@ -8,6 +8,10 @@
 /// perturbation). A row that is diagonally dominant by more than its fill stays as it is: there nothing is
 /// smooth, and fill on the diagonal would be in the way.
 ///
+/// Entries beside the diagonal that are positive, as quadratic elements have them, may make a pivot negative,
+/// and factors that go on from it have no bound. Then they are made of A + α diag A, with the least of some
+/// rising α for which no pivot is negative (T. A. Manteuffel, Math. Comp. 34 (1980) 473).
+///
 /// Each process has factors of its own rows. Of the entries A_ij with nodes j of other processes 0.7 goes to
 /// the diagonal of row i. With none of them the factors act as if the unknowns beyond the border were zero,
 /// with all of them as if each equalled that of its row; something between the two couples the parts best, as
@@ -37,7 +41,7 @@ class IncompleteCholesky {
   std::size_t bytes() const { return (factor_.capacity() + work_.capacity()) * sizeof(float); }
 
  private:
-  void factorise(const double* values);
+  bool factorise(const double* values, float shift);
   void find_borne_fill(const double* values, std::span<float> bears) const;
   void eliminate(Index row, std::int64_t end, std::span<float> bears);
   std::int64_t end_of_owned(std::size_t row) const;

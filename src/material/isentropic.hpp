@@ -17,8 +17,10 @@
 /// In a step every table is its line near Θ_n, because the entropy −Ψ_Θ of a table jumps where it bends.
 /// The Newton iteration is smooth and reads no table.
 ///
-/// Validity: Θ̄ within [lowest, highest], a factor of two around Θ_n and as far as moduli and capacity keep a
-/// quarter of their value along their lines; beyond it the status is outside_range.
+/// Validity: Θ̄ within a factor of two around Θ_n; beyond it the status is outside_range. Where moduli or
+/// capacity keep less than a quarter of their value along their lines, at `lowest` or `highest`, these say
+/// nothing any more: Θ̄ stays there, the incremental energy is stationary within [lowest, highest], and the
+/// update and its tangent are the isothermal ones at that temperature.
 #pragma once
 
 #include "material/viscoplastic.hpp"
@@ -37,7 +39,7 @@ class Isentropic {
   template <class T>
   struct Properties {
     T temperature;      ///< Θ_n [K]
-    T lowest, highest;  ///< the admissible range of Θ̄ [K]
+    T lowest, highest;  ///< the range of Θ̄ in which the lines hold [K]
     T entropy{};        ///< S^E_n, set by the caller from entropy() [J/(m³ K)]
     Table::Line<T> young, poisson, expansion;
     Table::Line<T> capacity;  ///< C_v = ρ c [J/(m³ K)]
@@ -50,11 +52,11 @@ class Isentropic {
   template <class T>
   struct Response : Viscoplastic::Response<T> {
     T temperature{};     ///< Θ̄ [K]
-    T entropy_defect{};  ///< S^E − S^E_n that the iteration left [J/(m³ K)]
+    T entropy_defect{};  ///< S^E − S^E_n that the iteration or the end of the range left [J/(m³ K)]
     /// The adiabatic part of the tangent: thermal_factor thermal_left ⊗ thermal_right, beside the members of
     /// the base. thermal_left = ∂σ/∂Θ, and thermal_right = thermal_left where the law is symmetric.
     Sym<T> thermal_left, thermal_right;
-    T thermal_factor{};  ///< 1/F' [m³ K²/J]
+    T thermal_factor{};  ///< 1/F' [m³ K²/J], zero at the end of the range
   };
 
   /// Keeps a reference to the material.

@@ -16,6 +16,10 @@ inline constexpr int k_max_temperatures = 100;
 /// A defect after which one more step of Newton's method, which squares it, reaches the tolerance.
 inline constexpr double k_last_defect = 3e-6;
 inline constexpr int k_max_coupled = 4;
+/// Temperatures after which an iteration that Newton's method leads out of the range tries its end.
+inline constexpr int k_before_the_end = 4;
+/// Θ̄ lies within this factor of Θ_n.
+inline constexpr double k_largest_factor = 2;
 /// A property keeps this part of its value along its line.
 inline constexpr double k_kept_share = 0.25;
 /// Value added to hardening moduli before k_kept_share is required of them, as a part of Young's modulus.
@@ -26,7 +30,8 @@ inline constexpr double k_spare_modulus = 0.01;
 template <class T>
 class Range {
  public:
-  explicit Range(const T& middle) : middle_(middle), low_(T(0.5) * middle), high_(T(2.0) * middle) {}
+  explicit Range(const T& middle)
+      : middle_(middle), low_(T(1 / k_largest_factor) * middle), high_(T(k_largest_factor) * middle) {}
   void keep(const T& value, const T& slope) {
     const T zero(0.0), steep(1e-200);
     const T rise = select(slope < zero, T(-slope), slope);
@@ -271,9 +276,18 @@ Isentropic::Response<T> Isentropic::update(const Properties<T>& p, const State<T
         theta, at.entropy,
         T(at.entropy_theta + at.flow.entropy_gamma * r.inverse_stiffness * at.flow.yield_theta));
 
+    // Beyond the end of its range the lines say nothing: Θ̄ stays there, and the update is the isothermal one.
+    const T onward = f.step(theta), by = zero - f.value / f.slope;  // of ln Θ
+    const T factor(detail::k_largest_factor);
+    const auto above =
+        both(theta >= p.highest, both(by > zero, theta * (T(1.0) + by) <= factor * p.temperature));
+    const auto below =
+        both(theta <= p.lowest, both(by < zero, factor * theta >= p.temperature * (T(1.0) - by)));
+    const auto ended = either(above, below);
+
     // Types that carry derivatives take one step more, which their derivatives need.
     const bool last = solved || i == detail::k_max_temperatures;
-    solved = all(f.value <= tolerance) && all(-f.value <= tolerance);
+    solved = all(either(ended, both(f.value <= tolerance, -f.value <= tolerance)));
     if (last || (solved && detail::is_plain<T>)) {
       if (!solved && r.status == Status::converged) r.status = Status::outside_range;
       const Sym<T> left = reduced.stress_slope(at, r.flow_increment, r.inverse_stiffness);
@@ -282,16 +296,20 @@ Isentropic::Response<T> Isentropic::update(const Properties<T>& p, const State<T
               f.value,
               left,
               symmetric() ? left : reduced.minus_entropy_slope(at, r.flow_increment, r.inverse_stiffness),
-              theta / f.slope};
+              select(ended, zero, T(theta / f.slope))};
     }
     low = select(f.value < zero, theta, low);
     high = select(f.value > zero, theta, high);
     const auto inside = [&](const T& a, const T& otherwise) {
       return select(a >= low, select(a <= high, a, otherwise), otherwise);
     };
-    const T newton = f.step(theta), middle = T(0.5) * (low + high);
-    const T coupled = detail::coupled_newton(material(), p, reduced, sensible, r, at, theta, f.value, newton);
-    theta = inside(coupled, inside(newton, middle));
+    T otherwise = T(0.5) * (low + high);
+    if (i >= detail::k_before_the_end) {
+      otherwise = select(both(f.value < zero, high >= p.highest), p.highest, otherwise);
+      otherwise = select(both(f.value > zero, low <= p.lowest), p.lowest, otherwise);
+    }
+    const T coupled = detail::coupled_newton(material(), p, reduced, sensible, r, at, theta, f.value, onward);
+    theta = inside(coupled, inside(onward, otherwise));
   }
 }
 

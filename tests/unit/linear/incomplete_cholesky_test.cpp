@@ -4,6 +4,7 @@
 
 #include <petscsys.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -95,6 +96,34 @@ TEST(IncompleteCholesky, IsSymmetricAndPositive) {
   factors.apply(s, to_s);
   EXPECT_GT(product(r, to_r), 0);
   EXPECT_NEAR(product(s, to_r), product(r, to_s), 1e-5 * std::sqrt(product(r, to_r) * product(s, to_s)));
+}
+
+/// A matrix with positive entries beside its diagonal that is positive definite by little, as capacities of
+/// quadratic elements at their integration points are: the sum of squares of differences of neighbours'
+/// means. Pivots of its factors without fill are negative without a shift of the diagonal.
+TEST(IncompleteCholesky, OfAMatrixWithPositiveEntriesBesideTheDiagonalStaysPositive) {
+  constexpr int n = 30;
+  Grid grid(n, n);
+  BlockMatrix matrix(grid.mesh, 1, Heat::graph(grid), BlockMatrix::Storage::upper);
+  const auto slots = matrix.clique_slots(grid.quads, 4);
+  constexpr std::array<std::array<double, 4>, 2> forms = {{{1, 1, 1, 1}, {1, 1, -1, 1}}};
+  for (std::size_t q = 0; q < slots.size(); q += 16)
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = 0; b < 4; ++b) {
+        double entry = a == b ? 1e-3 : 0.0;
+        for (const auto& form : forms) entry += form[a] * form[b];
+        *matrix.block(slots[q + 4 * a + b]) += entry;
+      }
+  IncompleteCholesky factors;
+  factors.set_up(matrix);
+  std::vector<double> r(at(grid.mesh.n_owned_nodes)), z(r.size());
+  for (int k = 0; k < 20; ++k) {
+    for (std::size_t i = 0; i < r.size(); ++i)
+      r[i] = std::sin((0.3 + k) * static_cast<double>(grid.global(static_cast<Index>(i))));
+    factors.apply(r, z);
+    EXPECT_GT(product(r, z), 0);
+    EXPECT_LT(product(z, z), 1e6 * product(r, r));
+  }
 }
 
 // A whole matrix is PETSc's.

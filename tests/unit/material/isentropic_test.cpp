@@ -316,6 +316,38 @@ TEST(Isentropic, AnUnreachableEntropyIsOutsideTheRange) {
   EXPECT_LE(p.highest, 1000);
 }
 
+/// A modulus that falls to a half within 40 K: lines of it end 40 K and more from Θ_n, and what is pulled and
+/// let go may be warmer than that.
+TEST(Isentropic, WhereTheLinesEndTheUpdateIsTheIsothermalOne) {
+  Material m = varying_material({IsotropicHardening::linear, KinematicHardening::linear, 1e6, 3});
+  for (const bool warmer : {true, false}) {
+    m.young_modulus = warmer ? Table({300, 480, 560, 1500}, {2e11, 2e11, 5e10, 5e10})
+                             : Table({300, 480, 560, 1500}, {5e10, 5e10, 2e11, 2e11});
+    const Isentropic law(m);
+    auto p = law.properties_at(520.0, k_start_temperature);
+    const double free = law.at_temperature(p, p.temperature).elastic.thermal_strain.v / 3;
+    const Sym<double> strain{{free + 1e-4, free - 2e-4, free + 3e-4, 5e-3, 0, 1e-4}};
+    const double end = warmer ? p.highest : p.lowest;
+    EXPECT_LT(std::abs(end - p.temperature), 60);
+    p.entropy = (warmer ? 0.15 : -0.15) * p.capacity.value;  // of 78 K
+    const auto r = law.update(p, {}, strain, 1.0);
+    ASSERT_EQ(r.status, Status::converged);
+    EXPECT_EQ(r.temperature, end);
+    EXPECT_GT(r.flow_increment, 0);
+    EXPECT_EQ(r.entropy_defect < 0, warmer);
+
+    p.entropy += r.entropy_defect;  // that of this temperature
+    const auto same = law.update(p, {}, strain, 1.0);
+    ASSERT_EQ(same.status, Status::converged);
+    EXPECT_NEAR(same.temperature, end, 1e-6);
+    EXPECT_LT(norm(Sym<double>(r.stress - same.stress)), 1e-6 * norm(same.stress));
+    const Viscoplastic::Response<double>& isothermal = same;
+    const auto c = full_tangent(r), expected = full_tangent(isothermal);
+    for (int a = 0; a < 6; ++a)
+      for (std::size_t b = 0; b < 6; ++b) EXPECT_NEAR(c[a][b], expected[a][b], 1e-6 * expected[0][0]);
+  }
+}
+
 TEST(Isentropic, AHardeningModulusThatIsAllButGoneLeavesItsRange) {
   Material m = varying_material({IsotropicHardening::linear, KinematicHardening::linear});
   m.flow->hardening[LinearHardening::modulus] = m.flow->kinematic_modulus = Table({300, 700}, {4e8, 0});
