@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -38,13 +39,33 @@ std::string read_text_file(const std::filesystem::path& file, const SourceLocati
   return content.str();
 }
 
+namespace {
+
+/// Number of bytes of the character that begins at i, by UTF-8 (RFC 3629, table of section 4 but for the
+/// narrower second bytes); 0: none does.
+std::size_t length_of_character(const std::string& text, std::size_t i) {
+  const auto lead = static_cast<unsigned char>(text[i]);
+  const std::size_t length = lead < 0x80                    ? 1
+                             : lead >= 0xc2 && lead <= 0xdf ? 2
+                             : lead >= 0xe0 && lead <= 0xef ? 3
+                             : lead >= 0xf0 && lead <= 0xf4 ? 4
+                                                            : 0;
+  if (i + length > text.size()) return 0;
+  for (std::size_t k = 1; k < length; ++k)
+    if ((static_cast<unsigned char>(text[i + k]) & 0xc0) != 0x80) return 0;
+  return length;
+}
+
+}  // namespace
+
 std::string printable(std::string text) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  for (std::size_t i = 0; i < text.size();) {
     const auto c = static_cast<unsigned char>(text[i]);
-    const bool second_set =
-        c >= 0x80 && c <= 0x9f && i > 0 && static_cast<unsigned char>(text[i - 1]) == 0xc2;
-    if ((c < 0x20 && c != '\n' && c != '\t') || c == 0x7f || second_set) text[i] = '?';
-    if (second_set) text[i - 1] = '?';
+    const std::size_t length = length_of_character(text, i);
+    const bool second_set = length == 2 && c == 0xc2 && static_cast<unsigned char>(text[i + 1]) <= 0x9f;
+    if (length == 0 || second_set || (c < 0x20 && c != '\n' && c != '\t') || c == 0x7f) text[i] = '?';
+    if (second_set) text[i + 1] = '?';
+    i += std::max<std::size_t>(length, 1);
   }
   return text;
 }

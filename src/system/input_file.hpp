@@ -21,8 +21,8 @@ void require_readable(const std::filesystem::path& file, const SourceLocation& w
 /// The whole content of such a file.
 std::string read_text_file(const std::filesystem::path& file, const SourceLocation& where);
 
-/// A text for the terminal: control characters, which could move its cursor or change its title, are shown as
-/// '?'. Line ends and tabs stay.
+/// A text for the terminal: control characters, which could move its cursor or change its title, and bytes
+/// that are no UTF-8 are shown as '?'. Line ends and tabs stay.
 std::string printable(std::string text);
 
 }  // namespace solidus
