@@ -48,7 +48,8 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
       for (Index e = 0; e < part.size(); ++e)
         for (Index a = 0; a < n; ++a)
           if (const Index node = part.element(e)[a]; node < mesh.n_owned_nodes)
-            volume_in(node, block.body) += weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
+            volume_in(node, block.body) +=
+                weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
     });
   if (n_owned > 0 && further.empty() && std::ranges::count(body_of, body_of.front()) == std::ssize(body_of)) {
     shares_ = NodeShares(body_of.front(), std::move(volume_of));
@@ -72,7 +73,8 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
 double NodalEnthalpy::held_by(const linear::ActiveSet& active, Index node, double heat,
                               double temperature) const {
   const NodeShares::List list = shares_[node];
-  if (std::all_of(list.begin(), list.end(), [&](const NodeShare& s) { return active.body(s.body); })) return heat;
+  if (std::all_of(list.begin(), list.end(), [&](const NodeShare& s) { return active.body(s.body); }))
+    return heat;
   const double share = plateau_share(node, heat, temperature);
   double held = 0;
   for (const NodeShare s : list) {

@@ -76,9 +76,7 @@ class NodeShares {
   /// Ends the shares of a node: the next one is filled from here on.
   void end_node();
 
-  Index n_nodes() const {
-    return static_cast<Index>(start_.empty() ? weights_.size() : start_.size() - 1);
-  }
+  Index n_nodes() const { return static_cast<Index>(start_.empty() ? weights_.size() : start_.size() - 1); }
   List operator[](Index node) const {
     const auto i = static_cast<std::size_t>(node);
     const std::size_t first = start_.empty() ? i : static_cast<std::size_t>(start_[i]);

@@ -34,12 +34,12 @@ TEST(NodeShares, GiveBackWhatWasAdded) {
   const std::vector<std::vector<Shares>> all = {
       {},
       {{{2, 0.5}}},
-      {{{2, 0.5}}, {{2, 1.5}}, {{2, 2.5}}},                      // one body
-      {{{0, 0.5}}, {{0, 1.5}}, {{1, 2.5}}, {{0, 3.5}}},          // two bodies, one share each
-      {{{0, 0.5}}, {{0, 1.5}, {1, 0.25}}, {{1, 2.5}}, {}},       // a node of both, one of none
-      {{}, {{1, 0.5}}, {{1, 1.5}}},                              // the first one of none
+      {{{2, 0.5}}, {{2, 1.5}}, {{2, 2.5}}},                 // one body
+      {{{0, 0.5}}, {{0, 1.5}}, {{1, 2.5}}, {{0, 3.5}}},     // two bodies, one share each
+      {{{0, 0.5}}, {{0, 1.5}, {1, 0.25}}, {{1, 2.5}}, {}},  // a node of both, one of none
+      {{}, {{1, 0.5}}, {{1, 1.5}}},                         // the first one of none
       {{{1, 0.5}}, {}, {{1, 1.5}}, {{0, 1.0}, {1, 2.0}, {2, 3.0}}},
-      {{{3, 0.5}, {3, 0.25}}, {{3, 1.5}}}};                      // two shares of one body
+      {{{3, 0.5}, {3, 0.25}}, {{3, 1.5}}}};  // two shares of one body
   for (const std::vector<Shares>& nodes : all) EXPECT_EQ(read(filled(nodes)), nodes);
 }
 
