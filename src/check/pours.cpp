@@ -376,7 +376,7 @@ void exchange_heat(const CaseMeasures& m, const Assembly& a, std::vector<Estimat
     if (fast.empty()) continue;
     const FreezingEstimate together = estimate_freezing(problem);
     if (!together.time) continue;
-    // What a slower one has left liquid here stays so.
+    // The estimate together with a slower neighbour, made in an earlier turn, is a lower bound.
     const double before = *slow.freezing.time, least = before > *slow.alone_time ? before : 0.0;
     slow.freezing = together;
     slow.freezing.time = std::max(least, *together.time);

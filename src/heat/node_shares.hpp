@@ -1,4 +1,4 @@
-/// What nodes have of the bodies around them: for each owned node its bodies, with the volume of each.
+/// The bodies of each owned node, with the volume that the node has of each.
 #pragma once
 
 #include <cstddef>

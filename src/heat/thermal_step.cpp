@@ -155,8 +155,8 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
   require_positive(next.temperature);
   if (!may_end(report.newton, pass.newton_steps)) require(report.newton, residual, next.temperature);
   book(residual, stage.dt, next.enthalpy);
-  report.balance = balance({old.temperature, std::move(from)}, next, residual, truncated_newton_->moved(),
-                           stage.dt);
+  report.balance =
+      balance({old.temperature, std::move(from)}, next, residual, truncated_newton_->moved(), stage.dt);
   return report;
 }
 
