@@ -80,12 +80,16 @@ class ForeignFiles : public ::testing::Test {
     outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return outcome;
   }
-  /// Expects exit code 1 and one message that holds the phrases.
+  /// Expects exit code 1 and one message that holds the phrases, behind those that reading goes on, which a
+  /// busy machine gives.
   void expect_refused(const std::string& line, const std::vector<std::string>& phrases) const {
     const Outcome outcome = shell(line);
     EXPECT_EQ(outcome.code, 1) << line << ": " << outcome.said;
     for (const std::string& phrase : phrases) EXPECT_THAT(outcome.said, ::testing::HasSubstr(phrase)) << line;
-    EXPECT_EQ(outcome.said.find("solidus: "), 0u) << line << ": " << outcome.said;
+    std::string message = outcome.said;
+    while (message.starts_with("info: ") && message.find('\n') != std::string::npos)
+      message.erase(0, message.find('\n') + 1);
+    EXPECT_TRUE(message.starts_with("solidus: ")) << line << ": " << outcome.said;
     EXPECT_THAT(outcome.said, ::testing::Not(::testing::HasSubstr("PETSC ERROR"))) << line;
     EXPECT_LT(outcome.seconds, 20) << line;
   }
