@@ -275,8 +275,8 @@ const StageRun* stage_of_pour(const CaseSpec& spec, const Assembly& a, std::size
 struct EstimatedPour {
   Pour pour;
   FreezingProblem problem;  ///< of the body alone; complete where the pour has a time
-  std::vector<CooledSkin>
-      skins;  ///< all of them, but the faces that it shares with other metal that is poured
+  /// All of them, but for the faces that it shares with other metal that is poured.
+  std::vector<CooledSkin> skins;
 };
 
 /// Finds the parts of the skin that count as cooled, and the problem in one dimension, without the metal that
