@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <string_view>
@@ -40,7 +41,10 @@ PvdCollection::PvdCollection(std::filesystem::path path, double time) : path_(st
         !attribute(line, "file", name))
       throw OutputError(path_.string(),
                         "this collection was not written by Solidus; the run cannot go on with it");
-    const double at = std::strtod(text.c_str(), nullptr);
+    char* end = nullptr;
+    const double at = std::strtod(text.c_str(), &end);
+    if (end == text.c_str() || *end != '\0' || !std::isfinite(at))
+      throw OutputError(path_.string(), fmt::format("'{}' in this collection is no time", text));
     if (at <= time) entries_.push_back({at, std::atoi(part.c_str()), name});
   }
   if (!ours) throw OutputError(path_.string(), "there is no collection of fields to go on with");

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# seed.sh FOLDER: the files that the fuzzers set out from, a folder for each reader.
+# seed.sh FOLDER [PROGRAM]: the files that the fuzzers set out from, a folder for each reader.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-corpus=$1
+corpus=$1 program=${2:-build/release/solidus}
+rm -rf "$corpus"
 mkdir -p "$corpus"/{case,material,point,csv,overrides,checkpoint,mesh,vtk,openfoam,import,report}
 for file in cases/*/*.toml tests/robustness/mutate/corpus/*.toml; do
   case $file in cases/point/* | */plots.toml | */variants.toml) continue ;; esac
@@ -20,7 +21,7 @@ cp tests/fuzz/mesh/* "$corpus/mesh/"
 { printf a; cat tests/robustness/mutate/corpus/mesh.inp; } >"$corpus/mesh/inp"
 # What a small run leaves.
 run=$corpus/../run
-build/release/solidus run tests/robustness/mutate/corpus/two_blocks.toml -o "$run" >/dev/null 2>&1
+"$program" run tests/robustness/mutate/corpus/two_blocks.toml -o "$run" >/dev/null 2>&1
 for field in "$run"/fields/*.vtu; do
   cp "$field" "$corpus/vtk/"
   { printf v; cat "$field"; } >"$corpus/mesh/$(basename "$field")"
@@ -31,6 +32,4 @@ done
   printf '\n====\n<VTKFile>\n<Collection>\n<DataSet timestep="0" part="0" file="a.vtu"/>\n</Collection></VTKFile>\n====\n'
   cat "$(ls "$run"/fields/fields_*.vtu | tail -1)"
 } >"$corpus/report/two_blocks"
-find build/release/case_runs -name state.h5 -size -40k 2>/dev/null | head -3 | while read -r file; do
-  cp "$file" "$corpus/checkpoint/$(basename "$(dirname "$(dirname "$file")")").h5"
-done
+cp "$run/checkpoint/state.h5" "$corpus/checkpoint/"

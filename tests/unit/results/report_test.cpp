@@ -320,6 +320,10 @@ TEST_F(Report, RefusesWhatIsNoFolderOfResults) {
   std::ofstream(folder.path / "summary.json") << "{\"\\\"{\": " << std::string(300'000, '[');
   refuses("the JSON of the file is nested too deep");
   write_run();
+  std::ofstream(folder.path / "fields.pvd")
+      << "<Collection>\n<DataSet timestep=\"inf\" part=\"0\" file=\"fields/fields_00001.vtu\"/>\n";
+  refuses("the collection of fields was not written by Solidus");
+  write_run();
   std::ofstream(folder.path / "fields" / "fields_00001.vtu") << "<VTKFile";
   refuses("the file is no XML");
   write_run();
