@@ -1,6 +1,7 @@
 /// Describes where and why a step of the mechanical phase fails, for messages.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mechanics/block_kernel.hpp"
@@ -10,6 +11,18 @@
 #include "system/processes.hpp"
 
 namespace solidus::mechanics {
+
+namespace {
+
+/// The first body that has this local node.
+std::string body_of(const mesh::Mesh& mesh, Index node) {
+  for (const mesh::ElementBlock& block : mesh.blocks)
+    if (block.body >= 0 && std::find(block.nodes.begin(), block.nodes.end(), node) != block.nodes.end())
+      return mesh.bodies[static_cast<std::size_t>(block.body)].name;
+  return {};
+}
+
+}  // namespace
 
 void MechanicalPhase::reject(const std::string& reason, std::span<const double> x) {
   if (const std::string failure = law_failure(x); !failure.empty())
@@ -61,8 +74,9 @@ std::string MechanicalPhase::worst_place(std::span<const double> x) {
   if (owner == processes::rank() && !r.empty()) {
     const std::size_t node = entry / static_cast<std::size_t>(components_);
     const mesh::Point& p = mesh_.x[node];
-    text = fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) m: unbalanced force {:.4g} N",
-                       mesh_.input_node[node], p[0], p[1], p[2], r[entry]);
+    text = fmt::format("node {} of body '{}' at ({:.6g}, {:.6g}, {:.6g}) m: unbalanced force {:.4g} N",
+                       mesh_.input_node[node], body_of(mesh_, static_cast<Index>(node)), p[0], p[1], p[2],
+                       r[entry]);
   }
   processes::broadcast(text, owner);
   return text;

@@ -200,6 +200,10 @@ std::size_t MechanicalPhase::n_unknowns() const {
   return n_displacements() + (pressure_ ? pressure_->absent().size() : 0);
 }
 
+bool MechanicalPhase::chooses_viscosity() const {
+  return std::any_of(melt_.begin(), melt_.end(), [](const auto& melt) { return melt.modulus > 0; });
+}
+
 std::size_t MechanicalPhase::n_residuals() const {
   return n_forces() +
          (pressure_ ? static_cast<std::size_t>(mesh_.n_owned_nodes * pressure_->fields()) : std::size_t{0});

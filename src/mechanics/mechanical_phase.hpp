@@ -255,6 +255,10 @@ class MechanicalPhase {
   std::span<const std::unique_ptr<BlockKernel>> blocks() const { return blocks_; }
   /// Stiffness of the melt of every body whose material does not give its viscosity, [body].
   std::span<const material::MeltModulus> melt() const { return melt_; }
+  /// Whether there is such a melt.
+  bool chooses_viscosity() const;
+  /// Lets these melts have so many times that modulus from the next pass on.
+  void stiffen_melt(double times) { melt_times_ = times; }
   /// Drops what the linear solver carried over from earlier steps.
   void forget() { solver_->forget(); }
   const mesh::Mesh& mesh() const { return mesh_; }
@@ -303,8 +307,10 @@ class MechanicalPhase {
   bool plastic_ = false;
   std::vector<std::unique_ptr<BlockKernel>> blocks_;
   std::unique_ptr<Loads> loads_;
-  std::vector<double> weight_;               ///< of the bodies, [local node][component] [N]
-  std::vector<material::MeltModulus> melt_;  ///< [body]
+  std::vector<double> weight_;                    ///< of the bodies, [local node][component] [N]
+  std::vector<material::MeltModulus> melt_;       ///< [body]
+  double melt_times_ = 1;                         ///< stiffen_melt()
+  std::vector<material::MeltModulus> stiffened_;  ///< melt_ in the present pass, [body]
   std::unique_ptr<linear::BlockMatrix> matrix_;
   std::unique_ptr<NodalPressure> pressure_;  ///< null without mixed elements
   std::vector<int> fields_;                  ///< of Newton's iteration: components of each

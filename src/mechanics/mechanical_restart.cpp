@@ -54,7 +54,7 @@ FlowChange MechanicalPhase::restart_flow(const MechanicalState& old, const Mecha
          .phases = nodal_phases_.evaluate(
              b, pass.phase_temperature.empty() ? pass.temperature : pass.phase_temperature,
              pass.plateau_share),
-         .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]},
+         .melt = &stiffened_[static_cast<std::size_t>(mesh_.blocks[b].body)]},
         old.displacement, trial.displacement,
         {.history = trial.history[b],
          .elements = b < trial.elements.size() ? &trial.elements[b] : nullptr,

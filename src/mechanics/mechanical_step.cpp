@@ -68,6 +68,8 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
     }
   }
   const bool remembers = inertia_ && inertia_->motion().remembers();
+  stiffened_ = melt_;
+  for (material::MeltModulus& melt : stiffened_) melt.modulus *= melt_times_;
   double stiffness = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     stiffness += blocks_[b]->prepare(
@@ -87,7 +89,7 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
          .phases = nodal_phases_.evaluate(
              b, pass.phase_temperature.empty() ? pass.temperature : pass.phase_temperature,
              pass.plateau_share),
-         .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
+         .melt = &stiffened_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
   if (pressure_) pressure_->begin();
   residual_is_known_ = false;
   round_off_ = k_round_off_strain * std::sqrt(parallel::global_sum(stiffness));

@@ -82,6 +82,7 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
   if (recorder != nullptr) simulation_.add(*recorder);
   simulation_.add(why_);
   if (a.criteria) simulation_.follow(*a.criteria);
+  if (a.mechanics) simulation_.follow_melt(*a.mechanics);
   if (!a.initial.burning.lit.empty()) simulation_.follow_burning(*a.heat);
   simulation_.stop_when(options.stop_asked);
   simulation_.at_stage([this](std::size_t stage, const coupling::StageStart& start, coupling::State* begins) {
