@@ -18,8 +18,9 @@ namespace solidus::model {
 
 namespace {
 
-constexpr double k_same_shape = 0.01;  // of the volumes
-constexpr double k_on_plateau = 1e-9;  // of the temperature of an isothermal change
+constexpr double k_same_shape = 0.01;   // of the volumes
+constexpr double k_far_outside = 0.02;  // of the diagonal of the file's grid
+constexpr double k_on_plateau = 1e-9;   // of the temperature of an isothermal change
 
 /// The file's field, as enthalpy at its points.
 struct Source {
@@ -41,6 +42,17 @@ std::vector<double> solid_fractions(const PlaceSpec& place, const material::Enth
         place.file);
     return {};
   }
+}
+
+/// The diagonal of the box around a mesh [m].
+double diagonal(const mesh::Mesh& mesh) {
+  double sum = 0;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto [low, high] =
+        std::ranges::minmax_element(mesh.x, {}, [d](const mesh::Point& x) { return x[d]; });
+    sum += ((*high)[d] - (*low)[d]) * ((*high)[d] - (*low)[d]);
+  }
+  return std::sqrt(sum);
 }
 
 double enthalpy(const material::EnthalpyCurve& curve, double temperature, double solid_fraction) {
@@ -122,6 +134,7 @@ MappedEnthalpy map_enthalpy(const PlaceSpec& place, AnalysisKind kind, const mat
   run_collectively([&] {
     source = read_source(place, kind, curve);
     const mesh::ElementSearch search(source.mesh);
+    const double far = k_far_outside * diagonal(source.mesh);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const mesh::Point& x = mesh.x[static_cast<std::size_t>(nodes[k])];
       const auto found = search.find(x);
@@ -130,6 +143,8 @@ MappedEnthalpy map_enthalpy(const PlaceSpec& place, AnalysisKind kind, const mat
                          fmt::format("the node at ({:g}, {:g}, {:g}) m lies {:.3g} m outside of '{}'", x[0],
                                      x[1], x[2], found.distance, place.file),
                          "outside = \"nearest\", or a field that reaches further");
+      mapped.farthest = std::max(mapped.farthest, found.distance);
+      if (found.distance > far) mapped.outside += weights[k];
       // Basis functions of quadratic cells may leave the values of their points.
       mapped.values[k] = std::clamp(found.share(source.enthalpy), source.low, source.high);
     }
@@ -143,6 +158,8 @@ MappedEnthalpy map_enthalpy(const PlaceSpec& place, AnalysisKind kind, const mat
   }
   mapped.source_volume = source.volume;
   mapped.volume = volume = parallel::global_sum(volume);
+  mapped.outside = parallel::global_sum(mapped.outside) / volume;
+  mapped.farthest = parallel::global_max(mapped.farthest);
   total = parallel::global_sum(total);
   above = parallel::global_sum(above);
   below = parallel::global_sum(below);

@@ -14,7 +14,10 @@ namespace solidus::model {
 struct MappedEnthalpy {
   std::vector<double> values;            ///< h [J/m³], one a node asked for
   double source_volume = 0, volume = 0;  ///< [m³], of the file and of the body
-  double share = 0;   ///< α of the correction, 0 to 1; negative toward the lowest enthalpy
+  double share = 0;  ///< α of the correction, 0 to 1; negative toward the lowest enthalpy
+  /// Share of the body's volume whose nodes lie farther outside of the file's grid than facets of curved
+  /// walls do, and the largest distance to it [m].
+  double outside = 0, farthest = 0;
   bool kept = false;  ///< whether the body has the file's enthalpy per volume; else its volume is another one
 };
 

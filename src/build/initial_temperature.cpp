@@ -69,6 +69,14 @@ InitialTemperatures::Body InitialTemperatures::evaluated(const PlaceSpec& place,
     for (std::size_t k = 0; k < nodes.size(); ++k)
       if (nodes[k] < mesh.n_owned_nodes) weights[k] = all[static_cast<std::size_t>(nodes[k])];
     MappedEnthalpy mapped = map_enthalpy(place, kind, curve, mesh, nodes, weights);
+    constexpr double k_few = 0.05;
+    if (mapped.outside > k_few)
+      logging::warn(
+          "body '{}': {:.0f} % of it lies outside of the grid of '{}', up to {:.3g} m away, and starts with "
+          "the "
+          "temperature of the nearest place; is the file of a mesh at another place, or in another unit "
+          "(length_unit)?",
+          name, 100 * mapped.outside, place.file, mapped.farthest);
     if (!mapped.kept)
       logging::warn(
           "body '{}': '{}' has a volume of {:.4g} m3, the body {:.4g} m3: its enthalpy is interpolated, not "

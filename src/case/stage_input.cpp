@@ -262,8 +262,9 @@ void check_stage_of_checkpoint(const CaseSpec& spec, const coupling::StageStart&
   const auto here = std::find_if(runs.begin(), runs.end(), [&](const StageRun& r) { return time <= r.end; });
   const std::string found = text(stage.number, stage.name, stage.time);
   const std::string needed =
-      here == runs.end() ? text(0, "", 0)
-                         : text(static_cast<int>(here - runs.begin()) + 1, here->stage->name, here->start);
+      runs.empty()         ? text(0, "", 0)
+      : here == runs.end() ? fmt::format("no stage, for it ends at {:g} s,", runs.back().end)
+                           : text(static_cast<int>(here - runs.begin()) + 1, here->stage->name, here->start);
   throw InputError(
       spec.stages.empty() ? spec.time.where : spec.stages.front().where,
       fmt::format("the checkpoint at t = {:g} s stands in {}; the case has {} there", time, found, needed),

@@ -28,6 +28,8 @@ Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   find_bare_skins(spec, a, m, found);
   find_in_freezing(spec, a, m, found);
   find_in_stages(spec, a, m, found);
+  find_in_leaving(spec, a, m, found);
+  find_in_stage_times(spec, a, m, found);
   find_in_free_skins(spec, a, m, found);
   find_in_elements(spec, a, found);
   find_in_mechanics(spec, a, m, found);

@@ -24,11 +24,6 @@ inline bool is_number(const Function& f) {
   return f.place == nullptr && f.of == Argument::constant;
 }
 
-/// Whether a condition is there from the start to the end with one strength.
-inline bool always_on(const ThermalConditionSpec& c) {
-  return is_number(c.coefficient) && is_number(c.factor) && c.stages.empty();
-}
-
 /// Whether two lists of stages have one in common; an empty list means all stages.
 bool share_a_stage(const std::vector<std::string>& a, const std::vector<std::string>& b);
 
@@ -52,8 +47,9 @@ void find_in_geometry(const CaseSpec& spec, const Assembly& a, const CaseMeasure
 /// Conditions that keep a casting from freezing, runs that end before it has frozen, steps that are too long
 /// for it, feeders and chills. Collective.
 void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
-/// Bodies that can move as a whole at the start, in a direction in which neither a support nor a contact
-/// holds them: whole groups of bodies, and single ones that fall. Translations alone. Collective.
+/// Bodies that can move as a whole, at the start or in a later stage, in a direction in which neither a
+/// support nor a contact holds them: whole groups of bodies, and single ones that fall. Translations alone.
+/// Collective.
 void find_loose_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Bodies that supports keep from moving, but not from turning. Collective.
 void find_turning_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
@@ -63,8 +59,14 @@ void find_bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures
 /// Free skins of what is poured: those that face down while none faces up, and those that supports hold in
 /// all directions. Collective.
 void find_in_free_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
-/// Stages in which nothing cools a casting. Collective.
+/// Stages in which nothing cools a casting, or a part of the skin that contacts cooled. Collective.
 void find_in_stages(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Moulds that leave melt behind or come too late, stages of pouring in which nothing is poured, dies that
+/// come back new, and searches for a periodic state in two rounds. Collective.
+void find_in_leaving(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Steps of stages that are too long or too short, and tables of time that count from another moment than
+/// their stage.
+void find_in_stage_times(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Castings that shrink in elements without pores and feeding. Collective.
 void find_in_elements(const CaseSpec& spec, const Assembly& a, Findings& findings);
 /// Supports and loads. Collective.

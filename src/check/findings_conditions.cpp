@@ -83,7 +83,7 @@ void films_below_radiation(const CaseSpec& spec, const CaseMeasures& m, Findings
   if (m.pours.empty()) return;
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
     const ThermalConditionSpec& film = spec.thermal_conditions[t];
-    if (film.kind != Kind::film || !always_on(film)) continue;
+    if (film.kind != Kind::film || !is_number(film.coefficient) || !is_number(film.factor)) continue;
     const double h = film.coefficient.table.value(0) * film.factor.table.value(0);
     const bool radiates = std::ranges::any_of(spec.thermal_conditions, [&](const ThermalConditionSpec& c) {
       return c.kind == Kind::radiation && c.group == film.group;
@@ -256,10 +256,13 @@ void tables_of_other_times(const CaseSpec& spec, Findings& findings) {
     else if (!may_end && x.size() > k_ramp && x[x.size() - 1] < k_over * end)
       say("ends at", x[x.size() - 1]);
   };
-  for (const ThermalConditionSpec& c : spec.thermal_conditions)
+  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
+    if (c.clock == TimeOrigin::stage) continue;  // find_in_stage_times
     for (const Function* f : {&c.coefficient, &c.ambient, &c.temperature, &c.flux, &c.emissivity, &c.power})
       compare("'" + c.name + "'", *f, c.where, !c.stages.empty());
+  }
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    if (c.clock == TimeOrigin::stage) continue;
     compare("'" + c.name + "'", c.pressure, c.where, true);
     for (const auto* u : {&c.ux, &c.uy, &c.uz, &c.ur})
       if (*u) compare("'" + c.name + "'", **u, c.where, true);

@@ -42,17 +42,17 @@ double fixed_step(const CaseSpec& spec, const Assembly& a) {
   return first_step(*a.stages.front().stage, spec.time);
 }
 
-/// When a body that is poured leaves for the first time, or the run ends [s].
-double time_there(const CaseSpec& spec, const Assembly& a, std::size_t body) {
+/// How long a body that is poured is there at first [s], and whether it leaves then or the run ends.
+std::pair<double, bool> time_there(const CaseSpec& spec, const Assembly& a, std::size_t body) {
   double pour = 0;
   bool there = false;
   for (const StageRun& stage : a.stages) {
     const bool now = holds(spec.bodies[body].stages, &stage);
     if (now && !there) pour = stage.start;
-    if (there && !now) return stage.start - pour;
+    if (there && !now) return {stage.start - pour, true};
     there = now;
   }
-  return *spec.time.end - pour;
+  return {*spec.time.end - pour, false};
 }
 
 /// Over all processes the same.
@@ -99,14 +99,15 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
     return;
   }
   // An estimate is good to a factor of two.
-  constexpr double k_early = 0.25, k_fine = 4, k_enough = 20, k_days = 15 * 86400.0;
+  constexpr double k_early = 0.25, k_liquid = 0.4, k_fine = 4, k_enough = 20, k_days = 15 * 86400.0;
   const double time = *pour.freezing.time;
   if (*spec.time.end < k_early * time)
     findings.push_back({false, spec.time.where,
                         fmt::format("the run ends after {}, but '{}' takes some {} to freeze",
                                     duration(*spec.time.end), name, duration(time)),
                         "a later time.end; is its unit right?"});
-  else if (const double there = time_there(spec, a, pour.body); there < k_early * time)
+  else if (const auto [there, leaves] = time_there(spec, a, pour.body);
+           there < (leaves ? k_liquid : k_early) * time)
     findings.push_back({false, spec.bodies[pour.body].where,
                         fmt::format("'{}' leaves {} after its pour, but takes some {} to freeze", name,
                                     duration(there), duration(time)),
@@ -199,7 +200,8 @@ void heating(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, con
            fmt::format("the flux '{}' of {:g} W/m2 heats '{}'", c.name, c.flux.table.value(0), name),
            "a flux is positive into the body: cooling is negative"});
     if ((c.kind == Kind::film || c.kind == Kind::radiation) && is_number(c.ambient) &&
-        c.ambient.table.value(0) > solidus && c.ambient.table.value(0) < 1900 && always_on(c))
+        c.ambient.table.value(0) > solidus && c.ambient.table.value(0) < 1900 && is_number(c.coefficient) &&
+        is_number(c.factor))
       findings.push_back(
           {false, c.where,
            fmt::format("the surroundings of '{}' have {:.0f} degC, above the solidus of '{}' at "

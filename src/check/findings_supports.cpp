@@ -1,4 +1,5 @@
-// Findings on the motion of whole bodies: directions in which neither a support nor a contact holds them.
+// Findings on the motion of whole bodies: directions in which neither a support nor a contact holds them,
+// when the run begins or in a later stage.
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -38,7 +39,8 @@ Eigen::Map<const Eigen::VectorXd> vector_of(const SymmetricEigen& modes, Eigen::
 /// each, and the part of it that acts from one body to another.
 class Translations {
  public:
-  Translations(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
+  /// @param stage  in which they hold; null: the run has none
+  Translations(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, const StageRun* stage);
 
   /// Bodies that are joined to each other by contacts and common nodes: the number of the first one of each.
   const std::vector<int>& group() const { return group_; }
@@ -60,8 +62,8 @@ class Translations {
   Eigen::VectorXd followed(std::size_t body, const Eigen::VectorXd& pull) const;
 
  private:
-  void add_supports(const CaseSpec& spec, const Assembly& a);
-  void add_contacts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
+  void add_supports(const CaseSpec& spec, const Assembly& a, const StageRun* stage);
+  void add_contacts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, const StageRun* stage);
   void join(int one, int other, const Eigen::MatrixXd& normals);
   void hold(int body, const Eigen::MatrixXd& normals) {
     form_.block(n_ * body, n_ * body, n_, n_) += normals;
@@ -77,7 +79,8 @@ class Translations {
   Eigen::MatrixXd supports_;      ///< the part of fixed_ by supports
 };
 
-Translations::Translations(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m)
+Translations::Translations(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+                           const StageRun* stage)
     : axisymmetric_(spec.analysis.kind == AnalysisKind::axisymmetric),
       n_(axisymmetric_ ? 1 : displacement_components(spec.analysis.kind)),
       group_(spec.bodies.size()) {
@@ -86,19 +89,20 @@ Translations::Translations(const CaseSpec& spec, const Assembly& a, const CaseMe
   form_.setZero(n_ * n_bodies, n_ * n_bodies);
   fixed_.setZero(n_ * n_bodies, n_);
   for (const BodySpec& body : spec.bodies)
-    moves_.push_back(!only_conducts(body) && holds(body.stages, a.first_stage()));
+    moves_.push_back(!only_conducts(body) && holds(body.stages, stage));
   for (std::size_t b = 0; b < moves_.size(); ++b)
     if (moves_[b] == 0) hold(static_cast<int>(b), Eigen::MatrixXd::Identity(n_, n_));
-  add_supports(spec, a);
+  add_supports(spec, a, stage);
   supports_ = fixed_;
-  add_contacts(spec, a, m);
+  add_contacts(spec, a, m, stage);
   for (std::size_t b = 0; b < m.bodies.size(); ++b)
     for (std::size_t other = 0; other < b; ++other)
-      if (m.bodies[b].shared_nodes[other] > 0)
+      if (m.bodies[b].shared_nodes[other] > 0 && holds(spec.bodies[b].stages, stage) &&
+          holds(spec.bodies[other].stages, stage))
         join(static_cast<int>(b), static_cast<int>(other), Eigen::MatrixXd::Identity(n_, n_));
 }
 
-void Translations::add_supports(const CaseSpec& spec, const Assembly& a) {
+void Translations::add_supports(const CaseSpec& spec, const Assembly& a, const StageRun* stage) {
   using Bits = std::uint64_t;
   const auto bit = [](std::size_t body) { return Bits{1} << std::min<std::size_t>(body, 63); };
   std::vector<Bits> of_node(a.mesh.x.size(), 0);
@@ -106,7 +110,7 @@ void Translations::add_supports(const CaseSpec& spec, const Assembly& a) {
     for (const Index node : block.nodes)
       of_node[static_cast<std::size_t>(node)] |= bit(static_cast<std::size_t>(block.body));
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
-    if (c.kind != MechanicalConditionSpec::Kind::displacement || !holds(c.stages, a.first_stage())) continue;
+    if (c.kind != MechanicalConditionSpec::Kind::displacement || !holds(c.stages, stage)) continue;
     Bits touched = 0;
     if (const auto nodes = a.mesh.node_sets.find(c.group); nodes != a.mesh.node_sets.end())
       for (const Index node : nodes->second) touched |= of_node[static_cast<std::size_t>(node)];
@@ -141,11 +145,12 @@ Eigen::MatrixXd Translations::normals_of(const mesh::Mesh& mesh, const std::stri
   return sum.block(first, first, n_, n_);
 }
 
-void Translations::add_contacts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+void Translations::add_contacts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+                                const StageRun* stage) {
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
     const ContactSpec& contact = spec.contacts[c];
     const ContactMeasures& sides = m.contacts[c];
-    if (!holds(spec, contact, a.mesh, a.first_stage())) continue;
+    if (!holds(spec, contact, a.mesh, stage)) continue;
     const Eigen::MatrixXd normals = contact.friction ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(n_, n_))
                                                      : normals_of(a.mesh, sides.slave);
     // A side of several bodies is taken to stand still: no finding is better than a wrong one.
@@ -201,11 +206,13 @@ std::string direction_text(const Translations& t, const Eigen::VectorXd& directi
 }
 
 /// Groups of bodies that hold each other, but that can move together.
-void loose_groups(const CaseSpec& spec, const Translations& t, std::vector<char>& told, Findings& findings) {
+/// @param when  " in the stage 'air'"; empty: when the run begins
+void loose_groups(const CaseSpec& spec, const Translations& t, const std::string& when,
+                  std::vector<char>& told, Findings& findings) {
   for (std::size_t first = 0; first < spec.bodies.size(); ++first) {
     if (t.group()[first] != static_cast<int>(first)) continue;
     const SymmetricEigen modes = modes_of(t.held(static_cast<int>(first)));
-    if (modes.values.front() >= k_nothing) continue;
+    if (modes.values.front() >= k_nothing || told[first] != 0) continue;
     std::string names;
     for (std::size_t b = first; b < spec.bodies.size(); ++b)
       if (t.group()[b] == static_cast<int>(first)) {
@@ -214,7 +221,7 @@ void loose_groups(const CaseSpec& spec, const Translations& t, std::vector<char>
       }
     const bool alone = names == "'" + spec.bodies[first].name + "'",
                nowhere = modes.values.back() < k_nothing;
-    std::string what = fmt::format("nothing holds {}{}", alone ? "the body " : "", names);
+    std::string what = fmt::format("nothing holds {}{}{}", alone ? "the body " : "", names, when);
     if (alone && nowhere)
       what += ": no support, no contact";
     else if (!nowhere)
@@ -237,8 +244,8 @@ Eigen::VectorXd direction_of_weight(const CaseSpec& spec, const Translations& t)
 }
 
 /// Bodies whose weight neither a support nor a contact takes.
-void falling_bodies(const CaseSpec& spec, const Translations& t, std::vector<char>& told,
-                    Findings& findings) {
+void falling_bodies(const CaseSpec& spec, const Translations& t, const std::string& when,
+                    std::vector<char>& told, Findings& findings) {
   const Eigen::VectorXd weight = direction_of_weight(spec, t);
   if (weight.isZero()) return;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
@@ -247,9 +254,9 @@ void falling_bodies(const CaseSpec& spec, const Translations& t, std::vector<cha
       told[b] = 1;
       findings.push_back(
           {false, spec.bodies[b].where,
-           fmt::format("nothing holds '{}' against its weight: gravity acts along {}, and no support or "
+           fmt::format("nothing holds '{}' against its weight{}: gravity acts along {}, and no support or "
                        "contact of it faces that way",
-                       spec.bodies[b].name, direction_text(t, weight)),
+                       spec.bodies[b].name, when, direction_text(t, weight)),
            "is gravity_direction right? Else a support or a mould below"});
     }
   }
@@ -311,11 +318,17 @@ void lifted_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
 
 void find_loose_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_mechanics() || spec.dynamics) return;
-  const Translations translations(spec, a, m);
+  const Translations translations(spec, a, m, a.first_stage());
   std::vector<char> told(spec.bodies.size(), 0);
-  loose_groups(spec, translations, told, findings);
-  falling_bodies(spec, translations, told, findings);
+  loose_groups(spec, translations, "", told, findings);
+  falling_bodies(spec, translations, "", told, findings);
   lifted_bodies(spec, a, m, translations, told, findings);
+  for (std::size_t i = 1; i < a.stages.size() && a.stages[i].cycle <= 1; ++i) {
+    const Translations then(spec, a, m, &a.stages[i]);
+    const std::string when = fmt::format(" in the stage '{}'", a.stages[i].stage->name);
+    loose_groups(spec, then, when, told, findings);
+    falling_bodies(spec, then, when, told, findings);
+  }
 }
 
 }  // namespace solidus::model

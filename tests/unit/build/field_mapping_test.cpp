@@ -166,6 +166,19 @@ TEST_F(FieldMapping, ABodyOfAnotherShapeIsInterpolatedWithAWarning) {
   logging::clear_warnings();
 }
 
+TEST_F(FieldMapping, AFileOfAnotherPlaceIsNamed) {
+  mesh::Mesh elsewhere = block(Shape::tri3, 0.2, {13, 7});
+  for (mesh::Point& x : elsewhere.x) x[1] += 0.05;
+  write(elsewhere, wavy);
+  const mesh::Mesh mesh = block(Shape::quad4, 0.2, {8, 9});
+  logging::clear_warnings();
+  const InitialTemperatures start(spec(AnalysisKind::plane_strain), {alloy(40)}, mesh);
+  ASSERT_EQ(logging::warnings().size(), 1U);
+  EXPECT_THAT(logging::warnings()[0], HasSubstr("of it lies outside of the grid of"));
+  EXPECT_THAT(logging::warnings()[0], HasSubstr("up to 0.05 m away"));
+  logging::clear_warnings();
+}
+
 TEST_F(FieldMapping, UnitsAndDimensionsMustFit) {
   write(block(Shape::tri3, 0.2, {13, 7}), [](const mesh::Point&) { return -5.0; });
   const mesh::Mesh mesh = block(Shape::quad4, 0.2, {8, 9});

@@ -206,6 +206,7 @@ TEST(Stages, ACheckpointOfOtherStagesIsRefused) {
   EXPECT_THAT(refused(3, "press", 5.5, 6), HasSubstr("stage 3 of the run"));
   EXPECT_THAT(refused(4, "press", 5, 6), HasSubstr("the case has stage 4 of the run, 'press' from 5.5 s on"));
   EXPECT_THAT(refused(0, "", 0, 6), HasSubstr("a run without stages"));
+  EXPECT_THAT(refused(44, "press", 1000, 1001), HasSubstr("the case has no stage, for it ends at"));
 }
 
 }  // namespace
