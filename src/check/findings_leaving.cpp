@@ -99,7 +99,8 @@ void come_too_late(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
 
 /// Whether a stage is called after pouring.
 bool is_called_pouring(std::string name) {
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return name.starts_with("pour") || name.starts_with("fill");
 }
 

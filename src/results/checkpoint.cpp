@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <system_error>
 #include <type_traits>
 #include <unordered_map>
+#include <utility>
 
 #include "mechanics/padding.hpp"
 #include "parallel/parallel.hpp"
@@ -27,6 +30,10 @@ namespace {
 constexpr char k_steady = 's', k_unsteady = '-';
 constexpr const char* k_format = "Solidus checkpoint 20";
 constexpr const char* k_known = "known";
+/// Above absolute zero, and no hotter than a case may ask for [K].
+constexpr AllowedValues k_temperatures{std::numeric_limits<double>::min(), 1e6};
+/// What does not burn yet is lit at an infinite time [s].
+constexpr AllowedValues k_times_of_ignition{0, std::numeric_limits<double>::infinity()};
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
   return fmt::format("history/block_{}_{}", b, mesh::name(mesh.blocks[b].shape));
@@ -63,11 +70,27 @@ std::vector<double> numbers_of(const auto& c) {
   return numbers;
 }
 
-// Takes them from the file, which must hold as many.
+// Takes them from the file, which must hold as many. Counts are whole and fit; the temperatures of a die that
+// is not there are infinite.
 void set_numbers(TableReader& in, Checkpoint& c) {
   const std::vector<double> numbers = in.numbers("numbers", numbers_of(c).size());
+  const coupling::DieTemperature& die = c.continuation.shots.at_pour;
   std::size_t i = 0;
-  each_number(c, [&](auto& n) { n = static_cast<std::decay_t<decltype(n)>>(numbers[i++]); });
+  each_number(c, [&](auto& n) {
+    using Number = std::decay_t<decltype(n)>;
+    const double value = numbers[i];
+    const void* place = &n;
+    bool fits =
+        std::isfinite(value) || (!std::isnan(value) && (place == &die.lowest || place == &die.highest));
+    if constexpr (!std::is_same_v<Number, double>) {
+      const double most = std::is_same_v<Number, bool> ? 1 : std::numeric_limits<int>::max();
+      fits = value >= 0 && value <= most && value == std::floor(value);
+    }
+    if (!fits) in.refuse(fmt::format("its 'numbers' have {} in row {}", value, i));
+    n = static_cast<Number>(value);
+    ++i;
+  });
+  if (c.state.time < 0) in.refuse(fmt::format("its time is {} s", c.state.time));
 }
 
 // History of the elements this process counts, [element][point][component].
@@ -91,18 +114,31 @@ Places places_of(const Numbers& numbers) {
   return places;
 }
 
+/// Rows that were taken, each of them once.
+class Taken {
+ public:
+  explicit Taken(std::size_t n) : of_(n, 0) {}
+  void add(std::size_t row) { n_ += std::exchange(of_[row], char{1}) == 0 ? 1 : 0; }
+  bool all() const { return n_ == of_.size(); }
+
+ private:
+  std::vector<char> of_;
+  std::size_t n_ = 0;
+};
+
 // Fills a nodal field from a table by the nodes' numbers. Every node this process holds gets its value.
-void take_nodes(TableReader& in, const std::string& name, const Places& places, std::vector<double>& field) {
+void take_nodes(TableReader& in, const std::string& name, const Places& places, std::vector<double>& field,
+                const AllowedValues& allowed = {}) {
   if (!parallel::any_process(!field.empty())) return;
   const std::size_t width = field.size() / std::max<std::size_t>(places.size(), 1);
-  std::size_t taken = 0;
-  in.each("node", name, [&](std::int64_t number, std::span<const double> row) {
+  Taken taken(places.size());
+  in.each("node", name, allowed, [&](std::int64_t number, std::span<const double> row) {
     const auto place = places.find(number);
     if (place == places.end() || row.size() != width) return;
     std::copy(row.begin(), row.end(), field.begin() + static_cast<std::ptrdiff_t>(place->second * width));
-    ++taken;
+    taken.add(place->second);
   });
-  in.require(taken == places.size(), name);
+  in.require(taken.all(), name);
 }
 
 void take_history(TableReader& in, const std::string& name, const std::string& values,
@@ -110,21 +146,22 @@ void take_history(TableReader& in, const std::string& name, const std::string& v
   const auto per_element = static_cast<std::size_t>(history.n_points * history.n_components);
   if (per_element == 0) return;
   const Places places = places_of(block.input_element);
-  std::size_t taken = 0;
-  in.each(name + "/element", values, [&](std::int64_t number, std::span<const double> row) {
+  Taken taken(places.size());
+  in.each(name + "/element", values, {}, [&](std::int64_t number, std::span<const double> row) {
     const auto place = places.find(number);
     if (place == places.end() || row.size() != per_element) return;
     const std::size_t e = place->second;
     for (std::size_t k = 0; k < per_element; ++k)
       history.values[(e / k_lanes) * per_element + k].set(static_cast<int>(e % k_lanes), row[k]);
-    ++taken;
+    taken.add(e);
   });
-  in.require(taken == block.input_element.size(), values);
-  if (taken == 0) return;
-  const std::size_t last = (taken - 1) / k_lanes;
+  in.require(taken.all(), values);
+  const std::size_t n = places.size();
+  if (n == 0) return;
+  const std::size_t last = (n - 1) / k_lanes;
   for (std::size_t k = 0; k < per_element; ++k)
     mechanics::repeat_last_element(history.values[last * per_element + k], static_cast<Index>(last),
-                                   static_cast<Index>(taken));
+                                   static_cast<Index>(n));
 }
 
 std::string shot_table(std::size_t iterate, const char* field) {
@@ -136,8 +173,12 @@ void take_shots(TableReader& in, const Places& nodes, const coupling::State& sta
                 coupling::ShotHistory& shots) {
   if (in.text("shots") != k_known) return;
   shots.start.resize(state.heat.temperature.size());
-  take_nodes(in, "shot_start", nodes, shots.start);
-  shots.iterates.resize(std::strtoul(in.text("shot_iterates").c_str(), nullptr, 10));
+  take_nodes(in, "shot_start", nodes, shots.start, k_temperatures);
+  constexpr unsigned long k_most = 1000;
+  const std::string count = in.text("shot_iterates");
+  const unsigned long n = std::strtoul(count.c_str(), nullptr, 10);
+  if (n > k_most) in.refuse(fmt::format("its 'shot_iterates' are '{}'", count));
+  shots.iterates.resize(n);
   for (std::size_t j = 0; j < shots.iterates.size(); ++j) {
     coupling::ShotIterate& iterate = shots.iterates[j];
     iterate.change.resize(state.heat.temperature.size());
@@ -172,9 +213,9 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   c.continuation.control.reason = in.text("reason");
   c.continuation.stage.name = in.text("stage");
   const Places nodes = places_of(mesh.input_node);
-  take_nodes(in, "temperature", nodes, c.state.heat.temperature);
+  take_nodes(in, "temperature", nodes, c.state.heat.temperature, k_temperatures);
   take_nodes(in, "enthalpy", nodes, c.state.heat.enthalpy);
-  take_nodes(in, "lit", nodes, c.state.burning.lit);
+  take_nodes(in, "lit", nodes, c.state.burning.lit, k_times_of_ignition);
   take_nodes(in, "released", nodes, c.state.burning.released);
   take_nodes(in, "displacement", nodes, c.state.mechanics.displacement);
   take_nodes(in, "pressure", nodes, c.state.mechanics.pressure);
@@ -206,6 +247,9 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
     take_nodes(in, "pressure_rate_of_last_step", nodes, c.state.pressure_rate);
   }
   const std::string steady = in.text("steady_gaps");
+  if (!steady.empty() && steady.size() != c.state.contacts.size())
+    in.refuse(fmt::format("its 'steady_gaps' are of {} contacts, the case has {}", steady.size(),
+                          c.state.contacts.size()));
   c.state.steady_gaps.assign(steady.begin(), steady.end());
   for (char& of_pair : c.state.steady_gaps) of_pair = of_pair == k_steady;
   take_shots(in, nodes, c.state, c.continuation.shots);

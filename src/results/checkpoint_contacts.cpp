@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <unordered_map>
 
 namespace solidus::results {
@@ -32,6 +33,22 @@ void set_numbers(contact::ContactPointState& p, std::span<const double> numbers)
   p.anchored = numbers[1] != 0;
   std::size_t i = 2;
   each_number(p, [&](double& n) { n = numbers[i++]; });
+}
+
+/// Sets a point from its row. Throws OutputError for a state that no point can have.
+void take_point(const TableReader& in, const std::string& table, std::int64_t number,
+                std::span<const double> row, contact::ContactPointState& point) {
+  const auto allow = [&](bool allowed, const char* what, double value) {
+    if (!allowed) in.refuse(fmt::format("the {} of point {} of '{}' is {}", what, number, table, value));
+  };
+  constexpr auto k_last = static_cast<double>(contact::PointStatus::slips);
+  allow(row[0] >= 0 && row[0] <= k_last && row[0] == std::floor(row[0]), "status", row[0]);
+  allow(row[1] == 0 || row[1] == 1, "mark of a partner", row[1]);
+  set_numbers(point, row);
+  allow(point.stiffening > 0, "share of the penalty", point.stiffening);
+  allow(point.slip >= 0, "slip", point.slip);
+  allow(point.wear_depth >= 0, "wear", point.wear_depth);
+  allow(point.temperature >= 0, "temperature", point.temperature);
 }
 
 }  // namespace
@@ -69,12 +86,13 @@ void take_master(TableReader& in, const std::string& pair, std::vector<contact::
   std::unordered_map<std::int64_t, contact::WornNode*> places;
   for (contact::WornNode& node : master) places.emplace(node.number, &node);
   std::size_t taken = 0;
-  in.each(pair + "/master_node", pair + "/master_values",
+  in.each(pair + "/master_node", pair + "/master_values", {0},
           [&](std::int64_t number, std::span<const double> row) {
             const auto place = places.find(number);
             if (place == places.end() || row.size() != 2) return;
             place->second->volume = row[0];
             place->second->dissipation = row[1];
+            places.erase(place);  // a second row of a node is not one of another
             ++taken;
           });
   in.require(taken == master.size(), pair);
@@ -89,12 +107,14 @@ void take_contacts(TableReader& in, std::vector<contact::ContactState>& contacts
     std::unordered_map<std::int64_t, std::size_t> places;
     for (std::size_t p = 0; p < points.size(); ++p) places.emplace(points[p].number, p);
     std::size_t taken = 0;
-    in.each(table(i) + "/point", table(i) + "/values", [&](std::int64_t number, std::span<const double> row) {
-      const auto place = places.find(number);
-      if (place == places.end() || row.size() != width) return;
-      set_numbers(points[place->second], row);
-      ++taken;
-    });
+    in.each(table(i) + "/point", table(i) + "/values", {},
+            [&](std::int64_t number, std::span<const double> row) {
+              const auto place = places.find(number);
+              if (place == places.end() || row.size() != width) return;
+              take_point(in, table(i), number, row, points[place->second]);
+              places.erase(place);
+              ++taken;
+            });
     in.require(taken == points.size(), table(i));
     take_master(in, table(i), contacts[i].master);
   }

@@ -59,15 +59,14 @@ void take_part(TableReader& in, const Part& part, CriterionColumn& column) {
   std::unordered_map<std::int64_t, std::size_t> places;
   for (std::size_t i = 0; i < part.here; ++i) places.emplace(part.number(i), i);
   const auto width = static_cast<std::size_t>(column.components);
-  std::size_t taken = 0;
-  in.each(part.keys, part.values, [&](std::int64_t number, std::span<const double> row) {
+  in.each(part.keys, part.values, {}, [&](std::int64_t number, std::span<const double> row) {
     const auto place = places.find(number);
     if (place == places.end() || row.size() != width) return;
     std::copy(row.begin(), row.end(),
               column.values.begin() + static_cast<std::ptrdiff_t>((part.first + place->second) * width));
-    ++taken;
+    places.erase(place);  // a second row of a place is not one of another
   });
-  in.require(taken == places.size(), part.values);
+  in.require(places.empty(), part.values);
 }
 
 }  // namespace
@@ -102,8 +101,10 @@ void take_criteria(TableReader& in, const mesh::Mesh& mesh, criteria::CriteriaSt
       for (const Part& part : parts(mesh, record, column)) take_part(in, part, column);
     for (criteria::CriterionTable& table : record.tables) {
       table.values.clear();
-      in.each(path(record, table.name) + "_row", path(record, table.name),
+      in.each(path(record, table.name) + "_row", path(record, table.name), {},
               [&](std::int64_t, std::span<const double> row) {
+                if (row.size() != static_cast<std::size_t>(table.width))
+                  in.refuse("its '" + path(record, table.name) + "' has rows of another width");
                 table.values.insert(table.values.end(), row.begin(), row.end());
               });
     }

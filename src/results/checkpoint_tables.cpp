@@ -148,7 +148,11 @@ std::vector<double> TableReader::numbers(const std::string& name, std::size_t n)
   return values;
 }
 
-void TableReader::each(const std::string& keys, const std::string& values,
+void TableReader::refuse(const std::string& what) const {
+  throw OutputError(path_.string(), what);
+}
+
+void TableReader::each(const std::string& keys, const std::string& values, const AllowedValues& allowed,
                        const std::function<void(std::int64_t, std::span<const double>)>& take) {
   run_collectively([&] {
     const std::int64_t n_rows = file_->rows(values);
@@ -163,6 +167,11 @@ void TableReader::each(const std::string& keys, const std::string& values,
       row.resize(n * width);
       file_->read_rows<std::int64_t>(keys, first, number);
       file_->read_rows<double>(values, first, row);
+      for (std::size_t i = 0; i < row.size(); ++i)
+        if (!allowed.contains(row[i]))
+          refuse(fmt::format("its '{}' has {} in row {}, column {} (number {} of '{}')", values, row[i],
+                             first + static_cast<std::int64_t>(i / width), i % width, number[i / width],
+                             keys));
       for (std::size_t i = 0; i < n; ++i)
         take(number[i], std::span<const double>(row).subspan(i * width, width));
     }

@@ -6,6 +6,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -50,6 +51,12 @@ class TableWriter {
   std::exception_ptr error_;
 };
 
+/// Values that a table may hold: numbers, and of these those that mean something.
+struct AllowedValues {
+  double lowest = std::numeric_limits<double>::lowest(), highest = std::numeric_limits<double>::max();
+  bool contains(double value) const { return value >= lowest && value <= highest; }
+};
+
 /// Every process reads by itself, a number of rows at a time. All calls are collective and throw on every
 /// process.
 class TableReader {
@@ -58,8 +65,11 @@ class TableReader {
   std::string text(const std::string& name);
   std::vector<double> numbers(const std::string& name, std::size_t n);
   /// Calls `take` with every row of the table `values` and its number in the table `keys`, on all processes.
-  void each(const std::string& keys, const std::string& values,
+  /// Throws OutputError for a value that is not allowed, with its table, row and column.
+  void each(const std::string& keys, const std::string& values, const AllowedValues& allowed,
             const std::function<void(std::int64_t, std::span<const double>)>& take);
+  /// Throws OutputError for something in the file that is not as it should be.
+  [[noreturn]] void refuse(const std::string& what) const;
   /// Throws OutputError unless `complete` on all processes.
   void require(bool complete, const std::string& name) const;
 

@@ -82,6 +82,32 @@ std::array<hsize_t, 2> extent(hid_t dataset) {
   return size;
 }
 
+/// Links to other files are not followed, whatever a file says.
+herr_t refuse_link(const char*, const char*, const char*, const char*, unsigned*, hid_t, void*) {
+  return -1;
+}
+
+Hdf5Handle access_within_the_file() {
+  Hdf5Handle properties(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_elink_cb(properties, refuse_link, nullptr);
+  return properties;
+}
+
+/// Whether all numbers of a table lie one behind the other in the file itself, as create_table() makes them:
+/// neither packed, nor in another file, nor more than the file has bytes for.
+bool is_plain(hid_t file, hid_t dataset) {
+  const Hdf5Handle made(H5Dget_create_plist(dataset), H5Pclose), type(H5Dget_type(dataset), H5Tclose);
+  hsize_t bytes_of_file = 0;
+  if (H5Pget_layout(made) != H5D_CONTIGUOUS || H5Pget_external_count(made) != 0 ||
+      H5Fget_filesize(file, &bytes_of_file) < 0)
+    return false;
+  const hsize_t bytes = H5Dget_storage_size(dataset), of_number = H5Tget_size(type);
+  const auto [rows, width] = extent(dataset);
+  if (rows == 0 || width == 0) return true;
+  return bytes <= bytes_of_file && width <= bytes && of_number > 0 && bytes % (width * of_number) == 0 &&
+         bytes / (width * of_number) == rows;
+}
+
 // The part of a table that the rows from `first` on are; negative where it does not fit.
 hid_t select_rows(hid_t dataset, std::int64_t first, std::size_t n_values, std::array<hsize_t, 2>& count) {
   const auto [rows, width] = extent(dataset);
@@ -120,7 +146,8 @@ void Hdf5File::fail(const std::string& what) const {
 }
 
 Hdf5Handle Hdf5File::dataset(const std::string& name) const {
-  Hdf5Handle found(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle within = access_within_the_file();
+  Hdf5Handle found(H5Dopen2(file_, name.c_str(), within), H5Dclose);
   if (found < 0) fail("holds no '" + name + "'");
   return found;
 }
@@ -184,7 +211,9 @@ void Hdf5File::read_rows(const std::string& name, std::int64_t first, std::span<
 }
 
 std::int64_t Hdf5File::rows(const std::string& name) const {
-  return static_cast<std::int64_t>(extent(dataset(name))[0]);
+  const Hdf5Handle set = dataset(name);
+  if (!is_plain(file_, set)) fail("holds no plain table '" + name + "'");
+  return static_cast<std::int64_t>(extent(set)[0]);
 }
 
 std::int64_t Hdf5File::width(const std::string& name) const {

@@ -56,6 +56,8 @@ class Hdf5File {
   void write_rows(const std::string& name, std::int64_t first, std::span<const T> values);
   template <class T>
   void read_rows(const std::string& name, std::int64_t first, std::span<T> values) const;
+  /// Throws for a table that is not as create_table() makes it: packed, in another file, or with more numbers
+  /// than the file has bytes for.
   std::int64_t rows(const std::string& name) const;
   std::int64_t width(const std::string& name) const;
 

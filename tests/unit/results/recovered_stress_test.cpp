@@ -3,6 +3,7 @@
 #include "results/recovered_stress.hpp"
 
 #include <gtest/gtest.h>
+#include <petscsys.h>
 
 #include <algorithm>
 #include <cmath>
