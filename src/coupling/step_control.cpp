@@ -24,7 +24,7 @@ constexpr double k_deepest_cut = 0.1;
 /// chilled at once, may need the first moment of it.
 constexpr int k_of_errors = -10, k_of_failures = -20;
 /// A step that did not converge and was cut to this share of itself leaves its viscosity to shorter ones.
-constexpr double k_in_vain = 0.0625;
+constexpr double k_in_vain = 0.25;
 
 double smallest_of_errors(const StepOptions& options) {
   return options.min_step > 0 ? options.min_step : std::ldexp(options.step, k_of_errors);

@@ -71,7 +71,7 @@ class StepControl {
   /// @param what  has happened to it, for the reason of the next one
   void shortened(const PlannedStep& step, const StepMeasure& measure, const std::string& what = "rejected");
   /// The step whose viscosity a melt keeps in this one [s]: its own, or the one that did not converge where
-  /// that was cut to a sixteenth in vain, until steps are as long again. A viscosity that follows the step
+  /// that was cut to a quarter in vain, until steps are as long again. A viscosity that follows the step
   /// makes melt as thin in a short one as in a long one (material/melt.hpp), so that cuts alone never help
   /// where it flows too far in a step, or has too little to resist the forces of contact with.
   double viscous_step(const PlannedStep& step) const { return std::max(step.dt, state_.viscous); }
