@@ -53,7 +53,12 @@ void AugmentedLagrangian::accelerate(const std::vector<double>& penetration) {
 }
 
 void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, AugmentedBy by) {
-  if (!acts()) return;
+  if (!acts() || ended_) return;
+  if (may_end_) {
+    left_ = largest(now).penetration;
+    before_.clear();
+    for (const ContactPointState& from : step.from) before_.push_back({from.multiplier, from.traction});
+  }
   const bool by_means = by == AugmentedBy::means;
   std::vector<double> penetration;
   if (by_means) {
@@ -84,6 +89,15 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, Au
       from.multiplier = std::max(least_multiplier(from), from.multiplier + law_.penalty * grown);
     if (tangential) from.traction = now.points[at(p)].traction;
   }
+}
+
+void AugmentedLagrangian::take_back(ContactStep& step) {
+  if (!acts()) return;
+  for (std::size_t p = 0; p < before_.size(); ++p) {
+    step.from[p].multiplier = before_[p].multiplier;
+    step.from[p].traction = before_[p].traction;
+  }
+  ended_ = true;
 }
 
 AugmentedLagrangian::Largest AugmentedLagrangian::largest(const ContactState& now) const {

@@ -16,6 +16,10 @@
 /// turn, whatever opens and closes, where the energy is convex (R. T. Rockafellar, Math. Oper. Res. 1 (1976)
 /// 97–116). They end where no point penetrates and none that is apart presses, and with them the means; the
 /// pressures are then less smooth from point to point.
+///
+/// A last resort, where several shorter steps have failed (allow_early_end): turns end at their last
+/// equilibrium, with the multipliers that it was found with. Forces balance there; what is left is a
+/// penetration, as with a penalty, of at most k_largest_left of the mean size of the slave's faces.
 #pragma once
 
 #include <optional>
@@ -35,19 +39,41 @@ class AugmentedLagrangian {
  public:
   /// Keeps references.
   /// @param allowed             penetration that may be left [m]
+  /// @param face_size           mean size of the slave's faces [m]
   /// @param pressure_tolerance  in place of it, ContactParameters::pressure_tolerance
   /// @param stiffness           ⟨E/h⟩ of the stiffer surface (penalty.hpp) [Pa/m]; zero: not known
-  AugmentedLagrangian(const ContactGeometry& geometry, const NormalLaw& law, double allowed,
+  AugmentedLagrangian(const ContactGeometry& geometry, const NormalLaw& law, double allowed, double face_size,
                       std::optional<double> pressure_tolerance, double stiffness)
       : geometry_(geometry),
         law_(law),
         allowed_(allowed),
+        largest_left_(k_largest_left * face_size),
         pressure_tolerance_(pressure_tolerance),
         stiffness_(stiffness > 0 ? stiffness : law.penalty) {}
   /// Whether the law has multipliers; without them the functions below do nothing.
   bool acts() const { return law_.kind == NormalKind::augmented_lagrangian; }
   /// The turns of another step follow.
-  void begin() { last_penetration_.clear(); }
+  /// @param goes_on  of the same step, in a further pass: turns that have ended early stay ended
+  void begin(bool goes_on = false) {
+    last_penetration_.clear();
+    before_.clear();
+    ended_ = ended_ && goes_on;
+  }
+  /// Whether turns that do not settle may end early, from now on.
+  void allow_early_end(bool on) { may_end_ = on; }
+  /// Whether they may end at a state in equilibrium. Collective.
+  bool may_end_at(const ContactState& now) const { return ended_ || (may_end_ && holds_bound(now)); }
+  /// Whether a state leaves penetrations within the bound of turns that end early. Collective.
+  bool holds_bound(const ContactState& now) const { return largest(now).penetration <= largest_left_; }
+  /// Whether they may end at the state that the last turn set out from.
+  bool may_take_back() const { return may_end_ && !ended_ && !before_.empty() && left_ <= largest_left_; }
+  /// Takes the last turn back, whose equilibrium was not found, and ends the turns of the step.
+  void take_back(ContactStep& step);
+  /// Ends the turns of the step with the multipliers of now.
+  void end_turns() { ended_ = true; }
+  bool ended_early() const { return ended_; }
+  /// The largest mean penetration around a node [m]. Collective.
+  double largest_penetration(const ContactState& now) const { return largest(now).penetration; }
   /// Takes the next turn: raises the multipliers of the step's start from the state that this turn has led
   /// to, and lets friction set out from the tractions of that state. Collective.
   void augment(const ContactState& now, ContactStep& step, AugmentedBy by);
@@ -61,6 +87,7 @@ class AugmentedLagrangian {
   std::string worst_penetration(const ContactState& now) const;
 
  private:
+  static constexpr double k_largest_left = 1e-3;
   /// Lengthens the steps of the nodes from their mean penetrations now and one turn before.
   void accelerate(const std::vector<double>& penetration);
   /// Largest |ḡ_a| [m] and t_N [Pa] of a state. Collective.
@@ -73,11 +100,20 @@ class AugmentedLagrangian {
 
   const ContactGeometry& geometry_;
   const NormalLaw& law_;
-  double allowed_;
+  double allowed_, largest_left_;  ///< [m]
   std::optional<double> pressure_tolerance_;
   double stiffness_;
   /// ḡ_a [m] and a_N in the last turn of this step, [local node]; empty in the first turn.
   std::vector<double> last_penetration_, step_factor_;
+  /// λ_N [Pa] and t_T [Pa] before the last turn, [point], and the penetration that was left there [m].
+  struct Start {
+    double multiplier = 0;
+    Point traction{};
+  };
+  std::vector<Start> before_;
+  double left_ = 0;
+  bool may_end_ = false;  ///< early
+  bool ended_ = false;    ///< early, in this step
 };
 
 }  // namespace solidus::contact

@@ -36,7 +36,8 @@ ContactForces::ContactForces(const ContactGeometry& geometry, const ContactParam
       law_(law_of(spec, penalty_of(geometry.mesh(), spec, surfaces, body_modulus))),
       symmetric_(spec.friction ? spec.friction->symmetric : geometry.kinematics().symmetric()),
       multipliers_(geometry, law_.normal, spec.penetration_tolerance * geometry.face_size(),
-                   spec.pressure_tolerance, stiffness_of(geometry.mesh(), surfaces, body_modulus)),
+                   geometry.face_size(), spec.pressure_tolerance,
+                   stiffness_of(geometry.mesh(), surfaces, body_modulus)),
       term_(spec.name, geometry, law_, step, spec.stabilisation, spec.friction && spec.friction->symmetric) {
   term_.follow_weights(!symmetric_);
 }
@@ -46,8 +47,8 @@ void ContactForces::activate(bool on) {
   term_.activate(on);
 }
 
-void ContactForces::begin(bool isentropic, double share) {
-  multipliers_.begin();
+void ContactForces::begin(bool isentropic, double share, bool goes_on) {
+  multipliers_.begin(goes_on);
   term_.begin();
   law_.isentropic = isentropic;
   law_.share = share;
@@ -62,6 +63,11 @@ PointForces ContactForces::at(const PointMotion& motion, Index point) const {
 void ContactForces::augment(const ContactState& now, ContactStep& step, AugmentedBy by) {
   term_.restart();
   if (active_) multipliers_.augment(now, step, by);
+}
+
+void ContactForces::take_back_turn(ContactStep& step) {
+  term_.restart();
+  multipliers_.take_back(step);
 }
 
 double ContactForces::excess(const ContactState& now) const {

@@ -24,7 +24,8 @@ class ContactForces {
   /// Off: no force at any point.
   void activate(bool on);
   /// Begins a step: its way to find the interface's temperature, and s of normal.hpp.
-  void begin(bool isentropic, double share);
+  /// @param goes_on  this is a further pass of the same step
+  void begin(bool isentropic, double share, bool goes_on);
   /// Forces of a point that moves as `motion` says from the start of the step.
   PointForces at(const PointMotion& motion, Index point) const;
 
@@ -39,6 +40,12 @@ class ContactForces {
   void augment(const ContactState& now, ContactStep& step, AugmentedBy by);
   double excess(const ContactState& now) const;
   double pressure_error(const ContactState& now) const;
+  AugmentedLagrangian& multipliers() { return multipliers_; }
+  const AugmentedLagrangian& multipliers() const { return multipliers_; }
+  /// Whether multipliers hold the penetration now.
+  bool multiplies() const { return active_ && multipliers_.acts(); }
+  /// AugmentedLagrangian::take_back, after which the term starts anew.
+  void take_back_turn(ContactStep& step);
   std::string worst_penetration(const ContactState& now) const { return multipliers_.worst_penetration(now); }
   /// Points that changed between open, sticking and slipping at the last residual. Collective.
   GlobalIndex changes() const;

@@ -58,7 +58,7 @@ void ContactPair::set_temperature(std::span<const double> temperature) {
 
 void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   history_->set_out_from(old, step_);
-  forces_->begin(pass.isentropic, pass.share);
+  forces_->begin(pass.isentropic, pass.share, pass.iterate != nullptr);
   step_.dt = pass.dt;
   step_.time = pass.time;
   step_.displacement.assign(pass.displacement.begin(), pass.displacement.end());
@@ -138,6 +138,11 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
   end_.state.master = step_.worn_from;
   if (heat_) heat_->restore(step_, points);
   if (!active_) std::ranges::for_each(points, open_up);
+}
+
+double ContactPair::left_penetration() const {
+  if (!forces_->multiplies() || !forces_->multipliers().ended_early()) return 0;
+  return forces_->multipliers().largest_penetration(end_.state) / geometry_->face_size();
 }
 
 void ContactPair::begin_heat(double dt, bool adiabatic) {

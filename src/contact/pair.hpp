@@ -149,6 +149,14 @@ class ContactPair {
   /// The largest mean penetration around a node of the slave at the last update(), over closed points, as a
   /// share of what is allowed; zero where there is no augmented Lagrangian. Collective.
   double excess() const { return forces_->excess(end_.state); }
+  /// Lets turns that do not settle end early, from now on: a last resort (augmented_lagrangian.hpp).
+  void allow_early_end(bool on) { forces_->multipliers().allow_early_end(on); }
+  /// Takes the last turn back and ends the turns of the step; ends them with the multipliers of now.
+  void take_back_turn() { forces_->take_back_turn(step_); }
+  void end_turns() { forces_->multipliers().end_turns(); }
+  /// The largest mean penetration around a node where the turns of the present step have ended early, as a
+  /// share of the mean size of the slave's faces; zero elsewhere. Collective.
+  double left_penetration() const;
   /// The same as a share of what the penalty alone would leave. Collective.
   double pressure_error() const { return forces_->pressure_error(end_.state); }
 

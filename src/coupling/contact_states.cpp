@@ -57,17 +57,39 @@ int rounded_up(double share) {
   return 100;
 }
 
+void warn_of_early_end(const contact::ContactPair& pair) {
+  logging::warn(
+      "contact '{}': in some steps, shorter ones too, the turns of the augmented Lagrangian do not settle; "
+      "they end at their last equilibrium, with penetrations above penetration_tolerance "
+      "(turns_that_did_not_settle in summary.json); normal = \"penalty\" needs no turns",
+      pair.spec().name);
+}
+
+[[noreturn]] void reject_turns(const contact::ContactPair& pair, int turns, double excess) {
+  throw StepRejected(fmt::format("contact '{}': {} turns of the augmented Lagrangian leave penetrations "
+                                 "{:.3g} times as large as allowed",
+                                 pair.spec().name, turns, excess),
+                     pair.forces().worst_penetration(pair.state()));
+}
+
+/// Ends the turns early where all pairs allow it; then true.
+bool end_early(const Phases& phases) {
+  for (const contact::ContactPair* pair : phases.contacts)
+    if (pair->forces().multiplies() && !pair->forces().multipliers().may_end_at(pair->state())) return false;
+  for (contact::ContactPair* pair : phases.contacts)
+    if (pair->excess() > 1) {
+      pair->end_turns();
+      warn_of_early_end(*pair);
+    }
+  return true;
+}
+
 /// Takes the multipliers as they are and says so; throws StepRejected where pressures may be farther off than
 /// with the default penalty alone.
 void end_turns(const contact::ContactPair& pair, int turns, double excess) {
   constexpr double k_of_default_penalty = 0.1;
   const double share = pair.pressure_error();
-  if (share > k_of_default_penalty)
-    throw StepRejected(
-        fmt::format("contact '{}': {} turns of the augmented Lagrangian leave penetrations {:.3g} times as "
-                    "large as allowed",
-                    pair.spec().name, turns, excess),
-        pair.forces().worst_penetration(pair.state()));
+  if (share > k_of_default_penalty) reject_turns(pair, turns, excess);
   logging::warn(
       "contact '{}': in some steps {} turns of the augmented Lagrangian do not settle; its multipliers are "
       "taken as they are there, off by up to {} % of the mean contact pressure; normal = \"penalty\" or a "
@@ -139,6 +161,12 @@ bool penetrations_small(const Phases& phases, int turn, int earlier) {
   double excess = 0;
   const contact::ContactPair* worst = nullptr;
   for (const contact::ContactPair* pair : phases.contacts) {
+    const contact::AugmentedLagrangian& multipliers = pair->forces().multipliers();
+    if (multipliers.ended_early()) {
+      // A further pass of a step whose turns have ended: the same bound holds for it.
+      if (!multipliers.holds_bound(pair->state())) reject_turns(*pair, turn + earlier, pair->excess());
+      continue;
+    }
     if (pair->spec().pressure_tolerance && turn >= k_enough_by_default) continue;
     if (const double of_pair = pair->excess(); of_pair > excess) {
       excess = of_pair;
@@ -155,6 +183,7 @@ bool penetrations_small(const Phases& phases, int turn, int earlier) {
         worst->spec().name, k_tolerable);
     return true;
   }
+  if (enough && end_early(phases)) return true;
   if (turn + earlier >= k_most_augmentations) {
     end_turns(*worst, turn + earlier, excess);
     return true;
@@ -162,6 +191,22 @@ bool penetrations_small(const Phases& phases, int turn, int earlier) {
   const contact::AugmentedBy by = enough ? contact::AugmentedBy::points : contact::AugmentedBy::means;
   for (contact::ContactPair* pair : phases.contacts) pair->augment(by);
   return false;
+}
+
+bool take_back_turn(const Phases& phases) {
+  bool any = false;
+  for (const contact::ContactPair* pair : phases.contacts) {
+    if (!pair->forces().multiplies()) continue;
+    if (!pair->forces().multipliers().may_take_back()) return false;
+    any = true;
+  }
+  if (!any) return false;
+  for (contact::ContactPair* pair : phases.contacts) {
+    if (!pair->forces().multiplies()) continue;
+    pair->take_back_turn();
+    warn_of_early_end(*pair);
+  }
+  return true;
 }
 
 void reject_with_contacts(const Phases& phases, const StepRejected& rejected) {

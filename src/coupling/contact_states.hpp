@@ -35,6 +35,9 @@ std::vector<contact::ContactState> second_start(const Phases& phases,
 /// @param turn     of this pass
 /// @param earlier  turns that passes before this one have taken in the same step
 bool penetrations_small(const Phases& phases, int turn, int earlier = 0);
+/// After a turn whose equilibrium was not found: true when the turns of the step end at the equilibrium
+/// before it, which is to be solved for once more; else the step is to be rejected. Collective.
+bool take_back_turn(const Phases& phases);
 /// Throws the same error with the failure_text() of the pairs appended. Collective.
 [[noreturn]] void reject_with_contacts(const Phases& phases, const StepRejected& rejected);
 

@@ -59,6 +59,7 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
       report = phases.mechanics->solve(old.mechanics, next, turn);
       add(report.newton, report.newton.effort, 0, effort.mechanics);
     } catch (const StepRejected& rejected) {
+      if (n_turns > 1 && take_back_turn(phases)) continue;  // `turn.start` is the equilibrium before
       reject_with_contacts(phases, rejected);
     }
     {

@@ -57,7 +57,8 @@ void summarise(const Phases& phases, const State& state, StepEffort& effort) {
                                .heat_to_master = sums.heat_to_master,
                                .wet_area = sums.wet_area,
                                .left_area = sums.left_area,
-                               .left_gap = sums.left_gap});
+                               .left_gap = sums.left_gap,
+                               .left_penetration = pair->left_penetration()});
   }
 }
 

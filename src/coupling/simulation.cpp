@@ -322,6 +322,7 @@ Simulation::Try Simulation::try_step(Progress& p) {
   StepRecord record;
   if (heat_ != nullptr) heat_->begin_burning(p.committed.burning, p.committed.time, step.time);
   set_viscosity(p, step);
+  scheme_->allow_early_end(p.control->may_end_early());
   try {
     const auto measured = [](const LocalError& error) {
       StepMeasure of_error;
@@ -336,6 +337,8 @@ Simulation::Try Simulation::try_step(Progress& p) {
     if (taken.effort) {
       measure.iterations = std::max(taken.effort->heat.hard(), taken.effort->mechanics.hard());
       measure.solid_fraction_change = std::abs(taken.effort->solid_fraction - p.solid_fraction);
+      measure.ended_early = std::ranges::any_of(
+          taken.effort->contacts, [](const ContactSummary& pair) { return pair.left_penetration > 0; });
     }
     require_numbers(measure);
     if (!taken.effort || p.control->too_long(step, measure)) {

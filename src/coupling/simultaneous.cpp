@@ -214,17 +214,30 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
   phases_.mechanics->begin(old, pass);
   std::vector<double> x = phases_.mechanics->start(old, pass);
   int iterations = 0, linear_iterations = 0, revisions = 0, fraction_turns = 0;
+  // The equilibrium that a turn of the augmented Lagrangian sets out from.
+  std::vector<double> balanced;
+  heat::ThermalState balanced_heat;
   for (int turn = 1;; ++turn) {
     try {
       report_ = newton_->solve(old, pass, x);
     } catch (const StepRejected& rejected) {
+      if (!balanced.empty() && take_back_turn(phases_)) {
+        x = std::exchange(balanced, {});
+        newton_->thermal().restart(balanced_heat);
+        continue;
+      }
       reject_with_contacts(phases_, rejected);
     }
     iterations += report_.iterations;
     linear_iterations += report_.linear_iterations;
     const std::span<const double> pressures = std::span(x).subspan(phases_.mechanics->n_displacements());
     if (pressure != nullptr && pressure->fill_pores(pressures, turn)) continue;
-    if (!penetrations_small(phases_, turn)) continue;
+    if (!penetrations_small(phases_, turn)) {
+      balanced = x;
+      balanced_heat = newton_->thermal().state();
+      continue;
+    }
+    balanced.clear();
     if (revisions < k_revisions && newton_->thermal().revise_limits()) {
       ++revisions;
       continue;

@@ -73,6 +73,8 @@ void StepControl::accepted(const PlannedStep& step, const StepMeasure& measure) 
   // The step that failed may have been stretched to land.
   if (state_.viscous == 0 || step.dt >= state_.viscous * (1 - 2 * k_stretch))
     state_.failed = state_.viscous = 0;
+  // Where turns have ended early they may do so in the steps that follow, which need not fail anew.
+  if (!measure.ended_early) state_.failures = 0;
   if (!options_.adaptive) return recover();
   const Strictest limit = strictest(options_.limits, measure);
   const bool jump = is_jump(step, limit);
@@ -116,6 +118,7 @@ bool StepControl::rejected(const PlannedStep& step, const std::string& why) {
   state_.failed = std::max(state_.failed, step.dt);
   if (state_.size <= k_in_vain * state_.failed * (1 + k_same_time)) state_.viscous = state_.failed;
   state_.reason = "rejected: " + why;
+  ++state_.failures;
   return state_.size >= smallest_of_failures(options_) * (1 - k_same_time);
 }
 

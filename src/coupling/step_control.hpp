@@ -47,6 +47,8 @@ struct ControlState {
   double failed = 0;
   /// The step whose viscosity a melt keeps in shorter ones (StepControl::viscous_step); zero: none [s].
   double viscous = 0;
+  /// Tries that did not go through since the last step that did, with turns of contact that settled.
+  int failures = 0;
 };
 
 class StepControl {
@@ -76,10 +78,14 @@ class StepControl {
   /// where it flows too far in a step, or has too little to resist the forces of contact with.
   double viscous_step(const PlannedStep& step) const { return std::max(step.dt, state_.viscous); }
 
+  /// Whether so many tries have failed that turns of contact need not settle any more.
+  bool may_end_early() const { return state_.failures >= k_patience; }
+
   const ControlState& state() const { return state_; }
   void resume(ControlState state) { state_ = std::move(state); }
 
  private:
+  static constexpr int k_patience = 3;
   void resize(double size, const std::string& reason);
   bool is_jump(const PlannedStep& step, const Strictest& limit) const;
   /// Without limits: back to the step asked for, after a cut.

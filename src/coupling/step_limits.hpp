@@ -23,6 +23,7 @@ struct StepMeasure {
   int iterations = 0;                                    ///< the largest Newton count of its phases
   double temperature_error = 0, displacement_error = 0;  ///< [K], [m]; zero where nothing measures them
   double solid_fraction_change = 0;
+  bool ended_early = false;  ///< turns of contact did not settle (contact/augmented_lagrangian.hpp)
 };
 
 /// The limit that wants the smallest step.

@@ -28,7 +28,7 @@ namespace {
 
 /// Characters that stand for a pair in State::steady_gaps.
 constexpr char k_steady = 's', k_unsteady = '-';
-constexpr const char* k_format = "Solidus checkpoint 20";
+constexpr const char* k_format = "Solidus checkpoint 21";
 constexpr const char* k_known = "known";
 /// Above absolute zero, and no hotter than a case may ask for [K].
 constexpr AllowedValues k_temperatures{std::numeric_limits<double>::min(), 1e6};
@@ -50,7 +50,7 @@ void each_number(C& c, const Visit& visit) {
   all(c.state.time, k.steps, c.rejected, c.shortened, c.state.mechanics.dt_before, k.stage.number,
       k.stage.time);
   all(k.control.size, k.control.refused, k.control.refused_ratio, k.control.before_refusal, k.control.failed,
-      k.control.viscous, k.rates.changed);
+      k.control.viscous, k.control.failures, k.rates.changed);
   all(o.step, o.adaptive, o.min_step, o.max_step, o.growth, o.cut, o.easy_iterations);
   all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.solid_fraction,
       o.limits.inertia);

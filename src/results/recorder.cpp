@@ -210,6 +210,7 @@ void Recorder::step(const coupling::StepRecord& taken, const coupling::State& st
   options_.summary.rejected += record.rejected;
   options_.summary.shortened += record.shortened;
   note_left_walls(record);
+  note_unsettled_turns(record);
 }
 
 void Recorder::shot(const coupling::ShotRecord& record, const coupling::State& state) {
@@ -245,6 +246,19 @@ void Recorder::note_left_walls(const coupling::StepRecord& record) {
     wall->gap = std::max(wall->gap, now.left_gap);
     wall->area = std::max(wall->area, now.left_area);
     wall->to = record.time;
+  }
+}
+
+void Recorder::note_unsettled_turns(const coupling::StepRecord& record) {
+  std::vector<UnsettledTurns>& pairs = options_.summary.unsettled;
+  for (std::size_t i = 0; i < record.contacts.size(); ++i) {
+    const double left = record.contacts[i].left_penetration;
+    if (!(left > 0)) continue;
+    const std::string& name = phases_.contacts[i]->spec().name;
+    auto pair = std::ranges::find(pairs, name, &UnsettledTurns::contact);
+    if (pair == pairs.end()) pair = pairs.insert(pair, {.contact = name});
+    ++pair->steps;
+    pair->penetration = std::max(pair->penetration, left);
   }
 }
 

@@ -56,6 +56,16 @@ Json left_walls(const std::vector<LeftWall>& left) {
   return json;
 }
 
+Json unsettled(const std::vector<UnsettledTurns>& pairs) {
+  Json json;
+  for (const UnsettledTurns& pair : pairs) {
+    Json of_contact;
+    of_contact.add("steps", pair.steps).add("largest_penetration_over_face", pair.penetration);
+    json.add(pair.contact, std::move(of_contact));
+  }
+  return json;
+}
+
 GlobalIndex sum(Index counted) {
   return static_cast<GlobalIndex>(parallel::global_sum(counted));
 }
@@ -130,6 +140,7 @@ std::string summary_json(const Summary& s) {
   if (s.answers) json.add("answers", results::json(*s.answers));
   if (!s.melt.empty()) json.add("melt", melts(s.melt));
   if (!s.left_walls.empty()) json.add("liquid_metal_left_its_wall", left_walls(s.left_walls));
+  if (!s.unsettled.empty()) json.add("turns_that_did_not_settle", unsettled(s.unsettled));
   if (s.overview) json.add("understood", results::json(*s.overview));
   json.add("warnings", std::move(warnings));
   return json.text();

@@ -49,6 +49,13 @@ struct LeftWall {
   double from = 0, to = 0;  ///< the first and the last time [s]
 };
 
+/// Steps whose turns of the augmented Lagrangian ended early, since the run began or went on.
+struct UnsettledTurns {
+  std::string contact;
+  int steps = 0;
+  double penetration = 0;  ///< the largest that was left, as a share of the mean size of the slave's faces
+};
+
 /// Everything summary.json says. Lists keep their order; `final_values` pairs a header of history.csv with
 /// the last value of that column.
 struct Summary {
@@ -72,6 +79,7 @@ struct Summary {
   std::optional<Answers> answers;  ///< absent in steady runs
   std::vector<ChosenMelt> melt;
   std::vector<LeftWall> left_walls;
+  std::vector<UnsettledTurns> unsettled;
   std::optional<Overview> overview;  ///< the case as it was understood
   std::vector<std::string> warnings;
 };
