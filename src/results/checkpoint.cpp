@@ -32,7 +32,7 @@ constexpr const char* k_format = "Solidus checkpoint 21";
 constexpr const char* k_known = "known";
 /// Above absolute zero, and no hotter than a case may ask for [K].
 constexpr AllowedValues k_temperatures{std::numeric_limits<double>::min(), 1e6};
-/// What does not burn yet is lit at an infinite time [s].
+/// The time at which a body is lit is infinite until it burns [s].
 constexpr AllowedValues k_times_of_ignition{0, std::numeric_limits<double>::infinity()};
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
