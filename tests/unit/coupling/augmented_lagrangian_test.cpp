@@ -117,6 +117,19 @@ TEST(AugmentedLagrangian, FollowsPointsAfterSixtyTurnsAndMeansBefore) {
   }
 }
 
+/// Leaves the blocks as they are, but for the upper one, which moves by `lift`.
+std::vector<double> moved(const PressedBlocks& blocks, double lift) {
+  std::vector<double> u = blocks.next.displacement;
+  for (const mesh::ElementBlock& block : blocks.mesh.blocks) {
+    if (blocks.mesh.bodies[static_cast<std::size_t>(block.body)].name != "upper") continue;
+    std::vector<char> of_block(blocks.mesh.x.size(), 0);
+    for (const Index node : block.nodes) of_block[static_cast<std::size_t>(node)] = 1;
+    for (std::size_t i = 0; i < of_block.size(); ++i)
+      if (of_block[i] != 0) u[2 * i + 1] += lift;
+  }
+  return u;
+}
+
 // A step that ends with turns left over is better than the penalty, or it is cut.
 TEST(AugmentedLagrangian, IsTakenAsItIsAfterTwoHundredTurnsUnlessTheDefaultPenaltyIsBetter) {
   PressedBlocks blocks;
@@ -133,18 +146,66 @@ TEST(AugmentedLagrangian, IsTakenAsItIsAfterTwoHundredTurnsUnlessTheDefaultPenal
   EXPECT_THAT(logging::warnings()[0], ::testing::HasSubstr("% of the mean contact pressure"));
 
   // Apart, with the pressures of multipliers that know nothing of it.
-  const double lift = 0.8 * blocks.largest(&contact::ContactPointState::pressure) / 1e13;
-  std::vector<double> apart = blocks.next.displacement;
-  for (const mesh::ElementBlock& block : blocks.mesh.blocks) {
-    if (blocks.mesh.bodies[static_cast<std::size_t>(block.body)].name != "upper") continue;
-    std::vector<char> moved(blocks.mesh.x.size(), 0);
-    for (const Index node : block.nodes) moved[static_cast<std::size_t>(node)] = 1;
-    for (std::size_t i = 0; i < moved.size(); ++i)
-      if (moved[i] != 0) apart[2 * i + 1] += lift;
-  }
-  run.pair.update(apart);
+  run.pair.update(moved(blocks, 0.8 * blocks.largest(&contact::ContactPointState::pressure) / 1e13));
   ASSERT_GT(run.pair.pressure_error(), 0.1);
   EXPECT_THROW(coupling::penetrations_small(run.phases, 200), StepRejected);
+}
+
+TEST(AugmentedLagrangian, EndsAfterSixtyTurnsWhereShorterStepsHaveFailedAndSaysSo) {
+  PressedBlocks blocks;
+  Rubbed& run = *blocks.run;
+  ASSERT_GT(run.pair.excess(), 10);
+  run.pair.allow_early_end(true);
+  logging::clear_warnings();
+  EXPECT_FALSE(coupling::penetrations_small(run.phases, 59));
+  blocks.solve();
+  ASSERT_GT(run.pair.excess(), 10);
+  EXPECT_EQ(run.pair.left_penetration(), 0);
+  EXPECT_TRUE(logging::warnings().empty());
+  EXPECT_TRUE(coupling::penetrations_small(run.phases, 60));
+  EXPECT_GT(run.pair.left_penetration(), 0);
+  ASSERT_EQ(logging::warnings().size(), 1);
+  EXPECT_THAT(logging::warnings()[0], ::testing::HasSubstr("end at their last equilibrium"));
+  // A further pass of the step does not raise them again, and the next step begins anew.
+  const std::vector<contact::ContactState> now{run.pair.state()};
+  coupling::begin_contacts(run.phases, run.state.contacts, blocks.old, blocks.pass, {}, now);
+  run.pair.update(blocks.next.displacement);
+  EXPECT_TRUE(coupling::penetrations_small(run.phases, 1));
+  coupling::begin_contacts(run.phases, run.state.contacts, blocks.old, blocks.pass);
+  run.pair.update(blocks.next.displacement);
+  EXPECT_EQ(run.pair.left_penetration(), 0);
+  EXPECT_FALSE(coupling::penetrations_small(run.phases, 1));
+}
+
+TEST(AugmentedLagrangian, DoesNotEndEarlyWithPenetrationsThatBodiesWouldFeel) {
+  PressedBlocks blocks;
+  Rubbed& run = *blocks.run;
+  run.pair.allow_early_end(true);
+  const double face = run.pair.geometry().face_size();
+  run.pair.update(moved(blocks, -2e-3 * face));
+  EXPECT_FALSE(coupling::penetrations_small(run.phases, 60));
+  EXPECT_FALSE(coupling::take_back_turn(run.phases));
+}
+
+TEST(AugmentedLagrangian, TakesBackATurnWithoutEquilibriumWhereShorterStepsHaveFailed) {
+  for (const bool allowed : {false, true}) {
+    PressedBlocks blocks;
+    Rubbed& run = *blocks.run;
+    run.pair.allow_early_end(allowed);
+    const std::vector<contact::ContactPointState> before = run.pair.state().points;
+    EXPECT_FALSE(coupling::take_back_turn(run.phases)) << "there was no turn";
+    ASSERT_FALSE(coupling::penetrations_small(run.phases, 1));
+    ASSERT_EQ(coupling::take_back_turn(run.phases), allowed);
+    run.pair.update(blocks.next.displacement);
+    if (!allowed) continue;
+    for (std::size_t p = 0; p < before.size(); ++p) {
+      EXPECT_EQ(run.pair.state().points[p].pressure, before[p].pressure);
+      EXPECT_EQ(run.pair.state().points[p].multiplier, before[p].multiplier);
+    }
+    EXPECT_TRUE(coupling::penetrations_small(run.phases, 2));
+    EXPECT_GT(run.pair.left_penetration(), 0);
+    EXPECT_FALSE(coupling::take_back_turn(run.phases)) << "once in a step";
+  }
 }
 
 TEST(AugmentedLagrangian, LeavesNoPenetrationWhereThePenaltyDoes) {

@@ -51,6 +51,21 @@ TEST(StepControl, AMeltKeepsTheViscosityOfAStepThatWasCutToASixteenthInVain) {
   EXPECT_EQ(control.viscous_step(shorter), shorter.dt);
 }
 
+TEST(StepControl, TurnsMayEndEarlyAfterThreeFailuresUntilAStepSettles) {
+  StepControl control(step_of(1.6), 0, {100.0});
+  for (int cut = 0; cut < 3; ++cut) {
+    EXPECT_FALSE(control.may_end_early()) << "after " << cut;
+    ASSERT_TRUE(control.rejected(control.plan(0), "contact"));
+  }
+  EXPECT_TRUE(control.may_end_early());
+  StepMeasure unsettled = iterations(3);
+  unsettled.ended_early = true;
+  control.accepted(control.plan(0), unsettled);
+  EXPECT_TRUE(control.may_end_early()) << "steps that follow need not fail anew";
+  control.accepted(control.plan(0.2), iterations(3));
+  EXPECT_FALSE(control.may_end_early());
+}
+
 TEST(StepControl, FixedStepsMeetTheEndExactly) {
   StepControl control(step_of(0.1), 0, {1.0});
   double time = 0;
