@@ -1,5 +1,5 @@
-/// The program under the sanitizers, and built with them only. Leaks are not looked for where it is started on
-/// its own: MPI's modules are unloaded before LeakSanitizer can name them.
+/// The program under the sanitizers, and built with them only. Leaks are not looked for where it is started
+/// on its own: MPI's modules are unloaded before LeakSanitizer can name them.
 extern "C" const char* __asan_default_options();  // NOLINT: the sanitizer's name
 
 extern "C" const char* __asan_default_options() {  // NOLINT
