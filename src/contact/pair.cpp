@@ -58,7 +58,7 @@ void ContactPair::set_temperature(std::span<const double> temperature) {
 
 void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   history_->set_out_from(old, step_);
-  forces_->begin(pass.isentropic, pass.share, pass.iterate != nullptr);
+  forces_->begin(pass.isentropic, pass.share, pass.further);
   step_.dt = pass.dt;
   step_.time = pass.time;
   step_.displacement.assign(pass.displacement.begin(), pass.displacement.end());

@@ -47,7 +47,8 @@ struct ContactPass {
   /// or its entropy, and multipliers start from the ones found there, so that passes that have not come to
   /// their end go on where they were. Null: that of t_n.
   const ContactState* iterate = nullptr;
-  double share = 1;  ///< s of normal.hpp
+  bool further = false;  ///< a further pass of the same step: turns that ended early stay ended
+  double share = 1;      ///< s of normal.hpp
 };
 
 class ContactPair {

@@ -101,7 +101,8 @@ void end_turns(const contact::ContactPair& pair, int turns, double excess) {
 
 void begin_contacts(const Phases& phases, const std::vector<contact::ContactState>& contacts,
                     const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
-                    std::span<const double> coherency, const std::vector<contact::ContactState>& iterate) {
+                    std::span<const double> coherency, const std::vector<contact::ContactState>& iterate,
+                    bool further) {
   const profile::Part part("contact");
   contact::ContactPass of_contact{
       .time = pass.time,
@@ -112,6 +113,7 @@ void begin_contacts(const Phases& phases, const std::vector<contact::ContactStat
       .isentropic = phases.heat != nullptr && phases.mechanics->mapping() == mechanics::Mapping::isentropic,
       .simultaneous =
           phases.heat != nullptr && phases.mechanics->mapping() == mechanics::Mapping::simultaneous,
+      .further = further,
       .share = phases.mechanics->force_share()};
   for (std::size_t i = 0; i < phases.contacts.size(); ++i) {
     of_contact.iterate = iterate.empty() ? nullptr : &iterate[i];

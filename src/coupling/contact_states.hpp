@@ -13,10 +13,11 @@ inline constexpr double k_firm_hold = 1e3;
 /// A mechanical pass sets out: pairs from `contacts` at t_n (State::contacts).
 /// @param coherency  at t_n (coherency_of)
 /// @param iterate    of the pass before within the step (ContactPass::iterate); empty: there is none
+/// @param further    ContactPass::further
 void begin_contacts(const Phases& phases, const std::vector<contact::ContactState>& contacts,
                     const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
                     std::span<const double> coherency = {},
-                    const std::vector<contact::ContactState>& iterate = {});
+                    const std::vector<contact::ContactState>& iterate = {}, bool further = false);
 /// A step of heat alone sets out: pairs that store heat, between bodies that do not deform.
 void rest_contacts(const Phases& phases, const State& old, double time, double dt);
 /// Returns the states of the pairs at their last update.

@@ -37,9 +37,10 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
                                             const std::vector<contact::ContactState>& contacts, int* turns) {
   const profile::Part part("mechanics");
   const double start = processes::wall_time();
+  const int earlier = turns != nullptr ? *turns : 0;
   const std::vector<double> coherency =
       phases.contacts.empty() ? std::vector<double>{} : coherency_of(phases, old.heat);
-  begin_contacts(phases, old.contacts, old.mechanics, pass, coherency, contacts);
+  begin_contacts(phases, old.contacts, old.mechanics, pass, coherency, contacts, earlier > 0);
   if (pass.contact_hold != 1)
     for (contact::ContactPair* pair : phases.contacts) pair->stabilise(pass.contact_hold);
   if (phases.structural != nullptr) phases.structural->release();
@@ -51,7 +52,6 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
     next.history = std::move(trial.mechanics.history);
     next.elements = std::move(trial.mechanics.elements);
   }
-  const int earlier = turns != nullptr ? *turns : 0;
   for (int n_turns = 1;; ++n_turns) {
     if (turns != nullptr) *turns = earlier + n_turns;
     report.deformation.clear();  // its storage serves again
