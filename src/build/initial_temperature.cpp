@@ -73,8 +73,7 @@ InitialTemperatures::Body InitialTemperatures::evaluated(const PlaceSpec& place,
     if (mapped.outside > k_few)
       logging::warn(
           "body '{}': {:.0f} % of it lies outside of the grid of '{}', up to {:.3g} m away, and starts with "
-          "the "
-          "temperature of the nearest place; is the file of a mesh at another place, or in another unit "
+          "the temperature of the nearest place; is the file of a mesh at another place, or in another unit "
           "(length_unit)?",
           name, 100 * mapped.outside, place.file, mapped.farthest);
     if (!mapped.kept)
