@@ -32,37 +32,32 @@ Json findings(const std::vector<criteria::CriterionResult>& found) {
   return json;
 }
 
-// By body, those alone whose viscosity was chosen.
-Json melts(const std::vector<ChosenMelt>& chosen) {
+/// An object with one member for each element of `list`, named by its `key`.
+template <class T>
+Json by_name(const std::vector<T>& list, std::string T::*key, Json (*members)(const T&)) {
   Json json;
-  for (const ChosenMelt& melt : chosen) {
-    Json of_body;
-    of_body.add("modulus_in_a_step[Pa]", melt.modulus).add("measured_against", melt.against);
-    json.add(melt.body, std::move(of_body));
-  }
+  for (const T& element : list) json.add(element.*key, members(element));
   return json;
 }
 
-Json left_walls(const std::vector<LeftWall>& left) {
+Json melt_members(const ChosenMelt& melt) {
   Json json;
-  for (const LeftWall& wall : left) {
-    Json of_contact;
-    of_contact.add("largest_gap[m]", wall.gap)
-        .add("largest_area[m2]", wall.area)
-        .add("from[s]", wall.from)
-        .add("to[s]", wall.to);
-    json.add(wall.contact, std::move(of_contact));
-  }
+  json.add("modulus_in_a_step[Pa]", melt.modulus).add("measured_against", melt.against);
   return json;
 }
 
-Json unsettled(const std::vector<UnsettledTurns>& pairs) {
+Json left_wall_members(const LeftWall& wall) {
   Json json;
-  for (const UnsettledTurns& pair : pairs) {
-    Json of_contact;
-    of_contact.add("steps", pair.steps).add("largest_penetration_over_face", pair.penetration);
-    json.add(pair.contact, std::move(of_contact));
-  }
+  json.add("largest_gap[m]", wall.gap)
+      .add("largest_area[m2]", wall.area)
+      .add("from[s]", wall.from)
+      .add("to[s]", wall.to);
+  return json;
+}
+
+Json unsettled_members(const UnsettledTurns& turns) {
+  Json json;
+  json.add("steps", turns.steps).add("largest_penetration_over_face", turns.penetration);
   return json;
 }
 
@@ -138,9 +133,11 @@ std::string summary_json(const Summary& s) {
   if (s.relative_energy_defect) json.add("relative_energy_defect", *s.relative_energy_defect);
   json.add("final", object(s.final_values)).add("criteria", findings(s.criteria));
   if (s.answers) json.add("answers", results::json(*s.answers));
-  if (!s.melt.empty()) json.add("melt", melts(s.melt));
-  if (!s.left_walls.empty()) json.add("liquid_metal_left_its_wall", left_walls(s.left_walls));
-  if (!s.unsettled.empty()) json.add("turns_that_did_not_settle", unsettled(s.unsettled));
+  if (!s.melt.empty()) json.add("melt", by_name(s.melt, &ChosenMelt::body, melt_members));
+  if (!s.left_walls.empty())
+    json.add("liquid_metal_left_its_wall", by_name(s.left_walls, &LeftWall::contact, left_wall_members));
+  if (!s.unsettled.empty())
+    json.add("turns_that_did_not_settle", by_name(s.unsettled, &UnsettledTurns::contact, unsettled_members));
   if (s.overview) json.add("understood", results::json(*s.overview));
   json.add("warnings", std::move(warnings));
   return json.text();
