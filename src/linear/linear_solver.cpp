@@ -131,11 +131,10 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
 }
 
 void LinearSolver::forget() {
-  Implementation& my = *implementation_;
-  // The analysis of LDLᵀ looks at the pattern alone, and so stays. A hierarchy that is only set up again
-  // keeps its interpolation and goes on with its random numbers; LU permutes by values: these are made anew.
-  if (!my.ksp || (my.kind == SolverKind::direct && my.options.symmetric)) return;
-  reset();
+  // MUMPS chooses the order of elimination by the values of the first matrix that it analyses, for LU and,
+  // where the diagonal is small beside the rest, for LDLᵀ too. A hierarchy that is only set up again keeps its
+  // interpolation and goes on with its random numbers. All of them are made anew.
+  if (implementation_->ksp) reset();
 }
 
 void LinearSolver::reset() {
