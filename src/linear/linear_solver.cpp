@@ -132,8 +132,8 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
 
 void LinearSolver::forget() {
   // MUMPS chooses the order of elimination by the values of the first matrix that it analyses, for LU and,
-  // where the diagonal is small beside the rest, for LDLᵀ too. A hierarchy that is only set up again keeps its
-  // interpolation and goes on with its random numbers. All of them are made anew.
+  // where the diagonal is small beside the rest, for LDLᵀ too. A hierarchy that is only set up again keeps
+  // its interpolation and goes on with its random numbers. All of them are made anew.
   if (implementation_->ksp) reset();
 }
 
