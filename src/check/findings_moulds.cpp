@@ -125,7 +125,7 @@ void thin_sand(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) 
     volume += m.bodies[b].volume;
     if (first == nullptr && is_sand(spec.bodies[b])) first = &spec.bodies[b];
   }
-  constexpr double k_reaches = 1.5;
+  constexpr double k_reaches = 1;
   if (first == nullptr || !(metal > 0) || volume / metal >= k_reaches * reach) return;
   findings.push_back(
       {false, first->where,
