@@ -35,9 +35,11 @@ StabilityAudit stability_audit(const Phases& phases, const State& old, const Sta
   // without their energy.
   constexpr double k_rounding = 1e-14;  // of each entropy that is a difference
   r.tolerance = std::max(0.0, energy.unbalanced) + std::max(0.0, -energy.numerical) +
-                effort.heat.residual * energy.heat_exchanged + k_rounding * ambient * stored.magnitude;
+                effort.heat.residual * energy.heat_exchanged + k_rounding * ambient * stored.magnitude +
+                ambient * stored.behind;
   // A fraction that follows the temperature alone lets a phase change under pressure do work against it.
-  r.tolerance += structural.transformed;
+  // Heat of deformation arrives at nodes of another temperature than that of its point.
+  r.tolerance += structural.transformed + ambient * structural.spread;
   return r;
 }
 

@@ -119,18 +119,23 @@ EntropyChange ThermalPhase::entropy_change(const ThermalState& from, const Therm
   const auto add = [&sum](const EntropyChange& part) {
     sum.change += part.change;
     sum.magnitude += part.magnitude;
+    sum.behind += part.behind;
   };
   if (!nodal()) {
     for (const auto& block : points_) add(block->entropy_change(from.temperature, to.temperature));
   } else {
     if (consistent_) add(consistent_->entropy_change(from.temperature, to.temperature));
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
-      const double before = storage_->entropy(i, from.enthalpy[at(i)], from.temperature[at(i)]);
+      const double heat = from.enthalpy[at(i)], temperature = from.temperature[at(i)];
+      const double before = storage_->entropy(i, heat, temperature);
       const double after = storage_->entropy(i, to.enthalpy[at(i)], to.temperature[at(i)]);
-      add({after - before, std::abs(before)});
+      const double behind =
+          std::max({0.0, storage_->lower(i, temperature) - heat, heat - storage_->upper(i, temperature)});
+      add({after - before, std::abs(before), behind / temperature});
     }
   }
-  return {parallel::global_sum(sum.change), parallel::global_sum(sum.magnitude)};
+  return {parallel::global_sum(sum.change), parallel::global_sum(sum.magnitude),
+          parallel::global_sum(sum.behind)};
 }
 
 double ThermalPhase::enthalpy(const ThermalState& state) const {

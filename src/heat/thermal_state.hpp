@@ -58,6 +58,9 @@ struct HeatBalance {
 struct EntropyChange {
   double change = 0;
   double magnitude = 0;  ///< sum of the magnitudes subtracted from each other: the scale of rounding
+  /// Σ |H − H(Θ)|/Θ at the nodes at the start: the residual of the step before is in their heat and not in
+  /// their temperatures, of which the entropy is.
+  double behind = 0;
 };
 
 struct ThermalReport {

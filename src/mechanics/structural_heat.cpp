@@ -56,9 +56,10 @@ StructuralChange structural_change(const StepDeformation& deformation, std::span
     total.energy += part.energy;
     total.entropy += part.entropy;
     total.transformed += part.transformed;
+    total.spread += part.spread;
   }
   return {parallel::global_sum(total.energy), parallel::global_sum(total.entropy),
-          parallel::global_sum(total.transformed)};
+          parallel::global_sum(total.transformed), parallel::global_sum(total.spread)};
 }
 
 StructuralChange mechanical_change(const StepDeformation& deformation) {

@@ -259,19 +259,37 @@ void StructuralPoints::add_heat(StructuralForm form, const Stage& stage, std::sp
 
 StructuralChange StructuralPoints::change(std::span<const double> temperature) const {
   StructuralChange total;
+  std::vector<double> coldness(temperature.size());  // 1/Θ
+  std::ranges::transform(temperature, coldness.begin(), [](double theta) { return 1 / theta; });
   for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
-    Lane energy(0.0), entropy(0.0), transformed(0.0);
+    Lane energy(0.0), entropy(0.0), transformed(0.0), heat(0.0), entropy_of_nodes(0.0);
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Point& at = points_[index(batch, q)];
-      const State now = state(at, at.now, temperature_at(geometry_, batch, q, temperature));
-      transformed += geometry_.weight_at(batch, q) * at.transformed;
-      energy += geometry_.weight_at(batch, q) * (now.internal_energy - at.old_energy);
-      entropy += geometry_.weight_at(batch, q) * (now.entropy - at.old_entropy);
+      const Lane theta = temperature_at(geometry_, batch, q, temperature),
+                 weight = geometry_.weight_at(batch, q);
+      const State now = state(at, at.now, theta);
+      transformed += weight * at.transformed;
+      energy += weight * (now.internal_energy - at.old_energy);
+      const Lane of_point = weight * (now.entropy - at.old_entropy);
+      entropy += of_point;
+      heat += theta * of_point;
+      entropy_of_nodes += theta * of_point * temperature_at(geometry_, batch, q, coldness);
+    }
+    if (const Lane* correction = spread(batch); correction != nullptr) {
+      const Index* nodes =
+          geometry_.nodes.data() + static_cast<std::ptrdiff_t>(batch) * geometry_.n_nodes * k_lanes;
+      for (int a = 0; a < geometry_.n_nodes; ++a) {
+        alignas(sizeof(Lane)) double of_node[k_lanes];
+        for (int lane = 0; lane < k_lanes; ++lane)
+          of_node[lane] = coldness[static_cast<std::size_t>(nodes[a * k_lanes + lane])];
+        entropy_of_nodes += correction[a] * heat * Lane::load(of_node);
+      }
     }
     const Lane counted = geometry_.counted[static_cast<std::size_t>(batch)];
     total.energy += sum(energy * counted);
     total.entropy += sum(entropy * counted);
     total.transformed += sum(transformed * counted);
+    total.spread += sum(abs(entropy_of_nodes - entropy) * counted);
   }
   return total;
 }

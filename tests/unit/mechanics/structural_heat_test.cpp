@@ -98,6 +98,26 @@ TEST(StructuralHeat, TheTangentIsTheRowSumOfTheDerivative) {
     }
 }
 
+// The heat of deformation of a point is Θ ΔS; at the nodes it is divided by their temperatures.
+TEST(StructuralHeat, TellsTheEntropyThatSpreadingOverNodesMakes) {
+  double spread[2];
+  for (int k = 0; k < 2; ++k) {
+    Stretched s(Shape::quad4, AnalysisKind::plane_strain, false, 1e-2);
+    const Solved solved(s.body);
+    StructuralHeat heat(*solved.phase, StructuralForm::entropy);
+    std::vector<double> end = s.warm(0);
+    for (double& theta : end) theta = 320 + (theta - 320) / (k + 1);
+    const std::vector<double> heat_of_nodes = residual(heat, solved, end);  // Δt = 1
+    double entropy = 0;
+    for (std::size_t i = 0; i < heat_of_nodes.size(); ++i) entropy += heat_of_nodes[i] / end[i];
+    const mechanics::StructuralChange change = structural_change(solved.report.deformation, end);
+    spread[k] = change.spread;
+    EXPECT_GT(change.spread, 0);
+    EXPECT_NEAR(change.spread, parallel::global_sum(entropy) - change.entropy, 1e-12 * change.entropy);
+  }
+  EXPECT_NEAR(spread[0] / spread[1], 4, 0.2);  // of second order in the differences of temperature
+}
+
 TEST(StructuralHeat, TheEnergyFormGivesExactlyEnergyMinusWork) {
   Stretched s(Shape::quad4, AnalysisKind::axisymmetric, false);
   const Solved solved(s.body);
