@@ -74,6 +74,8 @@ class Iteration {
   bool chord_converges(double norm_before) const {
     return norm_ * (k_chord_residual * norm_ / norm_before) <= goal();
   }
+  /// d·r of the step, which is turned round where it leads uphill (NewtonOptions::reverses_ascent).
+  double descend();
   void measure_next_step(double alpha, double norm_before);
   double measured() const { return reference_ > 0 ? norm_ / reference_ : norm_; }
   /// x = start + alpha × step and the residual there; returns step · r.
@@ -146,6 +148,14 @@ void Iteration::spread_step() {
     from += n_owned;
     to += n;
   }
+}
+
+double Iteration::descend() {
+  const double slope = dot(step_, r_);
+  if (!options_.reverses_ascent || !(slope > 0)) return slope;
+  for (double& value : step_) value = -value;
+  for (double& value : local_step_) value = -value;
+  return -slope;
 }
 
 double Iteration::slope_at(double alpha) {
@@ -244,7 +254,7 @@ NewtonReport Iteration::run() {
     double alpha = 1;
     std::copy(x_.begin(), x_.end(), start_.begin());
     if (options_.line_search) {
-      alpha = search(dot(step_, r_));
+      alpha = search(descend());
       if (chord && !(norm_ < norm_before)) {
         // The tangent before does not serve here, where a contact that it knew has opened: back, for a new
         // one.

@@ -58,13 +58,10 @@ std::optional<bool> SaddleSolver::prefers_factors() const {
 void SaddleSolver::choose() {
   if (!chosen_) {
     chosen_ = true;
-    const bool before = direct_;
     const std::optional<bool> preferred = prefers_factors();
     direct_ = preferred ? *preferred
                         : linear::foreseen_operations(copy_.copy(mesh_, matrix_, *unknowns_),
                                                       options_.symmetric) < k_cheap_factors;
-    // A factorisation keeps only the analysis of a pattern, which does not depend on earlier steps.
-    made_ = made_ && before && direct_ && options_.symmetric;
   }
   if (!made_) make_solver();
 }
@@ -186,7 +183,9 @@ linear::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::s
 }
 
 void SaddleSolver::forget() {
-  chosen_ = false;
+  // The analysis of an indefinite matrix looks at its values too (MUMPS pairs pivots and orders the graph of
+  // the pairs), so that the one of an earlier step would leave other bits than the one of a run that goes on.
+  chosen_ = made_ = false;
 }
 
 void SaddleSolver::reset() {

@@ -265,6 +265,23 @@ TEST(Newton, LineSearchRescuesAProblemThatThePlainIterationDivergesOn) {
   EXPECT_EQ(searched.steps.size(), static_cast<std::size_t>(with.iterations));
 }
 
+/// Energy ¼x⁴ − ½x² of every node: a maximum at 0, minima at ±1.
+TEST(Newton, AStepThatLeadsUphillIsTakenBackwardsWhereThatIsAskedFor) {
+  const Grid grid(4, 4);
+  const auto two_wells = [&grid] {
+    return SpringGrid(
+        grid, [](double x) { return x * x * x - x; }, [](double x) { return 3 * x * x - 1; }, 0.0);
+  };
+  std::vector<double> x(static_cast<std::size_t>(grid.mesh.n_nodes()), 0.2), y = x;
+  SpringGrid plain = two_wells(), descending = two_wells();
+  const NewtonReport uphill = run(grid, plain, x, {.absolute_tolerance = 1e-10});
+  const NewtonReport downhill =
+      run(grid, descending, y, {.absolute_tolerance = 1e-10, .reverses_ascent = true});
+  ASSERT_TRUE(uphill.converged && downhill.converged) << uphill.reason << downhill.reason;
+  EXPECT_NEAR(x[0], 0.0, 1e-9);
+  EXPECT_NEAR(y[0], 1.0, 1e-9);
+}
+
 TEST(Newton, ALinearProblemTakesOneSolveAndTwoResiduals) {
   const Grid grid(4, 4);
   SpringGrid system(
