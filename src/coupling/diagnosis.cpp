@@ -63,7 +63,7 @@ std::string uncarried(const Diagnosis& d) {
 }
 
 std::string melt(const Diagnosis& d) {
-  return fmt::format("the melt of body '{}' flows without an equilibrium{}: at {} {}; {}", d.body,
+  return fmt::format("the melt of body '{}' flows without an equilibrium{}: at {}: {}; {}", d.body,
                      d.weight > 0 ? " under its weight" : "", state_there(d), way(d), held(d));
 }
 
@@ -83,7 +83,7 @@ std::string text(const Diagnosis& d) {
     case Physics::nothing_carries:
       return uncarried(d);
     case Physics::comes_off:
-      return fmt::format("body '{}' comes off what holds it: {}{}", d.body, held(d), and_way(d));
+      return fmt::format("body '{}' comes off what it lies on; {}{}", d.body, held(d), and_way(d));
     case Physics::runs_out:
       return d.detail;
     case Physics::melt_flows:
@@ -102,7 +102,7 @@ std::string text(const Diagnosis& d) {
           d.body, d.contact.changed, d.contact.all, held(d), and_way(d));
     case Physics::no_equilibrium:
       return fmt::format(
-          "body '{}' finds no equilibrium: at {} {}; {:.0f} % of its volume flows plastically; {}", d.body,
+          "body '{}' finds no equilibrium: at {}: {}; {:.0f} % of its volume flows plastically; {}", d.body,
           state_there(d), way(d), 100 * d.yielding, held(d));
     case Physics::multipliers:
       return d.detail;
@@ -116,9 +116,9 @@ std::string text(const Diagnosis& d) {
     case Physics::cold:
       return "more heat is taken than there is: " + change_of_heat(d);
     case Physics::phases:
-      return d.body.empty() ? std::string("heat and deformation of a step do not agree")
-                            : fmt::format("heat and deformation of a step do not agree; of body '{}' {}",
-                                          d.body, points(d));
+      return d.body.empty()
+                 ? std::string("heat and deformation of a step do not agree")
+                 : fmt::format("heat and deformation of a step do not agree; body '{}': {}", d.body, held(d));
   }
   return {};
 }

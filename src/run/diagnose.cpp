@@ -19,7 +19,6 @@ namespace solidus::model {
 namespace {
 
 using coupling::Diagnosis;
-using coupling::Physics;
 
 /// A body that moves by this share of its size in a try has lost what held it, and a law that finds no state
 /// there is not the cause.
@@ -110,18 +109,18 @@ bool comes_off(const coupling::ContactPoints& c) {
 }
 
 /// What a body that finds no equilibrium suffers from.
-Physics physics_of(const BodyFacts& body, const Diagnosis& d, Failure failure, bool inertia) {
+coupling::Physics physics_of(const BodyFacts& body, const Diagnosis& d, Failure failure, bool inertia) {
   const double share = body.moved / body.size;
   const bool far = d.in_try && !(share <= k_far), no_law = failure == Failure::law;
   if (!inertia && !body.carried && (body.weight > 0 || far || failure == Failure::linear_solver))
-    return Physics::nothing_carries;
-  if (no_law && share <= k_too_far_for_a_law) return Physics::law;
-  if (d.molten && far) return Physics::melt_flows;
-  if (!body.supported && d.in_try && comes_off(body.contact)) return Physics::comes_off;
-  if (body.plastic && body.yielding > k_mechanism) return Physics::limit_load;
-  if (no_law) return Physics::law;
-  if (body.contact.changed > 0) return Physics::points_change;
-  return Physics::no_equilibrium;
+    return coupling::Physics::nothing_carries;
+  if (no_law && share <= k_too_far_for_a_law) return coupling::Physics::law;
+  if (d.molten && far) return coupling::Physics::melt_flows;
+  if (!body.supported && d.in_try && comes_off(body.contact)) return coupling::Physics::comes_off;
+  if (body.plastic && body.yielding > k_mechanism) return coupling::Physics::limit_load;
+  if (no_law) return coupling::Physics::law;
+  if (body.contact.changed > 0) return coupling::Physics::points_change;
+  return coupling::Physics::no_equilibrium;
 }
 
 /// The contact through which most heat passes at a node, by conductance times step over heat capacity; the
@@ -162,9 +161,9 @@ Diagnosis of_heat(const Assembly& a, const coupling::State& last, const heat::He
   d.tried_temperature = tried[0];
   d.largest_change = coupling::largest_difference(rejected.temperature, last.heat.temperature);
   find_contact_heat(a, last, rejected.node, d.step, d);
-  d.physics = rejected.failure() == Failure::temperature ? Physics::cold
-              : d.conductance_number > k_conducts        ? Physics::contact_heat
-                                                         : Physics::heat;
+  d.physics = rejected.failure() == Failure::temperature ? coupling::Physics::cold
+              : d.conductance_number > k_conducts        ? coupling::Physics::contact_heat
+                                                         : coupling::Physics::heat;
   return d;
 }
 
@@ -179,7 +178,7 @@ Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out
     return of_heat(a, last, *heat, d);
   if (!a.mechanics) return d;
   if (!ran_out.empty()) {
-    d.physics = Physics::runs_out;
+    d.physics = coupling::Physics::runs_out;
     d.detail = ran_out;
     return d;
   }
@@ -192,16 +191,16 @@ Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out
   describe_body(a, last, *body, facts[*body], d);
   const Failure failure = rejected.failure();
   if (!facts[*body].carried && d.weight > 0 && !a.mechanics->dynamic()) {
-    d.physics = Physics::nothing_carries;
+    d.physics = coupling::Physics::nothing_carries;
   } else if (failure == Failure::multipliers) {
-    d.physics = Physics::multipliers;
+    d.physics = coupling::Physics::multipliers;
   } else if (failure == Failure::coupling || failure == Failure::divergence ||
              failure == Failure::another_solution) {
-    d.physics = Physics::phases;
+    d.physics = coupling::Physics::phases;
   } else if (equilibrium != nullptr) {
     d.physics = physics_of(facts[*body], d, failure, a.mechanics->dynamic());
   }
-  if (d.physics == Physics::law) d.detail = rejected.where();
+  if (d.physics == coupling::Physics::law) d.detail = rejected.where();
   return d;
 }
 
