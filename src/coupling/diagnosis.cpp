@@ -27,8 +27,15 @@ std::string state_there(const Diagnosis& d) {
   return text;
 }
 
+/// Below this share of its size in a try a body hardly moves, and below this change a place hardly cools [K]:
+/// limits of the iteration have ended the run, not the load.
+constexpr double k_hardly = 1e-5, k_hardly_cools = 0.1;
+
 std::string way(const Diagnosis& d) {
-  if (!std::isfinite(d.moved)) return "its displacements are no numbers in the failing try";
+  if (!std::isfinite(d.moved)) return "in the failing try its displacements are no numbers";
+  if (d.moved > d.size)
+    return fmt::format("in the failing try it goes farther than its {:.3g} mm from corner to corner",
+                       1e3 * d.size);
   return fmt::format(
       "in the failing try it moves {:.3g} mm, {:.2g} % of its {:.3g} mm from corner to corner (usual in a "
       "step: below 1 %)",
@@ -67,6 +74,26 @@ std::string melt(const Diagnosis& d) {
                      d.weight > 0 ? " under its weight" : "", state_there(d), way(d), held(d));
 }
 
+std::string limit_load(const Diagnosis& d) {
+  std::string text = fmt::format("body '{}' is at its limit load: {:.0f} % of its volume flows plastically",
+                                 d.body, 100 * d.yielding);
+  if (d.elongation > 0)
+    text += fmt::format(", and it is strained by up to {:.3g} % (usual: below 10 %)", 100 * d.elongation);
+  return text + and_way(d) + "; " + held(d);
+}
+
+std::string unbalanced(const Diagnosis& d) {
+  if (d.moved <= k_hardly * d.size)
+    return fmt::format(
+        "the iteration of forces ends before body '{}' is in balance, although it hardly moves: {:.3g} mm in "
+        "the "
+        "failing try; {}",
+        d.body, 1e3 * d.moved, held(d));
+  return fmt::format(
+      "body '{}' finds no equilibrium: at {}: {}; {:.0f} % of its volume flows plastically; {}", d.body,
+      state_there(d), way(d), 100 * d.yielding, held(d));
+}
+
 std::string change_of_heat(const Diagnosis& d) {
   std::string text = fmt::format("{} of body '{}' goes from {} to {}", place(d), d.body,
                                  degrees(d.temperature), degrees(d.tried_temperature));
@@ -89,10 +116,7 @@ std::string text(const Diagnosis& d) {
     case Physics::melt_flows:
       return melt(d);
     case Physics::limit_load:
-      return fmt::format(
-          "body '{}' is at its limit load: {:.0f} % of its volume flows plastically (usual: below 25 %){}; "
-          "{}",
-          d.body, 100 * d.yielding, and_way(d), held(d));
+      return limit_load(d);
     case Physics::law:
       return fmt::format("the material law finds no state in a try of {:.3g} s: {}", d.step, d.detail);
     case Physics::points_change:
@@ -101,9 +125,7 @@ std::string text(const Diagnosis& d) {
           "slipping in the last iteration; {}{}",
           d.body, d.contact.changed, d.contact.all, held(d), and_way(d));
     case Physics::no_equilibrium:
-      return fmt::format(
-          "body '{}' finds no equilibrium: at {}: {}; {:.0f} % of its volume flows plastically; {}", d.body,
-          state_there(d), way(d), 100 * d.yielding, held(d));
+      return unbalanced(d);
     case Physics::multipliers:
       return d.detail;
     case Physics::contact_heat:
@@ -112,6 +134,12 @@ std::string text(const Diagnosis& d) {
           "step what its surface stores (conductance times step over heat capacity)",
           d.contact_name, change_of_heat(d), d.conductance_number);
     case Physics::heat:
+      if (d.largest_change <= k_hardly_cools)
+        return fmt::format(
+            "the iteration of heat ends before body '{}' is in balance, although temperatures hardly change: "
+            "by "
+            "{:.3g} K at most in a try of {:.3g} s",
+            d.body, d.largest_change, d.step);
       return "the heat of a step is not balanced: " + change_of_heat(d);
     case Physics::cold:
       return "more heat is taken than there is: " + change_of_heat(d);

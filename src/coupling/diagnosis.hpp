@@ -45,6 +45,7 @@ struct Diagnosis {
   double temperature = 0;         ///< there at the last step [K]; zero: not known
   double solid_fraction = 1;      ///< there
   bool molten = false;            ///< the metal there is below coherency
+  double elongation = 0;          ///< largest change of length of an edge of its elements at the last step
   double yielding = 0;            ///< share of the body's volume that flows plastically in the failing try
   bool supported = true;          ///< displacements of it are prescribed, against its weight if it has one
   ContactPoints contact;          ///< of the body

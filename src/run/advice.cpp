@@ -184,7 +184,8 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
   const std::string physics = coupling::text(stop.diagnosis);
   std::string text = fmt::format("the simulation could not go on at t = {:.6g} s\n  reason: {}\n", time,
                                  physics.empty() ? stop.reason : physics + "\n  equations: " + stop.reason);
-  if (!stop.where.empty()) text += fmt::format("  where: {}\n", stop.where);
+  if (!stop.where.empty() && stop.where != stop.diagnosis.detail)
+    text += fmt::format("  where: {}\n", stop.where);
   const bool steps = stop.tries > 0;  // a steady state has none
   if (steps)
     text += fmt::format("  tried: {} {}, the smallest {:.4g} s\n", stop.tries,

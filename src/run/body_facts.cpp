@@ -189,6 +189,31 @@ void find_contacts(const Assembly& a, const coupling::State& last, const mechani
     }
 }
 
+/// The largest change of a distance between neighbouring nodes of an element at the last step, of every body.
+void find_elongation(const Assembly& a, const coupling::State& last, std::vector<BodyFacts>& facts) {
+  const std::vector<double>& u = last.mechanics.displacement;
+  const auto n = at(a.mechanics->components());
+  std::vector<double> largest(facts.size(), 0.0);
+  for (const mesh::ElementBlock& block : a.mesh.blocks) {
+    double& of_body = largest[at(block.body)];
+    if (!facts[at(block.body)].moves || u.empty()) continue;
+    for (Index e = 0; e < block.n_counted; ++e)
+      for (int i = 1; i < mesh::node_count(block.shape); ++i) {
+        const Index one = block.element(e)[i - 1], other = block.element(e)[i];
+        double drawn = 0, now = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const double edge = a.mesh.x[at(one)][c] - a.mesh.x[at(other)][c];
+          const double change = c < n ? u[at(one) * n + c] - u[at(other) * n + c] : 0.0;
+          drawn += edge * edge;
+          now += (edge + change) * (edge + change);
+        }
+        if (drawn > 0) of_body = std::max(of_body, std::abs(std::sqrt(now / drawn) - 1));
+      }
+  }
+  processes::largest(largest);
+  for (std::size_t b = 0; b < facts.size(); ++b) facts[b].elongation = largest[b];
+}
+
 /// The farthest way of every body from its last step to the iterate that failed.
 void find_motion(const Assembly& a, const coupling::State& last, const mechanics::LastIterate& iterate,
                  std::vector<BodyFacts>& facts) {
@@ -225,6 +250,7 @@ std::vector<BodyFacts> body_facts(const CaseSpec& spec, const Assembly& a, const
   std::vector<BodyFacts> facts(a.mesh.bodies.size());
   if (!a.mechanics) return facts;
   Bodies(spec, a).measure(facts);
+  find_elongation(a, last, facts);
   find_contacts(a, last, iterate, facts);
   if (iterate == nullptr) return facts;
   find_motion(a, last, *iterate, facts);

@@ -19,9 +19,10 @@ struct BodyFacts {
   bool carried = false;    ///< supported, or in closed contact with a rigid surface or a carried body
   bool plastic = false;    ///< its material can flow
   coupling::ContactPoints contact;
-  double moved = 0;     ///< Diagnosis::moved
-  Index farthest = -1;  ///< the node of it, on the process that owns it; −1 on the others
-  double yielding = 0;  ///< LastIterate::flowing
+  double elongation = 0;  ///< Diagnosis::elongation
+  double moved = 0;       ///< Diagnosis::moved
+  Index farthest = -1;    ///< the node of it, on the process that owns it; −1 on the others
+  double yielding = 0;    ///< LastIterate::flowing
 };
 
 /// [body of the mesh]. Collective.

@@ -23,8 +23,8 @@ using coupling::Diagnosis;
 /// A body that moves by this share of its size in a try has lost what held it, and a law that finds no state
 /// there is not the cause.
 constexpr double k_far = 0.01, k_too_far_for_a_law = 0.1;
-/// A body that flows in this share of its volume is a mechanism.
-constexpr double k_mechanism = 0.25;
+/// A body that flows in this share of its volume is a mechanism; one that is strained so much has been one.
+constexpr double k_mechanism = 0.25, k_strained = 0.2;
 /// A contact that keeps less than this share of its closed points comes off.
 constexpr double k_kept = 0.5;
 /// Conductance times step over heat capacity above which the contact sets the temperature of its surface.
@@ -86,6 +86,7 @@ void describe_body(const Assembly& a, const coupling::State& last, std::size_t b
   d.weight = facts.weight;
   d.supported = facts.supported;
   d.contact = facts.contact;
+  d.elongation = facts.elongation;
   d.moved = facts.moved;
   d.yielding = facts.yielding;
   describe_node(a, last, facts.farthest, d);
@@ -103,7 +104,7 @@ std::optional<std::size_t> concerned(const std::vector<BodyFacts>& facts) {
   return found;
 }
 
-/// A contact that keeps its points, or that there was none of.
+/// Whether most points that were closed at the last step are open in the failing try.
 bool comes_off(const coupling::ContactPoints& c) {
   return c.before > 0 && static_cast<double>(c.now) < k_kept * static_cast<double>(c.before);
 }
@@ -114,10 +115,12 @@ coupling::Physics physics_of(const BodyFacts& body, const Diagnosis& d, Failure 
   const bool far = d.in_try && !(share <= k_far), no_law = failure == Failure::law;
   if (!inertia && !body.carried && (body.weight > 0 || far || failure == Failure::linear_solver))
     return coupling::Physics::nothing_carries;
+  const bool mechanism = body.plastic && body.yielding > k_mechanism;
+  if (mechanism && !d.molten && body.elongation > k_strained) return coupling::Physics::limit_load;
   if (no_law && share <= k_too_far_for_a_law) return coupling::Physics::law;
   if (d.molten && far) return coupling::Physics::melt_flows;
   if (!body.supported && d.in_try && comes_off(body.contact)) return coupling::Physics::comes_off;
-  if (body.plastic && body.yielding > k_mechanism) return coupling::Physics::limit_load;
+  if (mechanism) return coupling::Physics::limit_load;
   if (no_law) return coupling::Physics::law;
   if (body.contact.changed > 0) return coupling::Physics::points_change;
   return coupling::Physics::no_equilibrium;
