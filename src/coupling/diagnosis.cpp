@@ -127,7 +127,8 @@ std::string text(const Diagnosis& d) {
     case Physics::no_equilibrium:
       return unbalanced(d);
     case Physics::multipliers:
-      return d.detail;
+      return fmt::format("the contact pressure on body '{}', {:.3g} % solid, does not come to rest: {}; {}",
+                         d.body, 100 * d.solid_fraction, d.detail, held(d));
     case Physics::contact_heat:
       return fmt::format(
           "heat through contact '{}' does not come to rest: {}; there the contact passes {:.3g} times in a "
@@ -141,6 +142,10 @@ std::string text(const Diagnosis& d) {
             "{:.3g} K at most in a try of {:.3g} s",
             d.body, d.largest_change, d.step);
       return "the heat of a step is not balanced: " + change_of_heat(d);
+    case Physics::cold_law:
+      return fmt::format(
+          "more heat is taken than there is: in a try of {:.3g} s a temperature of {:.3g} K is reached: {}",
+          d.step, d.tried_temperature, d.detail);
     case Physics::cold:
       return "more heat is taken than there is: " + change_of_heat(d);
     case Physics::phases:

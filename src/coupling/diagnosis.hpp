@@ -22,6 +22,7 @@ enum class Physics {
   contact_heat,     ///< heat through a contact is large against what its surface stores
   heat,             ///< the balance of heat is not found, away from such a contact
   cold,             ///< a place gives off more heat than it has
+  cold_law,         ///< the same, in the temperature that a constitutive law is asked at
   phases            ///< heat and deformation do not agree
 };
 

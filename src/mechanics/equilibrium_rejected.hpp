@@ -20,6 +20,7 @@ struct ContactCount {
 struct LastIterate {
   std::vector<double> displacement;    ///< [local node][component] [m]
   std::vector<double> flowing;         ///< share of the volume that flows plastically, [body]
+  double law_temperature = 0;          ///< of the point whose law finds no state [K]
   std::vector<ContactCount> contacts;  ///< [pair]; empty: whoever knows the pairs has not entered them
 };
 

@@ -27,9 +27,10 @@ std::string body_of(const mesh::Mesh& mesh, Index node) {
 
 void MechanicalPhase::reject(const std::string& reason, std::span<const double> x, Failure failure) {
   const std::span<const double> u = x.first(n_displacements());
-  LastIterate last{{u.begin(), u.end()}, flowing_shares(x), {}};
-  if (std::string place = law_failure(x); !place.empty())
-    throw EquilibriumRejected("mechanics: a constitutive law asks for a smaller step", std::move(place),
+  const LawFailure of_law = law_failure(x);
+  LastIterate last{{u.begin(), u.end()}, flowing_shares(x), of_law.temperature, {}};
+  if (!of_law.text.empty())
+    throw EquilibriumRejected("mechanics: a constitutive law asks for a smaller step", of_law.text,
                               Failure::law, std::move(last));
   throw EquilibriumRejected("mechanics: " + reason, worst_place(x), failure, std::move(last));
 }
@@ -76,19 +77,20 @@ std::string MechanicalPhase::worst_place(std::span<const double> x) {
   return text;
 }
 
-/// The first element whose law finds no state at x, of the lowest process that has one; empty without any.
-std::string MechanicalPhase::law_failure(std::span<const double> x) const {
-  std::string text;
-  for (std::size_t b = 0; b < blocks_.size() && text.empty(); ++b) {
-    text = blocks_[b]->failure(x.first(n_displacements()));
-    if (!text.empty())
-      text = fmt::format("body '{}', {}", mesh_.bodies[static_cast<std::size_t>(mesh_.blocks[b].body)].name,
-                         text);
+/// The first point whose law finds no state at x, of the lowest process that has one.
+LawFailure MechanicalPhase::law_failure(std::span<const double> x) const {
+  LawFailure found;
+  for (std::size_t b = 0; b < blocks_.size() && found.text.empty(); ++b) {
+    found = blocks_[b]->failure(x.first(n_displacements()));
+    if (!found.text.empty())
+      found.text = fmt::format("body '{}', {}",
+                               mesh_.bodies[static_cast<std::size_t>(mesh_.blocks[b].body)].name, found.text);
   }
-  const int first = processes::least(text.empty() ? processes::count() : processes::rank());
+  const int first = processes::least(found.text.empty() ? processes::count() : processes::rank());
   if (first == processes::count()) return {};
-  processes::broadcast(text, first);
-  return text;
+  processes::broadcast(found.text, first);
+  processes::broadcast(std::span(&found.temperature, 1), first);
+  return found;
 }
 
 }  // namespace solidus::mechanics

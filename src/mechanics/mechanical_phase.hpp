@@ -43,6 +43,7 @@ class SaddleSolver;
 class StructuralPoints;
 struct BlockWork;
 struct FlowChange;
+struct LawFailure;
 
 enum class TimeIntegration { backward_euler, two_step };
 
@@ -293,7 +294,7 @@ class MechanicalPhase {
   /// Tries the guess of the pass: takes it as the start if it is nearer to equilibrium. Returns whether it
   /// did.
   bool try_guess(const MechanicalPass& pass, std::vector<double>& x);
-  std::string law_failure(std::span<const double> x) const;
+  LawFailure law_failure(std::span<const double> x) const;
   std::vector<double> flowing_shares(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
   material::TimeStep time_step(const MechanicalState& old, const MechanicalPass& pass) const;

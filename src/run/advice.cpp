@@ -75,9 +75,9 @@ std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const Case
           "unit? Hardening, rate dependence, or displacements in place of forces carry it further"};
     case coupling::Physics::law:
       return {
-          "tables and parameters of that material at this temperature (`solidus materials NAME`; `solidus "
+          "tables and parameters of that material at this temperature (`solidus materials NAME`); `solidus "
           "point` "
-          "drives the law alone through such a strain)",
+          "drives the law alone through such a strain",
           "loads and displacements that come within less time than the law resolves"};
     default:
       return iteration_advice(stop, spec);
@@ -120,7 +120,7 @@ std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec&
       "the closed rule, heat.integration = \"closed\": the open one over- and undershoots at sudden chills, "
       "the "
       "more the shorter the step is";
-  if (stop.failure == Failure::temperature) {
+  if (stop.failure == Failure::temperature || stop.diagnosis.physics == coupling::Physics::cold_law) {
     std::vector<std::string> advice = {
         "fluxes and sources at that place: do they take more heat than there is?"};
     if (spec.heat.integration == heat::HeatIntegration::open) advice.insert(advice.begin(), closed);
@@ -144,6 +144,7 @@ std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec&
 
 std::vector<std::string> advice_of(const coupling::Stop& stop, const CaseSpec& spec) {
   if (stop.diagnosis.physics == coupling::Physics::nothing_carries) return mechanics_advice(stop, spec);
+  if (stop.diagnosis.physics == coupling::Physics::cold_law) return heat_advice(stop, spec);
   switch (stop.failure) {
     case Failure::heat:
     case Failure::temperature:
@@ -183,7 +184,9 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
                                : "\n" + checkpoint_line + "  to continue: the same command with --restart");
   const std::string physics = coupling::text(stop.diagnosis);
   std::string text = fmt::format("the simulation could not go on at t = {:.6g} s\n  reason: {}\n", time,
-                                 physics.empty() ? stop.reason : physics + "\n  equations: " + stop.reason);
+                                 physics.empty() ? stop.reason : physics);
+  if (!physics.empty() && stop.reason != stop.diagnosis.detail)
+    text += fmt::format("  equations: {}\n", stop.reason);
   if (!stop.where.empty() && stop.where != stop.diagnosis.detail)
     text += fmt::format("  where: {}\n", stop.where);
   const bool steps = stop.tries > 0;  // a steady state has none

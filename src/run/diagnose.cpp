@@ -203,7 +203,15 @@ Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out
   } else if (equilibrium != nullptr) {
     d.physics = physics_of(facts[*body], d, failure, a.mechanics->dynamic());
   }
-  if (d.physics == coupling::Physics::law) d.detail = rejected.where();
+  if (d.physics == coupling::Physics::law) {
+    d.detail = rejected.where();
+    d.tried_temperature = iterate->law_temperature;
+    if (!(d.tried_temperature > 0)) d.physics = coupling::Physics::cold_law;
+  }
+  if (d.physics == coupling::Physics::multipliers) {
+    d.detail = rejected.reason();
+    if (a.heat) d.solid_fraction = a.heat->mean_solid_fraction(last.heat, static_cast<int>(*body));
+  }
   return d;
 }
 

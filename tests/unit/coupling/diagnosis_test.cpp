@@ -35,9 +35,16 @@ Diagnosis tried(Physics physics) {
   return d;
 }
 
-TEST(Diagnosis, SaysNothingOfAnUnknownStateNorOfMultipliersWhoseEquationsSayIt) {
+TEST(Diagnosis, SaysNothingOfAnUnknownState) {
   EXPECT_EQ(text(Diagnosis{}), "");
-  EXPECT_EQ(text(casting(Physics::multipliers)), "");
+}
+
+TEST(Diagnosis, SaysOnWhichBodyTheContactPressureDoesNotComeToRest) {
+  Diagnosis d = tried(Physics::multipliers);
+  d.detail = "contact 'mould': 200 turns";
+  d.solid_fraction = 0.4;
+  EXPECT_THAT(text(d), HasSubstr("the contact pressure on body 'casting', 40 % solid, does not come to rest: "
+                                 "contact 'mould': 200 turns; contact alone holds it: 12 of its 40"));
 }
 
 TEST(Diagnosis, NamesABodyThatNothingCarriesWithItsWeight) {
@@ -87,6 +94,10 @@ TEST(Diagnosis, HandsOnTheWordsOfTheLawAndOfTheWatchOnMelts) {
   law.step = 1e-3;
   law.detail = "body 'casting', element 7";
   EXPECT_EQ(text(law), "the material law finds no state in a try of 0.001 s: body 'casting', element 7");
+  law.physics = Physics::cold_law;
+  law.tried_temperature = -0.5;
+  EXPECT_THAT(text(law),
+              HasSubstr("more heat is taken than there is: in a try of 0.001 s a temperature of -0.5 K"));
   Diagnosis out = casting(Physics::runs_out);
   out.detail = "the melt of 'casting' has run out";
   EXPECT_EQ(text(out), out.detail);
