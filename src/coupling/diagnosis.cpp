@@ -11,8 +11,10 @@ namespace solidus::coupling {
 namespace {
 
 std::string degrees(double temperature) {
-  return std::isfinite(temperature) ? fmt::format("{:.4g} degC", temperature - k_zero_celsius)
-                                    : std::string("no number");
+  if (!std::isfinite(temperature)) return "no number";
+  constexpr double k_near_zero = 50;  // below it degrees Celsius would hide what is left [K]
+  return temperature < k_near_zero ? fmt::format("{:.3g} K", temperature)
+                                   : fmt::format("{:.4g} degC", temperature - k_zero_celsius);
 }
 
 std::string place(const Diagnosis& d) {
@@ -43,7 +45,7 @@ std::string way(const Diagnosis& d) {
 }
 
 std::string and_way(const Diagnosis& d) {
-  return d.in_try ? "; " + way(d) : std::string();
+  return d.in_try && d.moved > 0 ? "; " + way(d) : std::string();
 }
 
 std::string points(const Diagnosis& d) {
@@ -111,6 +113,9 @@ std::string text(const Diagnosis& d) {
       return uncarried(d);
     case Physics::comes_off:
       return fmt::format("body '{}' comes off what it lies on; {}{}", d.body, held(d), and_way(d));
+    case Physics::slides:
+      return fmt::format("body '{}' is free to slide or to turn: contact alone holds it{}: {}", d.body,
+                         d.rubs ? "" : ", without friction", points(d));
     case Physics::runs_out:
       return d.detail;
     case Physics::melt_flows:

@@ -12,6 +12,7 @@ enum class Physics {
   unknown,          ///< nothing of what follows is known
   nothing_carries,  ///< a body that neither a support nor a closed contact holds
   comes_off,        ///< a body that contact alone holds comes off it in the failing try
+  slides,           ///< a body that contact alone holds has a free motion: its equations are singular
   runs_out,         ///< melt has left its mould
   melt_flows,       ///< melt goes far in the failing try
   limit_load,       ///< a body yields in most of its volume
@@ -49,6 +50,7 @@ struct Diagnosis {
   double elongation = 0;          ///< largest change of length of an edge of its elements at the last step
   double yielding = 0;            ///< share of the body's volume that flows plastically in the failing try
   bool supported = true;          ///< displacements of it are prescribed, against its weight if it has one
+  bool rubs = false;              ///< a contact of the body has friction
   ContactPoints contact;          ///< of the body
   double tried_temperature = 0;   ///< there in the failing try, where heat has failed [K]
   double largest_change = 0;      ///< of any temperature there [K]

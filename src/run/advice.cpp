@@ -56,6 +56,10 @@ std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const Case
   switch (stop.diagnosis.physics) {
     case coupling::Physics::nothing_carries:
       return {support, "is gravity_direction right? Have the bodies that carried it left in this stage?"};
+    case coupling::Physics::slides:
+      return {
+          "friction of that contact, or supports against sliding and turning: a plane of symmetry, a point",
+          "is gravity_direction right?"};
     case coupling::Physics::comes_off:
       return {
           support,

@@ -172,6 +172,7 @@ void find_contacts(const Assembly& a, const coupling::State& last, const mechani
         of_body.before += points.before;
         of_body.now += points.now;
         of_body.changed += points.changed;
+        facts[b].rubs |= pair.spec().friction.has_value();
       }
     pairs.push_back(std::move(found));
   }

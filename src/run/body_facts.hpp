@@ -18,6 +18,7 @@ struct BodyFacts {
   bool supported = false;  ///< it, or a body that shares nodes with it: Diagnosis::supported
   bool carried = false;    ///< supported, or in closed contact with a rigid surface or a carried body
   bool plastic = false;    ///< its material can flow
+  bool rubs = false;       ///< a contact of it has friction
   coupling::ContactPoints contact;
   double elongation = 0;  ///< Diagnosis::elongation
   double moved = 0;       ///< Diagnosis::moved

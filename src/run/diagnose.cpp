@@ -85,6 +85,7 @@ void describe_body(const Assembly& a, const coupling::State& last, std::size_t b
   d.size = facts.size;
   d.weight = facts.weight;
   d.supported = facts.supported;
+  d.rubs = facts.rubs;
   d.contact = facts.contact;
   d.elongation = facts.elongation;
   d.moved = facts.moved;
@@ -120,6 +121,7 @@ coupling::Physics physics_of(const BodyFacts& body, const Diagnosis& d, Failure 
   if (no_law && share <= k_too_far_for_a_law) return coupling::Physics::law;
   if (d.molten && far) return coupling::Physics::melt_flows;
   if (!body.supported && d.in_try && comes_off(body.contact)) return coupling::Physics::comes_off;
+  if (!inertia && !body.supported && failure == Failure::linear_solver) return coupling::Physics::slides;
   if (mechanism) return coupling::Physics::limit_load;
   if (no_law) return coupling::Physics::law;
   if (body.contact.changed > 0) return coupling::Physics::points_change;

@@ -68,6 +68,16 @@ TEST(Diagnosis, CountsTheContactPointsOfABodyThatComesOff) {
       "100 mm from corner to corner (usual in a step: below 1 %)");
 }
 
+TEST(Diagnosis, SaysThatABodyIsFreeToSlide) {
+  Diagnosis d = tried(Physics::slides);
+  EXPECT_EQ(
+      text(d),
+      "body 'casting' is free to slide or to turn: contact alone holds it, without friction: 12 of its 40 "
+      "contact points were closed at the last step, 3 are in the failing try");
+  d.rubs = true;
+  EXPECT_THAT(text(d), Not(HasSubstr("without friction")));
+}
+
 TEST(Diagnosis, SaysWhereAndHowHotMeltFlows) {
   Diagnosis d = tried(Physics::melt_flows);
   d.solid_fraction = 0.12;
