@@ -252,14 +252,14 @@ void BlockIterative::require_progress(const Iterate& it) const {
   throw StepRejected(fmt::format("coupling: no convergence in {} iterations, the last of which changed "
                                  "temperatures by {:.3g} K and displacements by {:.3g} m",
                                  it.number, changes_.back().temperature, changes_.back().displacement),
-                     largest_change(it));
+                     largest_change(it), Failure::coupling);
 }
 
 void BlockIterative::diverged(const Iterate& it, const std::string& how) const {
   throw StepRejected(fmt::format("coupling: the iteration between the phases diverges ({}); the change of "
                                  "temperature grew from {:.3g} K to {:.3g} K in {} iterations",
                                  how, changes_.front().temperature, changes_.back().temperature, it.number),
-                     largest_change(it));
+                     largest_change(it), Failure::divergence);
 }
 
 /// The node whose temperature the last iteration has changed most.

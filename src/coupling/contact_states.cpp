@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/equilibrium_rejected.hpp"
+#include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
 #include "system/profile.hpp"
@@ -69,7 +71,11 @@ void warn_of_early_end(const contact::ContactPair& pair) {
   throw StepRejected(fmt::format("contact '{}': {} turns of the augmented Lagrangian leave penetrations "
                                  "{:.3g} times as large as allowed",
                                  pair.spec().name, turns, excess),
-                     pair.forces().worst_penetration(pair.state()));
+                     pair.forces().worst_penetration(pair.state()), Failure::multipliers);
+}
+
+bool numbers_everywhere(std::span<const double> values) {
+  return !parallel::any_process(!std::ranges::all_of(values, [](double v) { return std::isfinite(v); }));
 }
 
 /// Ends the turns early where all pairs allow it; then true.
@@ -136,6 +142,13 @@ std::vector<contact::ContactState> contact_states(const Phases& phases) {
 void restore_contacts(const Phases& phases, const State& state) {
   for (std::size_t i = 0; i < phases.contacts.size(); ++i)
     phases.contacts[i]->restore(state_of(state.contacts, i), state.mechanics.displacement, state.time);
+}
+
+std::int64_t closed_points(const contact::ContactState& state) {
+  const auto closed = std::ranges::count_if(state.points, [](const contact::ContactPointState& p) {
+    return p.counted && p.status != contact::PointStatus::open;
+  });
+  return std::llround(parallel::global_sum(static_cast<double>(closed)));
 }
 
 std::vector<contact::ContactState> second_start(const Phases& phases,
@@ -211,11 +224,19 @@ bool take_back_turn(const Phases& phases) {
   return true;
 }
 
-void reject_with_contacts(const Phases& phases, const StepRejected& rejected) {
+void add_contacts(const Phases& phases, StepRejected& rejected) {
+  std::string failure;
   for (const contact::ContactPair* pair : phases.contacts)
-    if (const std::string failure = pair->forces().failure_text(); !failure.empty())
-      throw StepRejected(rejected.reason() + " (" + failure + ")", rejected.where());
-  throw rejected;
+    if (failure.empty()) failure = pair->forces().failure_text();
+  if (!failure.empty()) rejected.append(" (" + failure + ")");
+  auto* const equilibrium = dynamic_cast<mechanics::EquilibriumRejected*>(&rejected);
+  if (equilibrium == nullptr || !numbers_everywhere(equilibrium->iterate.displacement)) return;
+  equilibrium->iterate.contacts.clear();
+  for (contact::ContactPair* pair : phases.contacts) {
+    const std::int64_t changed = pair->forces().changes();
+    pair->update(equilibrium->iterate.displacement);
+    equilibrium->iterate.contacts.push_back({closed_points(pair->state()), changed});
+  }
 }
 
 }  // namespace solidus::coupling

@@ -1,7 +1,12 @@
 /// Transfers the histories of all contact pairs between the states of a run and the pairs.
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "coupling/phases.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::coupling {
 
@@ -22,6 +27,8 @@ void begin_contacts(const Phases& phases, const std::vector<contact::ContactStat
 void rest_contacts(const Phases& phases, const State& old, double time, double dt);
 /// Returns the states of the pairs at their last update.
 std::vector<contact::ContactState> contact_states(const Phases& phases);
+/// Points that are not open, over all processes. Collective.
+std::int64_t closed_points(const contact::ContactState& state);
 /// Restores the pairs to their states in `state`.
 void restore_contacts(const Phases& phases, const State& state);
 /// y_n + carried (Y_1 − y_n) of all that integrates: the start of the second stage of Alexander's method.
@@ -39,7 +46,8 @@ bool penetrations_small(const Phases& phases, int turn, int earlier = 0);
 /// After a turn whose equilibrium was not found: true when the turns of the step end at the equilibrium
 /// before it, which is to be solved for once more; else the step is to be rejected. Collective.
 bool take_back_turn(const Phases& phases);
-/// Throws the same error with the failure_text() of the pairs appended. Collective.
-[[noreturn]] void reject_with_contacts(const Phases& phases, const StepRejected& rejected);
+/// Enters in an error, before it is thrown again, the failure_text() of the pairs and, where equilibrium was
+/// not found, their points at its last iterate; the pairs are left there. Collective.
+void add_contacts(const Phases& phases, StepRejected& rejected);
 
 }  // namespace solidus::coupling

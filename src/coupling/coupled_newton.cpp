@@ -362,7 +362,7 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
   tangent_ = Tangent::whole;
   try {
     return iterate(old, pass, x);
-  } catch (const StepRejected& first) {
+  } catch (StepRejected& first) {
     logging::debug("both fields: a second attempt after: {}", first.reason());
     x = start;
     thermal_->restart(thermal_start);
@@ -370,8 +370,9 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
     try {
       return iterate(old, pass, x);
     } catch (const StepRejected&) {
-      throw StepRejected(first.reason() + ", nor in a second attempt", first.where());
+      first.append(", nor in a second attempt");
     }
+    throw;
   }
 }
 
@@ -410,7 +411,7 @@ CoupledReport CoupledNewton::iterate(const mechanics::MechanicalState& old, mech
     if (report.iterations > k_plain_steps &&
         residual.size() > k_stalls * report.residuals[report.residuals.size() - 2].size())
       in_equilibrium_ = true;
-    if (!found) mechanics_.reject("linear solver: " + failure, x);
+    if (!found) mechanics_.reject("linear solver: " + failure, x, Failure::linear_solver);
     const double alpha = move(old, pass, x, report);
     if (alpha == 0) mechanics_.reject("no step along Newton's direction lowers the residual", x);
     report.shortest_step = std::min(report.shortest_step, alpha);

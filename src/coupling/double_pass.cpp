@@ -89,7 +89,7 @@ void DoublePass::mechanical_half(const State& start, State& end, mechanics::Mech
   throw StepRejected(fmt::format("coupling: isothermal passes do not settle: the change of temperature went "
                                  "from {:.3g} K to {:.3g} K in {} turns",
                                  first, change, k_turns),
-                     "the coupling is too strong for passes that hold the temperature");
+                     "the coupling is too strong for passes that hold the temperature", Failure::divergence);
 }
 
 void DoublePass::thermal_half(const State& start, State& end, mechanics::StepDeformation& deformation,

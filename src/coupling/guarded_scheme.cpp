@@ -97,7 +97,7 @@ void require_continued(const Phases& phases, const State& old, const State& tria
           "({:.4g} to {:.4g} degC), nor from the heat of deformation: another solution of the equations, or "
           "a split that diverges",
           lowest - k_zero_celsius, highest - k_zero_celsius),
-      worst.text(phase.mesh(), now, {}));
+      worst.text(phase.mesh(), now, {}), Failure::another_solution);
 }
 
 GuardedScheme::GuardedScheme(std::unique_ptr<CouplingScheme> scheme, Phases phases)

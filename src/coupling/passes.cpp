@@ -58,9 +58,10 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
     try {
       report = phases.mechanics->solve(old.mechanics, next, turn);
       add(report.newton, report.newton.effort, 0, effort.mechanics);
-    } catch (const StepRejected& rejected) {
+    } catch (StepRejected& rejected) {
       if (n_turns > 1 && take_back_turn(phases)) continue;  // `turn.start` is the equilibrium before
-      reject_with_contacts(phases, rejected);
+      add_contacts(phases, rejected);
+      throw;
     }
     {
       const profile::Part of_contact("contact");
@@ -161,7 +162,7 @@ bool thermal_pass_with_flow(const Phases& phases, const State& old, State& trial
   throw StepRejected(fmt::format("coupling: return mapping and heat of the thermal phase do not settle: the "
                                  "temperatures still change by {:.3g} K after {} turns",
                                  change, k_flow_turns),
-                     "flow whose heat depends strongly on the temperature");
+                     "flow whose heat depends strongly on the temperature", Failure::coupling);
 }
 
 }  // namespace solidus::coupling

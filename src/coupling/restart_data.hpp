@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "coupling/diagnosis.hpp"
 #include "coupling/rates.hpp"
 #include "coupling/shot.hpp"
 #include "coupling/step_control.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::coupling {
 
@@ -31,11 +33,13 @@ struct RestartData {
 
 /// The reason why a run ended before its end time.
 struct Stop {
-  bool asked = false;        ///< from outside; the rest is then empty
-  std::string reason;        ///< of the last rejection: "mechanics: no convergence in 25 iterations"
-  std::string where;         ///< the place with its state; may be empty
-  int tries = 0;             ///< rejected in a row, each with a smaller step
-  double smallest_step = 0;  ///< the last one tried [s]
+  bool asked = false;                ///< from outside; the rest is then empty
+  std::string reason;                ///< of the last rejection: "mechanics: no convergence in 25 iterations"
+  std::string where;                 ///< the place with its state; may be empty
+  int tries = 0;                     ///< rejected in a row, each with a smaller step
+  double smallest_step = 0;          ///< the last one tried [s]
+  Failure failure = Failure::other;  ///< of the last rejection
+  Diagnosis diagnosis{};             ///< the physical state behind it
 };
 
 }  // namespace solidus::coupling

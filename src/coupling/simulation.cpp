@@ -25,7 +25,7 @@ constexpr double k_solid = 1 - 1e-12;
 void require_numbers(const StepMeasure& measure) {
   if (std::isfinite(measure.temperature_error + measure.displacement_error + measure.solid_fraction_change))
     return;
-  throw StepRejected("coupling: the error of the step is not a number");
+  throw StepRejected("coupling: the error of the step is not a number", {}, Failure::divergence);
 }
 
 }  // namespace
@@ -355,7 +355,9 @@ Simulation::Try Simulation::try_step(Progress& p) {
     ++p.record.rejected;
     p.record.rejection = rejection.reason();
     if (p.control->rejected(step, rejection.reason())) return Try::repeat;
-    p.stop = {false, rejection.reason(), rejection.where(), p.record.rejected, step.dt};
+    p.stop = {false, rejection.reason(), rejection.where(), p.record.rejected, step.dt, rejection.failure(),
+              {}};
+    if (diagnose_) p.stop.diagnosis = diagnose_(p.committed, rejection, step.dt);
     return Try::stuck;
   }
   if (heat_ != nullptr)

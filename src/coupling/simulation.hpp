@@ -80,6 +80,12 @@ class Simulation {
   /// It returns the heat of these bodies, which is that of the run's start where the first stage begins.
   using StageBegins = std::function<BodyHeat(std::size_t stage, const StageStart&, State* begins)>;
   void at_stage(StageBegins begins) { stage_begins_ = std::move(begins); }
+  /// Finds the physical state behind a step that could not be taken, for Stop. Called once, where the run
+  /// ends for it, before observers are told. Collective.
+  /// @param last  the last committed state
+  /// @param dt    the shortest step tried [s]
+  using Diagnose = std::function<Diagnosis(const State& last, const StepRejected& rejected, double dt)>;
+  void diagnose_by(Diagnose diagnose) { diagnose_ = std::move(diagnose); }
   /// Reports shots, and ends the run after one that leaves the die as it found it; must outlive the
   /// simulation.
   void follow_shots(const ShotMap& map) { shot_map_ = &map; }
@@ -156,6 +162,7 @@ class Simulation {
   mechanics::MechanicalPhase* mechanics_ = nullptr;
   std::function<bool()> stop_asked_;
   StageBegins stage_begins_;
+  Diagnose diagnose_;
   const ShotMap* shot_map_ = nullptr;
 };
 

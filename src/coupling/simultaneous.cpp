@@ -220,13 +220,14 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
   for (int turn = 1;; ++turn) {
     try {
       report_ = newton_->solve(old, pass, x);
-    } catch (const StepRejected& rejected) {
+    } catch (StepRejected& rejected) {
       if (!balanced.empty() && take_back_turn(phases_)) {
         x = std::exchange(balanced, {});
         newton_->thermal().restart(balanced_heat);
         continue;
       }
-      reject_with_contacts(phases_, rejected);
+      add_contacts(phases_, rejected);
+      throw;
     }
     iterations += report_.iterations;
     linear_iterations += report_.linear_iterations;

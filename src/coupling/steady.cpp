@@ -79,7 +79,7 @@ void deform(const Phases& phases, const State& initial, std::span<const double> 
                   "which changed temperatures by {:.3g} K: a gap that opens when it conducts and closes when "
                   "it does not has none",
                   options.max_turns, change),
-      worst.text(phases.heat->mesh(), found, {}));
+      worst.text(phases.heat->mesh(), found, {}), Failure::coupling);
 }
 
 }  // namespace

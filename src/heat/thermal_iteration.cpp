@@ -199,7 +199,7 @@ void ThermalIteration::reject(const std::string& reason) const {
   linear::NewtonReport report;
   report.reason = reason;
   phase_.require(report, residual(), now_.temperature);
-  throw StepRejected("heat: " + reason);  // require() has thrown
+  throw StepRejected("heat: " + reason, {}, Failure::heat);  // require() has thrown
 }
 
 }  // namespace solidus::heat

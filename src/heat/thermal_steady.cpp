@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "heat/consistent_heat.hpp"
+#include "heat/heat_rejected.hpp"
 #include "heat/heat_solver.hpp"
 #include "heat/heat_system.hpp"
 #include "heat/nodal_enthalpy.hpp"
@@ -97,7 +98,8 @@ void ThermalPhase::require(const linear::NewtonReport& report, std::span<const d
   WorstNode worst;
   for (std::size_t i = 0; i < residual.size(); ++i)
     if (!system_->fixed()[i]) worst.look(i, std::abs(residual[i]));
-  throw StepRejected("heat: " + report.reason, worst.text(mesh_, temperature, residual));
+  throw HeatRejected("heat: " + report.reason, worst.text(mesh_, temperature, residual), Failure::heat,
+                     temperature, worst.owned());
 }
 
 void ThermalPhase::require_positive(std::span<const double> temperature) const {
@@ -105,9 +107,10 @@ void ThermalPhase::require_positive(std::span<const double> temperature) const {
   for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i) coldest.look(i, -temperature[i]);
   const double lowest = -parallel::global_max(coldest.size);
   if (lowest > 0) return;
-  throw StepRejected(std::isfinite(lowest) ? fmt::format("heat: the temperature falls to {:.4g} K", lowest)
+  throw HeatRejected(std::isfinite(lowest) ? fmt::format("heat: the temperature falls to {:.4g} K", lowest)
                                            : "heat: the temperature is not a number",
-                     coldest.text(mesh_, temperature, {}));
+                     coldest.text(mesh_, temperature, {}), Failure::temperature, temperature,
+                     coldest.owned());
 }
 
 }  // namespace solidus::heat

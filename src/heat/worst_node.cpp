@@ -6,6 +6,11 @@
 
 namespace solidus::heat {
 
+Index WorstNode::owned() const {
+  const bool seen = size > -HUGE_VAL;
+  return processes::find_largest(size).rank == processes::rank() && seen ? static_cast<Index>(node) : -1;
+}
+
 std::string WorstNode::text(const mesh::Mesh& mesh, std::span<const double> temperature,
                             std::span<const double> residual) const {
   const int owner = processes::find_largest(size).rank;

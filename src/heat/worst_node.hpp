@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mesh/mesh.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::heat {
 
@@ -20,6 +21,8 @@ struct WorstNode {
     size = value;
     node = i;
   }
+  /// The node on the process that owns it, −1 on the others; collective.
+  Index owned() const;
   /// Its number, place and values, for a message; collective.
   std::string text(const mesh::Mesh& mesh, std::span<const double> temperature,
                    std::span<const double> residual) const;

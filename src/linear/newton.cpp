@@ -242,6 +242,7 @@ NewtonReport Iteration::run() {
     if (takes_effort()) ++report.effort;
     report.linear_iterations += linear.iterations;
     if (!linear.converged) {
+      report.no_direction = true;
       report.reason = "linear solver: " + linear.reason;
       return report;
     }

@@ -35,6 +35,7 @@ struct NewtonOptions {
 struct NewtonReport {
   bool converged = false;
   bool out_of_iterations = false;  ///< stopped by max_iterations alone: x is a good iterate
+  bool no_direction = false;       ///< stopped by the linear solver
   bool began_balanced = false;     ///< ‖r‖ at the start met the tolerance or was rounding
   int iterations = 0;              ///< linear solves
   /// Those of them that set out from farther off than NewtonOptions::effort_tolerance: how hard the solution

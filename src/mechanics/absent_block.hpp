@@ -21,7 +21,7 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
     return {};
   }
   std::shared_ptr<const StructuralPoints> held_deformation(const StepStart&) override { return {}; }
-  std::string failure(std::span<const double>) const override { return {}; }
+  LawFailure failure(std::span<const double>) const override { return {}; }
   FlowingVolume flowing(std::span<const double>) const override { return {}; }
   void add_nodal_volume(double, std::span<double>) const override {}
 

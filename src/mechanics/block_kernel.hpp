@@ -92,6 +92,12 @@ struct FlowingVolume {
   double flowing = 0, all = 0;
 };
 
+/// A point whose law finds no state.
+struct LawFailure {
+  std::string text;        ///< element and inputs, for a message; empty: there is no such point
+  double temperature = 0;  ///< at which the law works there [K]
+};
+
 /// The change by a return mapping in the thermal phase against the flow of the mechanical phase.
 struct FlowChange {
   BlockWork work;      ///< differences; least and largest dissipation of the new flow
@@ -131,8 +137,8 @@ class BlockKernel {
                                   std::span<const double> u, const BlockEnd& end) = 0;
   /// The deformation of a body that stays at the held displacement and history.
   virtual std::shared_ptr<const StructuralPoints> held_deformation(const StepStart& start) = 0;
-  /// The first element whose law finds no state at u, with its inputs; empty if there is none.
-  virtual std::string failure(std::span<const double> u) const = 0;
+  /// The first point whose law finds no state at u.
+  virtual LawFailure failure(std::span<const double> u) const = 0;
   /// Volume of the block that flows plastically at u; counted elements only.
   virtual FlowingVolume flowing(std::span<const double> u) const = 0;
   /// out_i += weight × ∫ N_i dV, [local node].

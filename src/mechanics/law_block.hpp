@@ -161,12 +161,12 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
     return this->deformation_found();
   }
 
-  std::string failure(std::span<const double> u) const override {
+  LawFailure failure(std::span<const double> u) const override {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors displacement = gather(u, batch);
       for (int q = 0; q < geometry_.n_points; ++q) {
-        std::string text = this->failure_at(batch, q, at_point(batch, q).strain(displacement));
-        if (!text.empty()) return text;
+        LawFailure found = this->failure_at(batch, q, at_point(batch, q).strain(displacement));
+        if (!found.text.empty()) return found;
       }
     }
     return {};

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mechanics/block_kernel.hpp"
+#include "mechanics/equilibrium_rejected.hpp"
 #include "mechanics/loads.hpp"
 #include "mechanics/mechanical_phase.hpp"
-#include "system/errors.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::mechanics {
@@ -24,18 +25,18 @@ std::string body_of(const mesh::Mesh& mesh, Index node) {
 
 }  // namespace
 
-void MechanicalPhase::reject(const std::string& reason, std::span<const double> x) {
-  if (const std::string failure = law_failure(x); !failure.empty())
-    throw StepRejected("mechanics: a constitutive law asks for a smaller step", failure);
-  std::string why = flowing_body(x);
-  if (why.empty() && reason.find("singular") != std::string::npos) why = "; is every body held?";
-  throw StepRejected("mechanics: " + reason + why, worst_place(x));
+void MechanicalPhase::reject(const std::string& reason, std::span<const double> x, Failure failure) {
+  const std::span<const double> u = x.first(n_displacements());
+  const LawFailure of_law = law_failure(x);
+  LastIterate last{{u.begin(), u.end()}, flowing_shares(x), of_law.temperature, {}};
+  if (!of_law.text.empty())
+    throw EquilibriumRejected("mechanics: a constitutive law asks for a smaller step", of_law.text,
+                              Failure::law, std::move(last));
+  throw EquilibriumRejected("mechanics: " + reason, worst_place(x), failure, std::move(last));
 }
 
-/// The body that flows in the largest part of its volume at x, where that is more than k_mechanism: its
-/// forces have a limit, beyond which there is no equilibrium. Empty where none does.
-std::string MechanicalPhase::flowing_body(std::span<const double> x) const {
-  constexpr double k_mechanism = 0.25;
+/// LastIterate::flowing at x.
+std::vector<double> MechanicalPhase::flowing_shares(std::span<const double> x) const {
   std::vector<double> sums(2 * mesh_.bodies.size(), 0.0);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const FlowingVolume volume = blocks_[b]->flowing(x.first(n_displacements()));
@@ -44,16 +45,10 @@ std::string MechanicalPhase::flowing_body(std::span<const double> x) const {
     sums[2 * body + 1] += volume.all;
   }
   processes::sum(sums);
-  double largest = k_mechanism;
-  std::string text;
-  for (std::size_t body = 0; body < mesh_.bodies.size(); ++body) {
-    const double share = sums[2 * body + 1] > 0 ? sums[2 * body] / sums[2 * body + 1] : 0.0;
-    if (share <= largest) continue;
-    largest = share;
-    text = fmt::format("; {:.0f} % of body '{}' flows plastically: at its limit load?", 100 * share,
-                       mesh_.bodies[body].name);
-  }
-  return text;
+  std::vector<double> shares;
+  for (std::size_t body = 0; body < mesh_.bodies.size(); ++body)
+    shares.push_back(sums[2 * body + 1] > 0 ? sums[2 * body] / sums[2 * body + 1] : 0.0);
+  return shares;
 }
 
 std::string MechanicalPhase::worst_place(std::span<const double> x) {
@@ -82,19 +77,20 @@ std::string MechanicalPhase::worst_place(std::span<const double> x) {
   return text;
 }
 
-/// The first element whose law finds no state at x, of the lowest process that has one; empty without any.
-std::string MechanicalPhase::law_failure(std::span<const double> x) const {
-  std::string text;
-  for (std::size_t b = 0; b < blocks_.size() && text.empty(); ++b) {
-    text = blocks_[b]->failure(x.first(n_displacements()));
-    if (!text.empty())
-      text = fmt::format("body '{}', {}", mesh_.bodies[static_cast<std::size_t>(mesh_.blocks[b].body)].name,
-                         text);
+/// The first point whose law finds no state at x, of the lowest process that has one.
+LawFailure MechanicalPhase::law_failure(std::span<const double> x) const {
+  LawFailure found;
+  for (std::size_t b = 0; b < blocks_.size() && found.text.empty(); ++b) {
+    found = blocks_[b]->failure(x.first(n_displacements()));
+    if (!found.text.empty())
+      found.text = fmt::format("body '{}', {}",
+                               mesh_.bodies[static_cast<std::size_t>(mesh_.blocks[b].body)].name, found.text);
   }
-  const int first = processes::least(text.empty() ? processes::count() : processes::rank());
+  const int first = processes::least(found.text.empty() ? processes::count() : processes::rank());
   if (first == processes::count()) return {};
-  processes::broadcast(text, first);
-  return text;
+  processes::broadcast(found.text, first);
+  processes::broadcast(std::span(&found.temperature, 1), first);
+  return found;
 }
 
 }  // namespace solidus::mechanics

@@ -285,7 +285,8 @@ void MechanicalPhase::set_in_motion(MechanicalState& state) {
   state.acceleration.assign(forces_.size(), 0.0);
   const std::span<double> owned = std::span(state.acceleration).first(net.size());
   const linear::LinearReport report = solver.solve(*matrix_, free, owned);
-  if (!report.converged) throw StepRejected("mechanics: no initial acceleration, " + report.reason);
+  if (!report.converged)
+    throw StepRejected("mechanics: no initial acceleration, " + report.reason, {}, Failure::linear_solver);
   for (std::size_t i = 0; i < owned.size(); ++i)
     if (loads_->fixed()[i] != 0) owned[i] = 0;
   matrix_->constraints().share(owned);

@@ -32,6 +32,7 @@
 #include "mechanics/simplices.hpp"
 #include "mesh/mesh.hpp"
 #include "numbers/types.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mechanics {
 
@@ -42,6 +43,7 @@ class SaddleSolver;
 class StructuralPoints;
 struct BlockWork;
 struct FlowChange;
+struct LawFailure;
 
 enum class TimeIntegration { backward_euler, two_step };
 
@@ -176,8 +178,8 @@ class MechanicalPhase {
   double work_share() const { return inertia_ ? inertia_->motion().work_share : 1.0; }
 
   /// Solves for t_{n+1} from the state at t_n. `trial` is written only on success; it may be the iterate.
-  /// Throws StepRejected (on all processes) when Newton's iteration fails; the place is the element whose law
-  /// found no state, with its inputs, or the node of the largest residual.
+  /// Throws EquilibriumRejected (on all processes) when Newton's iteration fails; the place is the element
+  /// whose law found no state, with its inputs, or the node of the largest residual.
   MechanicalReport solve(const MechanicalState& old, MechanicalState& trial, const MechanicalPass& pass);
   /// The first pass.
   MechanicalReport solve(const MechanicalState& old, MechanicalState& trial,
@@ -236,8 +238,10 @@ class MechanicalPhase {
   /// Newton's iteration.
   MechanicalReport conclude(const MechanicalState& old, const MechanicalPass& pass, std::vector<double> x,
                             MechanicalState& trial);
-  /// Throws StepRejected on all processes, with the place that says most.
-  [[noreturn]] void reject(const std::string& reason, std::span<const double> x);
+  /// Throws EquilibriumRejected on all processes, with the place that says most.
+  /// @param failure  unless a law finds no state at x
+  [[noreturn]] void reject(const std::string& reason, std::span<const double> x,
+                           Failure failure = Failure::equilibrium);
   /// The nodal pressure and the solver with its matrix, which are made anew with the conditions; null where
   /// no element is mixed.
   NodalPressure* pressure() { return pressure_.get(); }
@@ -290,8 +294,8 @@ class MechanicalPhase {
   /// Tries the guess of the pass: takes it as the start if it is nearer to equilibrium. Returns whether it
   /// did.
   bool try_guess(const MechanicalPass& pass, std::vector<double>& x);
-  std::string law_failure(std::span<const double> x) const;
-  std::string flowing_body(std::span<const double> x) const;
+  LawFailure law_failure(std::span<const double> x) const;
+  std::vector<double> flowing_shares(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
   material::TimeStep time_step(const MechanicalState& old, const MechanicalPass& pass) const;
   MechanicalReport measure(const MechanicalState& old, const MechanicalPass& pass, std::span<const double> x,

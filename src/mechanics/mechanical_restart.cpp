@@ -67,7 +67,7 @@ FlowChange MechanicalPhase::restart_flow(const MechanicalState& old, const Mecha
     throw StepRejected(
         "mechanics: the return mapping of the thermal phase finds no state at the temperatures of "
         "the step's end",
-        "body '" + mesh_.bodies[body].name + "'");
+        "body '" + mesh_.bodies[body].name + "'", Failure::law);
   total.flows = parallel::any_process(total.flows);
   BlockWork& work = total.work;
   double sums[] = {work.dissipation, work.plastic_dissipation, work.plastic_work, work.inelastic_entropy};

@@ -212,7 +212,9 @@ MechanicalReport MechanicalPhase::solve(const MechanicalState& old, MechanicalSt
     report.newton.add_solves(before);
   }
   const bool may_end = pass.newton_steps > 0 && report.newton.out_of_iterations;
-  if (!report.newton.converged && !may_end) reject(report.newton.reason, x);
+  if (!report.newton.converged && !may_end)
+    reject(report.newton.reason, x,
+           report.newton.no_direction ? Failure::linear_solver : Failure::equilibrium);
   MechanicalReport concluded = conclude(old, pass, std::move(x), trial);
   concluded.newton = std::move(report.newton);
   return concluded;

@@ -214,11 +214,11 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     return this->deformation_found();
   }
 
-  std::string failure(std::span<const double> u) const override {
+  LawFailure failure(std::span<const double> u) const override {
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Sym<Lane> gradient = at_point(batch).strain(gather(u, batch));
-      std::string text = this->failure_at(batch, 0, strain(gradient, volume_[at(batch)]));
-      if (!text.empty()) return text;
+      LawFailure found = this->failure_at(batch, 0, strain(gradient, volume_[at(batch)]));
+      if (!found.text.empty()) return found;
     }
     return {};
   }

@@ -133,7 +133,7 @@ bool NodalPressure::fill_pores(std::span<const double> unknowns, int turn) {
   if (!parallel::any_process(filled)) return false;
   if (turn > k_pore_turns)
     throw StepRejected("mechanics: one element after another fills with pores",
-                       "a step in which much more shrinks than can be fed");
+                       "a step in which much more shrinks than can be fed", Failure::equilibrium);
   return true;
 }
 

@@ -46,7 +46,7 @@ class PointBlock : public PointRestart<Law, n_nodes, kind, b_bar, n_extra> {
   }
 
   /// The first element of a batch whose law finds no state at these strains, with its inputs.
-  std::string failure_at(Index batch, int q, const Sym<Lane>& strain) const {
+  LawFailure failure_at(Index batch, int q, const Sym<Lane>& strain) const {
     std::array<std::string, k_lanes> why;
     if constexpr (KeepsStateInPlace<Law>) {
       Workspace<Law> space(law_);
@@ -60,10 +60,11 @@ class PointBlock : public PointRestart<Law, n_nodes, kind, b_bar, n_extra> {
       if (!std::isfinite(norm(strain_of_one))) continue;  // that is not the law's fault
       const std::string start = failed_start(batch, q, lane, p, strain_of_one, why);
       if (start.empty()) continue;
-      return fmt::format("element {}: temperature {:.6g} K, solid fraction {:.4g}, strain {}, {}",
-                         block_.input_element[static_cast<std::size_t>(batch * k_lanes + lane)],
-                         temperature_at(geometry_, batch, q, this->temperature_)[lane],
-                         elastic_part(law_, p).solid_fraction, text(strain_of_one), start);
+      const double temperature = temperature_at(geometry_, batch, q, this->temperature_)[lane];
+      return {fmt::format("element {}: temperature {:.6g} K, solid fraction {:.4g}, strain {}, {}",
+                          block_.input_element[static_cast<std::size_t>(batch * k_lanes + lane)], temperature,
+                          elastic_part(law_, p).solid_fraction, text(strain_of_one), start),
+              temperature};
     }
     return {};
   }

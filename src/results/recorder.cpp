@@ -272,7 +272,8 @@ void Recorder::checkpoint(const coupling::RestartData& continuation, const coupl
 }
 
 void Recorder::stopped(const coupling::Stop& stop, const coupling::State& state) {
-  const std::string reason = stop.asked ? "as asked" : stop.reason;
+  const std::string physics = coupling::text(stop.diagnosis);
+  const std::string reason = stop.asked ? "as asked" : physics.empty() ? stop.reason : physics;
   // Without a step of this run there are no stresses to show.
   const bool moved = !options_.continue_from || state.time > options_.continue_from->state.time;
   if (moved) write_fields(state);

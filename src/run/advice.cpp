@@ -6,18 +6,11 @@
 #include <iterator>
 #include <vector>
 
+#include "run/melt_watch.hpp"
+
 namespace solidus::model {
 
 namespace {
-
-bool says(const coupling::Stop& stop, const char* words) {
-  return stop.reason.find(words) != std::string::npos;
-}
-
-bool something_is_held(const CaseSpec& spec) {
-  return std::any_of(spec.mechanical_conditions.begin(), spec.mechanical_conditions.end(),
-                     [](const auto& c) { return c.kind == MechanicalConditionSpec::Kind::displacement; });
-}
 
 bool carries_loads(const CaseSpec& spec) {
   return std::any_of(spec.mechanical_conditions.begin(), spec.mechanical_conditions.end(), [](const auto& c) {
@@ -39,21 +32,11 @@ std::vector<std::string> solver_advice(const CaseSpec& spec) {
   return advice;
 }
 
-std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const CaseSpec& spec) {
-  if (says(stop, "limit load"))
-    return {
-        "beyond its limit load a body that yields has no equilibrium: are loads and strength in the right "
-        "unit? Hardening, rate dependence, or displacements in place of forces carry it further"};
+/// Advice on Newton's iteration of a body that stands and is strong enough.
+std::vector<std::string> iteration_advice(const coupling::Stop& stop, const CaseSpec& spec) {
   std::vector<std::string> advice;
-  if (says(stop, "linear solver")) advice = solver_advice(spec);
-  if (spec.dynamics)
-    advice.emplace_back("a smaller step: with inertia a short one is an easy one");
-  else if (!something_is_held(spec))
-    advice.emplace_back(
-        "no displacement is prescribed at all: hold the bodies with [[mechanical_condition]]");
-  else if (says(stop, "linear solver") || says(stop, "not a number"))
-    advice.emplace_back(
-        "is every body held against moving and turning, by supports or by contact that is closed?");
+  if (stop.failure == Failure::linear_solver) advice = solver_advice(spec);
+  if (spec.dynamics) advice.emplace_back("a smaller step: with inertia a short one is an easy one");
   advice.push_back(
       fmt::format("more iterations: mechanics.max_iterations (now {}), or mechanics.tolerance "
                   "(now {:g})",
@@ -64,6 +47,45 @@ std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const Case
   advice.emplace_back(
       "jumps in the material's tables at the temperatures of that place (`solidus materials NAME`)");
   return advice;
+}
+
+std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+  const char* const support =
+      "a support against moving and turning, [[mechanical_condition]] with a displacement of zero, or a body "
+      "below it that it touches, [[contact]]";
+  switch (stop.diagnosis.physics) {
+    case coupling::Physics::nothing_carries:
+      return {support, "is gravity_direction right? Have the bodies that carried it left in this stage?"};
+    case coupling::Physics::slides:
+      return {
+          "friction of that contact, or supports against sliding and turning: a plane of symmetry, a point",
+          "is gravity_direction right?"};
+    case coupling::Physics::comes_off:
+      return {
+          support,
+          "friction of that contact, or supports on a plane of symmetry: contact pushes and does not hold",
+          "loads and films on one side that bend the body off what it lies on"};
+    case coupling::Physics::runs_out:
+    case coupling::Physics::melt_flows:
+      return {
+          k_melt_remedy,
+          "faces of the mould as fine as those of the melt: melt flows between points of contact that are "
+          "far apart",
+          "a time.step that resolves the cooling of this place, so that its skin is solid before it is "
+          "loaded"};
+    case coupling::Physics::limit_load:
+      return {
+          "beyond its limit load a body that yields has no equilibrium: are loads and strength in the right "
+          "unit? Hardening, rate dependence, or displacements in place of forces carry it further"};
+    case coupling::Physics::law:
+      return {
+          "tables and parameters of that material at this temperature (`solidus materials NAME`); `solidus "
+          "point` "
+          "drives the law alone through such a strain",
+          "loads and displacements that come within less time than the law resolves"};
+    default:
+      return iteration_advice(stop, spec);
+  }
 }
 
 /// Advice for steps that coupling::GuardedScheme refuses.
@@ -90,7 +112,7 @@ std::vector<std::string> contact_advice() {
 }
 
 std::vector<std::string> coupling_advice(const coupling::Stop& stop, const CaseSpec& spec) {
-  if (says(stop, "does not follow")) return guard_advice(stop, spec);
+  if (stop.failure == Failure::another_solution) return guard_advice(stop, spec);
   std::vector<std::string> advice = spec.coupling.scheme->advice(stop);
   if (!spec.contacts.empty())
     advice.emplace_back("a heat transfer that changes less steeply with the gap: [contact.heat]");
@@ -102,19 +124,48 @@ std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec&
       "the closed rule, heat.integration = \"closed\": the open one over- and undershoots at sudden chills, "
       "the "
       "more the shorter the step is";
-  if (says(stop, "temperature falls") || says(stop, "temperature is not")) {
+  if (stop.failure == Failure::temperature || stop.diagnosis.physics == coupling::Physics::cold_law) {
     std::vector<std::string> advice = {
         "fluxes and sources at that place: do they take more heat than there is?"};
     if (spec.heat.integration == heat::HeatIntegration::open) advice.insert(advice.begin(), closed);
     return advice;
   }
-  std::vector<std::string> advice = {
-      fmt::format("more iterations: heat.max_iterations (now {}), or heat.tolerance",
-                  spec.heat.max_iterations),
-      "films, radiation, sources or conductivities that change steeply with temperature at that place"};
+  std::vector<std::string> advice;
+  if (stop.diagnosis.physics == coupling::Physics::contact_heat)
+    advice.push_back(
+        fmt::format("conductance and gap law of contact '{}': usual are 100 to 20000 W/m2/K, less steep in "
+                    "gap and pressure",
+                    stop.diagnosis.contact_name));
+  advice.insert(
+      advice.end(),
+      {fmt::format("more iterations: heat.max_iterations (now {}), or heat.tolerance",
+                   spec.heat.max_iterations),
+       "films, radiation, sources or conductivities that change steeply with temperature at that place"});
   if (spec.heat.integration == heat::HeatIntegration::open)
     advice.emplace_back("the closed rule, heat.integration = \"closed\", converges for any step");
   return advice;
+}
+
+std::vector<std::string> advice_of(const coupling::Stop& stop, const CaseSpec& spec) {
+  if (stop.diagnosis.physics == coupling::Physics::nothing_carries) return mechanics_advice(stop, spec);
+  if (stop.diagnosis.physics == coupling::Physics::cold_law) return heat_advice(stop, spec);
+  switch (stop.failure) {
+    case Failure::heat:
+    case Failure::temperature:
+      return heat_advice(stop, spec);
+    case Failure::coupling:
+    case Failure::divergence:
+    case Failure::another_solution:
+      return coupling_advice(stop, spec);
+    case Failure::multipliers:
+      return contact_advice();
+    case Failure::equilibrium:
+    case Failure::linear_solver:
+    case Failure::law:
+    case Failure::other:
+      break;
+  }
+  return mechanics_advice(stop, spec);
 }
 
 /// The body for which the isothermal split is unstable, however short the step; null without one.
@@ -128,24 +179,26 @@ const CouplingEstimate* too_strong(std::span<const CouplingEstimate> couplings) 
 }  // namespace
 
 std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double time,
-                      const std::string& checkpoint, std::span<const CouplingEstimate> couplings,
-                      const std::string& ran_out) {
+                      const std::string& checkpoint, std::span<const CouplingEstimate> couplings) {
   const std::string checkpoint_line =
       checkpoint.empty() ? "" : fmt::format("  checkpoint: {} (t = {:.6g} s)\n", checkpoint, time);
   if (stop.asked)
     return fmt::format("stopped as asked at t = {:.6g} s", time) +
            (checkpoint.empty() ? ""
                                : "\n" + checkpoint_line + "  to continue: the same command with --restart");
-  std::string text =
-      fmt::format("the simulation could not go on at t = {:.6g} s\n  reason: {}\n", time, stop.reason);
-  if (!stop.where.empty()) text += fmt::format("  where: {}\n", stop.where);
+  const std::string physics = coupling::text(stop.diagnosis);
+  std::string text = fmt::format("the simulation could not go on at t = {:.6g} s\n  reason: {}\n", time,
+                                 physics.empty() ? stop.reason : physics);
+  if (!physics.empty() && stop.reason != stop.diagnosis.detail)
+    text += fmt::format("  equations: {}\n", stop.reason);
+  if (!stop.where.empty() && stop.where != stop.diagnosis.detail)
+    text += fmt::format("  where: {}\n", stop.where);
   const bool steps = stop.tries > 0;  // a steady state has none
   if (steps)
     text += fmt::format("  tried: {} {}, the smallest {:.4g} s\n", stop.tries,
                         stop.tries == 1 ? "step" : "steps, each shorter", stop.smallest_step) +
             checkpoint_line;
   text += "  what may help:";
-  if (!ran_out.empty()) text += fmt::format("\n    - {}", ran_out);
   const CouplingEstimate* unstable = too_strong(couplings);
   if (unstable != nullptr)
     text += fmt::format(
@@ -153,15 +206,9 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
         "for "
         "every step. Shorter steps do not help",
         spec.coupling.scheme->name(), model::text(*unstable), coupling::k_stable_scheme);
-  const bool mechanics = stop.reason.starts_with("mechanics"), coupling = stop.reason.starts_with("coupling"),
-             contact = stop.reason.starts_with("contact");
-  for (const std::string& advice : coupling    ? coupling_advice(stop, spec)
-                                   : mechanics ? mechanics_advice(stop, spec)
-                                   : contact   ? contact_advice()
-                                               : heat_advice(stop, spec))
-    text += fmt::format("\n    - {}", advice);
+  for (const std::string& advice : advice_of(stop, spec)) text += fmt::format("\n    - {}", advice);
   if (!steps) return text;
-  if (unstable == nullptr)
+  if (unstable == nullptr && stop.diagnosis.physics != coupling::Physics::nothing_carries)
     text += fmt::format("\n    - smaller steps: time.step (now {:g} s), time.min_step",
                         spec.time.step.value_or(0));
   if (checkpoint.empty()) return text;

@@ -10,13 +10,12 @@
 
 namespace solidus::model {
 
-/// Reason, place, what was tried, where the checkpoint lies, and what may help; several lines.
+/// The physics behind it, the equations that failed, the place, what was tried, where the checkpoint lies,
+/// and what may help; several lines.
 /// @param time the run reached [s]
 /// @param checkpoint its file
 /// @param couplings  of a run by the isothermal split, otherwise empty
-/// @param ran_out    MeltWatch::ran_out()
 std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double time,
-                      const std::string& checkpoint, std::span<const CouplingEstimate> couplings = {},
-                      const std::string& ran_out = {});
+                      const std::string& checkpoint, std::span<const CouplingEstimate> couplings = {});
 
 }  // namespace solidus::model

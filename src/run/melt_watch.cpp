@@ -16,9 +16,6 @@ namespace {
 /// A melt that is outside of its body's box by this share of the body's size has left its mould.
 constexpr double k_out = 0.5;
 
-constexpr const char* k_remedy =
-    "does a mould, a support or a plane of symmetry hold it on all sides but the upper one?";
-
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
@@ -76,8 +73,7 @@ void MeltWatch::step(const coupling::StepRecord&, const coupling::State& state) 
         "the melt of '{}' has run out: by t = {:g} s it is {:.3g} mm outside of the box of its body, which "
         "measures {:.3g} mm from corner to corner",
         spec_.bodies[b].name, state.time, 1e3 * way, 1e3 * size);
-    logging::warn("{}; {}", ran_out_, k_remedy);
-    ran_out_ += std::string("; ") + k_remedy;
+    logging::warn("{}; {}", ran_out_, k_melt_remedy);
   }
 }
 

@@ -10,6 +10,10 @@
 
 namespace solidus::model {
 
+/// What to look at where melt flows without end.
+inline constexpr const char* k_melt_remedy =
+    "does a mould, a support or a plane of symmetry hold it on all sides but the upper one?";
+
 /// A melt that neither a mould nor a support holds on all sides is driven out by its weight, and goes on with
 /// every step. Such a case has no answer, only a step that does not converge or results that mean nothing.
 /// Melt that moves within the box of its body has not run out: the surface of a riser that feeds its casting

@@ -18,6 +18,7 @@
 #include "linear/interruption.hpp"
 #include "results/run_lock.hpp"
 #include "run/advice.hpp"
+#include "run/diagnose.hpp"
 #include "run/recording.hpp"
 #include "run/restart.hpp"
 #include "run/session.hpp"
@@ -41,7 +42,13 @@ RunResult run_steady(const CaseSpec& spec, Assembly& a, coupling::Observer* reco
   try {
     static_cast<coupling::StepEffort&>(record) = coupling::solve_steady(a.phases, a.initial, steady);
   } catch (const StepRejected& rejected) {
-    const coupling::Stop stop{false, rejected.reason(), rejected.where(), 0, 0};
+    const coupling::Stop stop{false,
+                              rejected.reason(),
+                              rejected.where(),
+                              0,
+                              0,
+                              rejected.failure(),
+                              diagnose(spec, a, {}, a.initial, rejected, 0)};
     if (recorder != nullptr) recorder->stopped(stop, a.initial);
     return {false, stop_text(stop, spec, 0, {})};
   }

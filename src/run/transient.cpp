@@ -10,6 +10,7 @@
 #include "case/stage_input.hpp"
 #include "check/coupling_estimate.hpp"
 #include "run/advice.hpp"
+#include "run/diagnose.hpp"
 #include "run/recording.hpp"
 
 namespace solidus::model {
@@ -85,6 +86,9 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
   if (a.mechanics) simulation_.follow_melt(*a.mechanics);
   if (!a.initial.burning.lit.empty()) simulation_.follow_burning(*a.heat);
   simulation_.stop_when(options.stop_asked);
+  simulation_.diagnose_by([this](const coupling::State& last, const StepRejected& rejected, double dt) {
+    return diagnose(spec_, a_, melts_ ? melts_->ran_out() : std::string(), last, rejected, dt);
+  });
   simulation_.at_stage([this](std::size_t stage, const coupling::StageStart& start, coupling::State* begins) {
     return apply(spec_, stage, start.displacement, begins, a_);
   });
@@ -114,8 +118,7 @@ std::optional<RunResult> Transient::result(std::optional<coupling::Outcome> outc
       options_.folder.empty()
           ? ""
           : results::CheckpointFolder(options_.folder).latest().lexically_normal().string();
-  return RunResult{false, stop_text(why_.stop, spec_, why_.time, checkpoint, couplings,
-                                    melts_ ? melts_->ran_out() : std::string())};
+  return RunResult{false, stop_text(why_.stop, spec_, why_.time, checkpoint, couplings)};
 }
 
 void Transient::change_conditions() {

@@ -14,13 +14,13 @@ namespace {
 enum Kind : int { k_input, k_memory, k_internal };
 
 /// An exception of this process, and how it is told to the others.
-struct Failure {
+struct CaughtError {
   std::exception_ptr error;
   int kind = k_internal;
   std::string message;
 };
 
-Failure failure_of(const std::function<void()>& work) {
+CaughtError caught_in(const std::function<void()>& work) {
   try {
     work();
   } catch (const InputError& error) {
@@ -38,15 +38,15 @@ Failure failure_of(const std::function<void()>& work) {
 }  // namespace
 
 void run_collectively(const std::function<void()>& work, const ThrowInputError& throw_input_error) {
-  Failure failure = failure_of(work);
-  const int failing = processes::least(failure.error ? processes::rank() : processes::count());
+  CaughtError caught = caught_in(work);
+  const int failing = processes::least(caught.error ? processes::rank() : processes::count());
   if (failing == processes::count()) return;
 
-  int kind = failure.kind;
+  int kind = caught.kind;
   processes::broadcast(std::span(&kind, 1), failing);
-  std::string message = failure.message;
+  std::string message = caught.message;
   processes::broadcast(message, failing);
-  if (failure.error) std::rethrow_exception(failure.error);
+  if (caught.error) std::rethrow_exception(caught.error);
   if (kind == k_memory) throw std::bad_alloc();
   if (kind == k_internal) throw std::runtime_error(message);
   if (throw_input_error) throw_input_error(message);

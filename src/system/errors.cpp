@@ -28,9 +28,14 @@ std::string message(const SourceLocation& where, const std::string& what, const 
 InputError::InputError(SourceLocation where, std::string what, std::string allowed)
     : std::runtime_error(message(where, what, allowed)), where_(std::move(where)) {}
 
-StepRejected::StepRejected(std::string reason, std::string where)
-    : std::runtime_error(where.empty() ? reason : reason + "; " + where),
-      reason_(std::move(reason)),
-      where_(std::move(where)) {}
+StepRejected::StepRejected(std::string reason, std::string where, Failure failure)
+    : std::runtime_error(reason), where_(std::move(where)), failure_(failure) {
+  append(reason);
+}
+
+void StepRejected::append(const std::string& text) {
+  reason_ += text;
+  message_ = where_.empty() ? reason_ : reason_ + "; " + where_;
+}
 
 }  // namespace solidus

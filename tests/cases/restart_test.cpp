@@ -129,7 +129,7 @@ TEST_F(Restart, APhysicsThatCannotGoOnLeavesACheckpointAndAdvice) {
   const Outcome outcome = run("stuck", "--set mechanics.max_iterations=1");
   EXPECT_EQ(outcome.code, 2);
   for (const char* phrase :
-       {"could not go on", "reason: mechanics: no convergence in 1 iterations", "where: node ",
+       {"could not go on", "equations: mechanics: no convergence in 1 iterations", "where: node ",
         "tried: 21 steps", "state.h5", "mechanics.max_iterations (now 1)"})
     EXPECT_THAT(outcome.output, HasSubstr(phrase));
   const Outcome rest = run("stuck", "--restart");  // the change that was advised

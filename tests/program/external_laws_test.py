@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 import shutil
 import subprocess
 import unittest
@@ -153,6 +154,19 @@ class ExternalLaws(ProgramTest):
             warming = history["temperature[degC]"][-1] - history["temperature[degC]"][0]
             heat = 7800 * 600 * warming  # [J/m3]
             self.assertAlmostEqual(heat / (500 * history["work[kJ/m3]"][-1]), 1, delta=0.02, msg=name)
+
+    def test_a_run_that_stops_says_which_law_asked_for_a_smaller_step_and_how_hot_it_was(self):
+        self.law_in_c("if (*temp + *dtemp < 750) *pnewdt = 0.5;\n")
+        result = solidus("run", "bar.toml", "--trust-laws", "--no-progress", "-o", "stopped", "--set",
+                         f"body.block.material={self.folder / 'changed'}.toml", cwd=self.folder)
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        said, = re.findall(r"reason: the material law finds no state in a try of \S+ s: body 'block', element \d+: "
+                           r"temperature (\S+) K, solid fraction 1", result.stderr)
+        self.assertLess(float(said), 750)
+        self.assertGreater(float(said), 600)
+        self.assertIn("equations: mechanics: a constitutive law asks for a smaller step", result.stderr)
+        self.assertIn("tables and parameters of that material at this temperature", result.stderr)
+        self.assertNotIn("max_iterations", result.stderr)
 
     def test_nothing_is_loaded_unless_the_user_says_so(self):
         for arguments in ["point", "point.toml"], ["check", "bar.toml"], ["run", "bar.toml"]:

@@ -48,7 +48,7 @@ struct BlockIterativeScheme {
     return std::nullopt;
   }
   std::vector<std::string> advice(const Stop& stop) const {
-    if (stop.reason.find("does not follow") != std::string::npos) return {};
+    if (stop.failure == Failure::another_solution) return {};
     std::vector<std::string> advice;
     if (isothermal()) {
       advice.emplace_back(
@@ -56,7 +56,7 @@ struct BlockIterativeScheme {
       if (iteration.relaxation != IterationKeys::Relaxation::aitken)
         advice.emplace_back("coupling.iteration.relaxation = \"aitken\"");
     }
-    if (stop.reason.find("diverges") == std::string::npos)
+    if (stop.failure != Failure::divergence)
       advice.push_back(
           fmt::format("more iterations: coupling.iteration.max_iterations (now {}), or "
                       "coupling.iteration.tolerance (now {:g})",

@@ -45,7 +45,7 @@ struct SimultaneousKeys : SimultaneousOptions {
     return std::nullopt;
   }
   std::vector<std::string> advice(const Stop& stop) const {
-    if (stop.reason.find("does not follow") == std::string::npos) return {};
+    if (stop.failure != Failure::another_solution) return {};
     return {"coupling.scheme = \"isentropic\", whose thermal phase has one solution"};
   }
   std::unique_ptr<CouplingScheme> make(const Phases& phases, const SchemeContext&) const {

@@ -79,7 +79,8 @@ TEST(CouplingForms, WithoutStructuralHeatEverySchemeGoesAndNoneHoldsEntropy) {
 
 TEST(Advice, NamesTheCouplingWhereItIsTooStrongForTheIsothermalSplitAndNoShorterSteps) {
   const CaseSpec spec = read("scheme = \"isothermal\"");
-  const coupling::Stop stop{false, "heat: the temperature falls to -12 K", "node 1", 11, 1e-3};
+  const coupling::Stop stop{
+      false, "heat: the temperature falls to -12 K", "node 1", 11, 1e-3, Failure::temperature};
   CouplingEstimate estimate;
   estimate.body = "block";
   estimate.plane = true;
@@ -96,14 +97,44 @@ TEST(Advice, NamesTheCouplingWhereItIsTooStrongForTheIsothermalSplitAndNoShorter
 
 TEST(Advice, NamesTheLinearSolverWhereItFails) {
   CaseSpec spec = read("scheme = \"isothermal\"");
-  coupling::Stop stop{false, "mechanics: linear solver: DIVERGED_ITS", "node 1", 11, 1e-3};
+  coupling::Stop stop{
+      false, "mechanics: linear solver: DIVERGED_ITS", "node 1", 11, 1e-3, Failure::linear_solver};
   EXPECT_THAT(stop_text(stop, spec, 3, "there", {}), Not(HasSubstr("mechanics.solver")));
   spec.mechanics.solver = linear::SolverKind::multigrid;
   EXPECT_THAT(stop_text(stop, spec, 3, "there", {}), HasSubstr("mechanics.solver = \"direct\""));
   spec.contacts.emplace_back().friction.emplace();
   EXPECT_THAT(stop_text(stop, spec, 3, "there", {}), HasSubstr("friction makes the matrix unsymmetric"));
-  stop.reason = "mechanics: no convergence in 25 iterations";
+  stop.failure = Failure::equilibrium;
   EXPECT_THAT(stop_text(stop, spec, 3, "there", {}), Not(HasSubstr("mechanics.solver")));
+}
+
+std::string advised(coupling::Physics physics, Failure failure) {
+  coupling::Stop stop{false, "mechanics: no convergence in 25 iterations", "node 1", 11, 1e-3, failure};
+  stop.diagnosis.physics = physics;
+  stop.diagnosis.body = "block";
+  stop.diagnosis.size = 1;
+  stop.diagnosis.contact_name = "mould";
+  return stop_text(stop, read(""), 3, "there");
+}
+
+TEST(Advice, FollowsFromThePhysicsAndSaysTheEquationsBehindIt) {
+  using coupling::Physics;
+  const Failure forces = Failure::equilibrium;
+  const std::string falls = advised(Physics::nothing_carries, forces);
+  EXPECT_THAT(falls, HasSubstr("reason: nothing carries body 'block'"));
+  EXPECT_THAT(falls, HasSubstr("equations: mechanics: no convergence in 25 iterations"));
+  EXPECT_THAT(falls, HasSubstr("a support against moving and turning"));
+  for (const char* misleading : {"limit load", "max_iterations", "min_step", "tables"})
+    EXPECT_THAT(falls, Not(HasSubstr(misleading)));
+  EXPECT_THAT(advised(Physics::comes_off, forces), HasSubstr("contact pushes and does not hold"));
+  EXPECT_THAT(advised(Physics::melt_flows, forces),
+              HasSubstr("does a mould, a support or a plane of symmetry"));
+  EXPECT_THAT(advised(Physics::limit_load, forces), HasSubstr("beyond its limit load"));
+  EXPECT_THAT(advised(Physics::law, Failure::law), HasSubstr("tables and parameters of that material"));
+  EXPECT_THAT(advised(Physics::no_equilibrium, forces), HasSubstr("mechanics.max_iterations (now "));
+  EXPECT_THAT(advised(Physics::contact_heat, Failure::heat),
+              HasSubstr("conductance and gap law of contact 'mould'"));
+  EXPECT_THAT(advised(Physics::heat, Failure::heat), Not(HasSubstr("gap law")));
 }
 
 }  // namespace

@@ -25,6 +25,15 @@ TEST(StepRejected, KeepsTheReasonApartFromThePlace) {
   EXPECT_EQ(rejected.reason(), "heat: no convergence in 25 iterations");
   EXPECT_EQ(rejected.where(), "element 7");
   EXPECT_STREQ(rejected.what(), "heat: no convergence in 25 iterations; element 7");
+  EXPECT_EQ(rejected.failure(), Failure::other);
+}
+
+TEST(StepRejected, TakesAnAdditionToItsReasonOnTheWay) {
+  StepRejected rejected("mechanics: no convergence", "node 7", Failure::equilibrium);
+  rejected.append(" (contact 'mould')");
+  EXPECT_EQ(rejected.reason(), "mechanics: no convergence (contact 'mould')");
+  EXPECT_STREQ(rejected.what(), "mechanics: no convergence (contact 'mould'); node 7");
+  EXPECT_EQ(rejected.failure(), Failure::equilibrium);
 }
 
 }  // namespace

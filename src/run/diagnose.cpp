@@ -1,0 +1,220 @@
+#include "run/diagnose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "coupling/contact_states.hpp"
+#include "coupling/largest_difference.hpp"
+#include "heat/heat_rejected.hpp"
+#include "heat/nodal_enthalpy.hpp"
+#include "mechanics/equilibrium_rejected.hpp"
+#include "parallel/parallel.hpp"
+#include "run/body_facts.hpp"
+#include "system/processes.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+using coupling::Diagnosis;
+
+/// A body that moves by this share of its size in a try has lost what held it, and a law that finds no state
+/// there is not the cause.
+constexpr double k_far = 0.01, k_too_far_for_a_law = 0.1;
+/// A body that flows in this share of its volume is a mechanism; one that is strained so much has been one.
+constexpr double k_mechanism = 0.25, k_strained = 0.2;
+/// A contact that keeps less than this share of its closed points comes off.
+constexpr double k_kept = 0.5;
+/// Conductance times step over heat capacity above which the contact sets the temperature of its surface.
+constexpr double k_conducts = 1;
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// The owner of a node that one process at most holds, negative elsewhere; −1 where none does. Collective.
+int owner_of(Index node) {
+  const processes::Largest found = processes::find_largest(node >= 0 ? 1.0 : 0.0);
+  return found.value > 0 ? found.rank : -1;
+}
+
+/// A finding on one node, from the process that owns it to all.
+/// @param numbers  filled on the owner
+void share(std::span<double> numbers, int owner) {
+  processes::broadcast(numbers, owner);
+}
+
+/// Place and state of a node at the last step. Collective.
+void describe_node(const Assembly& a, const coupling::State& last, Index node, Diagnosis& d) {
+  const std::vector<double> coherency = coupling::coherency_of(a.phases, last.heat);
+  const std::vector<double> solid =
+      a.heat ? a.heat->solid_fraction(last.heat) : std::vector<double>(a.mesh.x.size(), 1.0);
+  const std::vector<double>& temperature = a.heat ? last.heat.temperature : a.phases.temperature;
+  const int owner = owner_of(node);
+  if (owner < 0) return;
+  std::vector<double> numbers(6, 0.0);
+  if (owner == processes::rank()) {
+    const mesh::Point& x = a.mesh.x[at(node)];
+    const bool melt = !coherency.empty() && coherency[at(node)] < 1;
+    numbers = {x[0],
+               x[1],
+               x[2],
+               at(node) < temperature.size() ? temperature[at(node)] : 0.0,
+               solid[at(node)],
+               melt ? 1.0 : 0.0};
+  }
+  share(numbers, owner);
+  d.place = {numbers[0], numbers[1], numbers[2]};
+  d.temperature = numbers[3];
+  d.solid_fraction = numbers[4];
+  d.molten = numbers[5] > 0;
+}
+
+/// The name of the first body that has a node, on the process that owns it.
+std::string body_of(const mesh::Mesh& mesh, Index node) {
+  for (const mesh::ElementBlock& block : mesh.blocks)
+    if (std::ranges::find(block.nodes, node) != block.nodes.end()) return mesh.bodies[at(block.body)].name;
+  return {};
+}
+
+void describe_body(const Assembly& a, const coupling::State& last, std::size_t body, const BodyFacts& facts,
+                   Diagnosis& d) {
+  d.body = a.mesh.bodies[body].name;
+  d.size = facts.size;
+  d.weight = facts.weight;
+  d.supported = facts.supported;
+  d.rubs = facts.rubs;
+  d.contact = facts.contact;
+  d.elongation = facts.elongation;
+  d.moved = facts.moved;
+  d.yielding = facts.yielding;
+  describe_node(a, last, facts.farthest, d);
+}
+
+/// The body that is not carried, or else the one that goes farthest in its size; nothing without mechanics.
+std::optional<std::size_t> concerned(const std::vector<BodyFacts>& facts) {
+  std::optional<std::size_t> found;
+  const auto before = [&](const BodyFacts& one, const BodyFacts& other) {
+    if (one.carried != other.carried) return other.carried;
+    return one.moved / one.size > other.moved / other.size;
+  };
+  for (std::size_t b = 0; b < facts.size(); ++b)
+    if (facts[b].moves && facts[b].size > 0 && (!found || before(facts[b], facts[*found]))) found = b;
+  return found;
+}
+
+/// Whether most points that were closed at the last step are open in the failing try.
+bool comes_off(const coupling::ContactPoints& c) {
+  return c.before > 0 && static_cast<double>(c.now) < k_kept * static_cast<double>(c.before);
+}
+
+/// What a body that finds no equilibrium suffers from.
+coupling::Physics physics_of(const BodyFacts& body, const Diagnosis& d, Failure failure, bool inertia) {
+  const double share = body.moved / body.size;
+  const bool far = d.in_try && !(share <= k_far), no_law = failure == Failure::law;
+  if (!inertia && !body.carried && (body.weight > 0 || far || failure == Failure::linear_solver))
+    return coupling::Physics::nothing_carries;
+  const bool mechanism = body.plastic && body.yielding > k_mechanism;
+  if (mechanism && !d.molten && body.elongation > k_strained) return coupling::Physics::limit_load;
+  if (no_law && share <= k_too_far_for_a_law) return coupling::Physics::law;
+  if (d.molten && far) return coupling::Physics::melt_flows;
+  if (!body.supported && d.in_try && comes_off(body.contact)) return coupling::Physics::comes_off;
+  if (!inertia && !body.supported && failure == Failure::linear_solver) return coupling::Physics::slides;
+  if (mechanism) return coupling::Physics::limit_load;
+  if (no_law) return coupling::Physics::law;
+  if (body.contact.changed > 0) return coupling::Physics::points_change;
+  return coupling::Physics::no_equilibrium;
+}
+
+/// The contact through which most heat passes at a node, by conductance times step over heat capacity; the
+/// pairs stand at the last step. Collective.
+void find_contact_heat(const Assembly& a, const coupling::State& last, Index node, double dt, Diagnosis& d) {
+  std::vector<double> number(a.phases.contacts.size(), 0.0);
+  const double temperature = node >= 0 ? last.heat.temperature[at(node)] : 0.0;
+  const double capacity = node >= 0 ? a.heat->storage().capacity(node, temperature) : 0.0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    const contact::ContactPair& pair = *a.phases.contacts[i];
+    if (!pair.active() || !pair.spec().heat || !(capacity > 0)) continue;
+    const contact::ContactNodalFields fields = contact::nodal_fields(pair.view(), last.heat.temperature);
+    const auto found = std::ranges::find(fields.nodes, node);
+    if (found == fields.nodes.end()) continue;
+    const auto k = static_cast<std::size_t>(found - fields.nodes.begin());
+    const double passes = fields.conductance[k] * fields.paired_area[k] * dt / capacity;
+    if (std::isfinite(passes)) number[i] = passes;
+  }
+  processes::largest(number);
+  const auto largest = std::ranges::max_element(number);
+  if (largest == number.end() || !(*largest > 0)) return;
+  d.conductance_number = *largest;
+  d.contact_name = a.phases.contacts[static_cast<std::size_t>(largest - number.begin())]->spec().name;
+}
+
+Diagnosis of_heat(const Assembly& a, const coupling::State& last, const heat::HeatRejected& rejected,
+                  Diagnosis d) {
+  describe_node(a, last, rejected.node, d);
+  const int owner = owner_of(rejected.node);
+  if (owner < 0) return d;
+  std::vector<double> tried(1, 0.0);
+  if (owner == processes::rank()) {
+    tried[0] = rejected.temperature[at(rejected.node)];
+    d.body = body_of(a.mesh, rejected.node);
+  }
+  share(tried, owner);
+  processes::broadcast(d.body, owner);
+  d.tried_temperature = tried[0];
+  d.largest_change = coupling::largest_difference(rejected.temperature, last.heat.temperature);
+  find_contact_heat(a, last, rejected.node, d.step, d);
+  d.physics = rejected.failure() == Failure::temperature ? coupling::Physics::cold
+              : d.conductance_number > k_conducts        ? coupling::Physics::contact_heat
+                                                         : coupling::Physics::heat;
+  return d;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out, const coupling::State& last,
+                   const StepRejected& rejected, double dt) {
+  coupling::restore_contacts(a.phases, last);
+  Diagnosis d;
+  d.step = dt;
+  if (const auto* heat = dynamic_cast<const heat::HeatRejected*>(&rejected))
+    return of_heat(a, last, *heat, d);
+  if (!a.mechanics) return d;
+  if (!ran_out.empty()) {
+    d.physics = coupling::Physics::runs_out;
+    d.detail = ran_out;
+    return d;
+  }
+  const auto* equilibrium = dynamic_cast<const mechanics::EquilibriumRejected*>(&rejected);
+  const mechanics::LastIterate* iterate = equilibrium != nullptr ? &equilibrium->iterate : nullptr;
+  const std::vector<BodyFacts> facts = body_facts(spec, a, last, iterate);
+  const std::optional<std::size_t> body = concerned(facts);
+  if (!body) return d;
+  d.in_try = iterate != nullptr;
+  describe_body(a, last, *body, facts[*body], d);
+  const Failure failure = rejected.failure();
+  if (!facts[*body].carried && d.weight > 0 && !a.mechanics->dynamic()) {
+    d.physics = coupling::Physics::nothing_carries;
+  } else if (failure == Failure::multipliers) {
+    d.physics = coupling::Physics::multipliers;
+  } else if (failure == Failure::coupling || failure == Failure::divergence ||
+             failure == Failure::another_solution) {
+    d.physics = coupling::Physics::phases;
+  } else if (equilibrium != nullptr) {
+    d.physics = physics_of(facts[*body], d, failure, a.mechanics->dynamic());
+  }
+  if (d.physics == coupling::Physics::law) {
+    d.detail = rejected.where();
+    d.tried_temperature = iterate->law_temperature;
+    if (!(d.tried_temperature > 0)) d.physics = coupling::Physics::cold_law;
+  }
+  if (d.physics == coupling::Physics::multipliers) {
+    d.detail = rejected.reason();
+    if (a.heat) d.solid_fraction = a.heat->mean_solid_fraction(last.heat, static_cast<int>(*body));
+  }
+  return d;
+}
+
+}  // namespace solidus::model
