@@ -78,10 +78,7 @@ void ContactHeat::hold(const ContactStep& step, std::span<const ContactPointStat
 
 HeatPoint ContactHeat::point(const ContactStep& step, const ContactPointState& from,
                              const ContactPointState& now, const PointForces& forces) const {
-  // A point with a pressure is closed, whatever its penetration: a multiplier may carry the pressure where
-  // penetration and gap are of the size of the tolerance.
-  const double penetration = now.pressure > 0 ? std::max(now.penetration, 0.0) : now.penetration;
-  HeatPoint point{.penetration = seen_by_heat(penetration, now.suction),
+  HeatPoint point{.penetration = seen_by_heat(now.penetration, now.pressure, now.suction),
                   .pressure = now.pressure,
                   .pressure_slope = now.pressure >= 0 ? forces.normal.tangent : 0.0,
                   .has_temperature = has_temperature() && step.dt > 0 && from.temperature > 0,

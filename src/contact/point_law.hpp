@@ -40,9 +40,10 @@ struct JointSlopes {
   std::array<double, 2> traction_by_side{};  ///< ∂‖T‖/∂Θ_i of slave and master [Pa/K]
 };
 
-/// The penetration that heat takes a point to have: a wet one conducts as a closed one [m].
-inline double seen_by_heat(double penetration, double suction) {
-  return suction > 0 && penetration < 0 ? 0.0 : penetration;
+/// The penetration that heat takes a point to have [m]: a wet one conducts as a closed one, and so does one
+/// with a pressure, which a multiplier may carry where penetration and gap are of the size of the tolerance.
+inline double seen_by_heat(double penetration, double pressure, double suction) {
+  return (pressure > 0 || suction > 0) && penetration < 0 ? 0.0 : penetration;
 }
 /// The least multiplier that a point may have, that of an open one [Pa].
 inline double least_multiplier(const ContactPointState& state) {

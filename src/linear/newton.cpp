@@ -74,7 +74,7 @@ class Iteration {
   bool chord_converges(double norm_before) const {
     return norm_ * (k_chord_residual * norm_ / norm_before) <= goal();
   }
-  /// d·r of the step, which is turned round where it leads uphill (NewtonOptions::reverses_ascent).
+  /// d·r of the step, which is turned round where it leads uphill (NewtonOptions::descends).
   double descend();
   void measure_next_step(double alpha, double norm_before);
   double measured() const { return reference_ > 0 ? norm_ / reference_ : norm_; }
@@ -150,9 +150,12 @@ void Iteration::spread_step() {
   }
 }
 
+// Where a body has no stiffness but what pressures give it as they turn with their faces, which may be
+// negative, Newton's direction leads to the maximum of the energy, and the line search, which looks for a
+// change of sign, goes with it.
 double Iteration::descend() {
   const double slope = dot(step_, r_);
-  if (!options_.reverses_ascent || !(slope > 0)) return slope;
+  if (!options_.descends || !(slope > 0)) return slope;
   for (double& value : step_) value = -value;
   for (double& value : local_step_) value = -value;
   return -slope;

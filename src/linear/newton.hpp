@@ -22,14 +22,11 @@ struct NewtonOptions {
   /// tolerances ask for more.
   double effort_tolerance = 1e-5, effort_step_tolerance = 1e-3;
   int max_iterations = 25;
+  bool descends = false;  ///< steps along which the energy rises, d·r > 0, are taken backwards
   bool line_search = true;
   bool chords = true;   ///< steps with the tangent before, where they will do
   bool inexact = true;  ///< iterative solvers go only as far as an iteration gains by (forcing.hpp)
   double line_search_slope = 0.8;  ///< accept α when |d·r(x+αd)| <= this × |d·r(x)|
-  /// Steps along which the energy rises (d·r > 0) are taken backwards. Where a body has no stiffness but what
-  /// pressures give it as they turn with their faces, which may be negative, Newton's direction leads to the
-  /// maximum, and the line search, which looks for a change of sign, goes with it.
-  bool reverses_ascent = false;
 };
 
 struct NewtonReport {

@@ -109,7 +109,7 @@ linear::NewtonReport attempt_again(MechanicalPhase& phase, const MechanicalState
     diagonal = std::hypot(diagonal, parallel::global_max(high) - parallel::global_min(low));
   }
   options.max_iterations *= 2;
-  options.reverses_ascent = true;
+  options.descends = true;
   HeldEquilibrium held(phase, old, share);
   const auto n = static_cast<std::size_t>(phase.mesh().n_owned_nodes * phase.components());
   ShortSteps short_steps(solver, n, phase.components(), k_longest_way * diagonal);

@@ -10,7 +10,7 @@
 /// as the Levenberg–Marquardt method does with its damping (J. Nocedal, S. J. Wright, Numerical Optimization,
 /// 2nd ed. 2006, section 10.3): s falls with every step that is taken whole, so that the point feels its way,
 /// and rises where the line search had to shorten one. Forces, and with them the solution, do not know it.
-/// Steps that lead uphill are taken backwards (linear::NewtonOptions::reverses_ascent).
+/// Steps that lead uphill are taken backwards (linear::NewtonOptions::descends).
 #pragma once
 
 #include <span>

@@ -82,6 +82,30 @@ TEST(CoupledTangentOfContact, HasRoomForTheNodesOfAveragedNormals) {
   }
 }
 
+// A point that a multiplier presses conducts as a closed one in both equations of its temperature, although a
+// gap of the size of the tolerance is left.
+TEST(CoupledTangentOfContact, StaysExactWhereAMultiplierPressesPointsWithAGap) {
+  for (const auto variable :
+       {contact::InternalVariable::normal_work, contact::InternalVariable::frictional_work}) {
+    RubbingBlocks b({.variable = variable, .multiplies = true}, false);
+    test::Iterate iterate(b);
+    std::vector<double> u = test::rubbed(b.mesh);
+    iterate.move(u);
+    b.pair->augment(contact::AugmentedBy::means);
+    const std::vector<double> lifted =
+        test::nodal_field(b.mesh, b.mesh.dimension, [&](const mesh::Point&, bool upper) {
+          return std::vector<double>{0.0, upper ? 3e-6 : 0.0};
+        });
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] += lifted[i];
+    iterate.move(u);
+    double with_gap = 0;
+    for (const contact::ContactPointState& point : b.pair->state().points)
+      if (point.pressure > 0 && point.penetration < 0) ++with_gap;
+    EXPECT_GT(parallel::global_sum(with_gap), 0);
+    expect_exact(iterate, b.mesh, k_rounding);
+  }
+}
+
 // Points that have slid over the rim of their master weigh less the farther they are beyond it.
 TEST(CoupledTangentOfContact, KnowsThatPointsBeyondTheRimWeighLess) {
   for (const Shape shape : {Shape::quad4, Shape::quad8, Shape::hex8})

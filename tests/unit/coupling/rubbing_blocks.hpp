@@ -29,7 +29,8 @@ struct Rubbing {
   double heat_capacity = 0;
   contact::InternalVariable variable = contact::InternalVariable::normal_work;
   bool mu_of_temperature = true;
-  double twist = 0;  ///< of the interface: z += twist x y [1/m]
+  double twist = 0;         ///< of the interface: z += twist x y [1/m]
+  bool multiplies = false;  ///< by the augmented Lagrangian
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Rubbing& c) {
@@ -44,6 +45,7 @@ inline contact::ContactParameters interface_of(const Rubbing& c) {
   s.penalty = 1e13;
   s.penalty_is_factor = false;
   s.stabilisation = 0;
+  if (c.multiplies) s.normal = contact::NormalKind::augmented_lagrangian;
   s.formulation = c.formulation;
   s.integration = c.formulation == Formulation::large_sliding ? contact::IntegrationRule::gauss
                                                               : contact::IntegrationRule::segments;

@@ -275,8 +275,7 @@ TEST(Newton, AStepThatLeadsUphillIsTakenBackwardsWhereThatIsAskedFor) {
   std::vector<double> x(static_cast<std::size_t>(grid.mesh.n_nodes()), 0.2), y = x;
   SpringGrid plain = two_wells(), descending = two_wells();
   const NewtonReport uphill = run(grid, plain, x, {.absolute_tolerance = 1e-10});
-  const NewtonReport downhill =
-      run(grid, descending, y, {.absolute_tolerance = 1e-10, .reverses_ascent = true});
+  const NewtonReport downhill = run(grid, descending, y, {.absolute_tolerance = 1e-10, .descends = true});
   ASSERT_TRUE(uphill.converged && downhill.converged) << uphill.reason << downhill.reason;
   EXPECT_NEAR(x[0], 0.0, 1e-9);
   EXPECT_NEAR(y[0], 1.0, 1e-9);
