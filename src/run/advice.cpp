@@ -68,7 +68,7 @@ std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const Case
     case coupling::Physics::runs_out:
     case coupling::Physics::melt_flows:
       return {
-          k_melt_remedy,
+          k_melt_remedy, "is gravity_direction right?",
           "faces of the mould as fine as those of the melt: melt flows between points of contact that are "
           "far apart",
           "a time.step that resolves the cooling of this place, so that its skin is solid before it is "
