@@ -173,14 +173,14 @@ Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out
   coupling::restore_contacts(a.phases, last);
   Diagnosis d;
   d.step = dt;
-  if (const auto* heat = dynamic_cast<const heat::HeatRejected*>(&rejected))
-    return of_heat(a, last, *heat, d);
-  if (!a.mechanics) return d;
   if (!ran_out.empty()) {
     d.physics = coupling::Physics::runs_out;
     d.detail = ran_out;
     return d;
   }
+  if (const auto* heat = dynamic_cast<const heat::HeatRejected*>(&rejected))
+    return of_heat(a, last, *heat, d);
+  if (!a.mechanics) return d;
   const auto* equilibrium = dynamic_cast<const mechanics::EquilibriumRejected*>(&rejected);
   const mechanics::LastIterate* iterate = equilibrium != nullptr ? &equilibrium->iterate : nullptr;
   const std::vector<BodyFacts> facts = body_facts(spec, a, last, iterate);
