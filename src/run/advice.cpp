@@ -68,7 +68,7 @@ std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const Case
     case coupling::Physics::runs_out:
     case coupling::Physics::melt_flows:
       return {
-          k_melt_remedy,
+          k_melt_remedy, "is gravity_direction right?",
           "faces of the mould as fine as those of the melt: melt flows between points of contact that are "
           "far apart",
           "a time.step that resolves the cooling of this place, so that its skin is solid before it is "
@@ -147,7 +147,9 @@ std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec&
 }
 
 std::vector<std::string> advice_of(const coupling::Stop& stop, const CaseSpec& spec) {
-  if (stop.diagnosis.physics == coupling::Physics::nothing_carries) return mechanics_advice(stop, spec);
+  if (stop.diagnosis.physics == coupling::Physics::nothing_carries ||
+      stop.diagnosis.physics == coupling::Physics::runs_out)
+    return mechanics_advice(stop, spec);
   if (stop.diagnosis.physics == coupling::Physics::cold_law) return heat_advice(stop, spec);
   switch (stop.failure) {
     case Failure::heat:
@@ -166,6 +168,12 @@ std::vector<std::string> advice_of(const coupling::Stop& stop, const CaseSpec& s
       break;
   }
   return mechanics_advice(stop, spec);
+}
+
+/// Not where there is no equilibrium, whatever the step.
+bool shorter_steps_help(coupling::Physics physics) {
+  return physics != coupling::Physics::nothing_carries && physics != coupling::Physics::slides &&
+         physics != coupling::Physics::limit_load;
 }
 
 /// The body for which the isothermal split is unstable, however short the step; null without one.
@@ -208,7 +216,7 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
         spec.coupling.scheme->name(), model::text(*unstable), coupling::k_stable_scheme);
   for (const std::string& advice : advice_of(stop, spec)) text += fmt::format("\n    - {}", advice);
   if (!steps) return text;
-  if (unstable == nullptr && stop.diagnosis.physics != coupling::Physics::nothing_carries)
+  if (unstable == nullptr && shorter_steps_help(stop.diagnosis.physics))
     text += fmt::format("\n    - smaller steps: time.step (now {:g} s), time.min_step",
                         spec.time.step.value_or(0));
   if (checkpoint.empty()) return text;

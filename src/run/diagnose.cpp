@@ -40,12 +40,6 @@ int owner_of(Index node) {
   return found.value > 0 ? found.rank : -1;
 }
 
-/// A finding on one node, from the process that owns it to all.
-/// @param numbers  filled on the owner
-void share(std::span<double> numbers, int owner) {
-  processes::broadcast(numbers, owner);
-}
-
 /// Place and state of a node at the last step. Collective.
 void describe_node(const Assembly& a, const coupling::State& last, Index node, Diagnosis& d) {
   const std::vector<double> coherency = coupling::coherency_of(a.phases, last.heat);
@@ -65,7 +59,7 @@ void describe_node(const Assembly& a, const coupling::State& last, Index node, D
                solid[at(node)],
                melt ? 1.0 : 0.0};
   }
-  share(numbers, owner);
+  processes::broadcast(numbers, owner);
   d.place = {numbers[0], numbers[1], numbers[2]};
   d.temperature = numbers[3];
   d.solid_fraction = numbers[4];
@@ -113,17 +107,17 @@ bool comes_off(const coupling::ContactPoints& c) {
 /// What a body that finds no equilibrium suffers from.
 coupling::Physics physics_of(const BodyFacts& body, const Diagnosis& d, Failure failure, bool inertia) {
   const double share = body.moved / body.size;
-  const bool far = d.in_try && !(share <= k_far), no_law = failure == Failure::law;
+  const bool far = d.in_try && !(share <= k_far), law_failed = failure == Failure::law;
   if (!inertia && !body.carried && (body.weight > 0 || far || failure == Failure::linear_solver))
     return coupling::Physics::nothing_carries;
   const bool mechanism = body.plastic && body.yielding > k_mechanism;
   if (mechanism && !d.molten && body.elongation > k_strained) return coupling::Physics::limit_load;
-  if (no_law && share <= k_too_far_for_a_law) return coupling::Physics::law;
+  if (law_failed && share <= k_too_far_for_a_law) return coupling::Physics::law;
   if (d.molten && far) return coupling::Physics::melt_flows;
   if (!body.supported && d.in_try && comes_off(body.contact)) return coupling::Physics::comes_off;
   if (!inertia && !body.supported && failure == Failure::linear_solver) return coupling::Physics::slides;
   if (mechanism) return coupling::Physics::limit_load;
-  if (no_law) return coupling::Physics::law;
+  if (law_failed) return coupling::Physics::law;
   if (body.contact.changed > 0) return coupling::Physics::points_change;
   return coupling::Physics::no_equilibrium;
 }
@@ -161,7 +155,7 @@ Diagnosis of_heat(const Assembly& a, const coupling::State& last, const heat::He
     tried[0] = rejected.temperature[at(rejected.node)];
     d.body = body_of(a.mesh, rejected.node);
   }
-  share(tried, owner);
+  processes::broadcast(tried, owner);
   processes::broadcast(d.body, owner);
   d.tried_temperature = tried[0];
   d.largest_change = coupling::largest_difference(rejected.temperature, last.heat.temperature);
@@ -179,14 +173,14 @@ Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out
   coupling::restore_contacts(a.phases, last);
   Diagnosis d;
   d.step = dt;
-  if (const auto* heat = dynamic_cast<const heat::HeatRejected*>(&rejected))
-    return of_heat(a, last, *heat, d);
-  if (!a.mechanics) return d;
   if (!ran_out.empty()) {
     d.physics = coupling::Physics::runs_out;
     d.detail = ran_out;
     return d;
   }
+  if (const auto* heat = dynamic_cast<const heat::HeatRejected*>(&rejected))
+    return of_heat(a, last, *heat, d);
+  if (!a.mechanics) return d;
   const auto* equilibrium = dynamic_cast<const mechanics::EquilibriumRejected*>(&rejected);
   const mechanics::LastIterate* iterate = equilibrium != nullptr ? &equilibrium->iterate : nullptr;
   const std::vector<BodyFacts> facts = body_facts(spec, a, last, iterate);

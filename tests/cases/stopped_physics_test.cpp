@@ -100,6 +100,59 @@ TEST(StoppedPhysics, ACastingThatSlidesOffAPlateIsSaidToBeFreeToSlide) {
                                 Not(HasSubstr("limit load"))));
 }
 
+TEST(StoppedPhysics, MeltThatNothingHoldsIsSaidToFlowOrToHaveRunOut) {
+  const auto run = k_here.run("melt", R"(title = "Melt under a plate, by a wrong direction of gravity"
+[analysis]
+kind = "solid"
+physics = "thermomechanical"
+gravity = "9.81 m/s2"
+gravity_direction = [0, 0, 1]
+[mesh]
+shape = "two_blocks"
+element = "hex8"
+[mesh.two_blocks]
+lower = ["60 mm", "60 mm", "20 mm"]
+lower_divisions = [2, 2, 1]
+upper = ["60 mm", "60 mm", "30 mm"]
+upper_divisions = [3, 3, 2]
+[time]
+end = "10 min"
+step = "2 s"
+[[body]]
+name = "upper"
+material = "aluminium_alsi7mg"
+initial_temperature = "690 degC"
+[[body]]
+name = "lower"
+material = "steel_mould"
+initial_temperature = "150 degC"
+[[mechanical_condition]]
+name = "table"
+group = "lower_z_min"
+kind = "displacement"
+ux = "0 mm"
+uy = "0 mm"
+uz = "0 mm"
+[[contact]]
+name = "interface"
+slave = "upper_bottom"
+master = "lower_top"
+[contact.heat]
+conductance = "2000 W/m2/K"
+gap_law = "gas"
+gas_conductivity = "0.03 W/m/K"
+)");
+  EXPECT_FALSE(run.finished);
+  EXPECT_THAT(run.reason, AllOf(HasSubstr("reason: the melt of "),
+                                HasSubstr("mould, a support or a plane of symmetry hold it"),
+                                Not(HasSubstr("limit load"))));
+  if (run.reason.find("has run out") == std::string::npos) {
+    EXPECT_THAT(run.reason,
+                AllOf(HasSubstr("body 'upper' flows without an equilibrium under its weight: at ("),
+                      HasSubstr(" degC, "), HasSubstr(" % solid: "), HasSubstr("contact alone holds it")));
+  }
+}
+
 TEST(StoppedPhysics, ACastingThatIsPressedBeyondItsStrengthIsSaidToBeAtItsLimitLoad) {
   const auto run = k_here.run("pressed", on_a_plate(k_time, k_steel) + R"(
 [[mechanical_condition]]

@@ -156,7 +156,7 @@ class ExternalLaws(ProgramTest):
             self.assertAlmostEqual(heat / (500 * history["work[kJ/m3]"][-1]), 1, delta=0.02, msg=name)
 
     def test_a_run_that_stops_says_which_law_asked_for_a_smaller_step_and_how_hot_it_was(self):
-        self.law_in_c("if (*temp + *dtemp < 750) *pnewdt = 0.5;\n")
+        self.law_in_c("if (*temp + *dtemp > 600 && *temp + *dtemp < 750) *pnewdt = 0.5;\n")
         result = solidus("run", "bar.toml", "--trust-laws", "--no-progress", "-o", "stopped", "--set",
                          f"body.block.material={self.folder / 'changed'}.toml", cwd=self.folder)
         self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
