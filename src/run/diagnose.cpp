@@ -197,13 +197,16 @@ Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out
   coupling::restore_contacts(a.phases, last);
   Diagnosis d;
   d.step = dt;
+  const auto* heat = dynamic_cast<const heat::HeatRejected*>(&rejected);
+  if (heat != nullptr) {
+    const Diagnosis found = of_heat(spec, a, last, *heat, d);
+    if (ran_out.empty() || found.physics == coupling::Physics::limit_load) return found;
+  }
   if (!ran_out.empty()) {
     d.physics = coupling::Physics::runs_out;
     d.detail = ran_out;
     return d;
   }
-  if (const auto* heat = dynamic_cast<const heat::HeatRejected*>(&rejected))
-    return of_heat(spec, a, last, *heat, d);
   if (!a.mechanics) return d;
   const auto* equilibrium = dynamic_cast<const mechanics::EquilibriumRejected*>(&rejected);
   const mechanics::LastIterate* iterate = equilibrium != nullptr ? &equilibrium->iterate : nullptr;
