@@ -77,8 +77,9 @@ std::string melt(const Diagnosis& d) {
 }
 
 std::string limit_load(const Diagnosis& d) {
-  std::string text = fmt::format("body '{}' is at its limit load: {:.0f} % of its volume flows plastically",
-                                 d.body, 100 * d.yielding);
+  std::string text = fmt::format("body '{}' is at its limit load: ", d.body);
+  text += d.yielding > 0 ? fmt::format("{:.0f} % of its volume flows plastically", 100 * d.yielding)
+                         : "flow has heated it at " + state_there(d);
   if (d.elongation > 0)
     text += fmt::format(", and it is strained by up to {:.3g} % (usual: below 10 %)", 100 * d.elongation);
   return text + and_way(d) + "; " + held(d);
@@ -142,10 +143,10 @@ std::string text(const Diagnosis& d) {
     case Physics::heat:
       if (d.largest_change <= k_hardly_cools)
         return fmt::format(
-            "the iteration of heat ends before body '{}' is in balance, although temperatures hardly change: "
-            "by "
+            "the iteration of heat ends before body '{}' is in balance at {}, although temperatures hardly "
+            "change: by "
             "{:.3g} K at most in a try of {:.3g} s",
-            d.body, d.largest_change, d.step);
+            d.body, state_there(d), d.largest_change, d.step);
       return "the heat of a step is not balanced: " + change_of_heat(d);
     case Physics::cold_law:
       return fmt::format(

@@ -148,7 +148,8 @@ std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec&
 
 std::vector<std::string> advice_of(const coupling::Stop& stop, const CaseSpec& spec) {
   if (stop.diagnosis.physics == coupling::Physics::nothing_carries ||
-      stop.diagnosis.physics == coupling::Physics::runs_out)
+      stop.diagnosis.physics == coupling::Physics::runs_out ||
+      stop.diagnosis.physics == coupling::Physics::limit_load)
     return mechanics_advice(stop, spec);
   if (stop.diagnosis.physics == coupling::Physics::cold_law) return heat_advice(stop, spec);
   switch (stop.failure) {

@@ -158,8 +158,7 @@ void find_contacts(const Assembly& a, const coupling::State& last, const mechani
     const auto& state = pair.state().points;
     points.all = std::llround(parallel::global_sum(
         static_cast<double>(std::ranges::count_if(state, [](const auto& point) { return point.counted; }))));
-    const bool stood =
-        parallel::any_process(i < last.contacts.size() && !last.contacts[i].points.empty());
+    const bool stood = parallel::any_process(i < last.contacts.size() && !last.contacts[i].points.empty());
     points.before = coupling::closed_points(stood ? last.contacts[i] : pair.state());
     if (iterate != nullptr && i < iterate->contacts.size()) {
       points.now = iterate->contacts[i].closed;

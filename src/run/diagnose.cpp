@@ -145,8 +145,31 @@ void find_contact_heat(const Assembly& a, const coupling::State& last, Index nod
   d.contact_name = a.phases.contacts[static_cast<std::size_t>(largest - number.begin())]->spec().name;
 }
 
-Diagnosis of_heat(const Assembly& a, const coupling::State& last, const heat::HeatRejected& rejected,
-                  Diagnosis d) {
+/// Whether a temperature is above all that bodies were poured at and that is around them: flow has heated it.
+bool heated_by_flow(const Assembly& a, const coupling::State& last, double temperature) {
+  constexpr double k_beyond = 100;  // [K]
+  double hottest = a.heat->ambient_range(last.time, false).highest;
+  for (const InitialTemperatureRange& body : a.start) hottest = std::max(hottest, body.high);
+  return temperature > hottest + k_beyond;
+}
+
+/// A body that has flowed far and heats itself by that is beyond its limit load, although the heat fails
+/// first.
+void look_for_flow(const CaseSpec& spec, const Assembly& a, const coupling::State& last, Diagnosis& d) {
+  if (!a.mechanics || !spec.exchanges_heat() || !heated_by_flow(a, last, d.temperature)) return;
+  const auto body = std::ranges::find(a.mesh.bodies, d.body, &mesh::Body::name);
+  if (body == a.mesh.bodies.end()) return;
+  const BodyFacts facts =
+      body_facts(spec, a, last, nullptr)[static_cast<std::size_t>(body - a.mesh.bodies.begin())];
+  if (!facts.plastic || !(facts.elongation > k_strained)) return;
+  d.physics = coupling::Physics::limit_load;
+  d.elongation = facts.elongation;
+  d.supported = facts.supported;
+  d.contact = facts.contact;
+}
+
+Diagnosis of_heat(const CaseSpec& spec, const Assembly& a, const coupling::State& last,
+                  const heat::HeatRejected& rejected, Diagnosis d) {
   describe_node(a, last, rejected.node, d);
   const int owner = owner_of(rejected.node);
   if (owner < 0) return d;
@@ -163,6 +186,7 @@ Diagnosis of_heat(const Assembly& a, const coupling::State& last, const heat::He
   d.physics = rejected.failure() == Failure::temperature ? coupling::Physics::cold
               : d.conductance_number > k_conducts        ? coupling::Physics::contact_heat
                                                          : coupling::Physics::heat;
+  look_for_flow(spec, a, last, d);
   return d;
 }
 
@@ -173,13 +197,16 @@ Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out
   coupling::restore_contacts(a.phases, last);
   Diagnosis d;
   d.step = dt;
+  const auto* heat = dynamic_cast<const heat::HeatRejected*>(&rejected);
+  if (heat != nullptr) {
+    const Diagnosis found = of_heat(spec, a, last, *heat, d);
+    if (ran_out.empty() || found.physics == coupling::Physics::limit_load) return found;
+  }
   if (!ran_out.empty()) {
     d.physics = coupling::Physics::runs_out;
     d.detail = ran_out;
     return d;
   }
-  if (const auto* heat = dynamic_cast<const heat::HeatRejected*>(&rejected))
-    return of_heat(a, last, *heat, d);
   if (!a.mechanics) return d;
   const auto* equilibrium = dynamic_cast<const mechanics::EquilibriumRejected*>(&rejected);
   const mechanics::LastIterate* iterate = equilibrium != nullptr ? &equilibrium->iterate : nullptr;

@@ -99,6 +99,15 @@ TEST(Diagnosis, SpeaksOfALimitLoadWithTheShareThatFlows) {
             Not(HasSubstr("contact alone"))));
 }
 
+TEST(Diagnosis, SaysOfALimitLoadThatTheHeatTellsHowHotFlowHasMadeIt) {
+  Diagnosis d = tried(Physics::limit_load);
+  d.in_try = false;
+  d.elongation = 3;
+  EXPECT_THAT(
+      text(d),
+      HasSubstr("flow has heated it at (10, 20, 30) mm, 600 degC, and it is strained by up to 300 %"));
+}
+
 TEST(Diagnosis, HandsOnTheWordsOfTheLawAndOfTheWatchOnMelts) {
   Diagnosis law = casting(Physics::law);
   law.step = 1e-3;
