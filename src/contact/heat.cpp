@@ -1,6 +1,5 @@
 #include "contact/heat.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "system/processes.hpp"

@@ -55,9 +55,8 @@ PointForces PointLaw::forces(const PointMotion& motion, const ContactPointState&
                          .iterate = iterate,
                          .stiffening = friction_stiffens ? from.stiffening : 1.0};
   if (around)
-    f.conductance =
-        around->conductance(seen_by_heat(motion.penetration + from.offset, f.normal.pressure, from.suction),
-                            f.normal.pressure);
+    f.conductance = around->conductance(
+        seen_by_heat(motion.penetration + from.offset, f.normal.pressure, from.suction), f.normal.pressure);
   f.friction = respond(in, around, f.conductance.value, f.joint);
   if (from.molten) {  // whatever presses
     f.friction.pressure_slope = 0;
