@@ -104,7 +104,7 @@ bool comes_off(const coupling::ContactPoints& c) {
   return c.before > 0 && static_cast<double>(c.now) < k_kept * static_cast<double>(c.before);
 }
 
-/// What a body that finds no equilibrium suffers from.
+/// Returns the physics behind the failed equilibrium of a body.
 coupling::Physics physics_of(const BodyFacts& body, const Diagnosis& d, Failure failure, bool inertia) {
   const double share = body.moved / body.size;
   const bool far = d.in_try && !(share <= k_far), law_failed = failure == Failure::law;

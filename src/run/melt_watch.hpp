@@ -10,7 +10,7 @@
 
 namespace solidus::model {
 
-/// What to look at where melt flows without end.
+/// The advice for melt that flows without end.
 inline constexpr const char* k_melt_remedy =
     "does a mould, a support or a plane of symmetry hold it on all sides but the upper one?";
 

@@ -28,7 +28,7 @@ class InputError : public std::runtime_error {
   SourceLocation where_;
 };
 
-/// What had no solution when a step was rejected.
+/// The kinds of equations that had no solution when a step was rejected.
 enum class Failure {
   other,
   heat,             ///< the balance of heat: its iteration did not converge

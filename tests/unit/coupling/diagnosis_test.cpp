@@ -1,4 +1,4 @@
-/// What a run that cannot go on says of every physical state behind it.
+/// Tests of the texts by which a run that cannot go on names the physical state behind it.
 #include "coupling/diagnosis.hpp"
 
 #include <gmock/gmock.h>
