@@ -383,7 +383,9 @@ void Simulation::set_viscosity(Progress& p, const PlannedStep& step) {
   if (mechanics_ == nullptr) return;
   const double viscous = p.control->viscous_step(step);
   mechanics_->stiffen_melt(viscous / step.dt);
-  if (viscous <= step.dt || !mechanics_->chooses_viscosity() || p.told_of_viscosity) return;
+  if (viscous <= step.dt || !mechanics_->chooses_viscosity() || p.told_of_viscosity ||
+      p.solid_fraction >= k_solid)
+    return;
   p.told_of_viscosity = true;
   logging::info(
       "t = {:g} s: a step of {:g} s does not converge, nor shorter ones; in these the melt keeps the "
