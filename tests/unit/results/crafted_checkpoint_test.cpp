@@ -7,9 +7,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iostream>
 #include <limits>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -217,6 +221,51 @@ TEST_F(CraftedCheckpoint, TextsAreChecked) {
               }),
               HasSubstr("shot_"));
   EXPECT_NE(said_of([&](hid_t file) { say(file, "rates", "known"); }), "nothing");
+}
+
+TEST_F(CraftedCheckpoint, BytesThatAreDamagedAtRandomEndNothing) {
+  const fs::path file = file_of_.latest();
+  std::string whole(fs::file_size(file), '\0');
+  std::ifstream(file, std::ios::binary).read(whole.data(), static_cast<std::streamsize>(whole.size()));
+  const char* asked = std::getenv("SOLIDUS_DAMAGES");
+  const char* seed = std::getenv("SOLIDUS_DAMAGES_SEED");
+  std::mt19937_64 random(seed != nullptr ? std::stoul(seed) : 1);
+  const auto below = [&random](std::size_t n) { return random() % n; };
+  int read = 0, refused = 0, by_the_trial = 0;
+  for (int n = asked != nullptr ? std::stoi(asked) : 60; n > 0; --n) {
+    std::string damaged = whole;
+    for (std::size_t i = 1 + below(8); i > 0; --i) {
+      const std::size_t at = k_user_block + below(whole.size() - k_user_block - 8);
+      switch (below(4)) {
+        case 0:
+          damaged[at] = static_cast<char>(random());
+          break;
+        case 1:
+          damaged[at] = static_cast<char>(damaged[at] ^ (1 << below(8)));
+          break;
+        case 2:
+          damaged.replace(at, 8, 8, below(2) == 0 ? '\0' : '\xff');
+          break;
+        default:
+          damaged.replace(at, 8, whole, k_user_block + below(whole.size() - k_user_block - 8), 8);
+      }
+    }
+    std::ofstream(file, std::ios::binary).write(damaged.data(), static_cast<std::streamsize>(damaged.size()));
+    write_checksum(file);
+    try {
+      file_of_.read(mesh_, {}, state_);
+      ++read;
+    } catch (const std::runtime_error& error) {
+      ++refused;
+      if (std::string(error.what()).find("HDF5 cannot read it") != std::string::npos) {
+        ++by_the_trial;
+        if (asked != nullptr) std::cout << error.what() << std::endl;
+      }
+    }
+  }
+  if (asked != nullptr)
+    std::cout << read << " read, " << refused << " refused, " << by_the_trial << " of these by the trial\n";
+  EXPECT_GT(refused, read);
 }
 
 }  // namespace

@@ -1,0 +1,62 @@
+#include "system/trial.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace {
+
+using solidus::trial::fault_of;
+using solidus::trial::Note;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double k_enough = 60;  // [s]
+
+TEST(Trial, WorkThatEndsHasNoFaultAndChangesNothingHere) {
+  int n = 0;
+  EXPECT_THAT(fault_of([&n](const Note&) { n = 1; }, k_enough), IsEmpty());
+  EXPECT_EQ(n, 0);
+}
+
+TEST(Trial, AnExceptionIsForTheProgram) {
+  EXPECT_THAT(fault_of([](const Note&) { throw std::runtime_error("no"); }, k_enough), IsEmpty());
+}
+
+TEST(Trial, ACrashIsNamedWithThePartInWhichItCame) {
+  EXPECT_THAT(fault_of(
+                  [](const Note& note) {
+                    note("opening");
+                    note("reading 'temperature'");
+                    std::raise(SIGSEGV);
+                  },
+                  k_enough),
+              AllOf(HasSubstr("crashed (signal 11"), HasSubstr("while reading 'temperature'")));
+}
+
+TEST(Trial, AnEndOfTheProcessIsAFault) {
+  EXPECT_THAT(fault_of(
+                  [](const Note& note) {
+                    note("loading");
+                    std::exit(0);
+                  },
+                  k_enough),
+              HasSubstr("it ended the process while loading"));
+}
+
+TEST(Trial, WorkWithoutEndIsEnded) {
+  EXPECT_THAT(fault_of(
+                  [](const Note& note) {
+                    note("waiting");
+                    while (true) ::pause();
+                  },
+                  0.2),
+              HasSubstr("it came to no end within 0.2 s while waiting"));
+}
+
+}  // namespace
