@@ -199,7 +199,7 @@ std::vector<double> temperatures_of_law(const Material& material);
 void trust_external_laws();
 bool external_laws_are_trusted();
 
-/// Loads the library, after a trial in a process of its own (system/trial.hpp). Throws InputError with the
+/// Loads the library, after a trial in a process of its own (external_trial.hpp). Throws InputError with the
 /// place in the material file: not trusted, no such file or symbol, wrong sizes, a library that ends the
 /// process or finds no answer.
 /// @param material  whose law it is; the trial evaluates it at temperatures of its tables

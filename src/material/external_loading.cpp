@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "material/external_law.hpp"
+#include "material/external_trial.hpp"
 #include "material/material.hpp"
 #include "material/mfront_library.hpp"
 #include "material/umat_library.hpp"
 #include "numbers/types.hpp"
-#include "system/trial.hpp"
 
 namespace solidus::material {
 
@@ -78,7 +78,7 @@ std::shared_ptr<const ExternalLaw> load_external_law(const Material& material, c
                     "loading it is as if you ran a program of its author",
                     material.name, data.library),
         "--trust-laws, where you trust it");
-  const auto try_out = [&](const trial::Note& note) {
+  const auto try_out = [&](const std::function<void(const std::string&)>& note) {
     note("loading");
     const auto loaded = open(data);
     for (const double temperature : temperatures_of_law(material)) {
@@ -86,7 +86,7 @@ std::shared_ptr<const ExternalLaw> load_external_law(const Material& material, c
       evaluate(material, *loaded, temperature);
     }
   };
-  if (const std::string fault = trial::fault_of(try_out, k_trial_seconds); !fault.empty())
+  if (const std::string fault = fault_of(try_out, k_trial_seconds); !fault.empty())
     throw InputError(
         data.where,
         fmt::format("'{}' of '{}' cannot be used: in a trial {}", data.behaviour, data.path(), fault),

@@ -14,7 +14,6 @@
 
 #include "parallel/parallel.hpp"
 #include "results/file_checksum.hpp"
-#include "results/hdf5_trial.hpp"
 #include "results/output_error.hpp"
 #include "system/processes.hpp"
 
@@ -129,11 +128,8 @@ void TableWriter::finish(const std::function<void()>& last) {
 }
 
 TableReader::TableReader(std::filesystem::path path) : path_(std::move(path)) {
-  on_first_process([&] {
-    check_checksum(path_);
-    try_to_read(path_);
-  });
-  run_collectively([&] { file_.emplace(path_, Hdf5File::Mode::read); });
+  on_first_process([&] { check_checksum(path_); });
+  run_collectively([&] { file_.emplace(path_); });
 }
 
 std::string TableReader::text(const std::string& name) {

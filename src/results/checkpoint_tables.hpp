@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "results/hdf5_file.hpp"
+#include "results/hdf5_reader.hpp"
 
 namespace solidus::results {
 
@@ -75,7 +76,7 @@ class TableReader {
 
  private:
   std::filesystem::path path_;
-  std::optional<Hdf5File> file_;
+  std::optional<Hdf5Reader> file_;
 };
 
 }  // namespace solidus::results

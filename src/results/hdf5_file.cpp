@@ -87,11 +87,6 @@ herr_t refuse_link(const char*, const char*, const char*, const char*, unsigned*
   return -1;
 }
 
-herr_t keep_name(hid_t, const char* name, const H5L_info_t* link, void* names) {
-  if (link->type == H5L_TYPE_HARD) static_cast<std::vector<std::string>*>(names)->emplace_back(name);
-  return 0;
-}
-
 Hdf5Handle access_within_the_file() {
   Hdf5Handle properties(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   H5Pset_elink_cb(properties, refuse_link, nullptr);
@@ -223,12 +218,6 @@ std::int64_t Hdf5File::rows(const std::string& name) const {
 
 std::int64_t Hdf5File::width(const std::string& name) const {
   return static_cast<std::int64_t>(extent(dataset(name))[1]);
-}
-
-std::vector<std::string> Hdf5File::names() const {
-  std::vector<std::string> names;
-  if (H5Lvisit(file_, H5_INDEX_NAME, H5_ITER_NATIVE, keep_name, &names) < 0) fail("cannot be gone through");
-  return names;
 }
 
 void Hdf5File::close() {

@@ -7,7 +7,6 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace solidus::results {
 
@@ -61,9 +60,6 @@ class Hdf5File {
   /// than the file has bytes for.
   std::int64_t rows(const std::string& name) const;
   std::int64_t width(const std::string& name) const;
-
-  /// What the file holds by name, tables, texts and groups. Links to other files are left out.
-  std::vector<std::string> names() const;
 
   /// Brings everything to the disk and closes.
   void close();

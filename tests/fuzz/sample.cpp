@@ -6,7 +6,6 @@
 /// An input that crashes the reader, keeps it for 20 s or takes more than 2 GB is left as crash-READER in the
 /// present folder, where `fuzz_READER crash-READER` of the preset `fuzz` takes it.
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,6 +20,7 @@
 #include <vector>
 
 #include "mutation.hpp"
+#include "system/sandbox.hpp"
 
 #define SOLIDUS_READER(name) int fuzz_##name(const std::uint8_t* data, std::size_t size)
 extern "C" {
@@ -112,8 +112,8 @@ int main(int argc, char** argv) {
   FILE* const answer = fdopen(dup(STDOUT_FILENO), "w");
   for (FILE* const said : {stdout, stderr})  // readers warn of what they read
     if (answer == nullptr || std::freopen("/dev/null", "w", said) == nullptr) return 1;
-  const rlimit memory{2UL << 30, 2UL << 30};
-  setrlimit(RLIMIT_DATA, &memory);
+  constexpr double k_memory = 2UL << 30;
+  solidus::sandbox::limit_memory(k_memory);
   for (const auto& text : corpus) {
     input = text;
     read(reader->second);

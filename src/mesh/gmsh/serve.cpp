@@ -10,30 +10,13 @@
 
 #include "mesh/casting_geometry.hpp"
 #include "mesh/gmsh/import.hpp"
-#include "mesh/gmsh/reader_sandbox.hpp"
 #include "mesh/meshing_outlook.hpp"
 #include "mesh/reader_message.hpp"
 #include "system/errors.hpp"
+#include "system/sandbox.hpp"
 #include "system/version.hpp"
 
 namespace solidus::mesh {
-
-namespace {
-
-#if defined(__SANITIZE_ADDRESS__)
-#define SOLIDUS_SHADOW_MEMORY
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define SOLIDUS_SHADOW_MEMORY
-#endif
-#endif
-#ifdef SOLIDUS_SHADOW_MEMORY
-constexpr bool k_limits_memory = false;  // AddressSanitizer reserves terabytes
-#else
-constexpr bool k_limits_memory = true;
-#endif
-
-}  // namespace
 
 void serve_request() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -54,8 +37,8 @@ void serve_request() {
   if (of_casting) casting = take_casting(take);
   double memory = 0;
   take(&memory, sizeof memory);
-  limit_memory(k_limits_memory ? memory : 0);
-  if (!source.trust_script) forbid_all_but_reading();
+  sandbox::limit_memory(memory);
+  if (!source.trust_script) sandbox::forbid_all_but_reading();
   listen_to_outlook([&](const MeshingOutlook& outlook) {
     say(ReaderAnswer::outlook);
     put_outlook(outlook, put);

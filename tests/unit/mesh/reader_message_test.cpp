@@ -12,10 +12,10 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "mesh/gmsh/reader_sandbox.hpp"
 #include "mesh/parametric_meshes.hpp"
 #include "mesh/reader_process.hpp"
 #include "system/errors.hpp"
+#include "system/sandbox.hpp"
 
 namespace {
 
@@ -119,7 +119,7 @@ int in_child(int (*work)()) {
 TEST(ReaderSandbox, ReadsButNeitherWritesNorStartsPrograms) {
   const auto work = [] {
     if (access("/proc/self/exe", R_OK) != 0) return 1;
-    forbid_all_but_reading();
+    sandbox::forbid_all_but_reading();
     const int reading = open("/proc/self/maps", O_RDONLY);
     if (reading < 0) return 2;
     const std::string path = "/tmp/solidus_sandbox_" + std::to_string(getpid());

@@ -1,4 +1,4 @@
-#include "system/trial.hpp"
+#include "material/external_trial.hpp"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -12,7 +12,7 @@
 #include <cstring>
 #include <exception>
 
-namespace solidus::trial {
+namespace solidus::material {
 
 namespace {
 
@@ -23,7 +23,7 @@ void leave(int /*status*/, void* /*unused*/) {
   _exit(k_ended_itself);
 }
 
-[[noreturn]] void run_in_copy(const Work& work, int notes) {
+[[noreturn]] void run_in_copy(const Trial& trial, int notes) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM}) std::signal(signal, SIG_DFL);
   for (const int signal : {SIGINT, SIGHUP, SIGUSR1}) std::signal(signal, SIG_IGN);  // the program decides
   on_exit(leave, nullptr);
@@ -32,7 +32,7 @@ void leave(int /*status*/, void* /*unused*/) {
     [[maybe_unused]] const ssize_t written = ::write(notes, line.data(), line.size());
   };
   try {
-    work(note);
+    trial(note);
   } catch (const std::exception&) {  // NOLINT: the program meets it itself
   }
   _exit(k_came_to_an_end);
@@ -47,7 +47,7 @@ std::string last_line(const std::string& notes) {
 
 }  // namespace
 
-std::string fault_of(const Work& work, double seconds) {
+std::string fault_of(const Trial& trial, double seconds) {
   int ends[2];
   if (::pipe(ends) != 0) return fmt::format("no pipe to a trial: {}", std::strerror(errno));
   const pid_t copy = ::fork();
@@ -59,7 +59,7 @@ std::string fault_of(const Work& work, double seconds) {
   }
   if (copy == 0) {
     ::close(ends[0]);
-    run_in_copy(work, ends[1]);
+    run_in_copy(trial, ends[1]);
   }
   ::close(ends[1]);
 
@@ -97,4 +97,4 @@ std::string fault_of(const Work& work, double seconds) {
   return {};
 }
 
-}  // namespace solidus::trial
+}  // namespace solidus::material

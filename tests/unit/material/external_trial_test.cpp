@@ -1,4 +1,4 @@
-#include "system/trial.hpp"
+#include "material/external_trial.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,15 +6,18 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <stdexcept>
+#include <string>
 
 namespace {
 
-using solidus::trial::fault_of;
-using solidus::trial::Note;
+using solidus::material::fault_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+
+using Note = std::function<void(const std::string& part)>;
 
 constexpr double k_enough = 60;  // [s]
 

@@ -1,11 +1,13 @@
-/// Restrictions that the reader of foreign files puts on itself before it opens one
-/// (mesh/reader_process.hpp).
+/// Restrictions that a process which reads foreign files puts on itself before it opens one
+/// (mesh/reader_process.hpp, results/hdf5_reader.hpp).
 #pragma once
 
-namespace solidus::mesh {
+namespace solidus::sandbox {
 
 /// Limits this process for good.
-/// @param memory  bytes of its own that it may hold; 0: no limit
+/// @param memory  bytes of its own that it may hold; 0: no limit. AddressSanitizer, which reserves terabytes,
+/// has
+///                none
 void limit_memory(double memory);
 
 /// Takes from this process the right to start programs, to write, make, rename or remove files, and to open
@@ -13,4 +15,4 @@ void limit_memory(double memory);
 /// call filters leaves it as it is.
 void forbid_all_but_reading();
 
-}  // namespace solidus::mesh
+}  // namespace solidus::sandbox
