@@ -60,6 +60,8 @@ def seen_from(place, face, side):
 
 def inmost(shown):
     """Column and row of the pixel of a face that lies farthest inside it."""
+    corner = [np.flatnonzero(shown.any(axis=1 - axis))[[0, -1]] for axis in range(2)]  # the part of the picture that the face is in
+    shown = shown[corner[0][0]:corner[0][1] + 1, corner[1][0]:corner[1][1] + 1]
     inside, left = shown, shown
     while left.any():
         inside, left = left, left.copy()
@@ -71,7 +73,7 @@ def inmost(shown):
         left[:, [0, -1]] = False
     rows, columns = np.nonzero(inside)
     middle = len(rows) // 2
-    return columns[middle], rows[middle]
+    return corner[1][0] + columns[middle], corner[0][0] + rows[middle]
 
 
 def draw(place, face, path, title):

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <deque>
 #include <iterator>
+#include <utility>
 
 #include "system/processes.hpp"
 
@@ -35,17 +37,34 @@ bool launched() {
   return std::any_of(std::begin(k_ranks), std::end(k_ranks), [](const char* r) { return std::getenv(r); });
 }
 
+/// Settings with which one process alone starts Open MPI: to look for the daemon (orted) that could start
+/// further processes, for plugins that reach them and for the caches, disks, networks and graphics devices of
+/// the machine takes longer than all the rest of the start. A list that begins with ^ names what is left out,
+/// so that it may name plugins that another version of Open MPI does not have.
+constexpr std::pair<const char*, const char*> k_alone[] = {
+    {"OMPI_MCA_ess_singleton_isolated", "1"},
+    // Without the daemon all such processes would make and remove one and the same folder for temporary
+    // files, and now and then one would end because another had just removed it.
+    {"OMPI_MCA_orte_create_session_dirs", "0"},
+    {"OMPI_MCA_pml", "ob1"},
+    {"OMPI_MCA_btl", "self"},
+    {"OMPI_MCA_coll", "^sm,tuned,monitoring,adapt,sync,inter,han"},
+    {"OMPI_MCA_osc", "^ucx,rdma,monitoring"},
+    {"OMPI_MCA_op", "^avx"},
+    {"OMPI_MCA_shmem", "^sysv,posix"},
+    {"OMPI_MCA_state", "^orted,hnp,novm,tool"},
+    {"OMPI_MCA_errmgr", "^default_orted,default_hnp,default_tool"},
+    {"OMPI_MCA_schizo", "^slurm,jsm,flux"},
+    {"HWLOC_SYNTHETIC", "core:1 pu:1"},
+    {"HWLOC_PLUGINS_BLACKLIST",
+     "hwloc_opencl.so,hwloc_gl.so,hwloc_cuda.so,hwloc_nvml.so,hwloc_rsmi.so,"
+     "hwloc_pci.so,hwloc_xml_libxml.so"},
+};
+
 bool initialize(int* n, char*** list) {
-  if (launched()) return PetscInitialize(n, list, nullptr, nullptr) == 0;
-  // One process alone needs little of Open MPI: no daemon (orted) that could start further ones, no search
-  // for InfiniPath, OpenCL and graphics devices. That search takes longer than all the rest of the start.
-  const PassingVariable no_daemon("OMPI_MCA_ess_singleton_isolated", "1");
-  // Without the daemon all such processes would make and remove one and the same folder for temporary files,
-  // and now and then one would end because another had just removed it.
-  const PassingVariable no_folder("OMPI_MCA_orte_create_session_dirs", "0");
-  const PassingVariable no_network("OMPI_MCA_pml", "ob1"), itself("OMPI_MCA_btl", "self");
-  const PassingVariable no_devices("HWLOC_PLUGINS_BLACKLIST",
-                                   "hwloc_opencl.so,hwloc_gl.so,hwloc_cuda.so,hwloc_nvml.so,hwloc_rsmi.so");
+  std::deque<PassingVariable> alone;
+  if (!launched())
+    for (const auto& [name, value] : k_alone) alone.emplace_back(name, value);
   return PetscInitialize(n, list, nullptr, nullptr) == 0;
 }
 

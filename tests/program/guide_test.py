@@ -214,8 +214,8 @@ class Guide(ProgramTest):
 
     def test_the_tutorials_can_be_followed(self):
         """Their commands one after the other, in a folder each, as they stand there; runs end after two seconds of the
-        casting, those of shots after the second, and coupled runs in space are left out. Then their Python, as one
-        program; every picture of theirs is there."""
+        casting, those of shots after the second, coupled runs in space are left out, and so are pictures. Then their
+        Python, as one program; every picture of theirs is there."""
         for page in sorted((SOURCES / "docs/tutorials").glob("*.md")):
             folder = self.folder / page.stem
             folder.mkdir()
@@ -232,6 +232,7 @@ class Guide(ProgramTest):
                         name = words[2] if not words[2].startswith("-") else words[3]
                         words += ["--set", "cycle.shots.repeat=2" if name == "wheel_in_die" else "time.end=2 s"]
                         words += [] if "-o" in words else ["-o", f"results/{name}/default"]
+                    words += ["--no-plots"] if words[1] == "compare" else []
                     if words[1] != "plot" and "--riser" not in words:  # slow, and tests of their own
                         self.done(*words[1:], cwd=folder, timeout=600)
             python = [block.text for block in blocks(page.read_text()) if block.language == "python"]

@@ -29,7 +29,7 @@ SCENES = {
     "compare.md": Scene(BRACKET, lines=[
         "solidus run bracket --heat-only -o results/bracket/default",
         "solidus run bracket --heat-only -o results/bracket/chilled --set body.mould.initial_temperature='10 degC'"]),
-    "export.md": Scene(BRACKET, lines=[*CRANKSHAFT, "solidus run bracket -o results/bracket/default"]),
+    "export.md": Scene(BRACKET, lines=[*CRANKSHAFT, "cp -r results/crankshaft results/bracket"]),
     "external_laws.md": Scene(
         {"point.toml": "examples/external_laws/point.toml", "case.toml": "examples/external_laws/bar.toml",
          **{name: f"examples/external_laws/{name}" for name in (

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -56,6 +59,17 @@ TEST(Processes, TextsOfAnyLengthAndBytesTravel) {
   else
     EXPECT_EQ(processes::receive(0), (std::vector<char>{'a', static_cast<char>('a' + rank)}));
   EXPECT_TRUE(processes::all_arrive(60));
+}
+
+TEST(Processes, OneAloneLoadsNoPlugInThatReachesOthersOrLooksForDevices) {
+  if (processes::count() > 1) GTEST_SKIP() << "several processes reach each other";
+  std::ifstream in("/proc/self/maps");
+  const std::string loaded(std::istreambuf_iterator<char>(in), {});
+  EXPECT_NE(loaded.find("/mca_pml_ob1.so"), std::string::npos);  // Open MPI's plug-ins are seen there
+  for (const char* name : {"mca_coll_tuned", "mca_coll_han", "mca_osc_rdma", "mca_op_avx", "mca_btl_tcp",
+                           "hwloc_pci", "hwloc_opencl", "hwloc_gl"})
+    EXPECT_EQ(loaded.find(name), std::string::npos) << name;
+  EXPECT_EQ(std::getenv("HWLOC_SYNTHETIC"), nullptr);  // what the start set is taken away again
 }
 
 }  // namespace
