@@ -105,9 +105,13 @@ TEST(StructuralHeat, TheTangentIsTheDerivativeWhereGaussPointsStoreTheHeat) {
                              {Shape::tet10, AnalysisKind::solid},
                              {Shape::hex20, AnalysisKind::solid}}) {
     Stretched s(shape, kind, false);
-    const Solved solved(s.body);
+    Solved solved(s.body);
     StructuralHeat heat(*solved.phase, StructuralForm::energy, false);
-    linear::BlockMatrix matrix(s.body.mesh, 1, linear::NodeGraph(s.body.mesh));
+    solved.step(s.body, 2.0, 1.0);  // whose points know how their heat is spread
+    linear::NodeGraph graph(s.body.mesh);
+    for (const mesh::ElementBlock& block : s.body.mesh.blocks)
+      graph.add_cliques(block.nodes, mesh::node_count(block.shape));
+    linear::BlockMatrix matrix(s.body.mesh, 1, graph);
     heat.bind(matrix);
     matrix.set_zero();
     heat.set_deformation(solved.report.deformation);
