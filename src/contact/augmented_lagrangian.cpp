@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "contact/point_law.hpp"
 #include "parallel/parallel.hpp"
@@ -52,6 +53,37 @@ void AugmentedLagrangian::accelerate(const std::vector<double>& penetration) {
   last_penetration_ = penetration;
 }
 
+std::vector<double> AugmentedLagrangian::step_of_points(const ContactState& now, const ContactStep& step) {
+  constexpr double k_longest = 1e3;  // times the largest plain step
+  const ContactKinematics& kinematics = geometry_.kinematics();
+  const Secants::Dot dot = [&](const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t p = 0; p < a.size(); ++p)
+      if (kinematics.particle(static_cast<Index>(p)).counted) sum += a[p] * b[p];
+    return parallel::global_sum(sum);
+  };
+  const auto largest_of = [](const std::vector<double>& values) {
+    double most = 0;
+    for (const double value : values) most = std::max(most, std::abs(value));
+    return parallel::global_max(most);
+  };
+  std::vector<double> plain;
+  for (std::size_t p = 0; p < step.from.size(); ++p) {
+    const double least = least_multiplier(step.from[p]), multiplier = step.from[p].multiplier;
+    const bool open = now.points[p].status == PointStatus::open;
+    plain.push_back((open ? least : std::max(least, multiplier + law_.penalty * now.points[p].penetration)) -
+                    multiplier);
+  }
+  secants_.look(plain, dot);
+  std::vector<double> by_secants = secants_.step(dot);
+  const double most = k_longest * largest_of(plain), length = largest_of(by_secants);
+  for (std::size_t p = 0; p < by_secants.size(); ++p) {
+    if (length > most) by_secants[p] *= most / length;
+    if (now.points[p].status == PointStatus::open) by_secants[p] = plain[p];
+  }
+  return by_secants;
+}
+
 void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, AugmentedBy by) {
   if (!acts() || ended_) return;
   if (may_end_) {
@@ -65,6 +97,8 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, Au
     penetration = nodal_penetration(now);
     accelerate(penetration);
   }
+  std::vector<double> step_of_point;
+  if (!by_means) step_of_point = step_of_points(now, step);
   const ContactKinematics& kinematics = geometry_.kinematics();
   // Sticking keeps the compliance of its penalty where nobody asked for multipliers, and where turns by means
   // have not settled: points that are more than a face can follow would drive their tangential tractions to
@@ -76,19 +110,28 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, Au
     for (std::size_t p = 0; p < step.from.size(); ++p) step.from[p].traction = step.start_traction[p];
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     ContactPointState& from = step.from[at(p)];
-    double grown = now.points[at(p)].penetration;
-    if (by_means) {
-      const ContactKinematics::Particle particle = kinematics.particle(p);
-      grown = 0;
-      for (std::size_t b = 0; b < particle.nodes.size(); ++b)
-        grown += particle.share[b] * step_factor_[at(particle.nodes[b])] * penetration[at(particle.nodes[b])];
+    if (!by_means) {
+      const double before = from.multiplier;
+      from.multiplier = std::max(least_multiplier(from), before + step_of_point[at(p)]);
+      step_of_point[at(p)] = from.multiplier - before;
+      continue;
     }
+    double grown = 0;
+    const ContactKinematics::Particle particle = kinematics.particle(p);
+    for (std::size_t b = 0; b < particle.nodes.size(); ++b)
+      grown += particle.share[b] * step_factor_[at(particle.nodes[b])] * penetration[at(particle.nodes[b])];
     if (now.points[at(p)].status == PointStatus::open)
       from.multiplier = least_multiplier(from);
     else
       from.multiplier = std::max(least_multiplier(from), from.multiplier + law_.penalty * grown);
     if (tangential) from.traction = now.points[at(p)].traction;
   }
+  if (by_means) return;
+  // The first turn by points takes friction back to its start as well, which no secant tells.
+  if (std::exchange(by_points_, true))
+    secants_.took(std::move(step_of_point));
+  else
+    secants_.clear();
 }
 
 void AugmentedLagrangian::take_back(ContactStep& step) {

@@ -189,6 +189,10 @@ bool penetrations_small(const Phases& phases, int turn, int earlier) {
     }
   }
   if (excess <= 1) return true;
+  logging::debug(
+      "contact '{}': turn {} of the augmented Lagrangian leaves penetrations {:.3g} times as large as "
+      "allowed",
+      worst->spec().name, turn + earlier, excess);
   const bool enough = turn + earlier >= k_enough_augmentations;
   if (enough && excess <= k_tolerable) {
     logging::warn(

@@ -27,8 +27,10 @@ constexpr double k_loosest = 1e-3;
 /// forces has no place of its own.
 constexpr double k_no_force = 1e-3;
 /// Where forces are so many times what counts as rounding, a start out of balance is not taken as it is: the
-/// rounding of a stiff body may be more than the tolerance allows, and a step would leave far less.
-constexpr double k_forces = 1e3;
+/// rounding of a stiff body may be more than the tolerance allows, and a step would leave far less. Neither
+/// is the end of a step that has left this share of the residual before it, where a tolerance below the usual
+/// one is asked for. Rounding itself does not fall.
+constexpr double k_forces = 1e3, k_falls = 0.1;
 
 double dot(std::span<const double> a, std::span<const double> b) {
   double s = 0;
@@ -69,7 +71,8 @@ class Iteration {
   /// The norm that ends the iteration.
   double goal() const { return std::max(options_.tolerance * reference_, options_.absolute_tolerance); }
   bool balanced() const { return norm_ <= goal(); }
-  bool converged() const;
+  /// @param may_go_on  a residual that meets the goal as rounding alone does not do yet where it falls
+  bool converged(bool may_go_on) const;
   bool takes_effort() const;
   bool chord_converges(double norm_before) const {
     return norm_ * (k_chord_residual * norm_ / norm_before) <= goal();
@@ -94,13 +97,15 @@ class Iteration {
   const std::vector<char>* fixed_ = nullptr;
   const MultiPointConstraints* constraints_ = nullptr;
   double norm_ = 0, reference_ = 0;
-  bool stepped_ = false;                                        ///< a step has been taken
+  bool stepped_ = false;  ///< a step has been taken
+  bool falls_ = false;    ///< the last step has left k_falls of the residual before it
   double next_step_ = std::numeric_limits<double>::infinity();  ///< its estimated relative size
 };
 
-bool Iteration::converged() const {
+bool Iteration::converged(bool may_go_on) const {
   const bool forced = reference_ > k_forces * options_.absolute_tolerance;
-  if (!stepped_ && forced && norm_ > options_.tolerance * reference_) return false;
+  const bool goes_on = may_go_on && falls_ && options_.tolerance < options_.effort_tolerance;
+  if ((!stepped_ || goes_on) && forced && norm_ > options_.tolerance * reference_) return false;
   if (options_.step_tolerance <= 0 || norm_ <= options_.absolute_tolerance) return balanced();
   if (!std::isfinite(next_step_)) return false;  // no step has been taken
   return balanced() && (next_step_ <= options_.step_tolerance || norm_ <= k_no_force * goal());
@@ -225,7 +230,7 @@ NewtonReport Iteration::run() {
       report.reason = "the residual is not a number";
       return report;
     }
-    if (converged()) {
+    if (converged(report.iterations < options_.max_iterations)) {
       report.converged = true;
       return report;
     }
@@ -234,6 +239,8 @@ NewtonReport Iteration::run() {
       report.reason = "no convergence in " + std::to_string(options_.max_iterations) + " iterations";
       return report;
     }
+    // Beyond here such a solution only gets better: nothing that follows makes it a failure.
+    const bool solved = stepped_ && converged(false);
     if (!tangent && !chord) tangent = &system_.tangent(x_);
     for (double& value : r_) value = -value;
     const double eta = forcing.next(norm_, goal() / norm_);
@@ -244,6 +251,10 @@ NewtonReport Iteration::run() {
     ++report.iterations;
     if (takes_effort()) ++report.effort;
     report.linear_iterations += linear.iterations;
+    if (!linear.converged && solved) {
+      report.converged = true;
+      return report;
+    }
     if (!linear.converged) {
       report.no_direction = true;
       report.reason = "linear solver: " + linear.reason;
@@ -267,6 +278,12 @@ NewtonReport Iteration::run() {
         chord = false;
         continue;
       }
+      if (solved && !(norm_ < norm_before)) {
+        std::copy(start_.begin(), start_.end(), x_.begin());
+        evaluate();
+        report.converged = true;
+        return report;
+      }
       system_.accept(x_, local_step_, alpha);
     } else {
       for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += local_step_[i];
@@ -274,6 +291,7 @@ NewtonReport Iteration::run() {
       evaluate();
     }
     stepped_ = true;
+    falls_ = options_.line_search && norm_ <= k_falls * norm_before;
     measure_next_step(alpha, norm_before);
     chord = options_.chords && !chord && alpha == 1.0 && chord_converges(norm_before);
   }

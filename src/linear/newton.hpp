@@ -80,7 +80,9 @@ class NonlinearSystem {
 /// If the previous step has reduced the residual so much that the same tangent suffices for the rest, the
 /// tangent is used once more: a chord step, without assembly and set-up of the solver.
 /// With a step_tolerance the next step is taken to be as much smaller than the last one as the residual has
-/// become; there is at least one step, unless ‖r‖ and the reference are both rounding at the start.
+/// become; there is at least one step, unless ‖r‖ and the reference are both rounding at the start. Where a
+/// tolerance below effort_tolerance is asked for and the reference is far above rounding, a residual that is
+/// small enough as rounding alone (absolute_tolerance) is brought down further, while steps leave a tenth.
 /// A NaN in the residual at x ends the iteration as not converged; in a trial of the line search it shortens
 /// the step. x: [local node][component] of each field, ghosts updated on return.
 /// @param components  of each field

@@ -13,7 +13,9 @@ struct StructuralHeat::Stages {
 };
 
 StructuralHeat::StructuralHeat(const MechanicalPhase& phase, StructuralForm form, bool closed)
-    : phase_(phase), form_(form), closed_(closed), stages_(std::make_unique<Stages>()) {
+    : phase_(phase), form_(form), stages_(std::make_unique<Stages>()) {
+  for (const mesh::ElementBlock& block : phase.mesh().blocks)
+    at_nodes_.push_back(closed || phase.material(block.body).changes_isothermally());
   spread_heat_as_stored(phase, closed);
 }
 
@@ -35,12 +37,18 @@ void StructuralHeat::add_residual(std::span<const double> temperature, std::span
 void StructuralHeat::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) {
   if (!has_tangent_) return;
   work_.assign(temperature.size(), 0.0);
-  for (std::size_t b = 0; b < deformation_.size(); ++b)
-    if (deformation_[b]) deformation_[b]->add_heat(form_, stages_->of_block[b], temperature, true, work_);
-  for (Index node = 0; node < phase_.mesh().n_owned_nodes; ++node) {
-    const double entry = work_[static_cast<std::size_t>(node)];
-    *matrix.diagonal_block(node) += closed_ ? entry : std::max(entry, 0.0);
+  slots_.resize(deformation_.size());
+  for (std::size_t b = 0; b < deformation_.size(); ++b) {
+    if (!deformation_[b]) continue;
+    if (at_nodes_[b]) {
+      deformation_[b]->add_heat(form_, stages_->of_block[b], temperature, true, work_);
+      continue;
+    }
+    if (!slots_[b]) slots_[b] = deformation_[b]->slots(matrix);
+    deformation_[b]->add_heat_tangent(form_, stages_->of_block[b], temperature, *slots_[b], matrix);
   }
+  for (Index node = 0; node < phase_.mesh().n_owned_nodes; ++node)
+    *matrix.diagonal_block(node) += work_[static_cast<std::size_t>(node)];
 }
 
 void StructuralHeat::begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> temperature) {

@@ -28,10 +28,12 @@
 /// latent heat) is left out.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "linear/contribution.hpp"
+#include "linear/lane_slots.hpp"
 #include "mechanics/mechanical_phase.hpp"
 #include "numbers/simd.hpp"
 
@@ -50,10 +52,11 @@ struct StructuralChange {
   double spread = 0;
 };
 
-/// Adds to the thermal residual in watts (heat stored is positive). The tangent is lumped to the diagonal, so
-/// that the thermal matrix stays symmetric and of non-negative type. With the open rule, whose capacity is
-/// not lumped, negative entries are left out: C_v is less than C_p, and beside the small eigenvalues of a
-/// consistent capacity a lumped difference of the two would make the matrix indefinite.
+/// Adds to the thermal residual in watts (heat stored is positive). The tangent is that of the capacity of
+/// the body beside which it stands: lumped to the diagonal where nodes store the heat, so that the thermal
+/// matrix stays symmetric and of non-negative type, and ∫N_a N_b where Gauss points store it (open rule). C_v
+/// is less than C_p: a lumped difference of the two, which at the corners of quadratic elements even has the
+/// other sign, is as large as the small eigenvalues of a consistent capacity.
 class StructuralHeat : public linear::Contribution {
  public:
   /// @param phase   must outlive this object; from now on its reports have the deformation, not before
@@ -70,7 +73,7 @@ class StructuralHeat : public linear::Contribution {
   void release() { set_deformation({}); }
 
   void add_to_graph(linear::NodeGraph&) const override {}
-  void bind(const linear::BlockMatrix&) override {}
+  void bind(const linear::BlockMatrix&) override { slots_.clear(); }
   void add_residual(std::span<const double> temperature, std::span<double> r) override;
   void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) override;
   bool stores() const override { return true; }
@@ -84,11 +87,12 @@ class StructuralHeat : public linear::Contribution {
 
   const MechanicalPhase& phase_;
   StructuralForm form_;
-  bool closed_;  ///< heat is stored by the closed rule
+  std::vector<char> at_nodes_;  ///< whether the nodes store the heat of a block, [block]
   bool has_tangent_ = true;
   StepDeformation deformation_;
-  std::unique_ptr<Stages> stages_;  ///< [block]
-  std::vector<double> work_;        ///< [local node]; ghost rows are scrap
+  std::unique_ptr<Stages> stages_;                       ///< [block]
+  std::vector<double> work_;                             ///< [local node]; ghost rows are scrap
+  std::vector<std::optional<linear::LaneSlots>> slots_;  ///< of the blocks that need them; empty: none yet
 };
 
 /// The change over a step, with the temperature at its end [local node]; over all processes. Collective.

@@ -257,6 +257,28 @@ void StructuralPoints::add_heat(StructuralForm form, const Stage& stage, std::sp
   }
 }
 
+void StructuralPoints::add_heat_tangent(StructuralForm form, const Stage& stage,
+                                        std::span<const double> temperature, const linear::LaneSlots& slots,
+                                        linear::BlockMatrix& matrix) const {
+  const Lane rate(1.0 / stage.stage.dt);
+  const auto n = static_cast<std::size_t>(geometry_.n_nodes);
+  PackVector<Lane> of_element(n * n);
+  for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+    std::fill(of_element.begin(), of_element.end(), Lane(0.0));
+    for (int q = 0; q < geometry_.n_points; ++q) {
+      const Lane theta = temperature_at(geometry_, batch, q, temperature);
+      const Lane slope =
+          rate * heat(form, stage, index(batch, q), theta).slope * geometry_.weight_at(batch, q);
+      const double* values = geometry_.values.data() + q * geometry_.n_nodes;
+      for (std::size_t a = 0; a < n; ++a)
+        for (std::size_t b = 0; b < n; ++b) of_element[a * n + b] += Lane(values[a] * values[b]) * slope;
+    }
+    const linear::BlockMatrix::Slot* slot = slots.of(batch);
+    for (const Lane& entry : of_element)
+      for (int lane = 0; lane < k_lanes; ++lane) *matrix.block(*slot++) += entry[lane];
+  }
+}
+
 StructuralChange StructuralPoints::change(std::span<const double> temperature) const {
   StructuralChange total;
   std::vector<double> coldness(temperature.size());  // 1/Θ

@@ -120,6 +120,14 @@ class StructuralPoints {
   /// out += the residual of StructuralHeat in a stage, or (tangent) its lumped diagonal; [local node].
   void add_heat(StructuralForm form, const Stage& stage, std::span<const double> temperature, bool tangent,
                 std::span<double> out) const;
+  /// matrix += the derivative of that residual, ∫N_a N_b of the points' own, without the correction of
+  /// spread_as_stored.
+  /// @param slots  those of slots(), for this matrix
+  void add_heat_tangent(StructuralForm form, const Stage& stage, std::span<const double> temperature,
+                        const linear::LaneSlots& slots, linear::BlockMatrix& matrix) const;
+  linear::LaneSlots slots(const linear::BlockMatrix& matrix) const {
+    return {matrix, geometry_.nodes, geometry_.n_nodes, geometry_.n_elements};
+  }
   /// Over the step, with the nodal temperature at its end; sums over the counted elements.
   StructuralChange change(std::span<const double> temperature) const;
   /// Up to the end of the mechanical phase, where points have temperatures of their own: the sensible heat

@@ -328,6 +328,24 @@ TEST(Newton, ATangentThatNoLongerServesIsReplaced) {
   EXPECT_EQ(system.steps.size(), 2U) << "the step that did not serve is taken back";
 }
 
+// The rounding of a stiff body beside a soft one may be more than the tolerance allows of the soft one's
+// forces.
+TEST(Newton, AResidualThatCountsAsRoundingIsBroughtDownFurtherWhereForcesAreFarAboveItAndItFalls) {
+  const Grid grid(5, 6);
+  const auto left = [&](double absolute, double tolerance = 1e-16) {
+    SpringGrid system = cubic(grid);  // of forces of 44 in all
+    std::vector<double> x(static_cast<std::size_t>(grid.mesh.n_nodes()), 1.5);
+    const NewtonReport report =
+        run(grid, system, x, {.tolerance = tolerance, .absolute_tolerance = absolute});
+    EXPECT_TRUE(report.converged) << report.reason;
+    EXPECT_LT(report.iterations, 12);
+    return report.residuals.back();
+  };
+  EXPECT_LT(left(1e-2), 1e-13);
+  EXPECT_GT(left(1e-1), 1e-13) << "forces are hardly more";
+  EXPECT_GT(left(1e-2, 1e-5), 1e-9) << "the usual tolerance takes it as it is";
+}
+
 TEST(Newton, NoLoadConvergesAtOnce) {
   const Grid grid(4, 4);
   SpringGrid system(
