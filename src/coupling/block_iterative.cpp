@@ -27,7 +27,8 @@ constexpr double k_rounding = 1e-13;
 /// mechanical pass sees go half as far. Where heat follows a contact that closes by it (a gap that opens as
 /// its metal cools), the whole step goes round between two states, one with contact and one without.
 constexpr std::size_t k_patience = 8;
-/// Iterations without damping, and with the stabilisation of contact as it is given.
+/// Iterations without damping, with the stabilisation of contact as it is given and with limits of conduction
+/// that each thermal pass finds for itself.
 constexpr std::size_t k_whole_steps = 24;
 /// A change of temperature so many times the first one says that the iteration diverges.
 constexpr double k_diverged = 100;
@@ -174,8 +175,11 @@ bool BlockIterative::mechanical(const State& old, Iterate& it, int newton_steps)
 }
 
 bool BlockIterative::thermal(const State& old, Iterate& it, int newton_steps) const {
-  const heat::ThermalPass pass{
-      .time = it.attempt.time, .dt = it.attempt.dt, .iterate = &it.now.heat, .newton_steps = newton_steps};
+  const heat::ThermalPass pass{.time = it.attempt.time,
+                               .dt = it.attempt.dt,
+                               .iterate = &it.now.heat,
+                               .newton_steps = newton_steps,
+                               .keeps_limits = it.number > static_cast<int>(k_whole_steps)};
   return thermal_pass(phases_, old, it.now, it.deformation, pass, it.effort);
 }
 

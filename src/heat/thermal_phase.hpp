@@ -104,6 +104,10 @@ struct ThermalPass {
   /// With two stages: where the extrapolation between them overshoots, the step is of first order
   /// (extrapolation_guard.hpp; closed rule).
   bool within_range = true;
+  /// Conduction is limited as the pass before has left it, unless a temperature leaves the range. The limits
+  /// of a pass follow from its start, and change from pass to pass as long as an iteration between the phases
+  /// goes round; a pass of backward Euler in the same step comes before.
+  bool keeps_limits = false;
 };
 
 class ThermalPhase {
@@ -239,7 +243,7 @@ class ThermalPhase {
                            const linear::RungeKuttaStage& stage) const;
   /// Tells the contributions that store.
   void begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> before);
-  ConductionBounds limit_conduction(const ThermalState& before, const ThermalState& old);
+  ConductionBounds limit_conduction(const ThermalState& before, const ThermalState& old, bool keep = false);
   void set_latent(HeatBalance& balance, const ThermalState& old, const ThermalState& next) const;
   /// Measures a solved step, whose last residual is given.
   HeatBalance balance(const ThermalState& old, const ThermalState& next, std::span<const double> residual,

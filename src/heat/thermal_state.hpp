@@ -26,6 +26,7 @@ struct TemperatureRange {
 struct ConductionBounds {
   TemperatureRange range{-HUGE_VAL, HUGE_VAL};  ///< of the start and of what is around; open where heated
   TemperatureRange start;                       ///< of the start alone: HeatSystem::closed_range()
+  bool kept = false;  ///< what conduction is held back by stays, unless a temperature leaves the range
 };
 
 /// Heat that one condition brought into the bodies during a step (steady analysis: per second).

@@ -147,7 +147,7 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
   }
   std::vector<double> from = stage_start(old, before, stage).enthalpy;
   if (half_way) start_from(stage_start(old, before, {stage.dt, 0.5 * (1 + stage.carried)}).enthalpy, next);
-  const ConductionBounds bounds = limit_conduction(before, old);
+  const ConductionBounds bounds = limit_conduction(before, old, pass.keeps_limits);
   report.newton =
       truncated_newton_->solve(from, stage.dt, next.temperature, next.enthalpy, bounds, pass.newton_steps);
   report.hardest = report.newton.effort;
@@ -206,12 +206,15 @@ void ThermalPhase::start_from(std::span<const double> heat, ThermalState& next) 
 
 /// Limits conduction for a stage from `before`, with the prescribed temperatures of the time set; returns the
 /// range of its temperatures, of those at t_n and of those around.
-ConductionBounds ThermalPhase::limit_conduction(const ThermalState& before, const ThermalState& old) {
-  system_->limit(options_.bounds);
-  system_->release_nodes();  // the limits follow from the state alone
+ConductionBounds ThermalPhase::limit_conduction(const ThermalState& before, const ThermalState& old,
+                                                bool keep) {
   std::vector<double> temperature = before.temperature;
   system_->prescribe(temperature);
-  system_->find_limits(temperature);
+  if (!keep) {
+    system_->limit(options_.bounds);
+    system_->release_nodes();  // the limits follow from the state alone
+    system_->find_limits(temperature);
+  }
   TemperatureRange start;
   for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i) {
     start.lowest = std::min({start.lowest, temperature[i], old.temperature[i]});
@@ -219,7 +222,7 @@ ConductionBounds ThermalPhase::limit_conduction(const ThermalState& before, cons
   }
   start = {parallel::global_min(start.lowest), parallel::global_max(start.highest)};
   const TemperatureRange around = system_->ambient_range();
-  return {{std::min(start.lowest, around.lowest), std::max(start.highest, around.highest)}, start};
+  return {{std::min(start.lowest, around.lowest), std::max(start.highest, around.highest)}, start, keep};
 }
 
 void ThermalPhase::begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> before) {

@@ -93,7 +93,8 @@ void TruncatedNewton::assemble() {
 /// Looks at the limits of conduction at the temperatures reached. Returns whether the iteration has to go on
 /// with others: when flows change too much, and then when temperatures are out of range.
 bool TruncatedNewton::revise_limits(const ConductionBounds& bounds) {
-  if (revisions_ < k_revisions && system_.find_limits(temperature_, k_limit_change * moved_)) {
+  if (!bounds.kept && revisions_ < k_revisions &&
+      system_.find_limits(temperature_, k_limit_change * moved_)) {
     ++revisions_;
     return true;
   }
