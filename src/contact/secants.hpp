@@ -3,8 +3,8 @@
 ///   δ = −Σ_k γ_k s_k + (f − Σ_k γ_k y_k),   γ = argmin ‖f − Σ_k γ_k y_k‖,   y_k = change of f by the step
 ///   s_k
 ///
-/// What the steps before explain of f is taken back along them, and the rest of f is the step of the plain
-/// iteration x += f. Where f is linear it comes to its root in as many steps as f has different rates, at
+/// The part of f that the steps before explain is taken back along them, and the rest of f is the step of the
+/// plain iteration x += f. Where f is linear it comes to its root in as many steps as f has different rates, at
 /// most one more than unknowns, as GMRES does (H. F. Walker, P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715).
 #pragma once
 

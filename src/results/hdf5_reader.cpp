@@ -66,7 +66,7 @@ bool give(int socket, const void* bytes, std::size_t n) {
       n);
 }
 
-/// Of this process, in memory of its own [bytes]; none where the system does not say.
+/// The memory of its own that this process holds [bytes]; none where the system does not say.
 std::optional<double> held_memory() {
   std::ifstream statm("/proc/self/statm");
   double size = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;
