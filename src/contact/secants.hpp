@@ -4,8 +4,8 @@
 ///   s_k
 ///
 /// The part of f that the steps before explain is taken back along them, and the rest of f is the step of the
-/// plain iteration x += f. Where f is linear it comes to its root in as many steps as f has different rates, at
-/// most one more than unknowns, as GMRES does (H. F. Walker, P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715).
+/// plain iteration x += f. Where f is linear it comes to its root in as many steps as f has different rates,
+/// at most one more than unknowns, as GMRES does (H. F. Walker, P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715).
 #pragma once
 
 #include <algorithm>
