@@ -128,8 +128,9 @@ TEST_F(CraftedCheckpoint, WhatIsNoNumberIsRefusedWithItsPlace) {
     EXPECT_THAT(said_of([&](hid_t file) { put(file, table, 1, k_nan); }),
                 AllOf(HasSubstr("state.h5"), HasSubstr(table), HasSubstr("nan"), HasSubstr("row ")));
     EXPECT_THAT(said_of([&](hid_t file) { put(file, table, 1, -k_infinite); }), HasSubstr("-inf")) << table;
-    if (table != "lit")
+    if (table != "lit") {
       EXPECT_THAT(said_of([&](hid_t file) { put(file, table, 1, k_infinite); }), HasSubstr("inf")) << table;
+    }
   }
 }
 
