@@ -50,13 +50,14 @@ def _extremes(grid, mask, spec, names):
         points = grid.points
     else:
         where, points = np.flatnonzero(mask), hot_spots.centres(grid)
-    where = where[np.isfinite(found[where])]
-    if not where.size:
+    shown = where[np.isfinite(found[where])]
+    if not shown.size:
         return "no value"
+    everywhere, where = shown.size == where.size, shown
     unit = style.unit_text(moments.unit(grid, spec))
     unit = "" if unit in ("", "1") else f" {unit}"
     low, high = where[found[where].argmin()], where[found[where].argmax()]
-    if found[low] == found[high]:
+    if found[low] == found[high] and everywhere:
         return f"{_number(found[low])}{unit} everywhere"
     least = f"least {_number(found[low])}{unit} at {_place(points[low], names)}"
     if "below" in spec:
@@ -187,7 +188,11 @@ def draw(spec, run, case, folder):
     grids = run.those_of(spec["times"])
     times = style.time_texts([grid.time for grid in grids])
     views = _views(grids, run, spec, case)
+    masks = [run.body_mask(grid, spec.get("bodies")) for grid in grids]
     shown = np.concatenate([view.values() for view in views])
+    if not np.isfinite(shown).any():  # all values lie between the cuts: the line below says where
+        plain = {key: value for key, value in spec.items() if key != "smooth"}
+        shown = np.concatenate([moments.values(grid, plain, mask)[1] for grid, mask in zip(grids, masks)])
     colours = paint.Paint({"contours": 8, **spec}, moments.unit(grids[0], spec), shown)
     entries = [(view, moment) for moment in range(len(grids)) for view in views]
     if len(grids) == 1 or len(views) == 1:
@@ -195,7 +200,6 @@ def draw(spec, run, case, folder):
     else:
         rows = [entries[start:start + len(views)] for start in range(0, len(entries), len(views))]
     names = "xyz" if case.solid else case.names
-    masks = [run.body_mask(grid, spec.get("bodies")) for grid in grids]
     timeless = spec.get("timeless", False)  # of the whole run
     footer = [("" if timeless else f"{time}: ") + _extremes(grid, mask, spec, names)
               for grid, mask, time in zip(grids, masks, times)]

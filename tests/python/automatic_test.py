@@ -119,7 +119,22 @@ class Sheets(unittest.TestCase):
         text = overview._extremes(grid, everything(grid), {"field": "von_mises", "unit": "MPa"}, "xyz")
         self.assertIn("least 1 MPa at (2.5, 2.5, 2.5) mm", text)
         text = overview._extremes(grid, everything(grid), {"field": "niyama", "below": 0.775}, "xyz")
-        self.assertIn("0.5 √(K s)/mm everywhere", text)
+        self.assertEqual(text, "least 0.5 √(K s)/mm at (25, 0, 0) mm")
+        grid.point_data["niyama"] = np.full(len(grid.points), 500.0)
+        text = overview._extremes(grid, everything(grid), {"field": "niyama", "below": 0.775}, "xyz")
+        self.assertEqual(text, "0.5 √(K s)/mm everywhere")
+
+    def test_values_that_lie_between_the_cuts_do_not_end_a_picture(self):
+        grid = frozen(box(HEX, SIZE, (8, 4, 4)))
+        inside = np.linalg.norm(grid.points - [0.015, 0.005, 0.005], axis=1) < 1e-6
+        self.assertEqual(inside.sum(), 1)
+        grid.point_data["niyama"] = np.where(inside, 500.0, 2000.0)
+        run = Run(grid)
+        history = {"time[s]": np.array([0.0]), "solid_fraction[1]": np.array([1.0])}
+        case, sheets = automatic.plan(run, np.array([0.0]), {}, history, self.folder, {})
+        niyama, = (sheet for sheet in sheets if sheet["field"] == "niyama")
+        file, = overview.draw(niyama, run, case, self.folder)
+        self.assertGreater(file.stat().st_size, 5_000)
 
 
 class Curves(unittest.TestCase):
