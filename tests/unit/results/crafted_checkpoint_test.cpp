@@ -224,7 +224,7 @@ TEST_F(CraftedCheckpoint, TextsAreChecked) {
   EXPECT_NE(said_of([&](hid_t file) { say(file, "rates", "known"); }), "nothing");
 }
 
-TEST_F(CraftedCheckpoint, BytesThatAreDamagedAtRandomEndNothing) {
+TEST_F(CraftedCheckpoint, BytesDamagedAtRandomNeverEndTheProgram) {
   const fs::path file = file_of_.latest();
   std::string whole(fs::file_size(file), '\0');
   std::ifstream(file, std::ios::binary).read(whole.data(), static_cast<std::streamsize>(whole.size()));
