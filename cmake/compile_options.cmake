@@ -16,8 +16,9 @@ if(SOLIDUS_MARCH)
   target_compile_options(solidus_options INTERFACE -march=${SOLIDUS_MARCH})
 endif()
 if(SOLIDUS_SANITIZE)
+  # clang inlines nothing at -O1 that need not be; -O2 takes a tenth longer to compile.
   target_compile_options(solidus_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
-                         -fno-omit-frame-pointer -O1)
+                         -fno-omit-frame-pointer -O2)
   target_link_options(solidus_options INTERFACE -fsanitize=address,undefined)
 endif()
 

@@ -209,16 +209,29 @@ BodyExtent extent_of(const RawMesh& mesh, const std::string& body) {
 ViewFromAbove::ViewFromAbove(const RawMesh& mesh, const std::vector<std::string>& bodies)
     : faces_(triangles(common_skin(mesh, bodies))) {}
 
-double ViewFromAbove::top(const Point& point) const {
-  double top = point[2];
+std::vector<double> ViewFromAbove::crossings(const Point& point) const {
+  std::vector<double> heights;
   for (const auto& t : faces_) {
     const double x0 = t[0][0] - point[0], y0 = t[0][1] - point[1], x1 = t[1][0] - point[0],
                  y1 = t[1][1] - point[1], x2 = t[2][0] - point[0], y2 = t[2][1] - point[1];
     const double a = x1 * y2 - x2 * y1, b = x2 * y0 - x0 * y2, c = x0 * y1 - x1 * y0, sum = a + b + c;
     if (sum == 0 || a / sum < 0 || b / sum < 0 || c / sum < 0) continue;
-    top = std::max(top, (a * t[0][2] + b * t[1][2] + c * t[2][2]) / sum);
+    heights.push_back((a * t[0][2] + b * t[1][2] + c * t[2][2]) / sum);
   }
+  return heights;
+}
+
+double ViewFromAbove::top(const Point& point) const {
+  double top = point[2];
+  for (const double z : crossings(point)) top = std::max(top, z);
   return top;
+}
+
+double ViewFromAbove::first_exit(const Point& point) const {
+  double first = std::numeric_limits<double>::max();
+  for (const double z : crossings(point))
+    if (z > point[2]) first = std::min(first, z);
+  return std::min(first, top(point));
 }
 
 }  // namespace solidus::mesh

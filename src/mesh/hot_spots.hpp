@@ -42,8 +42,14 @@ class ViewFromAbove {
   /// The height at which a vertical line leaves the bodies for the last time [m]; the point's own where it
   /// meets no face above it.
   double top(const Point& point) const;
+  /// The height at which a vertical line from a point in the bodies leaves them first [m]; below top() where
+  /// a hollow lies above the point, the point's own where it meets no face above it.
+  double first_exit(const Point& point) const;
 
  private:
+  /// Heights at which a vertical line through a point meets the skin, in no order.
+  std::vector<double> crossings(const Point& point) const;
+
   std::vector<std::array<Point, 3>> faces_;  ///< triangles of their common skin
 };
 

@@ -80,6 +80,17 @@ std::string twin_riser_text(const Draft& draft) {
       1e3 * beside);
 }
 
+/// A note where the riser stands on a handle or a bridge above the thickest place, which freezes first. Empty
+/// where metal leads straight up.
+std::string hollow_text(const Draft& draft) {
+  if (!draft.riser || !draft.riser->hollow) return "";
+  return fmt::format(
+      "\n  note        the riser stands on metal above the thickest place, with {:.3g} mm of mould between "
+      "them: it feeds that place only until the metal beside has frozen; turn the part, or place a riser by "
+      "hand",
+      1e3 * *draft.riser->hollow);
+}
+
 /// A note where no way of meshing gave sound elements; empty where one did.
 std::string poor_mesh_text(const DraftEstimate& estimate) {
   if (estimate.least_quality >= mesh::k_sound_quality) return "";
@@ -149,6 +160,7 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
   out += overlap_text(estimate);
   out += poor_mesh_text(estimate);
   out += twin_riser_text(draft);
+  out += hollow_text(draft);
   out += doubtful_unit_text(options, part);
   out += unknown_bodies_text(draft, options.as);
   if (!draft.meshed) out += thin_walls_text(draft, part);

@@ -39,6 +39,9 @@ struct DraftRiser {
   std::string name = "riser";
   mesh::Point foot{};
   double diameter = 0, height = 0;  ///< [m]
+  /// Thickness of the mould between the thickest place and the metal above it, on which the riser stands
+  /// [m]; none where metal leads straight up.
+  std::optional<double> hollow;
 };
 
 struct DraftSymmetry {

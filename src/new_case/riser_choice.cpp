@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "new_case/rounding.hpp"
 
@@ -13,15 +14,26 @@ namespace {
 constexpr double k_nearly = 0.8;  ///< radius of a place that is nearly the thickest, of that of the thickest
 constexpr double k_slender_riser = 1.5;  ///< height of a riser, of its diameter
 
+/// Thickness of what is no metal above a place, up to the first metal above that, as sand under a handle
+/// [m]; none where it is thinner than a tenth of the place.
+std::optional<double> hollow_above(const mesh::ViewFromAbove& view, const mesh::InscribedSphere& place) {
+  constexpr double k_thin = 0.1;  // of the diameter of the place
+  const double exit = view.first_exit(place.centre);
+  const double entry = view.first_exit({place.centre[0], place.centre[1], exit + 1e-6 * place.radius});
+  if (!(entry - exit > k_thin * 2 * place.radius)) return {};
+  return entry - exit;
+}
+
 /// Chooses, of the places that are nearly as thick as the thickest of all, the one with the least metal above
-/// its centre; null where there is none.
+/// its centre, and one with a hollow above it only where there is no other; null where there is none.
 const mesh::InscribedSphere* place_to_feed(const PartMeasures& part, const mesh::ViewFromAbove& view,
                                            const std::vector<mesh::InscribedSphere>& places) {
   const mesh::InscribedSphere* best = nullptr;
-  double least = 1e300;
+  std::pair<bool, double> least{true, 1e300};
   for (const mesh::InscribedSphere& s : places) {
-    const double above = view.top(s.centre) - s.centre[2];
-    if (s.radius >= k_nearly * part.spheres.front().radius && above < least) least = above, best = &s;
+    if (s.radius < k_nearly * part.spheres.front().radius) continue;
+    const std::pair<bool, double> above{hollow_above(view, s).has_value(), view.top(s.centre) - s.centre[2]};
+    if (above < least) least = above, best = &s;
   }
   return best;
 }
@@ -116,8 +128,10 @@ DraftRiser choose_riser(const PartMeasures& part, double shrinkage,
   const mesh::ViewFromAbove view(part.mesh, part.metal);
   const int fixed = symmetry ? symmetry->axis : -1;
   const auto standing_on = [&](const mesh::InscribedSphere& place, double share) {
-    return cylinder_on(view, place.centre, diameter_for(part, place.radius, share * part.volume, shrinkage),
-                       fixed);
+    DraftRiser riser = cylinder_on(view, place.centre,
+                                   diameter_for(part, place.radius, share * part.volume, shrinkage), fixed);
+    riser.hollow = hollow_above(view, place);
+    return riser;
   };
   const mesh::InscribedSphere* thickest = place_to_feed(part, view, part.spheres);
   if (!symmetry) return standing_on(*thickest, 1);

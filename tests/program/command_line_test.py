@@ -13,7 +13,7 @@ import time
 import tomllib
 import unittest
 
-from program import PROGRAM, SOURCES, ProgramTest, solidus
+from program import PATIENCE, PROGRAM, SOURCES, ProgramTest, solidus
 
 VERBS = {"run", "check", "resolve", "variants", "explain", "schema", "point", "mesh-info", "materials", "export", "version", "plot", "compare",
          "study", "init-editor", "completion", "man", "help"}
@@ -235,7 +235,7 @@ class CommandLine(ProgramTest):
             self.assertEqual(children(run.pid), [])
             self.assertNotIn("/mca_mtl_", Path(f"/proc/{run.pid}/maps").read_text())
             run.send_signal(number)
-            _, said = run.communicate(timeout=60)
+            _, said = run.communicate(timeout=60 * PATIENCE)
             self.assertEqual(run.returncode, code, said)
             self.assertIn("--restart", said)
             self.assertTrue((folder / "checkpoint/state.h5").exists())

@@ -9,12 +9,13 @@ import unittest
 
 PROGRAM = os.environ["SOLIDUS_PROGRAM"]
 SOURCES = Path(__file__).resolve().parents[2]
+PATIENCE = float(os.environ.get("SOLIDUS_TEST_PATIENCE", "1"))  # limits of time are multiplied by it
 
 
 def solidus(*arguments, cwd=None, env=None, timeout=120):
     """What it prints, and its exit code."""
     return subprocess.run([PROGRAM, *arguments], cwd=cwd, env={**os.environ, **(env or {})}, text=True,
-                          capture_output=True, timeout=timeout, stdin=subprocess.DEVNULL)
+                          capture_output=True, timeout=PATIENCE * timeout, stdin=subprocess.DEVNULL)
 
 
 class ProgramTest(unittest.TestCase):

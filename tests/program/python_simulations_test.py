@@ -12,7 +12,7 @@ import numpy as np
 
 from cooling_block import INSIDE, block, with_core
 from pages import blocks
-from program import SOURCES, ProgramTest
+from program import PATIENCE, SOURCES, ProgramTest
 
 import solidus_casting as sc
 
@@ -213,7 +213,7 @@ class Pages(ProgramTest):
         script = self.write(name, text)
         environment = {**os.environ, "PYTHONPATH": str(SOURCES / "python")}
         done = subprocess.run([*launcher, sys.executable, script], cwd=self.folder, env=environment, capture_output=True,
-                              text=True, stdin=subprocess.DEVNULL, timeout=200)
+                              text=True, stdin=subprocess.DEVNULL, timeout=200 * PATIENCE)
         self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-3000:])
         return done.stdout
 

@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from program import PROGRAM, ProgramTest, solidus
+from program import PATIENCE, PROGRAM, ProgramTest, solidus
 
 CASE = """
 title = "A block cools"
@@ -111,11 +111,11 @@ class Study(ProgramTest):
         self.write("study.toml", STUDY.replace('values = ["6 s", "no time"]', 'values = ["0.5 s"]'))
         study = subprocess.Popen([PROGRAM, "study", "study.toml", "-o", "out", "-j", "1"], cwd=self.folder, text=True,
                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
-        end = time.monotonic() + 60
+        end = time.monotonic() + 60 * PATIENCE
         while not (self.folder / "out/run_1/checkpoint/state.h5").exists() and time.monotonic() < end:
             time.sleep(0.05)
         os.killpg(study.pid, signal.SIGINT)
-        _, said = study.communicate(timeout=60)
+        _, said = study.communicate(timeout=60 * PATIENCE)
         self.assertEqual(study.returncode, 130, said)
         self.assertIn("--restart goes on", said)
         self.assertTrue((self.folder / "out/run_1/checkpoint/state.h5").exists())

@@ -12,7 +12,7 @@ import unittest
 
 from page_scenes import ELSEWHERE, SCENES, Scene
 from pages import blocks, is_pattern, typed_lines
-from program import PROGRAM, SOURCES, ProgramTest
+from program import PATIENCE, PROGRAM, SOURCES, ProgramTest
 
 WHOLE = "SOLIDUS_WHOLE_PAGES" in os.environ
 PAGES = [SOURCES / "README.md", *sorted((SOURCES / "docs/guide").glob("*.md"))]
@@ -65,7 +65,7 @@ class TypedPages(ProgramTest):
                        "OMPI_MCA_rmaps_base_oversubscribe": "1", "MPLBACKEND": "Agg",
                        "SHORT": "" if WHOLE or "time.end" in line else f"--set time.end='{scene.end}'"}
         done = subprocess.run(["bash", "-ec", line], cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True,
-                              text=True, timeout=3600)
+                              text=True, timeout=3600 * PATIENCE)
         self.assertEqual(done.returncode, 0, f"{line}\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
 
     @staticmethod

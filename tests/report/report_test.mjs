@@ -10,13 +10,14 @@ import { checkInFirefox } from "./firefox_test.mjs";
 import { colourful, pixels } from "./picture.mjs";
 
 const program = resolve(process.argv[2]), folder = resolve(process.argv[3]);
+const patience = Number(process.env.SOLIDUS_TEST_PATIENCE ?? 1);  // limits of time are multiplied by it
 let passed = 0, failed = 0;
 function check(sentence, holds, detail = "") {
   holds ? ++passed : ++failed;
   console.log(`${holds ? "ok  " : "FAIL"} ${sentence}${holds ? "" : `: ${JSON.stringify(detail)}`}`);
 }
 function solidus(...args) {
-  const run = spawnSync(program, args, { encoding: "utf8", cwd: folder, timeout: 120000 });
+  const run = spawnSync(program, args, { encoding: "utf8", cwd: folder, timeout: 120000 * patience });
   return { code: run.status, text: run.stdout + run.stderr };
 }
 
@@ -365,7 +366,7 @@ try {
   let said = "";
   run.stdout.on("data", (d) => (said += d));
   const until = async (what, seconds = 30) => {
-    for (const end = Date.now() + 1000 * seconds; Date.now() < end; await new Promise((r) => setTimeout(r, 50))) {
+    for (const end = Date.now() + 1000 * seconds * patience; Date.now() < end; await new Promise((r) => setTimeout(r, 50))) {
       const got = await what();
       if (got) return got;
     }

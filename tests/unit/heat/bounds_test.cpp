@@ -249,6 +249,36 @@ TEST(Bounds, HoldInRandomProblemsWithEveryElement) {
   EXPECT_GT(worst_without, 10.0);  // kelvins: the problems are hard enough
 }
 
+/// How far temperatures move [K] from one pass of a step to a second that starts from them.
+/// @param keeps  the second pass limits conduction as the first has left it
+double moved_by_second_pass(const Problem& p, bool keeps) {
+  heat::HeatOptions options;
+  options.tolerance = 1e-11;
+  options.alone = true;
+  heat::ThermalPhase phase(p.mesh, p.kind, p.materials, p.conditions, options);
+  const heat::ThermalState old = phase.initial_state(p.start);
+  heat::ThermalState first, second;
+  phase.solve(old, first, p.dt, p.dt);
+  phase.solve(old, second, {.time = p.dt, .dt = p.dt, .iterate = &first, .keeps_limits = keeps});
+  double moved = 0;
+  for (std::size_t i = 0; i < first.temperature.size(); ++i)
+    moved = std::max(moved, std::abs(second.temperature[i] - first.temperature[i]));
+  return moved;
+}
+
+// Where every pass finds limits of its own, an iteration between the phases goes round between them.
+TEST(Bounds, LimitsThatAreKeptLeaveTheTemperaturesOfThePassBefore) {
+  double kept = 0, found_anew = 0;
+  for (unsigned number = 0; number < 80; ++number) {
+    const Problem p = draw_problem(number);
+    if (mesh::order(p.shape) == 1) continue;
+    kept = std::max(kept, moved_by_second_pass(p, true));
+    found_anew = std::max(found_anew, moved_by_second_pass(p, false));
+  }
+  EXPECT_LT(kept, 1e-6);
+  EXPECT_GT(found_anew, 1e-3);
+}
+
 /// A block of unit length along x and height `height`, bent inside so that elements are obtuse or warped.
 mesh::Mesh bent(Shape shape, int cells, double height) {
   const bool solid = test::is_3d(shape);

@@ -53,6 +53,14 @@ TEST(NewCaseReport, OfASoundDraftSaysWhatWasMeasuredAndNotesNothing) {
   EXPECT_THAT(text, Not(HasSubstr("note")));
 }
 
+TEST(NewCaseReport, NotesARiserThatStandsOnAHandle) {
+  Report report;
+  report.draft.riser = DraftRiser{.diameter = 0.1, .height = 0.15, .hollow = 0.062};
+  EXPECT_THAT(report.text(), HasSubstr("above the thickest place, with 62 mm of mould between them"));
+  report.draft.riser->hollow.reset();
+  EXPECT_THAT(report.text(), Not(HasSubstr("note")));
+}
+
 TEST(NewCaseReport, NotesThePoorestElementAndItsPlace) {
   Report report;
   report.estimate.least_quality = 0.0712;

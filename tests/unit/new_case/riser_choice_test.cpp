@@ -31,10 +31,14 @@ class Blocks {
   /// Where a riser stands that has metal for such a volume and is 18 mm or more wide.
   DraftRiser riser(const mesh::InscribedSphere& thickest, double volume,
                    const DraftSymmetry* plane = nullptr) {
+    return riser(std::vector{thickest}, volume, plane);
+  }
+  DraftRiser riser(const std::vector<mesh::InscribedSphere>& thickest, double volume,
+                   const DraftSymmetry* plane = nullptr) {
     part_.mesh = mesh_;
     part_.volume = volume;
     part_.area = volume / 3e-3;
-    part_.spheres = {thickest};
+    part_.spheres = thickest;
     return choose_riser(part_, 0.04, plane ? std::optional(*plane) : std::nullopt);
   }
 
@@ -74,6 +78,27 @@ TEST(RiserChoice, FillsAShallowRecessUnderItsFoot) {
   const DraftRiser riser = lug.riser({{0.09, 0.03, 0.015}, 0.015}, 3e-4);
   EXPECT_NEAR(riser.foot[2], 0.027 - 0.05 * riser.diameter, 1e-12);
   EXPECT_NEAR(riser.foot[2] + riser.height, 0.03 + 1.5 * riser.diameter, 1e-3);
+}
+
+// As on a kettlebell, whose handle is above its ball.
+TEST(RiserChoice, SaysHowMuchMouldLiesBetweenAHandleAndThePlaceBelowIt) {
+  Blocks bell;
+  bell.add("ball", {0, 0, 0}, {0.1, 0.1, 0.1});
+  bell.add("handle", {0.04, 0, 0.15}, {0.02, 0.1, 0.02});
+  const DraftRiser riser = bell.riser({{0.05, 0.05, 0.05}, 0.05}, 1e-3);
+  ASSERT_TRUE(riser.hollow);
+  EXPECT_NEAR(*riser.hollow, 0.05, 1e-6);
+  EXPECT_GT(riser.foot[2], 0.1);
+}
+
+TEST(RiserChoice, PrefersAPlaceFromWhichMetalLeadsStraightUp) {
+  Blocks two;
+  two.add("below", {0, 0, 0}, {0.1, 0.1, 0.1});
+  two.add("handle", {0.04, 0, 0.15}, {0.02, 0.1, 0.02});
+  two.add("open", {0.1, 0, 0}, {0.09, 0.09, 0.3});
+  const DraftRiser riser = two.riser({{{0.05, 0.05, 0.05}, 0.05}, {{0.145, 0.045, 0.045}, 0.045}}, 1e-3);
+  EXPECT_FALSE(riser.hollow);
+  EXPECT_GT(riser.foot[0], 0.1);
 }
 
 }  // namespace
