@@ -38,11 +38,18 @@ void uncounted(void* memory) {
 void* operator new(std::size_t size) {
   return counted(std::malloc(std::max<std::size_t>(size, 1)));
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {  // as std::stable_sort asks for it
+  void* memory = std::malloc(std::max<std::size_t>(size, 1));
+  return memory == nullptr ? nullptr : counted(memory);
+}
 void* operator new(std::size_t size, std::align_val_t alignment) {
   const auto step = static_cast<std::size_t>(alignment);
   return counted(std::aligned_alloc(step, (size + step - 1) / step * step));
 }
 void operator delete(void* memory) noexcept {
+  uncounted(memory);
+}
+void operator delete(void* memory, const std::nothrow_t&) noexcept {
   uncounted(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept {
