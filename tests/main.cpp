@@ -10,16 +10,9 @@
 #include <string_view>
 
 #include "parallel/petsc_session.hpp"
+#include "sanitized.hpp"
 
-#if defined(__SANITIZE_ADDRESS__)
-#define SOLIDUS_LEAK_CHECK
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define SOLIDUS_LEAK_CHECK
-#endif
-#endif
-
-#ifdef SOLIDUS_LEAK_CHECK
+#ifdef SOLIDUS_ADDRESS_SANITIZER
 #include <sanitizer/lsan_interface.h>
 #endif
 
@@ -28,14 +21,14 @@ namespace {
 /// Leaks of memory that MPI keeps from its start to its end, or never frees, are ignored. Without
 /// AddressSanitizer no leaks are detected.
 void ignore_leaks([[maybe_unused]] bool ignore) {
-#ifdef SOLIDUS_LEAK_CHECK
+#ifdef SOLIDUS_ADDRESS_SANITIZER
   ignore ? __lsan_disable() : __lsan_enable();
 #endif
 }
 
 /// Ends the process where something leaked: before MPI unloads its plug-ins and loses what they hold.
 void check_leaks() {
-#ifdef SOLIDUS_LEAK_CHECK
+#ifdef SOLIDUS_ADDRESS_SANITIZER
   __lsan_do_leak_check();
 #endif
 }

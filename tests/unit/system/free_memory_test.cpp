@@ -7,16 +7,13 @@
 #include <fstream>
 #include <vector>
 
+#include "../../sanitized.hpp"
+
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define SOLIDUS_OTHER_ALLOCATOR
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || !defined(__GLIBC__)
+#if defined(SOLIDUS_ADDRESS_SANITIZER) || !defined(__GLIBC__)
 #define SOLIDUS_OTHER_ALLOCATOR
 #endif
 
