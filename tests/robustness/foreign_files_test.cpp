@@ -55,8 +55,12 @@ TEST_F(ForeignFiles, AScriptThatEndsTheReaderEndsInAMessage) {
 TEST_F(ForeignFiles, ACrashOfGmshIsAnErrorOfTheFile) {
   write("part.geo", std::string(k_square) + "Mesh.Algorithm = 8;\n");
   const Outcome outcome = shell("solidus check case.toml");  // crashes Gmsh 4.8; later ones may do without
-  if (outcome.code != 0)
-    expect_refused("solidus check case.toml", {"part.geo", "Gmsh crashed", "Segmentation"});
+#ifdef SOLIDUS_ADDRESS_SANITIZER  // whose report ends the reader before the signal does
+  const std::string reason = "ended the program that read it";
+#else
+  const std::string reason = "Gmsh crashed while it read or meshed this file (Segmentation";
+#endif
+  if (outcome.code != 0) expect_refused("solidus check case.toml", {"part.geo", reason});
 }
 
 TEST_F(ForeignFiles, MemoryAndTimeOfAReaderAreLimited) {
