@@ -41,7 +41,7 @@ struct DraftRiser {
   double diameter = 0, height = 0;  ///< [m]
   /// Thickness of the mould between the thickest place and the metal above it, on which the riser stands
   /// [m]; none where metal leads straight up.
-  std::optional<double> hollow;
+  std::optional<double> hollow = {};
 };
 
 struct DraftSymmetry {
