@@ -79,10 +79,11 @@ void build_contacts(const CaseSpec& spec, Assembly& a) {
   std::vector<double> moduli = contact_moduli(a.materials);
   for (std::size_t b = 0; b < moduli.size(); ++b)
     if (only_conducts(spec.bodies[b])) moduli[b] = 0;  // its stiffness makes no penalty
+  const std::vector<double> sections = sections_of(spec, a.mesh);
   for (contact::ContactParameters& pair : contact_specs(spec)) {
     check_separate(a.mesh, pair);
     set_walls(spec, a.mesh, pair);
-    set_leaving_gap(spec, a.mesh, a.materials, pair);
+    set_leaving_gap(spec, a.mesh, a.materials, sections, pair);
     set_solid_penalty(a.mesh, a.materials, pair);
     choose_normal(spec, a.materials, pair);
     a.contacts.push_back(

@@ -71,23 +71,6 @@ bool meets(const mesh::Mesh& mesh, int body, const contact::ContactParameters& p
   return parallel::any_process(here);
 }
 
-/// The longest side of a body's bounding box [m]. Collective.
-double extent(const mesh::Mesh& mesh, int body) {
-  double longest = 0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(mesh.dimension); ++k) {
-    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-    for (const mesh::ElementBlock& block : mesh.blocks) {
-      if (block.body != body) continue;
-      for (const Index node : block.nodes) {
-        low = std::min(low, mesh.x[static_cast<std::size_t>(node)][k]);
-        high = std::max(high, mesh.x[static_cast<std::size_t>(node)][k]);
-      }
-    }
-    longest = std::max(longest, parallel::global_max(high) + parallel::global_max(-low));
-  }
-  return longest;
-}
-
 }  // namespace
 
 std::vector<contact::ContactParameters> contact_specs(const CaseSpec& spec) {
@@ -132,8 +115,10 @@ std::vector<double> contact_moduli(const std::vector<material::Material>& materi
 }
 
 void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
-                     const std::vector<material::Material>& materials, contact::ContactParameters& pair) {
+                     const std::vector<material::Material>& materials, std::span<const double> sections,
+                     contact::ContactParameters& pair) {
   constexpr double k_leaving_share = 0.01, k_room_temperature = 293.15;
+  constexpr double k_sections = 10;  // across a casting
   double least = 0;
   for (std::size_t b = 0; b < materials.size(); ++b) {
     const material::Material& m = materials[b];
@@ -142,7 +127,7 @@ void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
     const double liquidus = m.solidification()->fraction.liquidus();
     const double contraction =
         std::abs(material::properties_at(m, liquidus, k_room_temperature).thermal_strain) / 3;
-    const double gap = k_leaving_share * contraction * extent(mesh, static_cast<int>(b));
+    const double gap = k_leaving_share * contraction * k_sections * sections[b];
     if (gap > 0 && (least == 0 || gap < least)) least = gap;
   }
   pair.leaving_gap = least;

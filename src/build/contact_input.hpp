@@ -1,6 +1,7 @@
 /// Builds the contact pairs of a case.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "case/case_spec.hpp"
@@ -18,11 +19,14 @@ std::vector<contact::ContactParameters> contact_specs(const CaseSpec& spec);
 /// one, 1 GPa (in an analysis of heat alone it is never used).
 std::vector<double> contact_moduli(const std::vector<material::Material>& materials);
 
-/// Sets from which gap on a liquid skin has left its wall: k_leaving_share of the free linear contraction,
-/// from the liquidus to room temperature, of the extent of the castings on the pair's surfaces, the smallest
-/// of them. Collective.
+/// Sets from which gap on a liquid skin has left its wall, and the largest penalty beside a melt: by shares
+/// of the free linear contraction, from the liquidus to room temperature, of ten sections of the castings on
+/// the pair's surfaces, the smallest of them. A section is the same for a half between planes of symmetry and
+/// the whole, as their gaps are. Collective.
+/// @param sections  mechanics::sections, [body] [m]
 void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
-                     const std::vector<material::Material>& materials, contact::ContactParameters& pair);
+                     const std::vector<material::Material>& materials, std::span<const double> sections,
+                     contact::ContactParameters& pair);
 
 /// Sets the penalty of solid skins beside a melt (after set_leaving_gap): the factor on the stiffness of the
 /// elements behind the softer of the two surfaces, whether their bodies deform or conduct heat alone. None

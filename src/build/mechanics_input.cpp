@@ -4,6 +4,8 @@
 
 #include "build/body_input.hpp"
 #include "build/dynamics_input.hpp"
+#include "linear/active_set.hpp"
+#include "mechanics/section.hpp"
 
 namespace solidus::model {
 
@@ -74,6 +76,12 @@ mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec) {
   options.solver = spec.mechanics.solver;
   options.dynamics = dynamics_options(spec);
   return options;
+}
+
+std::vector<double> sections_of(const CaseSpec& spec, const mesh::Mesh& mesh) {
+  if (!spec.has_mechanics()) return std::vector<double>(mesh.bodies.size(), 0.0);
+  const linear::ActiveSet active(mesh, absent_from_mechanics(spec, nullptr));
+  return mechanics::sections(mesh, spec.analysis.kind, mechanical_conditions(spec), active);
 }
 
 }  // namespace solidus::model

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "case/case_spec.hpp"
 #include "case/stage_input.hpp"
 #include "mechanics/mechanical_phase.hpp"
+#include "mesh/mesh.hpp"
 
 namespace solidus::model {
 
@@ -15,5 +17,8 @@ std::array<double, 3> gravity(const AnalysisSpec& analysis);
 /// @param stage  whose conditions; null: those of all stages
 mechanics::MechanicalConditions mechanical_conditions(const CaseSpec& spec, const StageRun* stage = nullptr);
 mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec);
+/// The sections of the bodies that deform at the start (mechanics::sections), [body] [m]; zeros in an analysis
+/// of heat alone. Collective.
+std::vector<double> sections_of(const CaseSpec& spec, const mesh::Mesh& mesh);
 
 }  // namespace solidus::model

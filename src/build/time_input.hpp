@@ -1,6 +1,8 @@
 /// Makes the options of the simulation from the section [time], and checks that its keys agree.
 #pragma once
 
+#include <span>
+
 #include "case/case_spec.hpp"
 #include "coupling/simulation.hpp"
 
@@ -14,7 +16,7 @@ void check_time(const CaseSpec& spec);
 coupling::TimeOptions time_options(const CaseSpec& spec);
 
 /// The error of the displacement that a step may commit [m].
-/// @param diagonal  of the mesh, corner to corner [m]
-double displacement_error(const TimeSpec& t, double diagonal);
+/// @param sections  of the bodies that deform (sections_of), [body] [m]
+double displacement_error(const TimeSpec& t, std::span<const double> sections);
 
 }  // namespace solidus::model

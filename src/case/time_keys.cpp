@@ -50,9 +50,8 @@ Section<TimeSpec> time_keys() {
   s.quantity("displacement_error", &TimeSpec::displacement_error, "m")
       .positive()
       .doc(
-          "The same of the displacement of what is coherent: melt that flows costs no step. Without it 3e-5 "
-          "of the "
-          "diagonal of the mesh.");
+          "The same of the displacement of what is coherent: melt that flows costs no step. Without it 3e-4 "
+          "of the section, volume over cooling surface, of the body that deforms where it is least.");
   s.key("solid_fraction_change", &TimeSpec::solid_fraction_change)
       .range(1e-4, 1)
       .doc("Change in an adaptive step of the solid share of the volume that can melt; without it 0.1.");

@@ -16,20 +16,6 @@ namespace {
 
 using mesh::Point;
 
-double diagonal_of(const mesh::Mesh& mesh) {
-  double square = 0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(mesh.dimension); ++k) {
-    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-    for (const mesh::Point& x : mesh.x) {
-      low = std::min(low, x[k]);
-      high = std::max(high, x[k]);
-    }
-    const double extent = parallel::global_max(high) - parallel::global_min(low);
-    square += extent * extent;
-  }
-  return std::sqrt(square);
-}
-
 /// Sums over nodes of the weight w, the place x and the displacement u.
 struct Moments {
   static constexpr int k_size = 17;
@@ -101,8 +87,7 @@ BodyNorm::BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind)
       kind_(kind),
       centre_(mesh.bodies.size()),
       n_bodies_(mesh.bodies.size()),
-      n_nodes_(mesh.x.size()),
-      diagonal_(diagonal_of(mesh)) {
+      n_nodes_(mesh.x.size()) {
   const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
   std::vector<std::vector<double>> weight(n_bodies_, std::vector<double>(n_owned, 0.0));
   for (const mesh::ElementBlock& block : mesh.blocks) {

@@ -30,8 +30,6 @@ class BodyNorm {
   /// max_b |Σ_i w_ib v_i| / Σ_i w_ib of values with one component: how far the mean of a body is off. As
   /// above.
   double mean(std::span<const double> values) const;
-  /// Extent of the mesh, corner to corner [m].
-  double diagonal() const { return diagonal_; }
 
  private:
   struct Share {
@@ -46,7 +44,6 @@ class BodyNorm {
   std::vector<Share> shares_;
   std::vector<mesh::Point> centre_;  ///< of each body
   std::size_t n_bodies_ = 0, n_nodes_ = 0;
-  double diagonal_ = 0;
 };
 
 }  // namespace solidus::coupling

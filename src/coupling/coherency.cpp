@@ -1,39 +1,77 @@
 #include "coupling/coherency.hpp"
 
+#include <algorithm>
+
 #include "heat/thermal_phase.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
 
+namespace {
+
+std::size_t at_index(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
 Coherency::Coherency(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                      const linear::ActiveSet& active)
-    : mesh_(mesh), material_(static_cast<std::size_t>(mesh.n_owned_nodes), nullptr) {
+    : mesh_(mesh), materials_(materials), material_(mesh.x.size(), nullptr) {
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    const material::Material& material = materials[static_cast<std::size_t>(block.body)];
+    const material::Material& material = materials[at_index(block.body)];
     if (!active.body(block.body) || material.solidification() == nullptr) continue;
     melts_ = true;  // every process has every block
+    blocks_.push_back(&block);
     for (const Index node : block.nodes)
-      if (node < mesh.n_owned_nodes && material_[static_cast<std::size_t>(node)] == nullptr)
-        material_[static_cast<std::size_t>(node)] = &material;
+      if (material_[at_index(node)] == nullptr) material_[at_index(node)] = &material;
   }
   of_solid_.assign(mesh.x.size(), 1.0);
-  for (std::size_t i = 0; i < material_.size(); ++i)
-    if (material_[i] != nullptr) of_solid_[i] = 1 / material_[i]->casting.coherency_fraction;
-  parallel::GhostExchange(mesh_).update(of_solid_, 1);
+  if (!melts_) return;
+  const std::size_t n_bodies = mesh.bodies.size();
+  of_solid_ = of(std::vector<double>(mesh.x.size(), 1.0), {1, std::vector<int>(n_bodies, 0)});
+}
+
+std::vector<double> Coherency::of(std::span<const double> solid_fraction,
+                                  const mechanics::BodyFields& fields) const {
+  if (!melts_) return {};
+  constexpr double k_unknown = -1;
+  std::vector<double> coherency(mesh_.x.size(), k_unknown);
+  for (const mesh::ElementBlock* block : blocks_) {
+    const auto body = at_index(block->body);
+    const double of_one = 1 / materials_[body].casting.coherency_fraction;
+    const auto width = static_cast<std::size_t>(fields.n_fields),
+               field = static_cast<std::size_t>(fields.of_body[body]);
+    const auto vertices = static_cast<std::size_t>(mesh::vertex_count(block->shape));
+    const std::size_t n = block->nodes.empty() ? 0 : block->nodes.size() / at_index(block->size());
+    for (Index e = 0; e < block->size(); ++e) {
+      const std::span<const Index> nodes(block->element(e), n);
+      double sum = 0;
+      for (std::size_t a = 0; a < vertices; ++a) sum += solid_fraction[at_index(nodes[a]) * width + field];
+      const double of_element = of_one * (sum / static_cast<double>(vertices));
+      for (const Index node : nodes) {
+        double& least = coherency[at_index(node)];
+        least = least == k_unknown ? of_element : std::min(least, of_element);
+      }
+    }
+  }
+  std::ranges::replace(coherency, k_unknown, 1.0);
+  parallel::GhostExchange(mesh_).update(coherency, 1);
+  return coherency;
 }
 
 std::vector<double> Coherency::at(const heat::ThermalPhase* heat, const heat::ThermalState& state,
                                   const std::vector<double>& temperature) const {
   if (!melts_) return {};
-  std::vector<double> coherency(mesh_.x.size(), 1.0), solid;
-  if (heat != nullptr) solid = heat->solid_fraction(state);
-  for (std::size_t i = 0; i < material_.size(); ++i) {
-    if (material_[i] == nullptr) continue;
-    const double fraction = heat != nullptr ? solid[i] : material_[i]->solid_fraction(temperature[i]);
-    coherency[i] = fraction / material_[i]->casting.coherency_fraction;
+  std::vector<double> solid(mesh_.x.size(), 1.0);
+  if (heat != nullptr) {
+    solid = heat->solid_fraction(state);
+    parallel::GhostExchange(mesh_).update(solid, 1);
+  } else {
+    for (std::size_t i = 0; i < material_.size(); ++i)
+      if (material_[i] != nullptr) solid[i] = material_[i]->solid_fraction(temperature[i]);
   }
-  parallel::GhostExchange(mesh_).update(coherency, 1);
-  return coherency;
+  return of(solid, {1, std::vector<int>(mesh_.bodies.size(), 0)});
 }
 
 }  // namespace solidus::coupling

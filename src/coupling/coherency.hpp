@@ -1,15 +1,23 @@
-/// Coherency of the nodes, which tells melt from casting: the solid fraction over that at which metal is
-/// coherent (material::Casting::coherency_fraction).
+/// Coherency, which tells melt from casting: the solid fraction over that at which metal is coherent
+/// (material::Casting::coherency_fraction).
 ///
-/// The solid fraction is that of the nodes' enthalpy, which alone determines it where freezing is isothermal;
-/// without a thermal phase it is that of the temperature.
+/// An element is as coherent as its mean, whose viscosity, pores and flow of melt follow (melt.hpp,
+/// pores.hpp). A node is as coherent as the least of its elements: what it holds on to must carry before it
+/// can leave its wall, rub, or count as casting. A node that is solid beside an element that is melt would
+/// be pulled off its wall by what the melt weighs, by a length that follows the size of the step
+/// (docs/theory/step_and_mesh.md).
+///
+/// The solid fraction of a moment is that of the nodes' enthalpy, which alone determines it where freezing is
+/// isothermal; without a thermal phase it is that of the temperature.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "heat/thermal_state.hpp"
 #include "linear/active_set.hpp"
 #include "material/material.hpp"
+#include "mechanics/body_fields.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::heat {
@@ -21,24 +29,30 @@ namespace solidus::coupling {
 class Coherency {
  public:
   /// @param materials  [body]; kept by reference
-  /// Collective.
   /// @param active   of the mechanical phase at the start: bodies that only conduct heat do not count
+  /// Collective.
   Coherency(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
             const linear::ActiveSet& active);
 
   /// Whether a body that deforms can melt. The same on every process.
   bool melts() const { return melts_; }
-  /// 1/f_c of every node, [local node], ghosts up to date; one where nothing melts.
+  /// 1/f_c of every node, [local node], ghosts up to date; one where nothing melts. Where bodies share a node
+  /// the least.
   const std::vector<double>& of_solid() const { return of_solid_; }
-  /// f_S/f_c of every node, [local node], ghosts up to date; one where nothing melts. A node that bodies
-  /// share goes with the first one that can melt. Empty unless melts(). Collective.
+  /// The least f_S/f_c of the elements at every node, [local node], ghosts up to date; one where nothing
+  /// melts. Empty unless melts(). Collective.
+  /// @param solid_fraction  [local node][field of the body]
+  std::vector<double> of(std::span<const double> solid_fraction, const mechanics::BodyFields& fields) const;
+  /// That of a moment. Collective.
   /// @param heat         null: mechanics alone, at `temperature` [local node] [K]
   std::vector<double> at(const heat::ThermalPhase* heat, const heat::ThermalState& state,
                          const std::vector<double>& temperature) const;
 
  private:
   const mesh::Mesh& mesh_;
-  std::vector<const material::Material*> material_;  ///< [owned node]; null where nothing melts
+  const std::vector<material::Material>& materials_;
+  std::vector<const mesh::ElementBlock*> blocks_;    ///< of bodies that deform and can melt
+  std::vector<const material::Material*> material_;  ///< [local node]; null where nothing melts
   std::vector<double> of_solid_;
   bool melts_ = false;
 };

@@ -39,7 +39,7 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
   const double start = processes::wall_time();
   const int earlier = turns != nullptr ? *turns : 0;
   const std::vector<double> coherency =
-      phases.contacts.empty() ? std::vector<double>{} : coherency_of(phases, old.heat);
+      phases.contacts.empty() ? std::vector<double>{} : coherency_of(phases, old.mechanics, pass);
   begin_contacts(phases, old.contacts, old.mechanics, pass, coherency, contacts, earlier > 0);
   if (pass.contact_hold != 1)
     for (contact::ContactPair* pair : phases.contacts) pair->stabilise(pass.contact_hold);

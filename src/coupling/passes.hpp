@@ -10,13 +10,12 @@ namespace solidus::coupling {
 struct MechanicalStart {
   const mechanics::MechanicalState& mechanics;
   const std::vector<contact::ContactState>& contacts;
-  const heat::ThermalState& heat;  ///< says which nodes are coherent
 
   MechanicalStart(const State& state)  // NOLINT(google-explicit-constructor): a state is a start
-      : MechanicalStart(state.mechanics, state.contacts, state.heat) {}
+      : MechanicalStart(state.mechanics, state.contacts) {}
   MechanicalStart(const mechanics::MechanicalState& mechanical,
-                  const std::vector<contact::ContactState>& of_contacts, const heat::ThermalState& thermal)
-      : mechanics(mechanical), contacts(of_contacts), heat(thermal) {}
+                  const std::vector<contact::ContactState>& of_contacts)
+      : mechanics(mechanical), contacts(of_contacts) {}
 };
 
 /// Equilibrium, then gaps and conductances of the configuration found. Efforts add up over the passes of a

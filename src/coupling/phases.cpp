@@ -34,6 +34,13 @@ std::vector<double> coherency_of(const Phases& phases, const heat::ThermalState&
                                      : phases.coherency->at(phases.heat, heat, phases.temperature);
 }
 
+std::vector<double> coherency_of(const Phases& phases, const mechanics::MechanicalState& old,
+                                 const mechanics::MechanicalPass& pass) {
+  if (phases.coherency == nullptr) return {};
+  return phases.coherency->of(phases.mechanics->mean_solid_fraction(old, pass),
+                              phases.mechanics->nodal_phases().fields());
+}
+
 void summarise(const Phases& phases, const State& state, StepEffort& effort) {
   if (phases.heat != nullptr) {
     range_of_owned(state.heat.temperature, phases.heat->mesh().n_owned_nodes, &phases.heat->active(), effort);

@@ -34,6 +34,10 @@ std::vector<double> plateau_share(const Phases& phases, const heat::ThermalState
 
 /// Coherency::at of a state; empty where nothing that deforms melts. Collective.
 std::vector<double> coherency_of(const Phases& phases, const heat::ThermalState& heat);
+/// Coherency of a step of the mechanical phase, at the solid fractions with which its law works; empty where
+/// nothing that deforms melts. Collective.
+std::vector<double> coherency_of(const Phases& phases, const mechanics::MechanicalState& old,
+                                 const mechanics::MechanicalPass& pass);
 /// The solidity of nodes as contacts see it; keeps a view of `coherency`.
 inline contact::Solidity solidity_of(const Phases& phases, std::span<const double> coherency) {
   if (phases.coherency == nullptr || coherency.empty()) return {coherency};

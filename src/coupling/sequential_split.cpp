@@ -268,7 +268,7 @@ mechanics::StepDeformation SequentialSplit::mechanical_phase(const State& old, c
       phases_.heat != nullptr ? warm.heat.temperature : phases_.temperature;
   const std::vector<double> share = plateau_share(phases_, warm.heat);
   mechanics::MechanicalReport report =
-      mechanical_pass(phases_, {old.mechanics, warm.contacts, warm.heat}, trial,
+      mechanical_pass(phases_, {old.mechanics, warm.contacts}, trial,
                       {.time = time,
                        .dt = dt,
                        .temperature = temperature,

@@ -51,7 +51,6 @@ struct Simulation::Progress {
   BodyHeat carried;                ///< of bodies that came and left since the last step
   int saved = -1;                  ///< the step whose checkpoint is written
   bool warned = false;             ///< of a limit that the smallest step exceeds
-  bool told_of_viscosity = false;  ///< of a longer step that melt keeps
   Stop stop;
 };
 
@@ -321,7 +320,6 @@ Simulation::Try Simulation::try_step(Progress& p) {
   StepMeasure measure;
   StepRecord record;
   if (heat_ != nullptr) heat_->begin_burning(p.committed.burning, p.committed.time, step.time);
-  set_viscosity(p, step);
   scheme_->allow_early_end(p.control->may_end_early());
   try {
     const auto measured = [](const LocalError& error) {
@@ -377,20 +375,6 @@ Simulation::Try Simulation::try_step(Progress& p) {
   record.energy.bodies = p.carried;
   p.pending = {step, measure, std::move(record)};
   return Try::taken;
-}
-
-void Simulation::set_viscosity(Progress& p, const PlannedStep& step) {
-  if (mechanics_ == nullptr) return;
-  const double viscous = p.control->viscous_step(step);
-  mechanics_->stiffen_melt(viscous / step.dt);
-  if (viscous <= step.dt || !mechanics_->chooses_viscosity() || p.told_of_viscosity ||
-      p.solid_fraction >= k_solid)
-    return;
-  p.told_of_viscosity = true;
-  logging::info(
-      "t = {:g} s: a step of {:g} s does not converge, nor shorter ones; in these the melt keeps the "
-      "viscosity of that step, until steps are as long again",
-      p.committed.time, viscous);
 }
 
 // A step that is committed although it exceeds a limit contains a jump, or is the smallest one: its rates are

@@ -67,9 +67,6 @@ class Simulation {
   /// Gives this phase the heat of bodies that burn, and brings State::burning along; must outlive the
   /// simulation.
   void follow_burning(heat::ThermalPhase& heat) { heat_ = &heat; }
-  /// Lets the melt of this phase keep the viscosity of a longer step where the step control wants it
-  /// (StepControl::viscous_step); must outlive the simulation.
-  void follow_melt(mechanics::MechanicalPhase& mechanics) { mechanics_ = &mechanics; }
   /// Asked before each step, on every process; the run stops when one of them says so.
   void stop_when(std::function<bool()> asked) { stop_asked_ = std::move(asked); }
   /// Called when a stage of the run begins, also where a run goes on inside it: gives the phases its
@@ -143,7 +140,6 @@ class Simulation {
   Try try_step(Progress& p);
   void commit(Progress& p, const PlannedStep& step, const StepMeasure& measure);
   /// Gives the melt the viscosity that it has in this step.
-  void set_viscosity(Progress& p, const PlannedStep& step);
   void check_limits(Progress& p, const PlannedStep& step, const StepMeasure& measure);
   static bool measures_error(const StepOptions& step);
   bool stop_asked() const;
@@ -159,7 +155,6 @@ class Simulation {
   std::vector<Observer*> observers_;
   criteria::Criteria* criteria_ = nullptr;
   heat::ThermalPhase* heat_ = nullptr;
-  mechanics::MechanicalPhase* mechanics_ = nullptr;
   std::function<bool()> stop_asked_;
   StageBegins stage_begins_;
   Diagnose diagnose_;

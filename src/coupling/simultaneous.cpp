@@ -63,6 +63,7 @@ mechanics::MechanicalState second_start(const mechanics::MechanicalState& old,
     const PackVector<Lane>& end = stage.history[b].values;
     for (std::size_t i = 0; i < values.size(); ++i) values[i] += Lane(carried) * (end[i] - values[i]);
   }
+  start.solid_fraction = stage.solid_fraction;  // a fraction is not extrapolated
   return start;
 }
 

@@ -57,10 +57,11 @@ void deform(const Phases& phases, const State& initial, std::span<const double> 
   const std::vector<double> share = plateau_share(phases, steady.heat);
   mechanics::MechanicalPass pass{.time = 0, .dt = k_long, .temperature = before};
   pass.phase_temperature = temperature;
+  pass.at_rest = true;
   pass.plateau_share = share;
   pass.iterate_temperature = temperature;
   if (found) pass.iterate = &steady.mechanics;
-  const MechanicalStart start(initial.mechanics, initial.contacts, steady.heat);
+  const MechanicalStart start(initial.mechanics, initial.contacts);
   const std::vector<contact::ContactState> contacts =
       found ? steady.contacts : std::vector<contact::ContactState>{};
   mechanical_pass(phases, start, steady, pass, effort, contacts);

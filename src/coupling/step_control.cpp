@@ -23,8 +23,6 @@ constexpr double k_deepest_cut = 0.1;
 /// ever. A step that does not converge does: contact that closes within a long step, or a melt that is
 /// chilled at once, may need the first moment of it.
 constexpr int k_of_errors = -10, k_of_failures = -20;
-/// A step that did not converge and was cut to this share of itself leaves its viscosity to shorter ones.
-constexpr double k_in_vain = 0.25;
 
 double smallest_of_errors(const StepOptions& options) {
   return options.min_step > 0 ? options.min_step : std::ldexp(options.step, k_of_errors);
@@ -70,9 +68,6 @@ PlannedStep StepControl::plan(double time) const {
 }
 
 void StepControl::accepted(const PlannedStep& step, const StepMeasure& measure) {
-  // The step that failed may have been stretched to land.
-  if (state_.viscous == 0 || step.dt >= state_.viscous * (1 - 2 * k_stretch))
-    state_.failed = state_.viscous = 0;
   // Where turns have ended early they may do so in the steps that follow, which need not fail anew.
   if (!measure.ended_early) state_.failures = 0;
   if (!options_.adaptive) return recover();
@@ -115,8 +110,6 @@ void StepControl::recover() {
 
 bool StepControl::rejected(const PlannedStep& step, const std::string& why) {
   state_.size = step.dt * options_.cut;
-  state_.failed = std::max(state_.failed, step.dt);
-  if (state_.size <= k_in_vain * state_.failed * (1 + k_same_time)) state_.viscous = state_.failed;
   state_.reason = "rejected: " + why;
   ++state_.failures;
   return state_.size >= smallest_of_failures(options_) * (1 - k_same_time);

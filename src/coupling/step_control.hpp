@@ -43,10 +43,6 @@ struct ControlState {
   std::string reason = "as asked";  ///< why
   /// Data of the first step from here that exceeded a limit, and the size wanted before it; zero: none did.
   double refused = 0, refused_ratio = 0, before_refusal = 0;
-  /// The longest step from here that did not converge; zero: all did [s].
-  double failed = 0;
-  /// The step whose viscosity a melt keeps in shorter ones (StepControl::viscous_step); zero: none [s].
-  double viscous = 0;
   /// Tries that did not go through since the last step that did, with turns of contact that settled.
   int failures = 0;
 };
@@ -72,12 +68,6 @@ class StepControl {
   /// The step was too long.
   /// @param what  has happened to it, for the reason of the next one
   void shortened(const PlannedStep& step, const StepMeasure& measure, const std::string& what = "rejected");
-  /// The step whose viscosity a melt keeps in this one [s]: its own, or the one that did not converge where
-  /// that was cut to a quarter in vain, until steps are as long again. A viscosity that follows the step
-  /// makes melt as thin in a short one as in a long one (material/melt.hpp), so that cuts alone never help
-  /// where it flows too far in a step, or has too little to resist the forces of contact with.
-  double viscous_step(const PlannedStep& step) const { return std::max(step.dt, state_.viscous); }
-
   /// Whether so many tries have failed that turns of contact need not settle any more.
   bool may_end_early() const { return state_.failures >= k_patience; }
 

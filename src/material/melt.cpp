@@ -31,7 +31,19 @@ MushViscosity mush_viscosity(const Material& material) {
           .onset = -std::log(k_mush_onset) / k_mush_onset_width};
 }
 
-MeltModulus melt_modulus(const Material& material, double gravity, double extent) {
+namespace {
+
+double relaxation_time(const Material& material, double section) {
+  const double liquidus = material.solidification()->fraction.liquidus();
+  const double conductivity = material.conductivity.value(liquidus),
+               capacity = material.density * material.specific_heat.value(liquidus);
+  const double diffusivity = conductivity > 0 && capacity > 0 ? conductivity / capacity : k_metal_diffusivity;
+  return k_melt_time * (section > 0 ? section * section : k_section * k_section) / diffusivity;
+}
+
+}  // namespace
+
+MeltModulus melt_modulus(const Material& material, double gravity, double extent, double section) {
   using Bound = MeltModulus::Bound;
   if (!material.mechanical() || !material.chooses_viscosity()) return {};
   const double liquidus = material.solidification()->fraction.liquidus();
@@ -45,7 +57,7 @@ MeltModulus melt_modulus(const Material& material, double gravity, double extent
   if (head > 0)
     set(k_melt_heads, head, Bound::head);
   else
-    set(k_melt_heads, k_atmosphere, Bound::atmosphere);
+    set(k_melt_heads, k_weightless_head, Bound::weightless);
   const double strength = shell_strength(material);
   if (strength > 0 && k_melt_strengths * strength < melt.modulus)
     set(k_melt_strengths, strength, Bound::strength);
@@ -53,6 +65,8 @@ MeltModulus melt_modulus(const Material& material, double gravity, double extent
       material.young_modulus.value(liquidus) / (3 * (1 - 2 * material.poisson_ratio.value(liquidus)));
   if (k_least_melt_share * bulk > melt.modulus) set(k_least_melt_share, bulk, Bound::arithmetic);
   melt.mush = mush_viscosity(material);
+  melt.time = relaxation_time(material, section);
+  melt.bulk = bulk;
   return melt;
 }
 
@@ -62,8 +76,8 @@ std::string measured_against(const MeltModulus& melt) {
     case Bound::head:
       return fmt::format("{:g} times the metallostatic head of {:.3g} Pa (rho g H, H = {:.3g} m)",
                          k_melt_heads, melt.reference, melt.extent);
-    case Bound::atmosphere:
-      return fmt::format("{:g} times the atmosphere, for there is no gravity", k_melt_heads);
+    case Bound::weightless:
+      return fmt::format("{:g} times {:g} Pa, for there is no gravity", k_melt_heads, melt.reference);
     case Bound::strength:
       return fmt::format("{:g} times the strength of the shell of {:.3g} Pa at the solidus", k_melt_strengths,
                          melt.reference);

@@ -1,25 +1,31 @@
 /// The stiffness of a melt whose viscosity is not given: the numerical choice of η in s = η ε̇ (2.83, 2.104).
 ///
 /// The viscosity of molten metal, some 1e-3 Pa s, has no effect on stress, so η is a number of the method and
-/// not of the metal. What counts is the modulus that the melt has in a step, 2Ĝ = η/Δt, times the strain
-/// increment of the step, Δε ≈ 1e-3 to 1e-2 where a skin follows its wall. It has to be small against the
-/// pressure that carries the melt and against the strength of the later solid, and not so small that rounding
-/// prevails:
+/// not of the metal. It is that of a modulus 2Ĝ and a time t_r of the casting:
 ///
-///   2Ĝ = max(min(k_heads p, k_of_strength σ_s), k_least_melt_share k),    η = 2Ĝ Δt
+///   η = 2Ĝ t_r,   2Ĝ = max(min(k_melt_heads p, k_melt_strengths σ_s), k_least_melt_share k),
+///   t_r = k_melt_time M²/a
 ///
-/// p    [Pa] the metallostatic head ρ g H of the body, H its extent along gravity; without gravity the
-///      atmosphere, which holds a melt on its wall (contact/normal.hpp)
+/// p    [Pa] the metallostatic head ρ g H of the body, H its extent along gravity; without gravity
+///      k_weightless_head
 /// σ_s  [Pa] what the shell stands: its yield stress at the solidus, or without plasticity G times
-/// k_shell_strain k    [Pa] the bulk modulus at the liquidus
+///      k_shell_strain
+/// k    [Pa] the bulk modulus at the liquidus
+/// M    [m] the section, volume over the surface through which the body cools (mechanics/section.hpp)
+/// a    [m²/s] the thermal diffusivity at the liquidus
 ///
-/// η follows the step, so a melt is as stiff in a short step as in a long one, and its stress goes to zero
-/// with the strain increments. Measured in docs/decisions/0011-melt.md.
+/// M²/a is the time in which heat crosses the section; no casting freezes faster, and most take ten to five
+/// hundred times as long. Over the time that it takes to freeze melt that follows its shrinking skin with
+/// strains of some per cent then has stresses far below the head that carries it and below the tension at
+/// which pores open. Nothing here follows the step, so a limit exists when steps get short; a tenth of the
+/// viscosity changes answers by less than a step does. For the sake of the arithmetic η/Δt is kept between
+/// k_least_step_share k and k_most_step_share k in very long and very short steps. Measured in
+/// docs/decisions/0056-a-step-works-with-its-own-mean.md.
 ///
 /// Towards coherency and beyond the metal is a network of dendrites, whose creep is a property of the metal
 /// and does not depend on the step. Its viscosity is
 ///
-///   η(f_S) = max(2Ĝ Δt, η_N(f_S)),   η_N = η_c (η_s/η_c)^((f_S − f_c)/(1 − f_c))  from coherency f_c on,
+///   η(f_S) = max(2Ĝ t_r, η_N(f_S)),   η_N = η_c (η_s/η_c)^((f_S − f_c)/(1 − f_c))  from coherency f_c on,
 ///                                    η_N = η_c k_mush_onset^((f_c − f_S)/k_mush_onset_width)  below it,
 ///   η_s = σ_s/k_mush_rate,  η_c = k_mush_strength η_s:
 ///
@@ -42,17 +48,27 @@ namespace solidus::material {
 
 /// 2Ĝ in heads: a strain increment of 1e-2 then costs a tenth of the head.
 inline constexpr double k_melt_heads = 10;
+/// p without gravity, the head of some centimetres of metal [Pa].
+inline constexpr double k_weightless_head = 1e3;
 /// 2Ĝ in yield stresses of the shell: a strain increment of 1e-2 then costs a hundredth of it.
 inline constexpr double k_melt_strengths = 1;
 /// Strength of an elastic shell, as a share of its shear modulus.
 inline constexpr double k_shell_strain = 1e-3;
 /// 2Ĝ as a share of the bulk modulus: less gains nothing.
 inline constexpr double k_least_melt_share = 1e-7;
+/// t_r in times that heat takes to cross the section.
+inline constexpr double k_melt_time = 0.01;
+/// η/Δt as shares of the bulk modulus: less leaves the linear solvers too few digits, more would make melt as
+/// stiff as what holds it in a step of microseconds.
+inline constexpr double k_least_step_share = 1e-8, k_most_step_share = 1e-2;
 /// Strength of the mush at coherency as a share of that of the shell, and the strain rate it is meant at
 /// [1/s].
 inline constexpr double k_mush_strength = 1e-2, k_mush_rate = 1e-3;
 /// Fall of the viscosity of the network below coherency, and the solid fraction over which it falls so far.
 inline constexpr double k_mush_onset = 1e-3, k_mush_onset_width = 0.05;
+/// Where a material has no conductivity: that of metals at their melting point is 5e-6 to 6e-5 [m²/s]. And the
+/// section where no body is given: that of a plate of 20 mm [m].
+inline constexpr double k_metal_diffusivity = 2e-5, k_section = 0.01;
 /// The pressure of the atmosphere at sea level [Pa].
 inline constexpr double k_atmosphere = 101325;
 
@@ -89,18 +105,26 @@ MushViscosity mush_viscosity(const Material& material);
 
 /// Modulus of a melt, with the quantity that it was chosen in proportion to.
 struct MeltModulus {
-  enum class Bound { head, atmosphere, strength, arithmetic };
-  double modulus = 0;    ///< 2Ĝ of a step [Pa]; zero: the material gives its viscosity, or has no melt
+  enum class Bound { head, weightless, strength, arithmetic };
+  double modulus = 0;    ///< 2Ĝ [Pa]; zero: the material gives its viscosity, or has no melt
+  double time = 0;       ///< t_r [s]
+  double bulk = 0;       ///< k [Pa]
   double reference = 0;  ///< the head, the atmosphere, σ_s or k, whichever decides [Pa]
   Bound bound = Bound::head;
   double extent = 0;  ///< H [m]; zero without gravity
   MushViscosity mush{};
+
+  /// η of the melt in a step [Pa s].
+  double viscosity(double dt) const {
+    return std::clamp(modulus * time, k_least_step_share * bulk * dt, k_most_step_share * bulk * dt);
+  }
 };
 
 /// Zero unless the material chooses_viscosity().
 /// @param gravity  its magnitude [m/s²]
 /// @param extent   of the body along gravity [m]
-MeltModulus melt_modulus(const Material& material, double gravity, double extent);
+/// @param section  volume of the body over the surface through which it cools [m]; zero: not known
+MeltModulus melt_modulus(const Material& material, double gravity, double extent, double section);
 /// "10 times the metallostatic head of 2.4e+03 Pa (rho g H, H = 0.1 m)".
 std::string measured_against(const MeltModulus& melt);
 

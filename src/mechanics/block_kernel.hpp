@@ -45,7 +45,7 @@ struct StepStart {
   double melt_modulus() const { return melt != nullptr ? melt->modulus : 0.0; }
   /// η of such a melt or mush in the step [Pa s].
   Lane melt_viscosity(const Lane& solid_fraction) const {
-    return melt->mush.at(solid_fraction, Lane(melt->modulus * effective.dt));
+    return melt->mush.at(solid_fraction, Lane(melt->viscosity(effective.dt)));
   }
   /// ζ/Δt, what such melt or mush resists compaction with; zero in solid metal [Pa].
   Lane compaction_stiffness(const Lane& solid_fraction) const {

@@ -68,7 +68,7 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
   }
   find_weight(loads_->conditions().gravity);
   loads_->add_constant(weight_);
-  melt_ = melt_moduli(mesh, materials, active_, loads_->conditions().gravity);
+  melt_ = melt_moduli(mesh, kind_, materials, active_, loads_->conditions());
 
   for (const auto& block : blocks_) options_.symmetric = options_.symmetric && block->symmetric();
   create_pressure();
@@ -176,7 +176,7 @@ void MechanicalPhase::create_pressure() {
     return dynamic_cast<const MixedKernel*>(block.get()) != nullptr;
   });
   // States hold the fields: they stay when bodies leave.
-  std::optional<PressureFields> fields;
+  std::optional<BodyFields> fields;
   if (pressure_) fields = pressure_->fields_of_bodies();
   pressure_.reset();
   fields_.assign(1, components_);
@@ -191,17 +191,13 @@ void MechanicalPhase::create_pressure() {
     body_force.push_back(loads_->conditions().gravity);
     for (double& f : body_force.back()) f *= material.density;
   }
-  if (!fields) fields = pressure_fields(mesh_, materials_, blocks_);
+  if (!fields) fields = body_fields(mesh_, materials_, mixed_blocks(blocks_));
   pressure_ = std::make_unique<NodalPressure>(mesh_, std::move(*fields), blocks_, orthogonal, body_force);
   fields_.push_back(pressure_->fields());
 }
 
 std::size_t MechanicalPhase::n_unknowns() const {
   return n_displacements() + (pressure_ ? pressure_->absent().size() : 0);
-}
-
-bool MechanicalPhase::chooses_viscosity() const {
-  return std::any_of(melt_.begin(), melt_.end(), [](const auto& melt) { return melt.modulus > 0; });
 }
 
 std::size_t MechanicalPhase::n_residuals() const {
@@ -237,7 +233,7 @@ void MechanicalPhase::set_conditions(MechanicalConditions conditions, std::span<
     find_weight(loads->conditions().gravity);
   }
   loads->add_constant(weight_);
-  melt_ = melt_moduli(mesh_, materials_, active_, loads->conditions().gravity);
+  melt_ = melt_moduli(mesh_, kind_, materials_, active_, loads->conditions());
   loads_ = std::move(loads);
   create_pressure();
   if (same_matrix && !pressure_) {
@@ -254,6 +250,7 @@ MechanicalState MechanicalPhase::initial_state() {
   state.displacement.assign(forces_.size(), 0.0);
   for (const auto& block : blocks_) state.history.push_back(block->initial_history());
   if (pressure_) state.pressure.assign(pressure_->absent().size(), 0.0);
+  state.solid_fraction = nodal_phases_.initial_solid_fraction();
   if (options_.integration == TimeIntegration::two_step) state.before = state.history;
   if (inertia_) set_in_motion(state);
   return state;

@@ -117,6 +117,9 @@ struct MechanicalPass {
   /// Temperatures of solid fraction and straining of phase changes [K], [local node], ghosts up to date.
   /// Empty: Θ_n (4.81); a scheme that iterates gives those of its iterate, so that it ends with Θ_{n+1}.
   std::span<const double> phase_temperature{};
+  /// The bodies have been at these temperatures for long (a steady state): the solid fraction is theirs, not
+  /// the mean of a step that leads to them.
+  bool at_rest = false;
   /// heat::ThermalPhase::plateau_share at the moment of those temperatures, [local node], ghosts up to date:
   /// how much of an isothermal change is done at nodes that have its temperature. Empty: none of it, there is
   /// melt.
@@ -249,6 +252,16 @@ class MechanicalPhase {
   /// A residual that is rounding [N].
   double round_off() const { return round_off_; }
 
+  /// The solid fractions that the law works with in a pass, means of both ends of the step, [local
+  /// node][field of the body], ghosts up to date; empty where nothing melts.
+  std::vector<double> mean_solid_fraction(const MechanicalState& old, const MechanicalPass& pass) const;
+  /// Those of a moment, of the same layout.
+  std::vector<double> solid_fraction(std::span<const double> temperature,
+                                     std::span<const double> plateau_share) const {
+    return nodal_phases_.solid_fraction({temperature, plateau_share});
+  }
+  const NodalPhases& nodal_phases() const { return nodal_phases_; }
+
   /// True when a material can flow plastically: then there are plastic fields to show.
   bool plastic() const { return plastic_; }
   /// Fixed degrees of freedom, and multi-point constraints (Loads).
@@ -259,10 +272,6 @@ class MechanicalPhase {
   std::span<const std::unique_ptr<BlockKernel>> blocks() const { return blocks_; }
   /// Stiffness of the melt of every body whose material does not give its viscosity, [body].
   std::span<const material::MeltModulus> melt() const { return melt_; }
-  /// Whether there is such a melt.
-  bool chooses_viscosity() const;
-  /// Lets these melts have so many times that modulus from the next pass on.
-  void stiffen_melt(double times) { melt_times_ = times; }
   /// Drops what the linear solver carried over from earlier steps.
   void forget() { solver_->forget(); }
   const mesh::Mesh& mesh() const { return mesh_; }
@@ -298,6 +307,12 @@ class MechanicalPhase {
   std::vector<double> flowing_shares(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
   material::TimeStep time_step(const MechanicalState& old, const MechanicalPass& pass) const;
+  static FractionPlace fraction_place(const MechanicalPass& pass) {
+    return {pass.phase_temperature.empty() ? pass.temperature : pass.phase_temperature, pass.plateau_share};
+  }
+  static std::span<const double> fractions_before(const MechanicalState& old, const MechanicalPass& pass) {
+    return pass.at_rest ? std::span<const double>{} : std::span<const double>(old.solid_fraction);
+  }
   MechanicalReport measure(const MechanicalState& old, const MechanicalPass& pass, std::span<const double> x,
                            const BlockWork& sums, MechanicalState& next);
 
@@ -312,9 +327,7 @@ class MechanicalPhase {
   std::vector<std::unique_ptr<BlockKernel>> blocks_;
   std::unique_ptr<Loads> loads_;
   std::vector<double> weight_;                    ///< of the bodies, [local node][component] [N]
-  std::vector<material::MeltModulus> melt_;       ///< [body]
-  double melt_times_ = 1;                         ///< stiffen_melt()
-  std::vector<material::MeltModulus> stiffened_;  ///< melt_ in the present pass, [body]
+  std::vector<material::MeltModulus> melt_;  ///< [body]
   std::unique_ptr<linear::BlockMatrix> matrix_;
   std::unique_ptr<NodalPressure> pressure_;  ///< null without mixed elements
   std::vector<int> fields_;                  ///< of Newton's iteration: components of each

@@ -25,7 +25,7 @@ StepDeformation MechanicalPhase::held_deformation(const MechanicalState& state,
                                       .start_history = &state.history[b],
                                       .dt = 1,
                                       .effective = 1,
-                                      .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
+                                      .phases = nodal_phases_.evaluate(b, {temperature, plateau_share}, {}),
                                       .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]}));
   residual_is_known_ = false;
   return deformation;
@@ -51,10 +51,8 @@ FlowChange MechanicalPhase::restart_flow(const MechanicalState& old, const Mecha
          .start_history = &old.history[b],
          .dt = pass.dt,
          .effective = time_step(old, pass),
-         .phases = nodal_phases_.evaluate(
-             b, pass.phase_temperature.empty() ? pass.temperature : pass.phase_temperature,
-             pass.plateau_share),
-         .melt = &stiffened_[static_cast<std::size_t>(mesh_.blocks[b].body)]},
+         .phases = nodal_phases_.evaluate(b, fraction_place(pass), fractions_before(old, pass)),
+         .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]},
         old.displacement, trial.displacement,
         {.history = trial.history[b],
          .elements = b < trial.elements.size() ? &trial.elements[b] : nullptr,

@@ -38,6 +38,9 @@ struct MechanicalState {
   /// The mean stress of mixed elements at the nodes, [local node][field] [Pa] (nodal_pressure.hpp); empty
   /// where there are none.
   std::vector<double> pressure;
+  /// The solid fractions that the last pass has ended with, with which the next one begins, [local
+  /// node][field] (phase_fields.hpp); empty where nothing melts.
+  std::vector<double> solid_fraction;
   /// The history at t_{n−1} for the two-step method, and t_n − t_{n−1} [s], zero if it is not known. Empty
   /// with backward Euler.
   std::vector<BlockHistory> before;

@@ -68,8 +68,6 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
     }
   }
   const bool remembers = inertia_ && inertia_->motion().remembers();
-  stiffened_ = melt_;
-  for (material::MeltModulus& melt : stiffened_) melt.modulus *= melt_times_;
   double stiffness = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     stiffness += blocks_[b]->prepare(
@@ -86,14 +84,17 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
          .old_stress = remembers ? &old.stress[b] : nullptr,
          .stress_share = remembers ? inertia_->motion().work_share : 1,
          .at_work = pass.at_work != nullptr ? &pass.at_work->stress[b] : nullptr,
-         .phases = nodal_phases_.evaluate(
-             b, pass.phase_temperature.empty() ? pass.temperature : pass.phase_temperature,
-             pass.plateau_share),
-         .melt = &stiffened_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
+         .phases = nodal_phases_.evaluate(b, fraction_place(pass), fractions_before(old, pass)),
+         .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
   if (pressure_) pressure_->begin();
   residual_is_known_ = false;
   round_off_ = k_round_off_strain * std::sqrt(parallel::global_sum(stiffness));
   if (inertia_) round_off_ += inertia_->round_off();
+}
+
+std::vector<double> MechanicalPhase::mean_solid_fraction(const MechanicalState& old,
+                                                         const MechanicalPass& pass) const {
+  return nodal_phases_.mean_solid_fraction(fractions_before(old, pass), fraction_place(pass));
 }
 
 double MechanicalPhase::residual(std::span<const double> x, std::span<double> r) {
@@ -316,6 +317,7 @@ MechanicalReport MechanicalPhase::conclude(const MechanicalState& old, const Mec
   report.deformation = std::move(deformation);
   x.resize(n_displacements());
   next.displacement = std::move(x);
+  next.solid_fraction = nodal_phases_.solid_fraction(fraction_place(pass));
   // If the last body with a pressure has been removed, the old values are kept, because checkpoints have room
   // for them.
   next.pressure = pressure_ ? pressure_->pressure() : old.pressure;

@@ -1,9 +1,11 @@
 #include "mechanics/melt_stiffness.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "mechanics/section.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::mechanics {
@@ -27,18 +29,22 @@ double extent_along(const mesh::Mesh& mesh, int body, const std::array<double, 3
 
 }  // namespace
 
-std::vector<material::MeltModulus> melt_moduli(const mesh::Mesh& mesh,
+std::vector<material::MeltModulus> melt_moduli(const mesh::Mesh& mesh, AnalysisKind kind,
                                                const std::vector<material::Material>& materials,
                                                const linear::ActiveSet& active,
-                                               const std::array<double, 3>& gravity) {
+                                               const MechanicalConditions& conditions) {
+  const std::array<double, 3>& gravity = conditions.gravity;
   const double g = std::hypot(gravity[0], gravity[1], gravity[2]);
   std::array<double, 3> direction{};
   for (std::size_t i = 0; i < 3 && g > 0; ++i) direction[i] = gravity[i] / g;
   std::vector<material::MeltModulus> melt(materials.size());
+  std::vector<double> section;
   for (std::size_t b = 0; b < materials.size(); ++b) {
     const auto body = static_cast<int>(b);
     if (!active.body(body) || !materials[b].mechanical() || !materials[b].chooses_viscosity()) continue;
-    melt[b] = material::melt_modulus(materials[b], g, g > 0 ? extent_along(mesh, body, direction) : 0.0);
+    if (section.empty()) section = sections(mesh, kind, conditions, active);
+    melt[b] = material::melt_modulus(materials[b], g, g > 0 ? extent_along(mesh, body, direction) : 0.0,
+                                     section[b]);
   }
   return melt;
 }

@@ -30,6 +30,14 @@ void renew_history(const MechanicalPhase& phase, const std::vector<char>& bodies
     state.history[b] = phase.blocks()[b]->initial_history();
     if (b < state.elements.size()) state.elements[b].reset();
     if (!state.before.empty()) state.before[b] = state.history[b];
+    if (state.solid_fraction.empty()) continue;
+    const std::vector<double>& poured = phase.nodal_phases().initial_solid_fraction();
+    const BodyFields& fields = phase.nodal_phases().fields();
+    const auto field = fields.of_body[static_cast<std::size_t>(phase.mesh().blocks[b].body)];
+    for (const Index node : phase.mesh().blocks[b].nodes) {
+      const auto place = static_cast<std::size_t>(node * fields.n_fields + field);
+      state.solid_fraction[place] = poured[place];
+    }
   }
 }
 

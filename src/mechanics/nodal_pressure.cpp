@@ -15,12 +15,6 @@ namespace {
 /// Solutions of a step after each of which further elements may be full of pores.
 constexpr int k_pore_turns = 20;
 
-std::vector<char> mixed_blocks(std::span<const std::unique_ptr<BlockKernel>> blocks) {
-  std::vector<char> mixed;
-  for (const auto& block : blocks) mixed.push_back(dynamic_cast<MixedKernel*>(block.get()) != nullptr);
-  return mixed;
-}
-
 std::vector<const mesh::ElementBlock*> blocks_with_pressure(
     const mesh::Mesh& mesh, std::span<const std::unique_ptr<BlockKernel>> blocks) {
   const std::vector<char> mixed = mixed_blocks(blocks);
@@ -32,36 +26,13 @@ std::vector<const mesh::ElementBlock*> blocks_with_pressure(
 
 }  // namespace
 
-PressureFields pressure_fields(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
-                               std::span<const std::unique_ptr<BlockKernel>> blocks) {
-  const std::vector<char> mixed_block = mixed_blocks(blocks);
-  const std::size_t n = mesh.bodies.size();
-  std::vector<char> at_node(mesh.x.size() * n, 0);
-  std::vector<int> touching(n * n, 0);
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    if (!mixed_block[b]) continue;
-    for (const Index node : mesh.blocks[b].nodes)
-      at_node[static_cast<std::size_t>(node) * n + static_cast<std::size_t>(mesh.blocks[b].body)] = 1;
-  }
-  for (std::size_t node = 0; node < mesh.x.size(); ++node)
-    for (std::size_t a = 0; a < n; ++a)
-      for (std::size_t b = 0; at_node[node * n + a] && b < n; ++b)
-        if (at_node[node * n + b] && materials[a].name != materials[b].name) touching[a * n + b] = 1;
-  processes::largest(touching);
-  PressureFields fields{1, std::vector<int>(n, 0)};
-  for (std::size_t a = 0; a < n; ++a) {
-    const auto taken = [&](int field) {
-      for (std::size_t b = 0; b < a; ++b)
-        if (touching[a * n + b] && fields.of_body[b] == field) return true;
-      return false;
-    };
-    while (taken(fields.of_body[a])) ++fields.of_body[a];
-    fields.n_fields = std::max(fields.n_fields, fields.of_body[a] + 1);
-  }
-  return fields;
+std::vector<char> mixed_blocks(std::span<const std::unique_ptr<BlockKernel>> blocks) {
+  std::vector<char> mixed;
+  for (const auto& block : blocks) mixed.push_back(dynamic_cast<MixedKernel*>(block.get()) != nullptr);
+  return mixed;
 }
 
-NodalPressure::NodalPressure(const mesh::Mesh& mesh, PressureFields fields_of_bodies,
+NodalPressure::NodalPressure(const mesh::Mesh& mesh, BodyFields fields_of_bodies,
                              std::span<const std::unique_ptr<BlockKernel>> blocks, bool orthogonal,
                              std::span<const std::array<double, 3>> body_force)
     : mesh_(mesh),

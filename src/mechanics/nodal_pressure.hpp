@@ -15,19 +15,14 @@
 #include <vector>
 
 #include "mechanics/balance.hpp"
+#include "mechanics/body_fields.hpp"
 #include "mechanics/mixed_kernel.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::mechanics {
 
-/// The number of nodal fields and that of each body: bodies of different materials that share nodes have
-/// different ones. Collective.
-struct PressureFields {
-  int n_fields = 1;
-  std::vector<int> of_body;
-};
-PressureFields pressure_fields(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
-                               std::span<const std::unique_ptr<BlockKernel>> blocks);
+/// 1 for blocks of mixed elements, [block].
+std::vector<char> mixed_blocks(std::span<const std::unique_ptr<BlockKernel>> blocks);
 
 class NodalPressure {
  public:
@@ -36,12 +31,12 @@ class NodalPressure {
   /// @param orthogonal  sub-scales; else algebraic ones
   /// @param body_force  ρ g_0 of each body [N/m³]
   /// Collective.
-  NodalPressure(const mesh::Mesh& mesh, PressureFields fields,
+  NodalPressure(const mesh::Mesh& mesh, BodyFields fields,
                 std::span<const std::unique_ptr<BlockKernel>> blocks, bool orthogonal,
                 std::span<const std::array<double, 3>> body_force);
 
   int fields() const { return fields_of_body_.n_fields; }
-  const PressureFields& fields_of_bodies() const { return fields_of_body_; }
+  const BodyFields& fields_of_bodies() const { return fields_of_body_; }
   /// Nodes at which no element has this pressure, [local node][field].
   const std::vector<char>& absent() const { return absent_; }
   const std::vector<MixedKernel*>& kernels() const { return kernels_; }
@@ -87,7 +82,7 @@ class NodalPressure {
   const mesh::Mesh& mesh_;
   bool orthogonal_;
   parallel::GhostExchange ghosts_;
-  PressureFields fields_of_body_;
+  BodyFields fields_of_body_;
   std::vector<const mesh::ElementBlock*> blocks_;  ///< of the kernels
   std::vector<MixedKernel*> kernels_;
   std::vector<char> absent_;

@@ -17,41 +17,86 @@ double straining(const material::Material& material, double temperature, double 
 
 constexpr double k_molten = 1;  // of an isothermal change, where nothing else is known
 
+double share_at(const FractionPlace& at, std::size_t node) {
+  return at.plateau_share.empty() ? k_molten : at.plateau_share[node];
+}
+
+std::vector<char> melting_blocks(const mesh::Mesh& mesh, const std::vector<material::Material>& materials) {
+  std::vector<char> melts;
+  for (const mesh::ElementBlock& block : mesh.blocks)
+    melts.push_back(materials[static_cast<std::size_t>(block.body)].solidification() != nullptr);
+  return melts;
+}
+
 }  // namespace
 
 NodalPhases::NodalPhases(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                          std::span<const double> initial_temperature)
-    : blocks_(mesh.blocks.size()) {
+    : n_nodes_(mesh.x.size()),
+      fields_(body_fields(mesh, materials, melting_blocks(mesh, materials))),
+      blocks_(mesh.blocks.size()) {
+  bool melts = false;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const material::Material& material = materials[static_cast<std::size_t>(mesh.blocks[b].body)];
+    const auto body = static_cast<std::size_t>(mesh.blocks[b].body);
+    const material::Material& material = materials[body];
     OfBlock& block = blocks_[b];
     block.strains = std::any_of(material.phase_changes.begin(), material.phase_changes.end(),
                                 [](const material::PhaseChange& c) { return c.volume_change != 0; });
+    melts = melts || material.solidification() != nullptr;  // every process has every block
     if (material.solidification() == nullptr && !block.strains) continue;
     block.material = &material;
+    block.field = static_cast<std::size_t>(fields_.of_body[body]);
     block.nodes = mesh.blocks[b].nodes;
     std::sort(block.nodes.begin(), block.nodes.end());
     block.nodes.erase(std::unique(block.nodes.begin(), block.nodes.end()), block.nodes.end());
     block.nodes.shrink_to_fit();
-    solid_fraction_.resize(mesh.x.size(), 1.0);
+    solid_fraction_.resize(n_nodes_, 1.0);
     if (!block.strains) continue;
-    straining_.resize(mesh.x.size(), 0.0);
+    straining_.resize(n_nodes_, 0.0);
     for (const Index node : block.nodes)
       block.initial_straining.push_back(
           straining(material, initial_temperature[static_cast<std::size_t>(node)], k_molten));
   }
+  if (!melts) return;
+  initial_solid_fraction_.assign(n_nodes_ * static_cast<std::size_t>(fields_.n_fields), 1.0);
+  initial_solid_fraction_ = solid_fraction({initial_temperature, {}});
 }
 
-PhaseFields NodalPhases::evaluate(std::size_t block, std::span<const double> temperature,
-                                  std::span<const double> plateau_share) {
+std::vector<double> NodalPhases::solid_fraction(const FractionPlace& at) const {
+  std::vector<double> fraction(initial_solid_fraction_.size(), 1.0);
+  for (const OfBlock& of : blocks_) {
+    const material::PhaseChange* const freezing =
+        of.material != nullptr ? of.material->solidification() : nullptr;
+    if (freezing == nullptr) continue;
+    for (const Index node : of.nodes) {
+      const auto i = static_cast<std::size_t>(node);
+      fraction[place(i, of)] = freezing->fraction.value(at.temperature[i], share_at(at, i));
+    }
+  }
+  return fraction;
+}
+
+std::vector<double> NodalPhases::mean_solid_fraction(std::span<const double> before,
+                                                     const FractionPlace& at) const {
+  std::vector<double> fraction = solid_fraction(at);
+  for (std::size_t i = 0; i < before.size(); ++i) fraction[i] = 0.5 * (fraction[i] + before[i]);
+  return fraction;
+}
+
+PhaseFields NodalPhases::evaluate(std::size_t block, const FractionPlace& at,
+                                  std::span<const double> before) {
   const OfBlock& of = blocks_[block];
   if (of.material == nullptr) return {};
   const material::PhaseChange* const freezing = of.material->solidification();
   for (std::size_t n = 0; n < of.nodes.size(); ++n) {
     const auto i = static_cast<std::size_t>(of.nodes[n]);
-    const double share = plateau_share.empty() ? k_molten : plateau_share[i];
-    if (freezing != nullptr) solid_fraction_[i] = freezing->fraction.value(temperature[i], share);
-    if (of.strains) straining_[i] = straining(*of.material, temperature[i], share) - of.initial_straining[n];
+    const double share = share_at(at, i);
+    if (freezing != nullptr) {
+      const double now = freezing->fraction.value(at.temperature[i], share);
+      solid_fraction_[i] = before.empty() ? now : 0.5 * (now + before[place(i, of)]);
+    }
+    if (of.strains)
+      straining_[i] = straining(*of.material, at.temperature[i], share) - of.initial_straining[n];
   }
   PhaseFields fields;
   if (freezing != nullptr) fields.solid_fraction = solid_fraction_;
@@ -60,7 +105,9 @@ PhaseFields NodalPhases::evaluate(std::size_t block, std::span<const double> tem
 }
 
 std::size_t NodalPhases::bytes() const {
-  std::size_t total = (solid_fraction_.capacity() + straining_.capacity()) * sizeof(double);
+  std::size_t total =
+      (solid_fraction_.capacity() + straining_.capacity() + initial_solid_fraction_.capacity()) *
+      sizeof(double);
   for (const OfBlock& block : blocks_)
     total += block.nodes.capacity() * sizeof(Index) + block.initial_straining.capacity() * sizeof(double);
   return total;

@@ -119,8 +119,8 @@ StepResult MaterialPoint::attempt_adiabatic(const Target& end, double dt) const 
 Law::Properties<double> MaterialPoint::properties(double temperature, double effective_step) const {
   Law::Properties<double> p = law_.properties_at(temperature, strain_reference());
   if (law_.material().chooses_viscosity()) {
-    const material::MeltModulus melt = material::melt_modulus(law_.material(), 0, 0);
-    p.elastic.viscosity = melt.mush.at(p.elastic.solid_fraction, effective_step * melt.modulus);
+    const material::MeltModulus melt = material::melt_modulus(law_.material(), 0, 0, 0);
+    p.elastic.viscosity = melt.mush.at(p.elastic.solid_fraction, melt.viscosity(effective_step));
   }
   return p;
 }

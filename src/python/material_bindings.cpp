@@ -111,7 +111,7 @@ Viscoplastic::Properties<double> properties_at(const Viscoplastic& law, double t
                                                double dt) {
   Viscoplastic::Properties<double> p = law.properties_at(temperature, reference);
   if (law.material().chooses_viscosity())
-    p.elastic.viscosity = dt * material::melt_modulus(law.material(), 0, 0).modulus;
+    p.elastic.viscosity = material::melt_modulus(law.material(), 0, 0, 0).viscosity(dt);
   return p;
 }
 

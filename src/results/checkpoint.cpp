@@ -28,7 +28,7 @@ namespace {
 
 /// Characters that stand for a pair in State::steady_gaps.
 constexpr char k_steady = 's', k_unsteady = '-';
-constexpr const char* k_format = "Solidus checkpoint 21";
+constexpr const char* k_format = "Solidus checkpoint 22";
 constexpr const char* k_known = "known";
 /// Above absolute zero, and no hotter than a case may ask for [K].
 constexpr AllowedValues k_temperatures{std::numeric_limits<double>::min(), 1e6};
@@ -49,8 +49,7 @@ void each_number(C& c, const Visit& visit) {
   const auto all = [&visit](auto&... n) { (visit(n), ...); };
   all(c.state.time, k.steps, c.rejected, c.shortened, c.state.mechanics.dt_before, k.stage.number,
       k.stage.time);
-  all(k.control.size, k.control.refused, k.control.refused_ratio, k.control.before_refusal, k.control.failed,
-      k.control.viscous, k.control.failures, k.rates.changed);
+  all(k.control.size, k.control.refused, k.control.refused_ratio, k.control.before_refusal, k.control.failures, k.rates.changed);
   all(o.step, o.adaptive, o.min_step, o.max_step, o.growth, o.cut, o.easy_iterations);
   all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.solid_fraction,
       o.limits.inertia);
@@ -219,6 +218,7 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   take_nodes(in, "released", nodes, c.state.burning.released);
   take_nodes(in, "displacement", nodes, c.state.mechanics.displacement);
   take_nodes(in, "pressure", nodes, c.state.mechanics.pressure);
+  take_nodes(in, "mechanical_solid_fraction", nodes, c.state.mechanics.solid_fraction);
   take_nodes(in, "velocity", nodes, c.state.mechanics.velocity);
   take_nodes(in, "acceleration", nodes, c.state.mechanics.acceleration);
   take_nodes(in, "net_force", nodes, c.state.mechanics.net_force);
@@ -312,6 +312,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   nodal("released", c.state.burning.released);
   nodal("displacement", c.state.mechanics.displacement);
   nodal("pressure", c.state.mechanics.pressure);
+  nodal("mechanical_solid_fraction", c.state.mechanics.solid_fraction);
   nodal("velocity", c.state.mechanics.velocity);
   nodal("acceleration", c.state.mechanics.acceleration);
   nodal("net_force", c.state.mechanics.net_force);

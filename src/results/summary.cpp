@@ -42,7 +42,10 @@ Json by_name(const std::vector<T>& list, std::string T::*key, Json (*members)(co
 
 Json melt_members(const ChosenMelt& melt) {
   Json json;
-  json.add("modulus_in_a_step[Pa]", melt.modulus).add("measured_against", melt.against);
+  json.add("viscosity[Pa s]", melt.modulus * melt.time)
+      .add("modulus[Pa]", melt.modulus)
+      .add("measured_against", melt.against)
+      .add("relaxation_time[s]", melt.time);
   return json;
 }
 

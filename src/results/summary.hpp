@@ -37,7 +37,8 @@ PeakMemory peak_memory();
 /// The stiffness of a melt whose viscosity the program chose.
 struct ChosenMelt {
   std::string body;
-  double modulus = 0;   ///< 2Ĝ of a step [Pa]
+  double modulus = 0;   ///< 2Ĝ [Pa]
+  double time = 0;      ///< t_r [s]
   std::string against;  ///< the quantity it was measured against
 };
 

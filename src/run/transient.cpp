@@ -33,7 +33,7 @@ coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
   std::optional<coupling::ErrorEstimate> estimate;
   if (spec.time.adaptive) {
     coupling::BodyNorm norm(a.mesh, spec.analysis.kind);
-    const double error = displacement_error(spec.time, norm.diagonal());
+    const double error = displacement_error(spec.time, sections_of(spec, a.mesh));
     const auto limit = [&](coupling::StepLimits& limits) {
       limits.displacement = error;
       limits.inertia = spec.dynamics.has_value();
@@ -83,7 +83,6 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
   if (recorder != nullptr) simulation_.add(*recorder);
   simulation_.add(why_);
   if (a.criteria) simulation_.follow(*a.criteria);
-  if (a.mechanics) simulation_.follow_melt(*a.mechanics);
   if (!a.initial.burning.lit.empty()) simulation_.follow_burning(*a.heat);
   simulation_.stop_when(options.stop_asked);
   simulation_.diagnose_by([this](const coupling::State& last, const StepRejected& rejected, double dt) {

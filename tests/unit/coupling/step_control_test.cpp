@@ -32,25 +32,6 @@ StepMeasure iterations(int n) {
   return measure;
 }
 
-TEST(StepControl, AMeltKeepsTheViscosityOfAStepThatWasCutToASixteenthInVain) {
-  StepControl control(step_of(1.6), 0, {100.0});
-  for (int cut = 0; cut < 2; ++cut) {
-    const PlannedStep step = control.plan(0);
-    EXPECT_EQ(control.viscous_step(step), step.dt);
-    ASSERT_TRUE(control.rejected(step, "mechanics"));
-  }
-  double time = 0;
-  for (PlannedStep step = control.plan(time); step.dt < 1.6 * (1 - 1e-9); step = control.plan(time)) {
-    EXPECT_EQ(control.viscous_step(step), 1.6) << "at t = " << time;
-    time = step.time;
-    control.accepted(step, iterations(3));
-  }
-  control.accepted(control.plan(time), iterations(3));
-  ASSERT_TRUE(control.rejected(control.plan(time), "mechanics"));
-  const PlannedStep shorter = control.plan(time);
-  EXPECT_EQ(control.viscous_step(shorter), shorter.dt);
-}
-
 TEST(StepControl, TurnsMayEndEarlyAfterThreeFailuresUntilAStepSettles) {
   StepControl control(step_of(1.6), 0, {100.0});
   for (int cut = 0; cut < 3; ++cut) {

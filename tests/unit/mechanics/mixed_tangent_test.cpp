@@ -75,7 +75,7 @@ struct Mixed {
       blocks.push_back(
           mechanics::make_mixed_kernel(mesh, block, s.kind, materials[0], s.mapping, stabilisation));
     pressure = std::make_unique<mechanics::NodalPressure>(
-        mesh, mechanics::pressure_fields(mesh, materials, blocks), blocks,
+        mesh, mechanics::body_fields(mesh, materials, mechanics::mixed_blocks(blocks)), blocks,
         stabilisation == Stabilisation::orthogonal, std::vector<std::array<double, 3>>{{0, -7e4, 0}});
     linear::NodeGraph graph(mesh);
     for (const auto& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
@@ -104,7 +104,7 @@ struct Mixed {
                         .start_history = &history,
                         .dt = 0.5,
                         .effective = 0.5,
-                        .phases = nodal.evaluate(0, temperature, {})});
+                        .phases = nodal.evaluate(0, {temperature, {}}, {})});
     pressure->begin();
     // Pressures of the size of the stress.
     for (Index node = 0; node < mesh.n_nodes(); ++node) x.push_back(1e-3 * std::cos(0.9 * number(node, 0)));

@@ -23,6 +23,7 @@ mesh::Mesh shared_nodes() {
   mesh::Mesh mesh;
   mesh.x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.n_owned_nodes = 3;
+  mesh.bodies = {{"first"}, {"second"}};
   for (int body = 0; body < 2; ++body) {
     mesh::ElementBlock block;
     block.shape = mesh::Shape::tri3;
@@ -43,11 +44,11 @@ TEST(NodalPhases, AreThoseOfTheBodysOwnMaterial) {
   mechanics::NodalPhases phases(mesh, materials, initial);
 
   const std::vector<double> share = {0.25, 0.4, 1};
-  const mechanics::PhaseFields first = phases.evaluate(0, temperature, share);
+  const mechanics::PhaseFields first = phases.evaluate(0, {temperature, share}, {});
   EXPECT_THAT(first.solid_fraction, testing::ElementsAre(0.75, 1, 1));
   EXPECT_DOUBLE_EQ(first.straining[0], -0.06 * 0.75);
   EXPECT_DOUBLE_EQ(first.straining[1], -0.06);
-  const mechanics::PhaseFields second = phases.evaluate(1, temperature, share);
+  const mechanics::PhaseFields second = phases.evaluate(1, {temperature, share}, {});
   EXPECT_THAT(second.solid_fraction,
               testing::ElementsAre(testing::DoubleEq(0.5), testing::DoubleEq(0.8), testing::DoubleEq(0.51)));
   EXPECT_DOUBLE_EQ(second.straining[1], 0.02 * 0.8 + 0.01 * 0.6);
@@ -60,11 +61,48 @@ TEST(NodalPhases, StartMoltenAtTheTemperatureOfAnIsothermalChange) {
       2, with({{"freezing", PhaseFraction::linear(900, 900), 4e5, -0.06, true}}));
   const std::vector<double> initial(3, 900.0);
   mechanics::NodalPhases phases(mesh, materials, initial);
-  const mechanics::PhaseFields start = phases.evaluate(0, initial, {});
+  const mechanics::PhaseFields start = phases.evaluate(0, {initial, {}}, {});
   EXPECT_THAT(start.solid_fraction, testing::Each(0.0));
   EXPECT_THAT(start.straining, testing::Each(0.0));
   const std::vector<double> cold(3, 899.9);
-  EXPECT_THAT(phases.evaluate(0, cold, {}).straining, testing::Each(-0.06));
+  EXPECT_THAT(phases.evaluate(0, {cold, {}}, {}).straining, testing::Each(-0.06));
+}
+
+TEST(NodalPhases, OfAStepAreTheMeanOfItsEndsAndItsStrainIsThatOfTheEnd) {
+  const mesh::Mesh mesh = shared_nodes();
+  std::vector<material::Material> materials = {
+      with({{"freezing", PhaseFraction::linear(850, 950), 4e5, -0.06, true}}),
+      with({{"freezing", PhaseFraction::linear(900, 1000), 4e5, 0.02, true}})};
+  materials[1].name = "another";
+  const std::vector<double> initial(3, 1000.0), before = {950, 900, 850}, now = {900, 850, 800};
+  mechanics::NodalPhases phases(mesh, materials, initial);
+  EXPECT_THAT(phases.initial_solid_fraction(), testing::Each(0.0));
+  const std::vector<double> at_start = phases.solid_fraction({before, {}});
+  const mechanics::PhaseFields first = phases.evaluate(0, {now, {}}, at_start);
+  EXPECT_THAT(first.solid_fraction,
+              testing::ElementsAre(testing::DoubleEq(0.25), testing::DoubleEq(0.75), testing::DoubleEq(1)));
+  EXPECT_DOUBLE_EQ(first.straining[0], -0.06 * 0.5);
+  EXPECT_DOUBLE_EQ(first.straining[1], -0.06);
+  // Bodies of other materials have their own fractions at the nodes that they share.
+  const mechanics::PhaseFields second = phases.evaluate(1, {now, {}}, at_start);
+  EXPECT_THAT(second.solid_fraction,
+              testing::ElementsAre(testing::DoubleEq(0.75), testing::DoubleEq(1), testing::DoubleEq(1)));
+  const std::vector<double> mean = phases.mean_solid_fraction(at_start, {now, {}});
+  ASSERT_EQ(phases.fields().n_fields, 2);
+  EXPECT_DOUBLE_EQ(mean[0], 0.25);
+  EXPECT_DOUBLE_EQ(mean[1], 0.75);
+}
+
+TEST(NodalPhases, AreSolidInAStepOnlyIfTheyWereSoAtBothEnds) {
+  const mesh::Mesh mesh = shared_nodes();
+  const std::vector<material::Material> materials(
+      2, with({{"freezing", PhaseFraction::linear(900, 900), 4e5, -0.06, true}}));
+  const std::vector<double> initial(3, 1000.0), cold(3, 800.0);
+  mechanics::NodalPhases phases(mesh, materials, initial);
+  const std::vector<double> melt = phases.initial_solid_fraction(), solid = phases.solid_fraction({cold, {}});
+  EXPECT_THAT(phases.evaluate(0, {cold, {}}, melt).solid_fraction, testing::Each(0.5));
+  EXPECT_THAT(phases.evaluate(0, {initial, {}}, solid).solid_fraction, testing::Each(0.5));
+  EXPECT_THAT(phases.evaluate(0, {cold, {}}, solid).solid_fraction, testing::Each(1.0));
 }
 
 TEST(NodalPhases, OfAMaterialWithoutPhaseChangesAreNone) {
@@ -72,8 +110,8 @@ TEST(NodalPhases, OfAMaterialWithoutPhaseChangesAreNone) {
   const std::vector<material::Material> materials(2, with({}));
   const std::vector<double> initial(3, 900.0);
   mechanics::NodalPhases phases(mesh, materials, initial);
-  EXPECT_TRUE(phases.evaluate(0, initial, {}).solid_fraction.empty());
-  EXPECT_TRUE(phases.evaluate(0, initial, {}).straining.empty());
+  EXPECT_TRUE(phases.evaluate(0, {initial, {}}, {}).solid_fraction.empty());
+  EXPECT_TRUE(phases.evaluate(0, {initial, {}}, {}).straining.empty());
 }
 
 /// Quadratic basis functions are negative in places; a fraction between 0 and 1 at the nodes stays there.
