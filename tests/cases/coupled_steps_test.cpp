@@ -1,0 +1,177 @@
+/// Coupled castings of a real alloy freeze at the same time, with the same gaps and pores, whatever the step,
+/// and the same between planes of symmetry as whole.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "case_folder.hpp"
+#include "square_bar.hpp"
+
+namespace solidus {
+namespace {
+
+using testing::CaseFolder;
+using testing::CaseRun;
+using testing::Piece;
+
+const CaseFolder k_here("coupled_steps");
+
+/// A cylinder of 40 mm in a mould, open on top.
+const std::string k_cylinder = R"(title = "A cylinder in a mould"
+[analysis]
+kind = "axisymmetric"
+gravity = "9.81 m/s2"
+[mesh]
+shape = "cylinder_in_mould"
+element = "tri3"
+[mesh.cylinder_in_mould]
+radius = "20 mm"
+height = "40 mm"
+mould_wall = "25 mm"
+mould_bottom = "25 mm"
+mould_height = "70 mm"
+element_size = "2.5 mm"
+mould_element_size = "5 mm"
+[time]
+end = "60 s"
+step = "0.5 s"
+[[body]]
+name = "part"
+material = "aluminium_alsi7mg"
+initial_temperature = "680 degC"
+[[body]]
+name = "mould"
+material = "h13_tool_steel"
+initial_temperature = "200 degC"
+[[thermal_condition]]
+name = "outside"
+group = "mould_outside"
+kind = "film"
+coefficient = "200 W/m2/K"
+ambient = "30 degC"
+[[mechanical_condition]]
+name = "floor"
+group = "mould_bottom"
+kind = "displacement"
+uz = "0 mm"
+[[contact]]
+name = "wall"
+slave = "part_surface"
+master = "mould_surface"
+[contact.heat]
+conductance = "3000 W/m2/K"
+gap_law = "gas"
+gas_conductivity = "0.05 W/m/K"
+[[probe]]
+name = "T_centre"
+field = "temperature"
+point = ["0 mm", "20 mm"]
+body = "part"
+unit = "degC"
+[[probe]]
+name = "gap_most"
+field = "gap"
+kind = "maximum"
+group = "part_surface"
+unit = "um"
+[[probe]]
+name = "pores"
+field = "pore_fraction"
+kind = "mean"
+unit = "1"
+group = "part"
+)";
+
+struct Answers {
+  double solid_after = 0;  ///< [s]
+  double centre = 0;       ///< at 40 s [°C]
+  double gap = 0;          ///< the largest at the end [µm]
+  double pores = 0;        ///< of the casting, at the end
+};
+
+Answers answers(const std::string& name, const std::string& text, const std::vector<std::string>& overrides) {
+  const CaseRun run = k_here.run(name, text, overrides);
+  EXPECT_TRUE(run.finished) << name << ": " << run.reason;
+  const std::vector<double>&time = run.history.at("time[s]"), &solid = run.history.at("solid_fraction[1]");
+  const auto there = std::ranges::find_if(solid, [](double f) { return f >= 1 - 1e-12; });
+  EXPECT_NE(there, solid.end()) << name;
+  // The fraction is linear near its end: where the last two points below one lead.
+  const auto i = static_cast<std::size_t>(there - solid.begin());
+  return {time[i], testing::at(run.history, "T_centre[degC]", 40), run.history.at("gap_most[um]").back(),
+          run.history.at("pores[1]").back()};
+}
+
+/// Runs with adaptive steps of the program's choice and with fixed ones of 1, 0.25 and 0.125 s.
+struct Sweep {
+  Answers by_default;
+  std::vector<Answers> fixed;
+};
+
+Sweep sweep(const std::string& name, const std::string& text) {
+  Sweep all{answers(name, text, {"time.adaptive=true"}), {}};
+  for (const char* step : {"1", "0.25", "0.125"})
+    all.fixed.push_back(answers(name + "_" + step, text, {std::string("time.step=") + step + " s"}));
+  return all;
+}
+
+/// @param solid_after, gap  converged, from steps of 0.0625 s [s], [µm]
+void expect_converged(const Sweep& s, double solid_after, double gap, double pores) {
+  const auto near = [&](const Answers& a, double of_time, double of_gap, double of_pores) {
+    EXPECT_NEAR(a.solid_after, solid_after, of_time * solid_after);
+    EXPECT_NEAR(a.gap, gap, of_gap * gap);
+    EXPECT_NEAR(a.pores, pores, of_pores);
+  };
+  for (const Answers& a : s.fixed) {
+    near(a, 0.02, 0.03, 5e-4);
+    EXPECT_NEAR(a.centre, s.fixed.back().centre, 0.01 * s.fixed.back().centre);
+  }
+  near(s.by_default, 0.02, 0.05, 1e-3);
+  EXPECT_NEAR(s.by_default.centre, s.fixed.back().centre, 0.01 * s.fixed.back().centre);
+}
+
+TEST(CoupledSteps, ABarInAClosedDieFreezesAtTheSameTimeWithTheSameGapAndPoresWhateverTheStep) {
+  k_here.write("half.msh", testing::square_bar(Piece::half, 8));
+  expect_converged(sweep("bar", testing::square_bar_case(Piece::half, "half.msh", true)), 34.4, 156.8, 0.0518);
+}
+
+TEST(CoupledSteps, ACylinderInAnOpenMouldFreezesAtTheSameTimeWithTheSameGapWhateverTheStep) {
+  expect_converged(sweep("cylinder", k_cylinder), 27.5, 120.2, 0.0005);
+}
+
+TEST(CoupledSteps, AQuarterOfABarIsTheWholeBar) {
+  k_here.write("quarter.msh", testing::square_bar(Piece::quarter, 8));
+  k_here.write("whole.msh", testing::square_bar(Piece::whole, 8));
+  const CaseRun quarter =
+      k_here.run("quarter", testing::square_bar_case(Piece::quarter, "quarter.msh", false));
+  const CaseRun whole = k_here.run("whole", testing::square_bar_case(Piece::whole, "whole.msh", false));
+  ASSERT_TRUE(quarter.finished && whole.finished) << quarter.reason << whole.reason;
+  for (const char* column :
+       {"T_centre[degC]", "gap_corner[um]", "gap_side[um]", "von_mises[MPa]", "pores[1]"})
+    for (const double time : {10.0, 20.0, 30.0, 40.0, 60.0}) {
+      const double expected = testing::at(whole.history, column, time);
+      EXPECT_NEAR(testing::at(quarter.history, column, time), expected, 1e-6 * std::abs(expected) + 1e-9)
+          << column << " at " << time << " s";
+    }
+}
+
+TEST(CoupledSteps, AMouldThatOnlyConductsDoesNotDecideHowLongStepsAre) {
+  // The die reaches to 60 and to 600 mm; the heat of half a minute stays far within either.
+  k_here.write("near.msh", testing::square_bar(Piece::quarter, 4, 20, 60));
+  k_here.write("far.msh", testing::square_bar(Piece::quarter, 4, 20, 200));
+  std::vector<double> steps, gaps;
+  for (const char* mesh : {"near.msh", "far.msh"}) {
+    const CaseRun run = k_here.run(
+        std::string("mould_") + mesh[0], testing::square_bar_case(Piece::quarter, mesh, false),
+        {"time.adaptive=true", "time.end=20 s", "body.die.physics=heat"});
+    ASSERT_TRUE(run.finished) << run.reason;
+    steps.push_back(static_cast<double>(run.history.at("time[s]").size()));
+    gaps.push_back(testing::at(run.history, "gap_corner[um]", 20));
+  }
+  EXPECT_NEAR(steps[1], steps[0], 0.1 * steps[0]);
+  EXPECT_NEAR(gaps[1], gaps[0], 0.02 * gaps[0]);
+}
+
+}  // namespace
+}  // namespace solidus
