@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <span>
 
 #include "mesh/block_geometry.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/quadrature.hpp"
+#include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::mechanics {
@@ -83,9 +87,11 @@ bool is_held(const mesh::FaceKey& key, const mesh::Point& normal, const std::vec
   return false;
 }
 
-/// The area of the skin of a body without the faces that are held along their normal [m²].
-double cooling_area(const mesh::Mesh& mesh, AnalysisKind kind, int body, const std::vector<unsigned>& held) {
-  double area = 0;
+/// The areas of the faces of a body's skin that this process counts, without those that are held along their
+/// normal [m²].
+std::vector<double> cooling_areas(const mesh::Mesh& mesh, AnalysisKind kind, int body,
+                                  const std::vector<unsigned>& held) {
+  std::vector<double> areas;
   for (const Face& face : skin_faces(mesh, body)) {
     const mesh::ElementBlock& block = mesh.blocks[face.block];
     mesh::ElementBlock one;
@@ -95,18 +101,38 @@ double cooling_area(const mesh::Mesh& mesh, AnalysisKind kind, int body, const s
       one.nodes.push_back(block.element(face.element)[n]);
     const mesh::FaceGeometry geometry(mesh, one, kind, mesh::stiffness_rule(one.shape));
     if (is_held(face.key, geometry.normal.front(), held)) continue;
-    for (const double weight : geometry.weight) area += weight;
+    areas.push_back(std::accumulate(geometry.weight.begin(), geometry.weight.end(), 0.0));
   }
-  return area;
+  return areas;
 }
 
-double volume_of(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind) {
-  const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
-  Lane volume(0.0);
-  for (Index batch = 0; batch < geometry.n_batches; ++batch)
-    for (int q = 0; q < geometry.n_points; ++q)
-      volume += geometry.counted[at(batch)] * geometry.weight_at(batch, q);
-  return sum(volume);
+/// The volumes of the elements of a body that this process counts [m³].
+std::vector<double> volumes(const mesh::Mesh& mesh, AnalysisKind kind, int body) {
+  std::vector<double> result;
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (block.body != body) continue;
+    const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
+    for (Index batch = 0; batch < geometry.n_batches; ++batch) {
+      Lane volume(0.0);
+      for (int q = 0; q < geometry.n_points; ++q) volume += geometry.weight_at(batch, q);
+      volume *= geometry.counted[at(batch)];
+      for (int lane = 0; lane < k_lanes; ++lane) result.push_back(volume[lane]);
+    }
+  }
+  return result;
+}
+
+/// The sum over all processes, the same bits however the parts are spread over them: whole numbers of a 2^30th
+/// of the largest part. What hangs on it is kept in checkpoints, which other numbers of processes read.
+double sum_in_any_order(const std::vector<double>& parts) {
+  const double largest =
+      parallel::global_max(parts.empty() ? 0.0 : *std::max_element(parts.begin(), parts.end()));
+  if (!(largest > 0)) return 0;
+  const double unit = std::ldexp(largest, -30);
+  std::int64_t units[1] = {0};
+  for (const double part : parts) units[0] += std::llround(part / unit);
+  processes::sum(std::span<std::int64_t>(units));
+  return static_cast<double>(units[0]) * unit;
 }
 
 }  // namespace
@@ -114,17 +140,14 @@ double volume_of(const mesh::Mesh& mesh, const mesh::ElementBlock& block, Analys
 std::vector<double> sections(const mesh::Mesh& mesh, AnalysisKind kind,
                              const MechanicalConditions& conditions, const linear::ActiveSet& active) {
   const std::vector<unsigned> held = held_components(mesh, conditions);
-  std::vector<double> sums(2 * mesh.bodies.size(), 0.0);
-  for (std::size_t body = 0; body < mesh.bodies.size(); ++body) {
-    if (!active.body(static_cast<int>(body))) continue;
-    for (const mesh::ElementBlock& block : mesh.blocks)
-      if (block.body == static_cast<int>(body)) sums[2 * body] += volume_of(mesh, block, kind);
-    sums[2 * body + 1] = cooling_area(mesh, kind, static_cast<int>(body), held);
+  std::vector<double> result(mesh.bodies.size(), 0.0);
+  for (std::size_t b = 0; b < result.size(); ++b) {
+    const auto body = static_cast<int>(b);
+    if (!active.body(body)) continue;
+    const double volume = sum_in_any_order(volumes(mesh, kind, body)),
+                 area = sum_in_any_order(cooling_areas(mesh, kind, body, held));
+    if (area > 0) result[b] = volume / area;
   }
-  processes::sum(sums);
-  std::vector<double> result;
-  for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
-    result.push_back(sums[2 * body + 1] > 0 ? sums[2 * body] / sums[2 * body + 1] : 0.0);
   return result;
 }
 

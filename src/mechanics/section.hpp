@@ -14,7 +14,7 @@
 namespace solidus::mechanics {
 
 /// V/A of every body of the mesh that deforms [m]; zero for others, and for a body without a surface of its
-/// own. Collective; the same bits on every process.
+/// own. Collective; the same bits on any number of processes.
 /// @param active  bodies that deform
 std::vector<double> sections(const mesh::Mesh& mesh, AnalysisKind kind,
                              const MechanicalConditions& conditions, const linear::ActiveSet& active);
