@@ -12,8 +12,10 @@
 #include "app/python_tools.hpp"
 #include "app/verbs.hpp"
 #include "build/case_file.hpp"
+#include "build/geometry_bodies.hpp"
 #include "build/mesh_input.hpp"
 #include "input/units.hpp"
+#include "mesh/body_partition.hpp"
 #include "mesh/face_rules.hpp"
 #include "mesh/quality.hpp"
 #include "results/output_error.hpp"
@@ -53,6 +55,23 @@ NamedMesh read(const CaseArguments& arguments, const std::string& unit) {
   return {std::move(mesh), {}};
 }
 
+/// The groups that are bodies. What others are left out, or that sets overlap, is added to `text`.
+std::vector<std::string> bodies_of(const NamedMesh& named, const std::string& path, std::string& text) {
+  try {
+    const mesh::BodyPartition partition = mesh::partition_of(named.mesh, path, [&](const std::string& group) {
+      return named.bodies.contains(group) ? 3 : model::body_preference(group);
+    });
+    for (const std::string& note : partition.notes) text += note + "\n";
+    return partition.bodies;
+  } catch (const InputError& error) {
+    text += std::string(error.what()) + "\n";
+    std::vector<std::string> all;
+    for (const auto& [name, group] : named.mesh.groups)
+      if (group.dimension == named.mesh.dimension) all.push_back(name);
+    return all;
+  }
+}
+
 constexpr const char* k_faces = "faces.vtk";
 
 /// The faces as a file for ParaView, from which the pictures are drawn.
@@ -79,9 +98,7 @@ ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit,
     const NamedMesh named = read(arguments, unit);
     const RawMesh& mesh = named.mesh;
     text = mesh::to_text(mesh::assess(mesh));
-    std::vector<std::string> bodies;
-    for (const auto& [name, group] : mesh.groups)
-      if (group.dimension == mesh.dimension) bodies.push_back(name);
+    const std::vector<std::string> bodies = bodies_of(named, arguments.path, text);
     constexpr double k_edge = std::numbers::pi / 6;  // neighbours that bend by more begin a face
     std::vector<mesh::SkinPatch> patches = mesh::skin_patches(mesh, bodies, k_edge);
     for (mesh::SkinPatch& patch : patches)

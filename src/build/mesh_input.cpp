@@ -10,6 +10,7 @@
 
 #include "build/interfaces.hpp"
 #include "build/mesh_checks.hpp"
+#include "build/node_set_surfaces.hpp"
 #include "input/units.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/distribute.hpp"
@@ -127,6 +128,10 @@ mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) 
     add_rule_groups(spec, result, name);
     found = find_interfaces(spec, result, name);
     add_contacts(found, spec);
+  }
+  if (result.dimension == spec.dimension()) {  // else check_groups says so
+    check_bodies_of(spec, result);
+    make_surfaces_of_node_sets(spec, result);
   }
   check_groups(spec, result);
   for (const MeshLayersSpec& layers : m.layers)

@@ -37,7 +37,7 @@ PartMeasures measure_part(const NewCaseOptions& options) {
   m.mesh = meshed ? mesh::read_mesh(source) : mesh::mesh_casting(source, {}, 0);
   if (m.mesh.dimension != 3)
     throw InputError({source.path}, "the mesh is plane", "a solid: STEP, BREP, IGES, STL, or a mesh of one");
-  m.bodies = bodies_of(m.mesh, options.as);
+  m.bodies = bodies_of(m.mesh, options.as, source.path);
   for (const GeometryBody& body : m.bodies) {
     if (body.role == Role::mould || body.role == Role::die) m.has_mould = true;
     if (is_metal(body.role)) m.metal.push_back(body.name);
