@@ -17,6 +17,7 @@
 #include "mesh/nastran_input.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "mesh/stl_file.hpp"
+#include "mesh/universal_file.hpp"
 #include "mesh/vtu_mesh.hpp"
 #include "system/errors.hpp"
 
@@ -63,6 +64,7 @@ RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting)
     throw InputError({path}, "the mesh file is no .geo script and has no constants");
   if (format == FileFormat::abaqus) return read_abaqus_input(path, source.unit_in_metres);
   if (format == FileFormat::nastran) return read_nastran(path, source.unit_in_metres);
+  if (format == FileFormat::universal) return read_universal_file(path, source.unit_in_metres);
   if (format == FileFormat::vtu) return read_vtu_mesh(path, source.unit_in_metres);
   if (format == FileFormat::gmsh_mesh)
     if (std::optional<RawMesh> mesh = read_gmsh_mesh_file(path, source.unit_in_metres))
