@@ -11,9 +11,9 @@
 #include "build/interfaces.hpp"
 #include "build/mesh_checks.hpp"
 #include "build/node_set_surfaces.hpp"
-#include "input/units.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/distribute.hpp"
+#include "mesh/file_unit.hpp"
 #include "mesh/message.hpp"
 #include "mesh/parametric_meshes.hpp"
 #include "mesh/wall_layers.hpp"
@@ -109,7 +109,8 @@ mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) 
   const std::string name = m.file ? *m.file : *m.shape;
   mesh::RawMesh result;
   if (m.file) {
-    mesh::MeshSource source{*m.file, units::convert(1, m.unit, "m"), m.element_size.value_or(0), m.order};
+    mesh::MeshSource source{*m.file, mesh::metres_of_unit(*m.file, m.unit, "m", m.where),
+                            m.element_size.value_or(0), m.order};
     for (const MeshConstantSpec& constant : m.constants) source.constants[constant.name] = constant.value;
     source.geometry = geometry_choice(m);
     source.trust_script = m.trust_script;

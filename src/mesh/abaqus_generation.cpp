@@ -79,7 +79,8 @@ class Generator {
     const auto there = scope_.node_at.find(number);
     if (there == scope_.node_at.end())
       scope_.add_node(number, x, at);
-    else if (norm(scope_.x[static_cast<std::size_t>(there->second)] - x) > 1e-9 * (norm(x) + unit_))
+    else if (length_of(difference(scope_.x[static_cast<std::size_t>(there->second)], x)) >
+             1e-9 * (length_of(x) + unit_))
       throw InputError(at, "*" + keyword_.name + " makes node " + std::to_string(number) +
                                ", which is there already at another place");
     add_to(scope_.node_sets, set, number);
@@ -133,17 +134,17 @@ void Generator::nodes_between(const AbaqusLine& line) {
 Point Generator::on_arc(const AbaqusLine& line, const Point& a, const Point& b, double share) const {
   const Point centre = line.has(3) ? place(line.integer(3), line.at)
                                    : Point{unit_ * line.real(4), unit_ * line.real(5), unit_ * line.real(6)};
-  const Point from = a - centre, to = b - centre;
-  if (!(norm(from) > 0) || std::abs(norm(from) - norm(to)) > 1e-6 * norm(from))
+  const Point from = difference(a, centre), to = difference(b, centre);
+  if (!(length_of(from) > 0) || std::abs(length_of(from) - length_of(to)) > 1e-6 * length_of(from))
     line.fail("the ends of an arc of *NGEN do not lie on one circle around its centre");
   // Without a normal the arc is the shorter one.
-  Point normal = cross(from, to);
+  Point normal = cross_product(from, to);
   const bool given = line.has(7) || line.has(8) || line.has(9);
   if (given) normal = {line.real(7), line.real(8), line.real(9)};
-  if (!(norm(normal) > (given ? 0.0 : 1e-9 * norm(from) * norm(to))))
+  if (!(length_of(normal) > (given ? 0.0 : 1e-9 * length_of(from) * length_of(to))))
     line.fail("the ends of an arc of *NGEN and its centre lie on one line", "the normal of the arc");
-  double angle = std::atan2(norm(cross(from, to)), dot(from, to));
-  if (dot(cross(from, to), normal) < 0) angle = 2 * std::acos(-1.0) - angle;
+  double angle = std::atan2(length_of(cross_product(from, to)), dot_product(from, to));
+  if (dot_product(cross_product(from, to), normal) < 0) angle = 2 * std::acos(-1.0) - angle;
   const Point end{centre[0] + normal[0], centre[1] + normal[1], centre[2] + normal[2]};
   return turned(a, centre, end, share * angle * 180 / std::acos(-1.0)).value();
 }
@@ -191,8 +192,9 @@ void Generator::copy_nodes(const std::vector<AbaqusLine>& lines) {
       b[i] = unit_ * lines[1].real(3 + i);
     }
     angle = lines[1].real(6);
-    if (angle != 0 && norm(b - a) == 0) lines[1].fail("*NCOPY turns around a line of no length");
-    if (angle != 0 && norm(shift) > 0)
+    if (angle != 0 && length_of(difference(b, a)) == 0)
+      lines[1].fail("*NCOPY turns around a line of no length");
+    if (angle != 0 && length_of(shift) > 0)
       lines[1].fail("*NCOPY shifts and turns at once, which is not read here",
                     "two *NCOPY, one that shifts and one that turns");
   }

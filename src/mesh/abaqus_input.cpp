@@ -398,9 +398,10 @@ void Reader::place_instance() {
       b[i] = unit_ * turn.real(3 + i);
     }
     angle = turn.real(6);
-    if (angle != 0 && norm(b - a) == 0) turn.fail("the instance turns around a line of no length");
+    if (angle != 0 && length_of(difference(b, a)) == 0)
+      turn.fail("the instance turns around a line of no length");
   }
-  moved_ = norm(shift) > 0 || angle != 0;
+  moved_ = length_of(shift) > 0 || angle != 0;
   for (Point& x : scope().x) {
     for (std::size_t i = 0; i < 3; ++i) x[i] += shift[i];
     if (angle != 0) x = turned(x, a, b, angle).value();
@@ -421,9 +422,9 @@ void Reader::read_system() {
   if (!first.has(3) && !first.has(4) && !first.has(5)) return;
   if (lines_.size() > 1)
     for (std::size_t i = 0; i < 3; ++i) c[i] = unit_ * lines_[1].real(i);
-  const Point along = b - a;
+  const Point along = difference(b, a);
   // Without c the system is turned around the third global axis.
-  const Point towards = lines_.size() > 1 ? c - a : cross({0, 0, 1}, along);
+  const Point towards = lines_.size() > 1 ? difference(c, a) : cross_product({0, 0, 1}, along);
   const auto axes = axes_along(along, towards);
   if (!axes) first.fail("the points of *SYSTEM lie on one line", "three points that span a plane");
   system_.axes = *axes;

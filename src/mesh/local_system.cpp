@@ -34,19 +34,19 @@ Point scaled(const Point& a, double factor) {
 
 }  // namespace
 
-Point operator-(const Point& a, const Point& b) {
+Point difference(const Point& a, const Point& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-Point cross(const Point& a, const Point& b) {
+Point cross_product(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-double dot(const Point& a, const Point& b) {
+double dot_product(const Point& a, const Point& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-double norm(const Point& a) {
+double length_of(const Point& a) {
   return std::hypot(a[0], a[1], a[2]);
 }
 
@@ -70,19 +70,19 @@ Point LocalSystem::global(const Point& local) const {
 }
 
 std::optional<std::array<Point, 3>> axes_along(const Point& first, const Point& towards_second) {
-  const Point third = cross(first, towards_second);
+  const Point third = cross_product(first, towards_second);
   constexpr double k_parallel = 1e-10;
-  if (!(norm(third) > k_parallel * norm(first) * norm(towards_second))) return std::nullopt;
-  const Point x = scaled(first, 1 / norm(first)), z = scaled(third, 1 / norm(third));
-  return std::array{x, cross(z, x), z};
+  if (!(length_of(third) > k_parallel * length_of(first) * length_of(towards_second))) return std::nullopt;
+  const Point x = scaled(first, 1 / length_of(first)), z = scaled(third, 1 / length_of(third));
+  return std::array{x, cross_product(z, x), z};
 }
 
 std::optional<Point> turned(const Point& x, const Point& a, const Point& b, double degrees) {
-  const double length = norm(b - a);
+  const double length = length_of(difference(b, a));
   if (!(length > 0)) return std::nullopt;
-  const Point axis = scaled(b - a, 1 / length), from_a = x - a;
-  const double along = dot(axis, from_a), c = cosine(degrees), s = sine(degrees);
-  return sum(a, c, from_a, s, cross(axis, from_a), (1 - c) * along, axis);
+  const Point axis = scaled(difference(b, a), 1 / length), from_a = difference(x, a);
+  const double along = dot_product(axis, from_a), c = cosine(degrees), s = sine(degrees);
+  return sum(a, c, from_a, s, cross_product(axis, from_a), (1 - c) * along, axis);
 }
 
 }  // namespace solidus::mesh

@@ -28,10 +28,10 @@ struct LocalSystem {
 /// x, y, z of a point in the axes of its own system.
 Point rectangular(const Point& local, Coordinates coordinates);
 
-Point operator-(const Point& a, const Point& b);
-Point cross(const Point& a, const Point& b);
-double dot(const Point& a, const Point& b);
-double norm(const Point& a);
+Point difference(const Point& a, const Point& b);
+Point cross_product(const Point& a, const Point& b);
+double dot_product(const Point& a, const Point& b);
+double length_of(const Point& a);
 
 /// The three axes of which the first points along `first` and the second lies in the plane of `first` and
 /// `towards_second`; nothing where the two are parallel or one is zero.

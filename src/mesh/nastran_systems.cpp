@@ -45,7 +45,7 @@ const LocalSystem& NastranSystems::find(GlobalIndex number, const NastranCard& u
           in.global({given.card.real(2 + 3 * k), given.card.real(3 + 3 * k), given.card.real(4 + 3 * k)});
   }
   // The second point lies on the third axis, the third one in the plane of the first and the third axis.
-  const auto axes = axes_along(points[1] - points[0], points[2] - points[0]);
+  const auto axes = axes_along(difference(points[1], points[0]), difference(points[2], points[0]));
   if (!axes) given.card.fail(given.card.name + ": the three points of the system lie on one line");
   const auto& [z, x, y] = *axes;
   given.system = LocalSystem{points[0], {x, y, z}, given.coordinates};

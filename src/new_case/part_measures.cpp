@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "input/keys.hpp"
-#include "input/units.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/file_format.hpp"
+#include "mesh/file_unit.hpp"
 
 namespace solidus::model {
 
@@ -29,8 +29,10 @@ bool PartMeasures::has_riser() const {
 
 PartMeasures measure_part(const NewCaseOptions& options) {
   PartMeasures m;
-  mesh::MeshSource source{options.geometry.string(), units::convert(1, options.unit, "m")};
-  mesh::check_readable(source.path);
+  const std::string path = options.geometry.string();
+  mesh::check_readable(path);
+  mesh::MeshSource source{path, mesh::metres_of_unit(path, options.unit, "mm", {"--unit"})};
+  m.file_unit = mesh::unit_of_file(path);
   const mesh::FileFormat format = mesh::file_format(source.path);
   const bool solids = mesh::is_cad(format), meshed = !solids && format != mesh::FileFormat::stl;
   refuse_cuts(options, solids);

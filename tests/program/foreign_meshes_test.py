@@ -5,7 +5,7 @@ import re
 import tomllib
 import unittest
 
-from program import ProgramTest, solidus
+from program import SOURCES, ProgramTest, solidus
 
 ALLOY = ("--alloy", "aluminium_alsi7mg")
 
@@ -111,6 +111,74 @@ class SetsOfNodes(BlockOfTwoBodies):
                       said.stdout + said.stderr)
         self.write("case.toml", ONE_BODY.format(file="block.inp", skin="edge"))
         self.assertIn("no face on the skin of the bodies has all of its corners in it", self.refusal("check", "case.toml"))
+
+
+class UnitsOfFiles(ProgramTest):
+    UNITS = SOURCES / "tests/unit/mesh/units"
+
+    def test_that_cad_names_are_said_and_another_one_is_refused(self):
+        said = self.done("mesh-info", self.UNITS / "inch.step")
+        self.assertIn("the file says that its lengths are in inch", said)
+        self.assertIn("x 0 to 101.6", said)
+        for verb in (("mesh-info",), ("new", *ALLOY)):
+            result = solidus(verb[0], self.UNITS / "metre.step", *verb[1:], "--unit", "mm", cwd=self.folder)
+            self.assertEqual(result.returncode, 1, result.stdout)
+            self.assertIn("--unit: the unit 'mm' contradicts the file", result.stderr)
+
+    def test_that_are_none_are_the_users_mistake(self):
+        result = solidus("new", self.UNITS / "inch.step", *ALLOY, "--unit", "foo", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("'foo' is no unit of length", result.stderr)
+
+    def test_of_a_new_case_are_those_of_the_file(self):
+        said = self.done("new", self.UNITS / "inch.step", *ALLOY, "--unit", "inch", "--fineness", "0.5", "-o", "case")
+        self.assertIn("101.6 x 50.8 x 25.4 mm", said)
+        self.assertIn("inch, as the file says", said)
+        self.assertNotIn("unit", tomllib.loads((self.folder / "case/case.toml").read_text())["mesh"])
+
+
+class UnsoundMeshes(ProgramTest):
+    """A block of two cells whose hot end has a film of 500 degC."""
+
+    def check(self, mesh):
+        self.write("mesh.msh", mesh)
+        self.write("case.toml", ONE_BODY.format(file="mesh.msh", skin="hi"))
+        result = solidus("check", "case.toml", cwd=self.folder)
+        return result.returncode, result.stdout + result.stderr
+
+    def mesh(self, second=(5, 6, 7, 8), hexahedra=1, faces=(((9, 10, 11, 12), 1),)):
+        """Cubes of 10 mm along x as .msh 2.2: nodes 5 to 8 are the end of the first, 13 to 16 in the same place."""
+        at = [(x, y, z) for x in (0, 10, 20, 10) for y, z in ((0, 0), (10, 0), (10, 10), (0, 10))]
+        elements = [(5, 1, (1, 2, 3, 4, 5, 6, 7, 8))] + [(5, 1, (*second, 9, 10, 11, 12))] * hexahedra
+        for nodes, times in faces:
+            elements += [(3, 2, nodes)] * times
+        return "\n".join([
+            "$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "2", '3 1 "casting"', '2 2 "hi"',
+            "$EndPhysicalNames", "$Nodes", str(len(at)), *(f"{n} {x} {y} {z}" for n, (x, y, z) in enumerate(at, 1)),
+            "$EndNodes", "$Elements", str(len(elements)),
+            *(f"{n} {kind} 2 {group} {group} {' '.join(map(str, nodes))}"
+              for n, (kind, group, nodes) in enumerate(elements, 1)), "$EndElements", ""])
+
+    def test_that_are_sound_are_taken_without_a_word(self):
+        code, said = self.check(self.mesh())
+        self.assertEqual(code, 0, said)
+        self.assertNotRegex(said, "twice|inside of a body|coincide|pieces")
+
+    def test_halves_that_are_not_merged_are_joined(self):
+        code, said = self.check(self.mesh(second=(13, 14, 15, 16)))
+        self.assertEqual(code, 0, said)
+        self.assertIn("1 pairs of faces inside of the body 'casting' coincide, one of them at (10, 5, 5) mm", said)
+
+    def test_elements_and_faces_that_are_there_twice_count_once(self):
+        _, said = self.check(self.mesh(hexahedra=2))
+        self.assertIn("1 elements of the body 'casting' are in the mesh twice", said)
+        _, said = self.check(self.mesh(faces=(((9, 10, 11, 12), 2),)))
+        self.assertIn("1 faces of the surface 'hi' are in the mesh twice", said)
+
+    def test_faces_inside_of_a_body_are_refused(self):
+        code, said = self.check(self.mesh(faces=(((9, 10, 11, 12), 1), ((5, 6, 7, 8), 1))))
+        self.assertEqual(code, 1, said)
+        self.assertIn("1 of the 2 faces of 'hi' lie inside of a body, one of them at (10, 5, 5) mm", said)
 
 
 ONE_BODY = """
