@@ -10,6 +10,7 @@
 
 #include "build/interfaces.hpp"
 #include "build/mesh_checks.hpp"
+#include "build/mesh_soundness.hpp"
 #include "build/node_set_surfaces.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/distribute.hpp"
@@ -135,6 +136,7 @@ mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) 
     make_surfaces_of_node_sets(spec, result);
   }
   check_groups(spec, result);
+  if (m.file) make_sound(spec, result);
   for (const MeshLayersSpec& layers : m.layers)
     if (layers.number > 0) add_layers(layers, name, result);
   mesh::validate_and_orient(result, name);

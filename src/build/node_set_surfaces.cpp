@@ -3,31 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <unordered_map>
 #include <vector>
 
+#include "build/mesh_soundness.hpp"
 #include "mesh/faces.hpp"
 #include "system/log.hpp"
 
 namespace solidus::model {
 
 namespace {
-
-/// Groups that have to be surfaces, with a place in the case that asks for each.
-std::map<std::string, SourceLocation> wanted_surfaces(const CaseSpec& spec) {
-  std::map<std::string, SourceLocation> wanted;
-  for (const auto& c : spec.thermal_conditions)
-    if (!c.in_volume() && c.kind != ThermalConditionSpec::Kind::temperature)
-      wanted.try_emplace(c.group, c.where);
-  for (const auto& c : spec.mechanical_conditions)
-    if (c.kind != MechanicalConditionSpec::Kind::displacement) wanted.try_emplace(c.group, c.where);
-  for (const auto& c : spec.contacts)
-    for (const std::string& side : c.sides())
-      if (spec.rigid_surface(side) == nullptr) wanted.try_emplace(side, c.where);
-  for (const auto& l : spec.mesh.layers) wanted.try_emplace(l.surface, l.where);
-  return wanted;
-}
 
 /// The face of an element, as its own nodes outward.
 struct SkinFace {
