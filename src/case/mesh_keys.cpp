@@ -227,7 +227,8 @@ Section<MeshSpec> mesh_keys() {
   s.key("unit", &MeshSpec::unit)
       .initially("")
       .doc(
-          "Unit of length of the file, for example \"mm\"; without it \"m\". STEP and IGES files name theirs: "
+          "Unit of length of the file, for example \"mm\"; without it \"m\". STEP and IGES files name "
+          "theirs: "
           "there it is not needed, and another one is refused.");
   s.quantity("element_size", &MeshSpec::element_size, "m")
       .positive()

@@ -15,7 +15,7 @@ namespace solidus::model {
 
 /// Lengths in m.
 struct PartMeasures {
-  mesh::RawMesh mesh;  ///< of the parts alone, coarse, or the elements of the file
+  mesh::RawMesh mesh;                         ///< of the parts alone, coarse, or the elements of the file
   std::optional<mesh::LengthUnit> file_unit;  ///< that the file says itself
   std::vector<GeometryBody> bodies;
   std::vector<std::string> metal;  ///< names of castings and risers

@@ -1,4 +1,5 @@
-/// Any bytes as a mesh that Solidus reads itself: .msh, .inp, .bdf, .unv or .vtu, which the first byte chooses.
+/// Any bytes as a mesh that Solidus reads itself: .msh, .inp, .bdf, .unv or .vtu, which the first byte
+/// chooses.
 #include "input.hpp"
 #include "mesh/abaqus_input.hpp"
 #include "mesh/gmsh_mesh_file.hpp"

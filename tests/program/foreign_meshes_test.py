@@ -86,7 +86,8 @@ class SetsOfElements(BlockOfTwoBodies):
 
     def test_that_overlap_in_part_are_refused_by_new(self):
         self.write("part.inp", self.deck("one", {"casting": self.of_casting, "mould": [2, *self.of_mould]}))
-        self.assertRegex(self.refusal("new", "part.inp", "--unit", "mm", *ALLOY), "part.inp: the sets .* have elements in common")
+        self.assertRegex(self.refusal("new", "part.inp", "--unit", "mm", *ALLOY),
+                         "part.inp: the sets .* have elements in common")
 
     def test_a_small_set_for_output_is_left_out(self):
         said, bodies = self.new("output", self.deck("casting", {"watched": [1, 2]}))
@@ -110,7 +111,8 @@ class SetsOfNodes(BlockOfTwoBodies):
         self.assertIn("the set of 9 nodes 'left' serves as the surface of the 4 faces between them",
                       said.stdout + said.stderr)
         self.write("case.toml", ONE_BODY.format(file="block.inp", skin="edge"))
-        self.assertIn("no face on the skin of the bodies has all of its corners in it", self.refusal("check", "case.toml"))
+        self.assertIn("no face on the skin of the bodies has all of its corners in it",
+                      self.refusal("check", "case.toml"))
 
 
 class UnitsOfFiles(ProgramTest):
