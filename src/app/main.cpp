@@ -149,7 +149,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   program.add_option("--log", level, "debug, info, warn or silent")->type_name("LEVEL");
 
   CaseArguments arguments;
-  std::string key, name, unit = "m";
+  std::string key, name, unit;
   bool manual = false, of_material = false, of_point = false;
   CLI::App* run_verb = program.add_subcommand("run", "Run a case");
   add_case_arguments(*run_verb, arguments);
@@ -210,7 +210,10 @@ ExitCode parse_and_run(int argc, char** argv) {
   mesh_verb->add_option("--set", arguments.set, "Change a key of the case")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  mesh_verb->add_option("--unit", unit, "Unit of length of a mesh file, for example mm")->type_name("UNIT");
+  mesh_verb
+      ->add_option("--unit", unit,
+                   "Unit of length of a mesh file, for example mm; default what the file says, else m")
+      ->type_name("UNIT");
   std::string pictures;
   mesh_verb
       ->add_option("--pictures", pictures,
@@ -266,7 +269,7 @@ ExitCode parse_and_run(int argc, char** argv) {
       ->add_option("--as", fresh.as, "What a body of the file is, NAME=ROLE, for example --as Box_2=chill")
       ->allow_extra_args(false);
   new_verb->add_option("--unit", fresh.unit,
-                       "Unit of length of the file; default mm, in which STEP files come");
+                       "Unit of length of the file; default what STEP and IGES files say, else mm");
   new_verb->add_option("--fineness", fresh.fineness,
                        "So many times as many elements along each edge; default 1");
   new_verb->add_option("-o,--output", fresh.folder, "Folder for the case; default the file's name, here");

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,9 +13,11 @@
 #include "app/python_tools.hpp"
 #include "app/verbs.hpp"
 #include "build/case_file.hpp"
+#include "build/geometry_bodies.hpp"
 #include "build/mesh_input.hpp"
-#include "input/units.hpp"
+#include "mesh/body_partition.hpp"
 #include "mesh/face_rules.hpp"
+#include "mesh/file_unit.hpp"
 #include "mesh/quality.hpp"
 #include "results/output_error.hpp"
 #include "system/errors.hpp"
@@ -34,6 +37,7 @@ bool is_case(const std::filesystem::path& path) {
 struct NamedMesh {
   RawMesh mesh;
   std::map<std::string, std::string> bodies;
+  std::optional<mesh::LengthUnit> unit = {};  ///< that the file says itself
 };
 
 NamedMesh read(const CaseArguments& arguments, const std::string& unit) {
@@ -43,14 +47,28 @@ NamedMesh read(const CaseArguments& arguments, const std::string& unit) {
     for (const model::BodySpec& body : given.spec.bodies) named.bodies[body.mesh_group()] = body.name;
     return named;
   }
-  if (!units::compatible(unit, "m"))
-    throw InputError({"--unit", 0, 0}, fmt::format("'{}' is no unit of length", unit),
-                     "\"mm\", \"m\", \"inch\", ...");
-  mesh::MeshSource source{arguments.path, units::convert(1, unit, "m")};
+  mesh::MeshSource source{arguments.path, mesh::metres_of_unit(arguments.path, unit, "m", {"--unit", 0, 0})};
   source.trust_script = arguments.trust_script;
   RawMesh mesh = mesh::read_mesh(source);
   mesh::validate_and_orient(mesh, arguments.path);
-  return {std::move(mesh), {}};
+  return {std::move(mesh), {}, mesh::unit_of_file(arguments.path)};
+}
+
+/// The groups that are bodies. What others are left out, or that sets overlap, is added to `text`.
+std::vector<std::string> bodies_of(const NamedMesh& named, const std::string& path, std::string& text) {
+  try {
+    const mesh::BodyPartition partition = mesh::partition_of(named.mesh, path, [&](const std::string& group) {
+      return named.bodies.contains(group) ? 3 : model::body_preference(group);
+    });
+    for (const std::string& note : partition.notes) text += note + "\n";
+    return partition.bodies;
+  } catch (const InputError& error) {
+    text += std::string(error.what()) + "\n";
+    std::vector<std::string> all;
+    for (const auto& [name, group] : named.mesh.groups)
+      if (group.dimension == named.mesh.dimension) all.push_back(name);
+    return all;
+  }
 }
 
 constexpr const char* k_faces = "faces.vtk";
@@ -78,10 +96,9 @@ ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit,
   results::on_first_process([&] {
     const NamedMesh named = read(arguments, unit);
     const RawMesh& mesh = named.mesh;
-    text = mesh::to_text(mesh::assess(mesh));
-    std::vector<std::string> bodies;
-    for (const auto& [name, group] : mesh.groups)
-      if (group.dimension == mesh.dimension) bodies.push_back(name);
+    if (named.unit) text = fmt::format("the file says that its lengths are in {}\n", named.unit->name);
+    text += mesh::to_text(mesh::assess(mesh));
+    const std::vector<std::string> bodies = bodies_of(named, arguments.path, text);
     constexpr double k_edge = std::numbers::pi / 6;  // neighbours that bend by more begin a face
     std::vector<mesh::SkinPatch> patches = mesh::skin_patches(mesh, bodies, k_edge);
     for (mesh::SkinPatch& patch : patches)

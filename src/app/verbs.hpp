@@ -46,7 +46,8 @@ enum class FileKind { case_file, material_file, point_file };
 /// @param key a path such as "time.step"; empty: all keys
 ExitCode explain(FileKind file, const std::string& key, bool manual);
 ExitCode schema(FileKind file);
-/// @param path a case, or a mesh file with the unit of its lengths
+/// @param path a case, or a mesh file
+/// @param unit of the lengths of a mesh file; empty: what the file says, else m
 /// @param pictures  folder for pictures of the faces by number; empty: none
 ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit,
                    const std::filesystem::path& pictures);
@@ -83,7 +84,7 @@ struct ExportArguments {
 ExitCode export_state(const ExportArguments& arguments);
 struct NewArguments {
   std::string geometry, alloy, folder, symmetry, riser;
-  std::string process = "sand", unit = "mm";
+  std::string process = "sand", unit;
   std::vector<std::string> as;  ///< "NAME=role"
   double fineness = 1;
   int shots = 0;  ///< zero: not given

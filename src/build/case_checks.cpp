@@ -118,7 +118,7 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
     throw InputError(m.where,
                      m.shape ? "[mesh] has both a shape and a file" : "[mesh] has neither a shape nor a file",
                      "shape = \"...\" or file = \"...\"");
-  if (!units::compatible(m.unit, "m"))
+  if (!m.unit.empty() && !units::compatible(m.unit, "m"))
     throw InputError(m.where, fmt::format("'{}' is no unit of length", m.unit),
                      "\"mm\", \"m\", \"inch\", ...");
   check_names(m.groups, "[[mesh.group]]");

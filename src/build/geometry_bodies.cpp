@@ -4,10 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 
 #include "case/roles.hpp"
 #include "input/keys.hpp"
+#include "mesh/body_partition.hpp"
+#include "system/log.hpp"
 
 namespace solidus::model {
 
@@ -33,12 +36,24 @@ std::map<std::string, Role> wanted_roles(const std::vector<std::string>& as) {
 
 }  // namespace
 
-std::vector<GeometryBody> bodies_of(const mesh::RawMesh& mesh, const std::vector<std::string>& as) {
+int body_preference(const std::string& group) {
+  // "casting" tells no role, as what has no other role is cast.
+  std::string low = group;
+  std::ranges::transform(low, low.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return role_in_name(group) || low.find("casting") != std::string::npos ? 2 : mesh::plain_preference(group);
+}
+
+std::vector<GeometryBody> bodies_of(const mesh::RawMesh& mesh, const std::vector<std::string>& as,
+                                    const std::string& path) {
   std::map<std::string, Role> wanted = wanted_roles(as);
   std::vector<GeometryBody> bodies;
   std::vector<std::string> names;
-  for (const auto& [group, content] : mesh.groups) {
-    if (content.dimension != mesh.dimension) continue;
+  const mesh::BodyPartition partition = mesh::partition_of(mesh, path, [&](const std::string& group) {
+    return wanted.contains(group) ? 3 : body_preference(group);
+  });
+  for (const std::string& note : partition.notes) logging::info("{}: {}", path, note);
+  for (const std::string& group : partition.bodies) {
     names.push_back(group);
     GeometryBody& body =
         bodies.emplace_back(GeometryBody{group, Role::casting, mesh::extent_of(mesh, group)});

@@ -20,8 +20,15 @@ inline bool is_metal(Role role) {
   return role == Role::casting || role == Role::riser;
 }
 
-/// @param as  "NAME=ROLE"; without one the name of a body tells its role
-/// Throws InputError for a role or a body that there is not, and where no body is a casting.
-std::vector<GeometryBody> bodies_of(const mesh::RawMesh& mesh, const std::vector<std::string>& as);
+/// Preference of a name for a body (mesh/body_partition.hpp): 2 where it tells a role.
+int body_preference(const std::string& group);
+
+/// Of groups that hold the same elements some are bodies, and the others are named in the log.
+/// @param as    "NAME=ROLE"; without one the name of a body tells its role
+/// @param path  of the mesh, for messages
+/// Throws InputError for a role or a body that there is not, where no body is a casting, and where groups
+/// overlap so that none of them can be the bodies.
+std::vector<GeometryBody> bodies_of(const mesh::RawMesh& mesh, const std::vector<std::string>& as,
+                                    const std::string& path);
 
 }  // namespace solidus::model

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <set>
+#include <unordered_map>
 
+#include "mesh/body_partition.hpp"
 #include "system/log.hpp"
 
 namespace solidus::model {
@@ -134,6 +138,25 @@ void warn_of_loose_faces(const CaseSpec& spec, const RawMesh& mesh) {
   }
 }
 
+/// Two bodies that hold the same elements would heat and load them twice.
+void refuse_shared_elements(const CaseSpec& spec, const RawMesh& mesh) {
+  std::unordered_map<std::uint64_t, std::size_t> owner;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const BodySpec& body = spec.bodies[b];
+    std::map<std::size_t, std::size_t> shared;
+    const auto keys = mesh::element_keys(mesh.groups.at(body.mesh_group()));
+    for (const std::uint64_t key : keys)
+      if (const std::size_t other = owner.emplace(key, b).first->second; other != b) ++shared[other];
+    if (!shared.empty()) {
+      const auto& [other, n] = *shared.begin();
+      throw InputError(body.where,
+                       fmt::format("the bodies '{}' and '{}' have {} elements in common, of {} of '{}'",
+                                   spec.bodies[other].name, body.name, n, keys.size(), body.name),
+                       "groups of which no two hold the same element; solidus mesh-info lists them");
+    }
+  }
+}
+
 }  // namespace
 
 void check_bodies_of(const CaseSpec& spec, const mesh::RawMesh& mesh) {
@@ -157,6 +180,7 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
       throw InputError(body.where, fmt::format("the group '{}' belongs to two bodies", body.mesh_group()));
     bodies.push_back(body.mesh_group());
   }
+  refuse_shared_elements(spec, mesh);
   for (const auto& l : spec.mesh.layers) {
     require(mesh, l.surface, surface, l.where, "layers of the mesh");
     require(mesh, l.body, dimension, l.where, "layers of the mesh");

@@ -10,9 +10,11 @@
 
 #include "build/interfaces.hpp"
 #include "build/mesh_checks.hpp"
-#include "input/units.hpp"
+#include "build/mesh_soundness.hpp"
+#include "build/node_set_surfaces.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/distribute.hpp"
+#include "mesh/file_unit.hpp"
 #include "mesh/message.hpp"
 #include "mesh/parametric_meshes.hpp"
 #include "mesh/wall_layers.hpp"
@@ -108,7 +110,8 @@ mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) 
   const std::string name = m.file ? *m.file : *m.shape;
   mesh::RawMesh result;
   if (m.file) {
-    mesh::MeshSource source{*m.file, units::convert(1, m.unit, "m"), m.element_size.value_or(0), m.order};
+    mesh::MeshSource source{*m.file, mesh::metres_of_unit(*m.file, m.unit, "m", m.where),
+                            m.element_size.value_or(0), m.order};
     for (const MeshConstantSpec& constant : m.constants) source.constants[constant.name] = constant.value;
     source.geometry = geometry_choice(m);
     source.trust_script = m.trust_script;
@@ -128,7 +131,12 @@ mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) 
     found = find_interfaces(spec, result, name);
     add_contacts(found, spec);
   }
+  if (result.dimension == spec.dimension()) {  // else check_groups says so
+    check_bodies_of(spec, result);
+    make_surfaces_of_node_sets(spec, result);
+  }
   check_groups(spec, result);
+  if (m.file) make_sound(spec, result);
   for (const MeshLayersSpec& layers : m.layers)
     if (layers.number > 0) add_layers(layers, name, result);
   mesh::validate_and_orient(result, name);

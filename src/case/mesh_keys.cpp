@@ -224,7 +224,12 @@ Section<MeshSpec> mesh_keys() {
           "relative to the case file. A "
           ".geo "
           "script may only make geometry (SECURITY.md), unless the program is started with --trust-geo.");
-  s.key("unit", &MeshSpec::unit).initially("m").doc("Unit of length of the file, for example \"mm\".");
+  s.key("unit", &MeshSpec::unit)
+      .initially("")
+      .doc(
+          "Unit of length of the file, for example \"mm\"; without it \"m\". STEP and IGES files name "
+          "theirs: "
+          "there it is not needed, and another one is refused.");
   s.quantity("element_size", &MeshSpec::element_size, "m")
       .positive()
       .doc("Element size for files that hold a geometry (.geo, STEP); without it as the file says.");

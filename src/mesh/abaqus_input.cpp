@@ -1,416 +1,439 @@
 #include "mesh/abaqus_input.hpp"
 
 #include <algorithm>
-#include <charconv>
+#include <cctype>
 #include <cmath>
+#include <deque>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <map>
-#include <unordered_map>
+#include <optional>
+#include <set>
 
+#include "mesh/abaqus_deck.hpp"
 #include "mesh/abaqus_elements.hpp"
+#include "mesh/abaqus_generation.hpp"
+#include "mesh/abaqus_scope.hpp"
+#include "mesh/local_system.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
 
 namespace {
 
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
+bool is_number(const std::string& text) {
+  return !text.empty() && (std::isdigit(static_cast<unsigned char>(text[0])) != 0 || text[0] == '+');
 }
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
-}
-
-// Pieces between commas; an empty piece at the end (a comma that continues the line) is left out.
-std::vector<std::string> pieces(std::string_view line) {
-  std::vector<std::string> parts;
-  while (true) {
-    const auto comma = line.find(',');
-    parts.emplace_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) break;
-    line.remove_prefix(comma + 1);
-  }
-  if (parts.back().empty()) parts.pop_back();
-  return parts;
-}
-
-struct Keyword {
-  std::string name;                               // upper case, without the star
-  std::map<std::string, std::string> parameters;  // names in upper case
-  const std::string* find(const std::string& parameter) const {
-    const auto p = parameters.find(parameter);
-    return p == parameters.end() ? nullptr : &p->second;
-  }
-};
-
-Keyword parse_keyword(std::string_view line) {
-  Keyword keyword;
-  const auto parts = pieces(line.substr(1));
-  if (parts.empty()) return keyword;
-  keyword.name = upper(parts[0]);
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    const auto equals = parts[i].find('=');
-    const std::string_view value =
-        equals == std::string::npos ? std::string_view{} : std::string_view(parts[i]).substr(equals + 1);
-    keyword.parameters[upper(std::string(trimmed(std::string_view(parts[i]).substr(0, equals))))] =
-        trimmed(value);
-  }
-  return keyword;
-}
-
-// Names compare without case, and keep the case of their first appearance.
-template <class Member>
-struct NamedSet {
-  std::string name;
-  std::vector<Member> members;
-};
-template <class Member>
-using Sets = std::map<std::string, NamedSet<Member>>;
-
-template <class Member>
-NamedSet<Member>& set_of(Sets<Member>& sets, const std::string& name) {
-  NamedSet<Member>& set = sets[upper(name)];
-  if (set.name.empty()) set.name = name;
-  return set;
-}
-
-struct Element {
-  Shape shape;
-  std::vector<Index> nodes;
-  GlobalIndex number;
-};
-struct Face {
-  Index element;
-  int face;  // -1: the element itself
-};
 
 class Reader {
  public:
-  explicit Reader(double unit) : unit_(unit) {}
+  explicit Reader(double unit) : unit_(unit) { scopes_.emplace_back(); }
 
-  void read(const std::string& path, int depth = 0) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error))
-      throw InputError({path}, "there is no such file of a mesh");
-    std::ifstream file(path);
-    if (!file) throw InputError({path}, "the mesh file cannot be read");
-    if (depth > 20) throw InputError({path}, "*INCLUDE goes around in circles");
-    if (++n_files_ > 1000) throw InputError({path}, "*INCLUDE asks for more than 1 000 files");
-    const SourceLocation outer = at_;
-    at_ = {path, 0, 0};
-    std::string line;
-    while (std::getline(file, line)) {
-      ++at_.line;
-      if (line.find('\0') != std::string::npos) fail("this is not a text file");
-      const std::string_view text = trimmed(line);
-      if (text.empty() || text.starts_with("**")) continue;
-      if (text.starts_with("*")) {
-        finish_element();
-        keyword_ = parse_keyword(text);
-        begin(depth);
-      } else {
-        data(text);
-      }
+  RawMesh mesh(const std::string& path) {
+    read(path, 0, false);
+    end_keyword();
+    end_scope();
+    use_parts();
+    if (!unread_.empty()) {
+      std::string text;
+      for (const auto& [keyword, at] : unread_)
+        text += (text.empty() ? "*" : ", *") + keyword + " (" + at.text() + ")";
+      notes_.push_back("keywords that are not read and may say something of the mesh: " + text);
     }
-    finish_element();
-    at_ = outer;
+    return mesh_of_scopes(path, {scopes_.begin(), scopes_.end()}, notes_);
   }
-
-  RawMesh mesh(const std::string& path);
 
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& allowed = {}) const {
     throw InputError(at_, what, allowed);
   }
-  const std::string& required(const std::string& parameter) const {
-    const std::string* value = keyword_.find(parameter);
-    if (value == nullptr || value->empty()) fail("*" + keyword_.name + " needs " + parameter + "=…");
-    return *value;
-  }
-  GlobalIndex integer(std::string_view text) const {
-    GlobalIndex value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size())
-      fail("'" + std::string(text) + "' is no whole number");
-    return value;
-  }
-  double real(std::string text) const {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd'; }, 'E');
-    const std::size_t sign = text.starts_with("+") ? 1 : 0;
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data() + sign, text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-      fail("'" + text + "' is no number");
-    return value;
-  }
-  Index element(GlobalIndex number) const {
-    const auto e = element_at_.find(number);
-    if (e == element_at_.end()) fail("there is no element " + std::to_string(number) + " up to here");
-    return e->second;
-  }
-  Index node(GlobalIndex number) const {
-    const auto n = node_at_.find(number);
-    if (n == node_at_.end()) fail("there is no node " + std::to_string(number) + " up to here");
-    return n->second;
+  AbaqusScope& scope() { return part_ ? *part_ : scopes_[instance_]; }
+  /// The file beside the one that names it.
+  std::string beside(const std::string& name) const {
+    return (std::filesystem::path(at_.file).parent_path() / name).string();
   }
 
+  void read(const std::string& path, int depth, bool only_data);
   void begin(int depth);
+  void begin_scope();
+  void end_scope();
+  void use_parts();
   void data(std::string_view line);
-  void node_line(const std::vector<std::string>& parts);
-  void element_line(const std::vector<std::string>& parts);
-  void finish_element() const {
+  void end_keyword();
+  void end_element() const {
     if (!pending_.empty())
       fail("an element of " + std::to_string(node_count(shape_)) + " nodes ends after " +
            std::to_string(pending_.size() - 1));
   }
-  void surface_line(const std::vector<std::string>& parts);
-  template <class Find>
-  void set_line(const std::vector<std::string>& parts, Sets<Index>& sets, NamedSet<Index>& set, Find find);
+  void node_line(const AbaqusLine& line);
+  void element_line(const AbaqusLine& line);
+  void set_line(const AbaqusLine& line, AbaqusSet& set, bool nodes);
+  void nodes_of_elements(AbaqusSet& set);
+  void surface_line(const AbaqusLine& line);
+  void place_instance();
+  void read_system();
+
+  /// The number of a scope by the name of an instance.
+  int instance_named(const std::string& name) const;
+  std::vector<NumberRange> members(const std::string& text, AbaqusSets AbaqusScope::*sets,
+                                   const AbaqusLine& line);
 
   double unit_;
   int n_files_ = 0;
   SourceLocation at_;
-  Keyword keyword_;
-  Shape shape_ = Shape::point1;       // of the *ELEMENT being read
-  std::vector<GlobalIndex> pending_;  // number and nodes of an element that is not complete
-  std::vector<Point> x_;
-  std::vector<GlobalIndex> input_node_;
-  std::unordered_map<GlobalIndex, Index> node_at_, element_at_;
-  std::vector<Element> elements_;
-  Sets<Index> node_sets_, element_sets_;
-  Sets<Face> surfaces_;
+  AbaqusKeyword keyword_;
+  std::deque<SourceLocation> places_;  ///< of the lines of data that are kept until the keyword ends
+  std::vector<AbaqusLine> lines_;
+  Shape shape_ = Shape::point1;       ///< of the *ELEMENT being read
+  std::vector<GlobalIndex> pending_;  ///< number and nodes of an element that is not complete
+
+  std::deque<AbaqusScope> scopes_;  ///< the deck or its assembly, and its instances
+  std::size_t instance_ = 0;        ///< the scope being read
+  std::map<std::string, AbaqusScope> parts_;
+  std::set<std::string> used_parts_;
+  std::optional<AbaqusScope> part_;  ///< the part being read
+  bool moved_ = false;               ///< whether the instance being read is not where its part is
+  LocalSystem system_;               ///< of *SYSTEM
+  std::map<std::string, SourceLocation> unread_;
+  std::vector<std::string> notes_;
 };
 
+void Reader::read(const std::string& path, int depth, bool only_data) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw InputError({at_.file.empty() ? path : at_.file, at_.line}, at_.file.empty()
+                                                                         ? "there is no such file of a mesh"
+                                                                         : "there is no file '" + path + "'");
+  std::ifstream file(path);
+  if (!file) throw InputError({path}, "the mesh file cannot be read");
+  if (depth > 20) throw InputError({path}, "*INCLUDE goes around in circles");
+  if (++n_files_ > 1000) throw InputError({path}, "*INCLUDE asks for more than 1 000 files");
+  const SourceLocation outer = at_;
+  at_ = {path, 0, 0};
+  std::string line;
+  while (std::getline(file, line)) {
+    ++at_.line;
+    if (line.find('\0') != std::string::npos) fail("this is not a text file");
+    const std::string_view text = trimmed(line);
+    if (text.empty() || text.starts_with("**")) continue;
+    if (!text.starts_with("*")) {
+      data(text);
+      continue;
+    }
+    if (only_data) fail("a file of data holds a keyword", "lines of numbers");
+    end_keyword();
+    // A keyword whose line ends with a comma goes on in the next one.
+    std::string whole(text);
+    const SourceLocation first = at_;
+    while (whole.back() == ',' && std::getline(file, line)) {
+      ++at_.line;
+      whole += std::string(trimmed(line));
+    }
+    keyword_ = parse_abaqus_keyword(whole, first);
+    begin(depth);
+  }
+  at_ = outer;
+}
+
 void Reader::begin(int depth) {
-  if (keyword_.name == "INCLUDE") {
-    const auto folder = std::filesystem::path(at_.file).parent_path();
-    read((folder / required("INPUT")).string(), depth + 1);
-    keyword_ = {};
-  } else if (keyword_.name == "ELEMENT") {
-    const std::string& type = required("TYPE");
-    const auto shape = shape_of_abaqus_type(upper(type));
+  const std::string& name = keyword_.name;
+  if (name == "INCLUDE") {
+    read(beside(keyword_.required("INPUT")), depth + 1, false);
+    return;
+  }
+  if (name == "PART" || name == "INSTANCE") return begin_scope();
+  if (name == "END PART" || name == "END INSTANCE") return end_scope();
+  if (name == "ELEMENT") {
+    const std::string type = upper(keyword_.required("TYPE"));
+    const auto shape = shape_of_abaqus_type(type);
     if (!shape)
-      fail("elements of the type '" + type + "' cannot be used",
-           "lines, triangles, quads, tetrahedra and hexahedra, linear or quadratic: CPE3, CAX4R, C3D4, "
-           "C3D10, C3D8, C3D20R, …");
+      fail("elements of the type '" + type + "' are not supported",
+           "triangles, quads, tetrahedra and hexahedra of first and second order, trusses and beams");
     shape_ = *shape;
-  } else if (keyword_.name == "SURFACE") {
+  } else if (name == "SURFACE") {
+    keyword_.required("NAME");
     const std::string* type = keyword_.find("TYPE");
-    if (type != nullptr && upper(*type) == "NODE") keyword_.name = "SURFACE OF NODES";
-    required("NAME");
-  } else if (keyword_.name == "NSET" || keyword_.name == "ELSET") {
-    required(keyword_.name);
+    const std::string kind = type == nullptr ? "ELEMENT" : upper(*type);
+    if (kind == "NODE")
+      set_of(scope().node_sets, keyword_.required("NAME"), at_);
+    else if (kind != "ELEMENT" || keyword_.has("COMBINE") || keyword_.has("CROP"))
+      unread_.try_emplace("SURFACE, NAME=" + keyword_.required("NAME"), at_);
+  } else if (name == "NSET" || name == "ELSET") {
+    AbaqusSet& set =
+        set_of(name == "NSET" ? scope().node_sets : scope().element_sets, keyword_.required(name), at_);
+    set.internal = set.internal || keyword_.has("INTERNAL");
+    set.unsorted = set.unsorted || keyword_.has("UNSORTED");
+    if (name == "NSET" && keyword_.has("ELSET")) nodes_of_elements(set);
+  } else if (makes_mesh_unread(name)) {
+    fail("*" + name + " makes or moves nodes or elements in a way that is not read here",
+         "a deck with the nodes and elements themselves, as a mesher or a pre-processor writes it");
+  } else if (name != "NODE" && name != "SYSTEM" && !is_generation(name) && !says_nothing_of_mesh(name)) {
+    unread_.try_emplace(name, at_);
+  }
+  if (const std::string* system = keyword_.find("SYSTEM");
+      name == "NODE" && system != nullptr && upper(*system) != "R" && upper(*system) != "C")
+    fail("*NODE with SYSTEM=" + *system + " is not read here",
+         "SYSTEM=R, or SYSTEM=C with angles in degrees");
+  if ((name == "NODE" || name == "ELEMENT" || name == "NSET" || name == "ELSET") && keyword_.has("INPUT"))
+    read(beside(keyword_.required("INPUT")), depth + 1, true);
+}
+
+void Reader::begin_scope() {
+  if (part_ || instance_ != 0) fail("*" + keyword_.name + " stands inside of another part or instance");
+  system_ = {};
+  moved_ = false;
+  if (keyword_.name == "PART") {
+    part_.emplace();
+    part_->name = keyword_.required("NAME");
+    part_->at = at_;
+    if (parts_.contains(upper(part_->name))) fail("there are two parts '" + part_->name + "'");
+    return;
+  }
+  if (keyword_.has("LIBRARY"))
+    fail("an *INSTANCE of a library cannot be read", "a deck that holds the part itself");
+  const std::string& name = keyword_.required("NAME");
+  const auto part = parts_.find(upper(keyword_.required("PART")));
+  if (part == parts_.end()) fail("there is no part '" + keyword_.required("PART") + "' up to here");
+  for (const AbaqusScope& other : scopes_)
+    if (upper(other.name) == upper(name)) fail("there are two instances '" + name + "'");
+  used_parts_.insert(part->first);
+  instance_ = scopes_.size();
+  scopes_.push_back(part->second);
+  scopes_.back().name = name;
+  scopes_.back().at = at_;
+}
+
+void Reader::end_scope() {
+  if (part_) {
+    std::string key = upper(part_->name);
+    parts_.emplace(std::move(key), std::move(*part_));
+    part_.reset();
+  }
+  instance_ = 0;
+  system_ = {};
+}
+
+// Parts of which there is no instance: in a deck without an assembly each is there once.
+void Reader::use_parts() {
+  for (const auto& [key, part] : parts_) {
+    if (used_parts_.contains(key)) continue;
+    if (used_parts_.empty())
+      scopes_.push_back(part);
+    else if (!part.elements.empty())
+      notes_.push_back(part.at.text() + ": the part '" + part.name +
+                       "' has no *INSTANCE in the assembly and is left out");
   }
 }
 
-void Reader::data(std::string_view line) {
-  const auto parts = pieces(line);
-  if (parts.empty()) return;
-  if (keyword_.name == "NODE") {
-    node_line(parts);
-  } else if (keyword_.name == "ELEMENT") {
-    element_line(parts);
-  } else if (keyword_.name == "NSET") {
-    set_line(parts, node_sets_, set_of(node_sets_, required("NSET")),
-             [this](GlobalIndex n) { return node(n); });
-  } else if (keyword_.name == "ELSET") {
-    set_line(parts, element_sets_, set_of(element_sets_, required("ELSET")),
-             [this](GlobalIndex e) { return element(e); });
-  } else if (keyword_.name == "SURFACE") {
-    surface_line(parts);
-  } else if (keyword_.name == "INSTANCE") {
-    fail("an *INSTANCE that moves its part cannot be read", "a file written without parts and assemblies");
-  }  // every other keyword says nothing about the mesh
+void Reader::data(std::string_view text) {
+  const AbaqusLine line{at_, pieces(text)};
+  if (line.parts.empty()) return;
+  const std::string& name = keyword_.name;
+  if (name == "NODE") {
+    node_line(line);
+  } else if (name == "ELEMENT") {
+    element_line(line);
+  } else if (name == "NSET") {
+    set_line(line, set_of(scope().node_sets, keyword_.required("NSET"), at_), true);
+  } else if (name == "ELSET") {
+    set_line(line, set_of(scope().element_sets, keyword_.required("ELSET"), at_), false);
+  } else if (name == "SURFACE") {
+    surface_line(line);
+  } else if (name == "INSTANCE" || name == "SYSTEM" || is_generation(name)) {
+    places_.push_back(at_);
+    lines_.push_back({places_.back(), line.parts});
+  }  // the data of other keywords say nothing of the mesh, or begin() has said it
 }
 
-void Reader::node_line(const std::vector<std::string>& parts) {
-  if (parts.size() < 3) fail("a node needs its number and at least two coordinates");
-  const GlobalIndex number = integer(parts[0]);
-  Point x{};
-  for (std::size_t i = 0; i < 3 && i + 1 < parts.size(); ++i)
-    x[i] = parts[i + 1].empty() ? 0 : unit_ * real(parts[i + 1]);
-  if (!node_at_.emplace(number, static_cast<Index>(x_.size())).second)
-    fail("node " + std::to_string(number) + " is defined twice",
-         "one numbering for all parts: a file written without parts and assemblies");
-  if (const std::string* set = keyword_.find("NSET"))
-    set_of(node_sets_, *set).members.push_back(static_cast<Index>(x_.size()));
-  x_.push_back(x);
-  input_node_.push_back(number);
+void Reader::end_keyword() {
+  end_element();
+  const std::string name = keyword_.name;
+  if (is_generation(name))
+    generate(keyword_, lines_, unit_, scope());
+  else if (name == "INSTANCE")
+    place_instance();
+  else if (name == "SYSTEM")
+    read_system();
+  lines_.clear();
+  places_.clear();
+  keyword_ = {};
 }
 
-void Reader::element_line(const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) pending_.push_back(integer(part));
+void Reader::node_line(const AbaqusLine& line) {
+  if (line.parts.size() < 3) line.fail("a node needs its number and at least two coordinates");
+  if (instance_ != 0 && moved_)
+    line.fail("nodes inside of an *INSTANCE that is moved are not read here", "nodes in its *PART");
+  const GlobalIndex number = line.integer(0);
+  Point x{line.real(1), line.real(2), line.real(3)};
+  if (const std::string* system = keyword_.find("SYSTEM"))
+    x = rectangular(x, upper(*system) == "C" ? Coordinates::cylindrical : Coordinates::rectangular);
+  for (double& c : x) c *= unit_;
+  scope().add_node(number, system_.global(x), at_);
+  if (const std::string* set = keyword_.find("NSET")) set_of(scope().node_sets, *set, at_).add(number);
+}
+
+void Reader::element_line(const AbaqusLine& line) {
+  for (std::size_t i = 0; i < line.parts.size(); ++i) pending_.push_back(line.integer(i));
   const auto nn = static_cast<std::size_t>(node_count(shape_));
   if (pending_.size() < nn + 1) return;
   if (pending_.size() > nn + 1)
-    fail("element " + std::to_string(pending_[0]) + " has more than the " + std::to_string(nn) +
-         " nodes of its type");
-  Element e{shape_, {}, pending_[0]};
+    line.fail("element " + std::to_string(pending_[0]) + " has more than the " + std::to_string(nn) +
+              " nodes of its type");
+  AbaqusElement e{shape_, {}, pending_[0]};
   const auto order = abaqus_node_order(shape_);
   for (std::size_t a = 0; a < nn; ++a)
-    e.nodes.push_back(node(pending_[1 + (order.empty() ? a : static_cast<std::size_t>(order[a]))]));
+    e.nodes.push_back(
+        scope().node(pending_[1 + (order.empty() ? a : static_cast<std::size_t>(order[a]))], at_));
   if (shape_ == Shape::line3) {  // trusses and beams differ in where they put the mid node
     const auto off_middle = [&](std::size_t mid) {
       double d = 0;
       for (std::size_t i = 0; i < 3; ++i) {
-        const auto c = [&](std::size_t a) { return x_[static_cast<std::size_t>(e.nodes[a % 3])][i]; };
+        const auto c = [&](std::size_t a) { return scope().x[static_cast<std::size_t>(e.nodes[a % 3])][i]; };
         d += std::abs(c(mid) - 0.5 * (c(mid + 1) + c(mid + 2)));
       }
       return d;
     };
     if (off_middle(1) < off_middle(2)) std::swap(e.nodes[1], e.nodes[2]);
   }
-  const auto index = static_cast<Index>(elements_.size());
-  if (!element_at_.emplace(e.number, index).second)
-    fail("element " + std::to_string(e.number) + " is defined twice");
-  if (const std::string* set = keyword_.find("ELSET")) set_of(element_sets_, *set).members.push_back(index);
-  elements_.push_back(std::move(e));
+  if (const std::string* set = keyword_.find("ELSET")) set_of(scope().element_sets, *set, at_).add(e.number);
+  scope().add_element(std::move(e), at_);
   pending_.clear();
 }
 
-template <class Find>
-void Reader::set_line(const std::vector<std::string>& parts, Sets<Index>& sets, NamedSet<Index>& set,
-                      Find find) {
-  if (keyword_.find("GENERATE") != nullptr) {
-    if (parts.size() < 2) fail("GENERATE needs the first and the last number");
-    const GlobalIndex first = integer(parts[0]), last = integer(parts[1]),
-                      step = parts.size() > 2 ? integer(parts[2]) : 1;
-    if (step < 1 || last < first) fail("GENERATE needs rising numbers and a step of at least one");
-    for (GlobalIndex n = first; n <= last; n += step) set.members.push_back(find(n));
+int Reader::instance_named(const std::string& name) const {
+  for (std::size_t s = 1; s < scopes_.size(); ++s)
+    if (upper(scopes_[s].name) == upper(name)) return static_cast<int>(s);
+  fail("there is no instance '" + name + "' up to here");
+}
+
+/// A number, the name of a set, or either behind the name of its instance: "part-1.17", "part-1.left".
+std::vector<NumberRange> Reader::members(const std::string& text, AbaqusSets AbaqusScope::*sets,
+                                         const AbaqusLine& line) {
+  int of = 0;
+  if (const std::string* instance = keyword_.find("INSTANCE")) of = instance_named(*instance);
+  std::string member = text;
+  const auto own = [&](const std::string& name) {
+    const AbaqusSets& there = of == 0 ? scope().*sets : scopes_[static_cast<std::size_t>(of)].*sets;
+    const auto set = there.find(upper(name));
+    return set == there.end() ? nullptr : &set->second;
+  };
+  const std::size_t dot = text.find('.');
+  if (!is_number(text) && dot != std::string::npos && own(text) == nullptr) {
+    of = instance_named(text.substr(0, dot));
+    member = std::string(trimmed(std::string_view(text).substr(dot + 1)));
+  }
+  if (is_number(member)) {
+    const GlobalIndex n = AbaqusLine{line.at, {member}}.integer(0);
+    return {{of, n, n, 1}};
+  }
+  const AbaqusSet* set = own(member);
+  if (set == nullptr) line.fail("there is no set '" + text + "' up to here");
+  std::vector<NumberRange> ranges = set->ranges;
+  for (NumberRange& r : ranges)
+    if (r.scope == 0) r.scope = of;
+  return ranges;
+}
+
+void Reader::set_line(const AbaqusLine& line, AbaqusSet& set, bool nodes) {
+  if (keyword_.has("GENERATE")) {
+    if (line.parts.size() < 2) line.fail("GENERATE needs the first and the last number");
+    const GlobalIndex first = line.integer(0), last = line.integer(1), step = line.integer(2, 1);
+    if (step < 1 || last < first) line.fail("GENERATE needs rising numbers and a step of at least one");
+    const std::string* instance = keyword_.find("INSTANCE");
+    set.ranges.push_back({instance == nullptr ? 0 : instance_named(*instance), first, last, step});
     return;
   }
-  for (const std::string& part : parts) {
+  AbaqusSets AbaqusScope::*kind = nodes ? &AbaqusScope::node_sets : &AbaqusScope::element_sets;
+  for (const std::string& part : line.parts) {
     if (part.empty()) continue;
-    if (std::isdigit(static_cast<unsigned char>(part[0])) != 0) {
-      set.members.push_back(find(integer(part)));
-      continue;
-    }
-    const auto other = sets.find(upper(part));
-    if (other == sets.end()) fail("there is no set '" + part + "' up to here");
-    const std::vector<Index> members = other->second.members;
-    set.members.insert(set.members.end(), members.begin(), members.end());
+    for (const NumberRange& r : members(part, kind, line))
+      if (r.first == r.last)
+        set.add(r.first, r.scope);
+      else
+        set.ranges.push_back(r);
   }
 }
 
-void Reader::surface_line(const std::vector<std::string>& parts) {
-  NamedSet<Face>& surface = set_of(surfaces_, required("NAME"));
-  if (parts.size() < 2) fail("a surface needs a face for every element or set: 'part, S1'");
-  std::vector<Index> members;
-  if (std::isdigit(static_cast<unsigned char>(parts[0][0])) != 0) {
-    members = {element(integer(parts[0]))};
-  } else {
-    const auto set = element_sets_.find(upper(parts[0]));
-    if (set == element_sets_.end()) fail("there is no element set '" + parts[0] + "' up to here");
-    members = set->second.members;
+/// *NSET, ELSET=…: the nodes of the elements of a set.
+void Reader::nodes_of_elements(AbaqusSet& set) {
+  const AbaqusLine line{at_, {}};
+  std::set<std::pair<int, GlobalIndex>> numbers;
+  for (const NumberRange& r : members(keyword_.required("ELSET"), &AbaqusScope::element_sets, line)) {
+    const AbaqusScope& of = r.scope == 0 ? scope() : scopes_[static_cast<std::size_t>(r.scope)];
+    for (const AbaqusElement& e : of.elements)
+      if (e.number >= r.first && e.number <= r.last && (e.number - r.first) % r.step == 0)
+        for (const Index n : e.nodes) numbers.insert({r.scope, of.node_number[static_cast<std::size_t>(n)]});
   }
-  const std::string label = upper(parts[1]);
-  for (const Index e : members) {
-    if (label == "SPOS" || label == "SNEG") {
-      surface.members.push_back({e, -1});
-      continue;
+  for (const auto& [of, number] : numbers) set.add(number, of);
+}
+
+void Reader::surface_line(const AbaqusLine& line) {
+  const std::string* type = keyword_.find("TYPE");
+  const std::string kind = type == nullptr ? "ELEMENT" : upper(*type);
+  if (kind == "NODE") {
+    AbaqusSet& set = set_of(scope().node_sets, keyword_.required("NAME"), at_);
+    for (const NumberRange& r : members(line.parts[0], &AbaqusScope::node_sets, line))
+      set.ranges.push_back(r);
+    return;
+  }
+  if (kind != "ELEMENT" || keyword_.has("COMBINE") || keyword_.has("CROP")) return;  // begin() has said it
+  if (line.parts.size() < 2) line.fail("a surface needs a face for every element or set: 'part, S1'");
+  AbaqusSurface& surface = scope().surfaces[upper(keyword_.required("NAME"))];
+  if (surface.name.empty()) surface.name = keyword_.required("NAME");
+  surface.faces.push_back(
+      {members(line.parts[0], &AbaqusScope::element_sets, line), upper(line.parts[1]), at_});
+}
+
+// Abaqus Keywords Reference Guide, *INSTANCE: first the translation, then the turn around the line ab.
+void Reader::place_instance() {
+  if (lines_.empty()) return;
+  const AbaqusLine& move = lines_[0];
+  const Point shift{unit_ * move.real(0), unit_ * move.real(1), unit_ * move.real(2)};
+  Point a{}, b{};
+  double angle = 0;
+  if (lines_.size() > 1) {
+    const AbaqusLine& turn = lines_[1];
+    for (std::size_t i = 0; i < 3; ++i) {
+      a[i] = unit_ * turn.real(i);
+      b[i] = unit_ * turn.real(3 + i);
     }
-    const Shape shape = elements_[static_cast<std::size_t>(e)].shape;
-    const auto face = label.size() == 2 && label[0] == 'S' ? face_of_abaqus_label(shape, label[1] - '0')
-                                                           : std::optional<int>{};
-    if (!face)
-      fail("a " + std::string(name(shape)) + " has no face '" + parts[1] + "'",
-           "S1 to S" + std::to_string(face_count(shape)));
-    surface.members.push_back({e, *face});
+    angle = turn.real(6);
+    if (angle != 0 && length_of(difference(b, a)) == 0)
+      turn.fail("the instance turns around a line of no length");
+  }
+  moved_ = length_of(shift) > 0 || angle != 0;
+  for (Point& x : scope().x) {
+    for (std::size_t i = 0; i < 3; ++i) x[i] += shift[i];
+    if (angle != 0) x = turned(x, a, b, angle).value();
   }
 }
 
-void add(RawGroup& group, Shape shape, const std::vector<Index>& nodes, GlobalIndex number) {
-  auto block = std::find_if(group.blocks.begin(), group.blocks.end(),
-                            [&](const RawBlock& b) { return b.shape == shape; });
-  if (block == group.blocks.end()) block = group.blocks.insert(group.blocks.end(), RawBlock{shape, {}, {}});
-  block->nodes.insert(block->nodes.end(), nodes.begin(), nodes.end());
-  block->input_element.push_back(number);
-}
-
-template <class Member>
-void sort_out(std::vector<Member>& members) {
-  std::sort(members.begin(), members.end());
-  members.erase(std::unique(members.begin(), members.end()), members.end());
-}
-
-RawMesh Reader::mesh(const std::string& path) {
-  RawMesh mesh;
-  mesh.dimension = 0;
-  for (const Element& e : elements_) mesh.dimension = std::max(mesh.dimension, mesh::dimension(e.shape));
-  if (mesh.dimension < 2)
-    throw InputError({path},
-                     "the mesh has no triangles, quads, tetrahedra or hexahedra: empty, cut off or "
-                     "not a mesh",
-                     "an Abaqus or CalculiX input file with *NODE and *ELEMENT");
-  mesh.x = std::move(x_);
-  mesh.input_node = std::move(input_node_);
-
-  const auto add_group = [&mesh](std::string group_name, RawGroup group) {
-    if (group.blocks.empty()) return;
-    // The same name for elements, nodes and faces is usual in these files.
-    if (mesh.groups.contains(group_name)) group_name += "_" + std::to_string(group.dimension) + "d";
-    mesh.groups.emplace(group_name, std::move(group));
-  };
-  std::vector<char> named(elements_.size(), 0);
-  for (auto& [key, set] : element_sets_) {
-    sort_out(set.members);
-    RawGroup group{0, {}};
-    for (const Index e : set.members) {
-      group.dimension =
-          std::max(group.dimension, mesh::dimension(elements_[static_cast<std::size_t>(e)].shape));
-      named[static_cast<std::size_t>(e)] = 1;
-    }
-    // A set of everything means the elements of highest dimension in it.
-    for (const Index i : set.members) {
-      const Element& e = elements_[static_cast<std::size_t>(i)];
-      if (mesh::dimension(e.shape) == group.dimension) add(group, e.shape, e.nodes, e.number);
-    }
-    add_group(set.name, std::move(group));
+// An origin a, a point b on the first axis and a point c in the plane of the first two.
+void Reader::read_system() {
+  system_ = {};
+  if (lines_.empty()) return;
+  const AbaqusLine& first = lines_[0];
+  Point a{}, b{}, c{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    a[i] = unit_ * first.real(i);
+    b[i] = unit_ * first.real(3 + i);
   }
-  RawGroup rest{mesh.dimension, {}};
-  for (std::size_t i = 0; i < elements_.size(); ++i)
-    if (named[i] == 0 && mesh::dimension(elements_[i].shape) == mesh.dimension)
-      add(rest, elements_[i].shape, elements_[i].nodes, elements_[i].number);
-  add_group("body_1", std::move(rest));
-
-  for (const auto& [key, surface] : surfaces_) {
-    RawGroup group{mesh.dimension - 1, {}};
-    for (const Face& f : surface.members) {
-      const Element& e = elements_[static_cast<std::size_t>(f.element)];
-      if (mesh::dimension(e.shape) - (f.face < 0 ? 0 : 1) != group.dimension) continue;
-      if (f.face < 0) {
-        add(group, e.shape, e.nodes, e.number);
-        continue;
-      }
-      std::vector<Index> nodes;
-      for (const int a : face_nodes(e.shape, f.face)) nodes.push_back(e.nodes[static_cast<std::size_t>(a)]);
-      add(group, face_shape(e.shape), nodes, e.number);
-    }
-    add_group(surface.name, std::move(group));
-  }
-  for (auto& [key, set] : node_sets_) {
-    sort_out(set.members);
-    RawGroup group{0, {}};
-    for (const Index i : set.members) add(group, Shape::point1, {i}, 0);
-    add_group(set.name, std::move(group));
-  }
-  return mesh;
+  system_.origin = a;
+  if (!first.has(3) && !first.has(4) && !first.has(5)) return;
+  if (lines_.size() > 1)
+    for (std::size_t i = 0; i < 3; ++i) c[i] = unit_ * lines_[1].real(i);
+  const Point along = difference(b, a);
+  // Without c the system is turned around the third global axis.
+  const Point towards = lines_.size() > 1 ? difference(c, a) : cross_product({0, 0, 1}, along);
+  const auto axes = axes_along(along, towards);
+  if (!axes) first.fail("the points of *SYSTEM lie on one line", "three points that span a plane");
+  system_.axes = *axes;
 }
 
 }  // namespace
 
 RawMesh read_abaqus_input(const std::string& path, double unit_in_metres) {
-  Reader reader(unit_in_metres);
-  reader.read(path);
-  return reader.mesh(path);
+  return Reader(unit_in_metres).mesh(path);
 }
 
 }  // namespace solidus::mesh

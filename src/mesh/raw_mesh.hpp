@@ -24,6 +24,8 @@ struct RawMesh {
   std::vector<Point> x;  ///< [m]
   std::vector<GlobalIndex> input_node;
   std::map<std::string, RawGroup> groups;  ///< named groups of every dimension, as in the input
+  /// What was left out or taken for something while the file was read, for the user: a sentence each.
+  std::vector<std::string> notes = {};
 };
 
 /// A mesh file and how it is to be read.

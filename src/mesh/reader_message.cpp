@@ -230,6 +230,8 @@ void put_mesh(const RawMesh& mesh, const PutBytes& put) {
       put_numbers(block.input_element, put);
     }
   }
+  put_number(mesh.notes.size(), put);
+  for (const std::string& note : mesh.notes) put_text(note, put);
 }
 
 RawMesh take_mesh(const TakeBytes& take, double most_bytes) {
@@ -248,6 +250,10 @@ RawMesh take_mesh(const TakeBytes& take, double most_bytes) {
       group.blocks.push_back(take_block(take, left, mesh.x.size()));
     mesh.groups.emplace(name, std::move(group));
   }
+  constexpr std::size_t k_most_notes = 10000;
+  const auto n_notes = take_number<std::size_t>(take);
+  if (n_notes > k_most_notes) throw MessageError("more notes than a mesh has");
+  for (std::size_t i = 0; i < n_notes; ++i) mesh.notes.push_back(take_text(take));
   return mesh;
 }
 

@@ -18,6 +18,7 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -387,7 +388,14 @@ ReaderLimits reader_limits(const MeshSource& source, bool meshes) {
 }
 
 RawMesh read_in_one_way(const MeshSource& source, const CastingGeometry* casting) {
-  return reads_here != nullptr ? reads_here(source, casting) : read_in_own_process(source, casting);
+  RawMesh mesh = reads_here != nullptr ? reads_here(source, casting) : read_in_own_process(source, casting);
+  // A file that is read several times says each thing once.
+  static std::set<std::string> said;
+  for (const std::string& note : mesh.notes)
+    if (const std::string text = note.starts_with(source.path) ? note : source.path + ": " + note;
+        said.insert(text).second)
+      logging::warn("{}", text);
+  return mesh;
 }
 
 RawMesh read_mesh(const MeshSource& source) {

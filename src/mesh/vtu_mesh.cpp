@@ -1,9 +1,15 @@
 #include "mesh/vtu_mesh.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "mesh/gmsh_elements.hpp"
 #include "mesh/vtu_pieces.hpp"
@@ -28,18 +34,119 @@ const ptree& only_piece(const VtuFile& file) {
   return *piece;
 }
 
-/// The number that tells the body of each cell; empty where no data tell it.
-std::vector<double> body_numbers(const VtuFile& file, const ptree& piece, std::size_t n_cells) {
-  for (const char* name : {"body", "gmsh:physical", "CellEntityIds"}) {
-    const ptree* array = find_array(piece, "CellData", name);
-    if (array == nullptr) continue;
-    std::vector<double> numbers = file.numbers(*array, n_cells);
-    for (const double number : numbers)
-      if (number != std::round(number))
-        file.fail(std::string("the cell data `") + name + "` are no whole numbers");
-    return numbers;
+/// Letters and digits alone, in lower case: "Material_Ids" is "materialids".
+std::string plain(const std::string& name) {
+  std::string letters;
+  for (const char c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return letters;
+}
+
+/// Whether a program gives this name to numbers of materials, groups or regions.
+bool names_regions(const std::string& array) {
+  constexpr std::array k_known{"material",
+                               "materials",
+                               "materialid",
+                               "materialids",
+                               "mat",
+                               "matid",
+                               "group",
+                               "groups",
+                               "groupid",
+                               "groupids",
+                               "region",
+                               "regions",
+                               "regionid",
+                               "regionids",
+                               "zone",
+                               "zoneid",
+                               "domain",
+                               "domainid",
+                               "subdomain",
+                               "subdomains",
+                               "subdomainid",
+                               "elementblock",
+                               "elementblockids",
+                               "blockid",
+                               "blockids",
+                               "partid",
+                               "partids",
+                               "part",
+                               "parts",
+                               "objectid",
+                               "entityid",
+                               "entityids",
+                               "cellentityids",
+                               "celltags",
+                               "cellmarkers",
+                               "celltag",
+                               "meshtags",
+                               "physical",
+                               "gmshphysical",
+                               "attribute",
+                               "attributes",
+                               "medfamily",
+                               "familyid",
+                               "propertyid",
+                               "pid"};
+  return std::ranges::find(k_known, plain(array)) != k_known.end();
+}
+
+/// The different numbers of an array, where all are whole ones; at most a hundred, else nothing.
+std::optional<std::set<double>> few_whole_numbers(const std::vector<double>& numbers) {
+  constexpr std::size_t k_most = 100;
+  std::set<double> different;
+  for (const double number : numbers) {
+    if (number != std::round(number)) return std::nullopt;
+    different.insert(number);
+    if (different.size() > k_most) return std::nullopt;
   }
-  return {};
+  return different;
+}
+
+bool has_one_component(const ptree& array) {
+  return array.get<int>("<xmlattr>.NumberOfComponents", 1) == 1;
+}
+
+struct Regions {
+  std::vector<double> numbers;     ///< that tells the body of each cell; empty where no data tell it
+  std::vector<std::string> notes;  ///< on the data that were chosen or not
+};
+
+/// The first of the known names decides.
+Regions regions_of(const VtuFile& file, const ptree& piece, std::size_t n_cells) {
+  Regions regions;
+  std::vector<std::string> names = {"body", "gmsh:physical", "CellEntityIds"};
+  const std::size_t n_certain = names.size();
+  for (const std::string& name : array_names(piece, "CellData"))
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  std::string others;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const ptree* array = find_array(piece, "CellData", names[k]);
+    if (array == nullptr || !has_one_component(*array)) continue;
+    const bool certain = k < n_certain;
+    if (names[k].starts_with("vtk") || (!regions.numbers.empty() && certain)) continue;
+    std::vector<double> numbers = file.numbers(*array, n_cells);
+    const auto different = few_whole_numbers(numbers);
+    if (certain) {
+      for (const double number : numbers)
+        if (number != std::round(number)) file.fail("the cell data `" + names[k] + "` are no whole numbers");
+      regions.numbers = std::move(numbers);
+    } else if (different && different->size() > 1) {
+      if (!regions.numbers.empty() || !names_regions(names[k])) {
+        others += (others.empty() ? "`" : ", `") + names[k] + "`";
+        continue;
+      }
+      regions.numbers = std::move(numbers);
+      regions.notes.push_back(fmt::format("the cell data `{}` tell bodies apart, by the numbers {:g}",
+                                          names[k], fmt::join(*different, ", ")));
+    }
+  }
+  if (!others.empty() && regions.numbers.empty())
+    regions.notes.push_back("no cell data tell bodies apart, all is one body; perhaps " + others +
+                            " should, under the name `body`");
+  return regions;
 }
 
 }  // namespace
@@ -58,7 +165,8 @@ RawMesh read_vtu_mesh(const std::string& path, double unit_in_metres) {
   }
 
   const CellTable cells = read_cells(file, piece, n_cells, n_points);
-  const std::vector<double> bodies = body_numbers(file, piece, n_cells);
+  Regions regions = regions_of(file, piece, n_cells);
+  const std::vector<double>& bodies = regions.numbers;
   std::map<std::pair<int, double>, RawGroup> groups;  // by dimension and number
   for (std::size_t c = 0; c < n_cells; ++c) {
     const std::optional<CellParts> parts = parts_of(cells.types[c]);
@@ -89,6 +197,7 @@ RawMesh read_vtu_mesh(const std::string& path, double unit_in_metres) {
     else if (key.first == mesh.dimension - 1)
       mesh.groups.emplace("surface_" + std::to_string(++n_surfaces), std::move(group));
   }
+  mesh.notes = std::move(regions.notes);
   return mesh;
 }
 

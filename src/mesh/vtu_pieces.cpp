@@ -17,6 +17,21 @@ std::string name_of(const ptree& array) {
   return array.get<std::string>("<xmlattr>.Name", "");
 }
 
+/// The cell of a fixed number of corners that a Lagrange cell of as many corners is; DOLFINx writes linear
+/// meshes so. Others stay as they are.
+int plain_type(int type, std::size_t n_corners) {
+  struct Lagrange {
+    int type;
+    std::size_t n_corners;
+    int plain;
+  };
+  constexpr Lagrange k_known[] = {{68, 2, 3}, {68, 3, 21}, {69, 3, 5},   {69, 6, 22},
+                                  {70, 4, 9}, {71, 4, 10}, {71, 10, 24}, {72, 8, 12}};
+  for (const Lagrange& known : k_known)
+    if (known.type == type && known.n_corners == n_corners) return known.plain;
+  return type;
+}
+
 }  // namespace
 
 std::optional<CellParts> parts_of(int type) {
@@ -111,6 +126,8 @@ CellTable read_cells(const VtuFile& file, const ptree& piece, std::size_t n_cell
   CellTable table;
   table.types.assign(types.begin(), types.end());
   table.offsets.assign(offsets.begin(), offsets.end());
+  for (std::size_t c = 0; c < n_cells; ++c)
+    table.types[c] = plain_type(table.types[c], table.offsets[c] - (c == 0 ? 0 : table.offsets[c - 1]));
   table.corners.reserve(corners.size());
   for (std::size_t c = 0, at = 0; c < n_cells; ++c)
     for (; at < table.offsets[c]; ++at) {

@@ -48,7 +48,7 @@ const boost::property_tree::ptree& points_array(const VtuFile& file,
 
 /// The cells of a piece as the file has them.
 struct CellTable {
-  std::vector<int> types;            ///< VTK's numbers
+  std::vector<int> types;            ///< VTK's numbers; a Lagrange cell as the plain one of its corners
   std::vector<std::size_t> offsets;  ///< the end of each cell in `corners`
   std::vector<Index> corners;        ///< numbers of points, each below n_points
 };

@@ -22,7 +22,7 @@ class Choice {
   Draft choose() {
     draft_.meshed = part_.meshed;
     draft_.geometry = options_.geometry;
-    draft_.unit = options_.unit;
+    if (!part_.file_unit) draft_.unit = options_.unit.empty() ? "mm" : options_.unit;
     draft_.process = process_.name;
     draft_.alloy = options_.alloy;
     draft_.coupled = alloy_.mechanical();

@@ -102,6 +102,8 @@ class Refinement {
     mesh::RawMesh mesh = drafted_mesh();
     bool more = false;
     for (const auto& [group, content] : mesh.groups) {
+      if (draft_.meshed)
+        break;  // the bodies of the file are known, and its other sets hold the same elements
       if (content.dimension != mesh.dimension || std::ranges::count(draft_.bodies, group, &DraftBody::group))
         continue;
       DraftBody& core = draft_.bodies.emplace_back();

@@ -14,7 +14,7 @@ struct NewCaseOptions {
   std::filesystem::path geometry;  ///< STEP, BREP, IGES, STL, or a mesh
   std::string process = "sand";    ///< sand, shell, gravity_die, high_pressure
   std::string alloy;               ///< a material of the library, or a file
-  std::string unit = "mm";         ///< of the file; STEP files come in mm
+  std::string unit;                ///< of the file; empty: what the file says, else mm
   bool riser = false;              ///< a riser on the thickest place
   std::string symmetry;            ///< "x", "y", "z": half of the part; empty: all of it
   std::vector<std::string> as;     ///< "NAME=role" of bodies of the file

@@ -28,9 +28,13 @@ std::string doubtful_unit_text(const NewCaseOptions& options, const PartMeasures
   double largest = 0;
   for (std::size_t i = 0; i < 3; ++i) largest = std::max(largest, part.high[i] - part.low[i]);
   if (largest <= k_large && largest >= k_small) return "";
+  const std::string size =
+      largest > 1 ? fmt::format("{:.3g} m", largest) : fmt::format("{:.3g} mm", 1e3 * largest);
+  if (part.file_unit)
+    return fmt::format("\n  note        {} large, for lengths in {}, as the file says itself", size,
+                       part.file_unit->name);
   return fmt::format("\n  note        {} large, for lengths of the file in {}: --unit takes another unit",
-                     largest > 1 ? fmt::format("{:.3g} m", largest) : fmt::format("{:.3g} mm", 1e3 * largest),
-                     options.unit);
+                     size, options.unit.empty() ? "mm" : options.unit);
 }
 
 /// A note where walls have less than two elements through them; empty where they have.
@@ -117,6 +121,7 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
                         const NewCaseOptions& options) {
   std::string out = fmt::format("{}: {} at {:.0f} degC, process {}", draft.geometry.filename().string(),
                                 draft.alloy, draft.pouring, draft.process);
+  if (part.file_unit) out += fmt::format("\n  unit        {}, as the file says", part.file_unit->name);
   for (const DraftBody& body : draft.bodies) {
     out += fmt::format("\n  {:<10}  {} of {}, {:.0f} degC", name(body.role), body.name, body.material,
                        body.start);

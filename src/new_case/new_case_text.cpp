@@ -29,8 +29,8 @@ bool is_metal(const DraftBody& body) {
 }
 
 std::string mesh_text(const Draft& d) {
-  std::string t =
-      fmt::format("[mesh]\nfile = {}\nunit = {}\n", quoted(d.geometry.filename().string()), quoted(d.unit));
+  std::string t = fmt::format("[mesh]\nfile = {}\n", quoted(d.geometry.filename().string()));
+  if (!d.unit.empty()) t += fmt::format("unit = {}\n", quoted(d.unit));
   if (d.way > 0)
     t += fmt::format(
         "way = {}   # of meshing, the best of those tried; without this line all are tried again\n", d.way);

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "input/keys.hpp"
-#include "input/units.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/file_format.hpp"
+#include "mesh/file_unit.hpp"
 
 namespace solidus::model {
 
@@ -29,15 +29,17 @@ bool PartMeasures::has_riser() const {
 
 PartMeasures measure_part(const NewCaseOptions& options) {
   PartMeasures m;
-  mesh::MeshSource source{options.geometry.string(), units::convert(1, options.unit, "m")};
-  mesh::check_readable(source.path);
+  const std::string path = options.geometry.string();
+  mesh::check_readable(path);
+  mesh::MeshSource source{path, mesh::metres_of_unit(path, options.unit, "mm", {"--unit"})};
+  m.file_unit = mesh::unit_of_file(path);
   const mesh::FileFormat format = mesh::file_format(source.path);
   const bool solids = mesh::is_cad(format), meshed = !solids && format != mesh::FileFormat::stl;
   refuse_cuts(options, solids);
   m.mesh = meshed ? mesh::read_mesh(source) : mesh::mesh_casting(source, {}, 0);
   if (m.mesh.dimension != 3)
     throw InputError({source.path}, "the mesh is plane", "a solid: STEP, BREP, IGES, STL, or a mesh of one");
-  m.bodies = bodies_of(m.mesh, options.as);
+  m.bodies = bodies_of(m.mesh, options.as, source.path);
   for (const GeometryBody& body : m.bodies) {
     if (body.role == Role::mould || body.role == Role::die) m.has_mould = true;
     if (is_metal(body.role)) m.metal.push_back(body.name);

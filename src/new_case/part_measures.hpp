@@ -1,10 +1,12 @@
 /// The parts of a geometry file, measured: what `solidus new` chooses mould, sizes and riser by.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "build/geometry_bodies.hpp"
+#include "mesh/file_unit.hpp"
 #include "mesh/hot_spots.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "new_case/new_case.hpp"
@@ -13,7 +15,8 @@ namespace solidus::model {
 
 /// Lengths in m.
 struct PartMeasures {
-  mesh::RawMesh mesh;  ///< of the parts alone, coarse, or the elements of the file
+  mesh::RawMesh mesh;                         ///< of the parts alone, coarse, or the elements of the file
+  std::optional<mesh::LengthUnit> file_unit;  ///< that the file says itself
   std::vector<GeometryBody> bodies;
   std::vector<std::string> metal;  ///< names of castings and risers
   bool has_mould = false;          ///< the file holds one

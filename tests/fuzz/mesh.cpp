@@ -1,7 +1,10 @@
-/// Any bytes as a mesh that Solidus reads itself: .msh, .inp or .vtu, which the first byte chooses.
+/// Any bytes as a mesh that Solidus reads itself: .msh, .inp, .bdf, .unv or .vtu, which the first byte
+/// chooses.
 #include "input.hpp"
 #include "mesh/abaqus_input.hpp"
 #include "mesh/gmsh_mesh_file.hpp"
+#include "mesh/nastran_input.hpp"
+#include "mesh/universal_file.hpp"
 #include "mesh/vtu_mesh.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -11,6 +14,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   switch (*data) {
     case 'a':
       return fuzz::answer([&] { mesh::read_abaqus_input(file, 0.001); });
+    case 'n':
+      return fuzz::answer([&] { mesh::read_nastran(file, 0.001); });
+    case 'u':
+      return fuzz::answer([&] { mesh::read_universal_file(file, 0.001); });
     case 'v':
       return fuzz::answer([&] { mesh::read_vtu_mesh(file, 0.001); });
     default:

@@ -7,9 +7,9 @@ namespace solidus::mesh {
 namespace {
 
 [[noreturn]] void refuse(const MeshSource& source) {
-  throw UnusableGeometry({source.path},
-                         "this file needs Gmsh, and this program was built without it (SOLIDUS_GMSH=OFF)",
-                         "a mesh: .msh (version 2.2 or 4.1), Abaqus .inp or .vtu; or a build with Gmsh");
+  throw UnusableGeometry(
+      {source.path}, "this file needs Gmsh, and this program was built without it (SOLIDUS_GMSH=OFF)",
+      "a mesh: .msh (version 2.2 or 4.1), Abaqus .inp, .bdf, .unv or .vtu; or a build with Gmsh");
 }
 
 }  // namespace

@@ -1,19 +1,23 @@
 #include "mesh/gmsh/import.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <utility>
 
 #include "mesh/abaqus_input.hpp"
+#include "mesh/body_partition.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/file_format.hpp"
 #include "mesh/gmsh/faceted_casting.hpp"
 #include "mesh/gmsh/session.hpp"
 #include "mesh/gmsh_mesh_file.hpp"
 #include "mesh/gmsh_script.hpp"
+#include "mesh/nastran_input.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "mesh/stl_file.hpp"
+#include "mesh/universal_file.hpp"
 #include "mesh/vtu_mesh.hpp"
 #include "system/errors.hpp"
 
@@ -24,10 +28,16 @@ namespace {
 /// Meshes what the skins of an STL file or of the bodies of a mesh enclose, and a mould around them.
 RawMesh mesh_skins(const MeshSource& source, FileFormat format, const CastingGeometry& casting) {
   if (format == FileFormat::stl) return mesh_faceted_casting(source, casting, read_stl(source.path));
-  const RawMesh mesh = read_mesh_here(source);
+  RawMesh mesh = read_mesh_here(source);
   if (mesh.dimension != 3)
     throw InputError({source.path}, "[[mesh.size]] and [mesh.mould] are for solids, this mesh is plane",
                      "a mesh of tetrahedra or hexahedra");
+  // Of sets that hold the same elements those that the case names are the bodies.
+  const BodyPartition partition = partition_of(mesh, source.path, [&](const std::string& name) {
+    const bool named = std::ranges::any_of(casting.sizes, [&](const BodySize& s) { return s.body == name; });
+    return named ? 2 : plain_preference(name);
+  });
+  for (const std::string& name : partition.left_out) mesh.groups.erase(name);
   return mesh_faceted_casting(source, casting, facets_of(mesh, source.unit_in_metres));
 }
 
@@ -53,6 +63,8 @@ RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting)
   if (!source.constants.empty() && format != FileFormat::gmsh_script)
     throw InputError({path}, "the mesh file is no .geo script and has no constants");
   if (format == FileFormat::abaqus) return read_abaqus_input(path, source.unit_in_metres);
+  if (format == FileFormat::nastran) return read_nastran(path, source.unit_in_metres);
+  if (format == FileFormat::universal) return read_universal_file(path, source.unit_in_metres);
   if (format == FileFormat::vtu) return read_vtu_mesh(path, source.unit_in_metres);
   if (format == FileFormat::gmsh_mesh)
     if (std::optional<RawMesh> mesh = read_gmsh_mesh_file(path, source.unit_in_metres))

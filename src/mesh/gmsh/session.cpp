@@ -1,4 +1,5 @@
 // Reads and meshes with Gmsh (mesh/gmsh/session.hpp).
+#include <fmt/format.h>
 #include <gmsh.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -96,15 +97,18 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// Whether a file is one line without a line end, which Gmsh 4.8 takes for an empty script.
-bool is_one_open_line(const std::string& path) {
-  std::ostringstream content;
-  content << std::ifstream(path, std::ios::binary).rdbuf();
-  return content.str().find('\n') == std::string::npos;
+/// Whether the last line of a file has no end: of such a line Gmsh 4.8 and 4.13 run the first statement
+/// alone, unless another script includes the file.
+bool has_open_line(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file || file.tellg() <= 0) return false;
+  file.seekg(-1, std::ios::end);
+  const int last = file.get();
+  return last != '\n' && last != '\r';
 }
 
 void open_in_gmsh(const std::string& path, FileFormat format) {
-  if (format != FileFormat::gmsh_script || !is_one_open_line(path)) return gmsh::open(path);
+  if (format != FileFormat::gmsh_script || !has_open_line(path)) return gmsh::open(path);
   const std::string whole = std::filesystem::absolute(path).string();
   const char quote = whole.find('"') == std::string::npos ? '"' : '\'';
   const MemoryFile around("Include " + (quote + whole) + quote + ";\n");
@@ -332,6 +336,26 @@ RawMesh mesh_of_session(const MeshSource& source, bool has_geometry) {
   return mesh;
 }
 
+/// Options that a script sets and that change a mesh where Gmsh saves it, or that the case decides.
+std::vector<std::string> notes_of_options(const MeshSource& source) {
+  std::vector<std::string> notes;
+  double scaling = 1, order = 1;
+  gmsh::option::getNumber("Mesh.ScalingFactor", scaling);
+  gmsh::option::getNumber("Mesh.ElementOrder", order);
+  if (scaling != 1)
+    notes.push_back(
+        fmt::format("the script sets Mesh.ScalingFactor to {:g}, by which Gmsh multiplies lengths where it "
+                    "saves a mesh; here they "
+                    "are taken as the script draws them, in the unit of the file (mesh.unit, --unit)",
+                    scaling));
+  if (const int wanted = source.element_order; order != wanted && order != 1)
+    notes.push_back(
+        fmt::format("the script sets Mesh.ElementOrder to {:g}; the order of the elements is {}, which "
+                    "mesh.order decides",
+                    order, wanted));
+  return notes;
+}
+
 }  // namespace
 
 RawMesh mesh_in_gmsh(const MeshSource& source, const std::function<void()>& make) {
@@ -356,7 +380,9 @@ RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const Castin
     }
     generate(path, source.element_size / source.unit_in_metres, source.element_order);
   }
-  return mesh_of_session(source, casting != nullptr || is_geometry(format));
+  RawMesh mesh = mesh_of_session(source, casting != nullptr || is_geometry(format));
+  if (format == FileFormat::gmsh_script) mesh.notes = notes_of_options(source);
+  return mesh;
 }
 
 }  // namespace solidus::mesh

@@ -177,7 +177,8 @@ TEST(AbaqusInput, MistakesAreNamedWithTheirLine) {
   EXPECT_THAT(complaint_of("*NODE\n1,0,nan\n"), HasSubstr("'nan'"));
   EXPECT_THAT(complaint_of("*NODE\n1,0,1e999\n"), HasSubstr("'1e999'"));
   EXPECT_THAT(complaint_of(nodes + "2,0,0\n"), HasSubstr("defined twice"));
-  EXPECT_THAT(complaint_of(nodes + "*NSET,NSET=a\n1,7\n"), HasSubstr("node 7"));
+  EXPECT_THAT(complaint_of(nodes + "*ELEMENT, TYPE=CPE3\n1,1,2,3\n*NSET,NSET=a\n1,7\n"),
+              AllOf(HasSubstr(":7"), HasSubstr("node 7")));
   EXPECT_THAT(complaint_of(nodes + "*ELSET,ELSET=a\nother\n"), HasSubstr("'other'"));
   EXPECT_THAT(complaint_of(nodes), HasSubstr("no triangles"));
 }

@@ -145,6 +145,42 @@ TEST_F(MeshFiles, MshOfBothVersionsReadsBackInEveryOrderTextOrBinary) {
         }
 }
 
+// Gmsh writes groups in dataset 2477, and mid nodes between the corners.
+TEST_F(MeshFiles, UniversalFilesOfGmshReadBackInEveryOrder) {
+  for (const int dimension : {2, 3})
+    for (const int element_order : {1, 2})
+      for (const bool recombine : {false, true}) {
+        SCOPED_TRACE(std::to_string(dimension) + "D, order " + std::to_string(element_order));
+        const std::string file = path("two.unv");
+        write_model(file, dimension, element_order, 2.2, true, dimension == 2 && recombine);
+        expect_two_bodies(read_mesh(file, 0.001), dimension);
+      }
+}
+
+// Of a last line without an end Gmsh runs the first statement alone.
+TEST_F(MeshFiles, AScriptWithoutANewlineAtItsEndIsRunToItsEnd) {
+  const std::string script =
+      "SetFactory(\"OpenCASCADE\");\nBox(1)={0,0,0,40,40,40};\nMesh.MeshSizeMax=30;\n"
+      "Box(2)={40,0,0,20,40,40}; Coherence; Physical Volume(\"casting\",1)={1}; "
+      "Physical Volume(\"mould\",2)={2};";
+  for (const char* end : {"", "\n"}) {
+    const RawMesh mesh = read_mesh(write("open.geo", script + end), 0.001);
+    EXPECT_TRUE(mesh.groups.contains("casting") && mesh.groups.contains("mould")) << mesh.groups.size();
+  }
+}
+
+TEST_F(MeshFiles, OptionsOfAScriptThatAreNotTakenAreSaid) {
+  const std::string square =
+      "Point(1)={0,0,0,1}; Point(2)={1,0,0,1}; Line(1)={1,2};\n"
+      "Extrude{0,1,0}{Curve{1};}\n";
+  EXPECT_TRUE(read_mesh(write("plain.geo", square), 1).notes.empty());
+  const RawMesh mesh =
+      read_mesh(write("set.geo", square + "Mesh.ScalingFactor = 0.001;\nMesh.ElementOrder = 2;\n"), 1);
+  ASSERT_EQ(mesh.notes.size(), 2u);
+  EXPECT_THAT(mesh.notes[0], AllOf(HasSubstr("ScalingFactor"), HasSubstr("0.001")));
+  EXPECT_THAT(mesh.notes[1], AllOf(HasSubstr("ElementOrder"), HasSubstr("mesh.order")));
+}
+
 // Solidus reads .msh by itself; Gmsh reads the same from the same file.
 TEST_F(MeshFiles, OurReaderOfMshGivesWhatGmshReads) {
   for (const int dimension : {2, 3})
