@@ -63,8 +63,9 @@ class PartMaker {
              "a file with solids");
     }
     const double tolerance = 1e-4 * extent_of(surfaces).diagonal();
-    occ::healShapes(made, surfaces, tolerance, true, true, true, true, true);
-    occ::remove(surfaces, true);
+    // All at once, which an empty list of shapes means and which replaces them: from 4.9 on Gmsh heals shapes
+    // that are named one by one, and single faces are not sewn to each other.
+    occ::healShapes(made, {}, tolerance, true, true, true, true, true);
     occ::synchronize();
     if (all_volumes().empty())
       refuse("the geometry has no solid, and its faces do not close to one: " + open_faces_text(unit_),
