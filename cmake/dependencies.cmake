@@ -1,4 +1,4 @@
-# Everything comes from Debian 12 packages; PETSc, Gmsh, METIS and UDUNITS-2 have no CMake configs there.
+# Everything comes from packages of Debian 12 or 13; PETSc, Gmsh, METIS and UDUNITS-2 have no CMake configs there.
 # An installed Solidus brings this file: whoever links its libraries finds theirs by it.
 find_package(PkgConfig REQUIRED)
 find_package(MPI REQUIRED COMPONENTS CXX)
@@ -7,6 +7,9 @@ find_package(spdlog REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(CLI11 REQUIRED)
+if(POLICY CMP0167) # CMake 3.30 and later warn where its own way to find Boost would be asked for; Boost 1.70 and later brings one
+  cmake_policy(SET CMP0167 NEW)
+endif()
 find_package(Boost REQUIRED)
 find_package(ZLIB REQUIRED)
 pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)

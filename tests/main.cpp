@@ -1,11 +1,13 @@
 /// The entry point of every test program: PETSc and MPI live as long as the tests.
 ///
 /// --source=NAME runs the tests that NAME.cpp defines and no others: a program holds those of many sources.
+/// The exit code is 77 where every test that was asked for was skipped, which ctest then counts as skipped.
 #include <gtest/gtest.h>
 #include <petscsys.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -71,6 +73,26 @@ bool select_tests(int argc, char** argv) {
   return true;
 }
 
+constexpr int k_all_skipped = 77;  ///< SKIP_RETURN_CODE of tests/CMakeLists.txt
+
+/// Whether tests were asked for and each of them was skipped; prints the reasons.
+bool all_skipped() {
+  const ::testing::UnitTest& all = *::testing::UnitTest::GetInstance();
+  if (all.test_to_run_count() == 0 || all.skipped_test_count() < all.test_to_run_count()) return false;
+  std::set<std::string> reasons;
+  for (int s = 0; s < all.total_test_suite_count(); ++s) {
+    const ::testing::TestSuite& suite = *all.GetTestSuite(s);
+    for (int t = 0; t < suite.total_test_count(); ++t) {
+      const ::testing::TestResult& result = *suite.GetTestInfo(t)->result();
+      for (int part = 0; part < result.total_part_count(); ++part)
+        if (result.GetTestPartResult(part).skipped())
+          reasons.insert(result.GetTestPartResult(part).message());
+    }
+  }
+  for (const std::string& reason : reasons) std::printf("all of it is skipped: %s\n", reason.c_str());
+  return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -80,8 +102,9 @@ int main(int argc, char** argv) {
   ignore_leaks(true);
   if (!petsc::start({})) return 3;
   ignore_leaks(false);
-  int rank = 0;
+  int rank = 0, n_processes = 1;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
   if (rank !=
       0) {  // one process reports; a failure elsewhere still fails the run through the combined result
     auto& listeners = ::testing::UnitTest::GetInstance()->listeners();
@@ -89,6 +112,7 @@ int main(int argc, char** argv) {
   }
   int result = RUN_ALL_TESTS();
   MPI_Allreduce(MPI_IN_PLACE, &result, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD);
+  if (result == 0 && n_processes == 1 && all_skipped()) result = k_all_skipped;
   check_leaks();
   petsc::end();
   return result;

@@ -1,6 +1,7 @@
 """Pictures of plane and axisymmetric sections: fields as colour maps, and deformed meshes."""
 
 import matplotlib.pyplot as plt
+from matplotlib.artist import Artist
 from matplotlib.collections import LineCollection
 from matplotlib.transforms import ScaledTranslation
 from matplotlib.tri import Triangulation
@@ -66,6 +67,11 @@ def _crosses(level, values, triangles):
     return shown.min() < level < shown.max()
 
 
+def _layers(contours):
+    """The artists that a contour plot consists of: one of each level before matplotlib 3.8, since then one of all."""
+    return [contours] if isinstance(contours, Artist) else contours.collections
+
+
 def field_maps(spec, section, folder):
     """One [[maps]] of plots.toml: the same field at several times with one colour bar."""
     grids = [_plane(grid) for grid in section.those_of(spec.get("times", ["last"]))]
@@ -95,7 +101,7 @@ def field_maps(spec, section, folder):
             if kind == "point_data":
                 shown = np.clip(values, low, high)
                 colours = axes.tricontourf(shape, shown, levels=levels, **look)
-                for layer in colours.collections:  # no hairlines between the levels
+                for layer in _layers(colours):  # no hairlines between the levels
                     layer.set(edgecolor="face", linewidth=0.2)
                 crossed = [line for line in lines if places[-1].size and _crosses(line, values, triangles)]
                 if crossed:

@@ -7,6 +7,7 @@
 
 #include "linear/factorisation.hpp"
 #include "linear/interruption.hpp"
+#include "parallel/petsc_options.hpp"
 #include "parallel/petsc_vectors.hpp"
 #include "system/free_memory.hpp"
 #include "system/profile.hpp"
@@ -35,6 +36,7 @@ struct KrylovSolver::Implementation {
 };
 
 void KrylovSolver::Implementation::create() {
+  petsc::make_scalar_products_reproducible();
   petsc::check(KSPCreate(PETSC_COMM_WORLD, ksp.out()), "KSPCreate");
   petsc::check(KSPSetOptionsPrefix(ksp, options.prefix.c_str()), "KSPSetOptionsPrefix");
   petsc::check(KSPSetErrorIfNotConverged(ksp, PETSC_FALSE), "KSPSetErrorIfNotConverged");

@@ -72,6 +72,7 @@ void make_gamg_reproducible() {
 
 /// Rigid-body modes for PETSc's own multigrid.
 petsc::NullSpaceHandle petsc_rigid_body_modes(const mesh::Mesh& mesh, int components) {
+  petsc::make_scalar_products_reproducible();
   petsc::VecHandle coordinates;
   petsc::check(VecCreate(PETSC_COMM_WORLD, coordinates.out()), "VecCreate");
   petsc::check(VecSetBlockSize(coordinates, components), "VecSetBlockSize");
@@ -179,6 +180,7 @@ void LinearSolver::Implementation::attach_modes(Mat a) const {
 }
 
 void LinearSolver::Implementation::create(Mat a) {
+  petsc::make_scalar_products_reproducible();
   PetscInt components = 0, n_unknowns = 0;
   petsc::check(MatGetBlockSize(a, &components), "MatGetBlockSize");
   kind = automatic_kind(options, mesh, static_cast<int>(components), a == shell);

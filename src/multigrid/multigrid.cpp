@@ -9,6 +9,7 @@
 
 #include "parallel/parallel.hpp"
 #include "parallel/petsc_handles.hpp"
+#include "parallel/petsc_options.hpp"
 #include "system/log.hpp"
 
 namespace solidus::multigrid {
@@ -194,6 +195,7 @@ Multigrid::Coarsest::Coarsest(const BlockRows<double>& a, const Numbering& numbe
     }
   petsc::check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
   petsc::check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
+  petsc::make_scalar_products_reproducible();
   petsc::check(KSPCreate(PETSC_COMM_WORLD, ksp.out()), "KSPCreate");
   petsc::check(KSPSetType(ksp, KSPPREONLY), "KSPSetType");
   petsc::check(KSPSetOperators(ksp, matrix, matrix), "KSPSetOperators");

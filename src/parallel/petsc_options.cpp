@@ -34,6 +34,13 @@ void set_default_option(const std::string& name, const std::string& value) {
   defaults().insert(key);
 }
 
+void make_scalar_products_reproducible() {
+#if PETSC_VERSION_GE(3, 20, 0)
+  set_default_option("vec_mdot_use_gemv", "0");
+  set_default_option("vec_maxpy_use_gemv", "0");
+#endif
+}
+
 bool user_gave_option(const std::string& beginning) {
   char* text = nullptr;
   check(PetscOptionsGetAll(nullptr, &text), "PetscOptionsGetAll");

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <deque>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "system/processes.hpp"
@@ -40,7 +41,8 @@ bool launched() {
 /// Settings with which one process alone starts Open MPI: to look for the daemon (orted) that could start
 /// further processes, for plugins that reach them and for the caches, disks, networks and graphics devices of
 /// the machine takes longer than all the rest of the start. A list that begins with ^ names what is left out,
-/// so that it may name plugins that another version of Open MPI does not have.
+/// so that it may name plugins that another version of Open MPI does not have. What names a part of Open MPI
+/// 4 (ess, orte, state, errmgr, schizo) is not read by Open MPI 5, which needs no daemon for one process.
 constexpr std::pair<const char*, const char*> k_alone[] = {
     {"OMPI_MCA_ess_singleton_isolated", "1"},
     // Without the daemon all such processes would make and remove one and the same folder for temporary
@@ -61,10 +63,27 @@ constexpr std::pair<const char*, const char*> k_alone[] = {
      "hwloc_pci.so,hwloc_xml_libxml.so"},
 };
 
+/// Settings for several processes of one machine, which reach each other through its memory. Open MPI 5 would
+/// try the network all the same, and each process would print that it finds no "reachable pairing" between
+/// the interfaces of the machine and those of the same machine. Of the others Debian's settings leave out
+/// these as well, which this list takes the place of.
+constexpr std::pair<const char*, const char*> k_on_one_machine[] = {
+    {"OMPI_MCA_btl", "^tcp,uct,openib,ofi"},
+};
+
+/// Whether mpirun says that all processes run on this machine.
+bool on_one_machine() {
+  const char* all = std::getenv("OMPI_COMM_WORLD_SIZE");
+  const char* here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+  return all != nullptr && here != nullptr && std::string_view(all) == here;
+}
+
 bool initialize(int* n, char*** list) {
-  std::deque<PassingVariable> alone;
+  std::deque<PassingVariable> settings;
   if (!launched())
-    for (const auto& [name, value] : k_alone) alone.emplace_back(name, value);
+    for (const auto& [name, value] : k_alone) settings.emplace_back(name, value);
+  else if (on_one_machine())
+    for (const auto& [name, value] : k_on_one_machine) settings.emplace_back(name, value);
   return PetscInitialize(n, list, nullptr, nullptr) == 0;
 }
 

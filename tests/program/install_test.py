@@ -31,8 +31,9 @@ class Installed(ProgramTest):
                            capture_output=True)
             return prefix.rename(self.folder / "moved")
         needed = subprocess.run(["dpkg-deb", "-f", package, "Depends"], check=True, capture_output=True, text=True).stdout
-        for library in ("libpetsc-real3", "libopenmpi3", "libhdf5-openmpi-103", "libopenblas0-serial | libopenblas0", "libmetis5"):
-            self.assertIn(library, needed)
+        self.assertIn("libopenblas0-serial | libopenblas0", needed)
+        for library in ("libpetsc-real", "libopenmpi", "libhdf5-openmpi-", "libmetis"):  # the release numbers them
+            self.assertRegex(needed, rf"(^|, ){library}\d")
         unpacked = self.folder / "unpacked"
         subprocess.run(["dpkg-deb", "-x", package, unpacked], check=True)
         shutil.rmtree(self.folder / "packages")  # it is large

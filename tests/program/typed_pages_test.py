@@ -62,7 +62,8 @@ class TypedPages(ProgramTest):
     def type(self, folder, line, scene):
         environment = {**os.environ, "PATH": f"{folder}/bin:/usr/bin:/bin", "HOME": str(folder / "home"),
                        "SOLIDUS_PROGRAM": str(folder / "bin/solidus"), "PYTHONPATH": str(SOURCES / "python"),
-                       "OMPI_MCA_rmaps_base_oversubscribe": "1", "MPLBACKEND": "Agg",
+                       "OMPI_MCA_rmaps_base_oversubscribe": "1", "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
+                       "MPLBACKEND": "Agg",
                        "SHORT": "" if WHOLE or "time.end" in line else f"--set time.end='{scene.end}'"}
         done = subprocess.run(["bash", "-ec", line], cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True,
                               text=True, timeout=3600 * PATIENCE)

@@ -63,8 +63,9 @@ class PartMaker {
              "a file with solids");
     }
     const double tolerance = 1e-4 * extent_of(surfaces).diagonal();
-    occ::healShapes(made, surfaces, tolerance, true, true, true, true, true);
-    occ::remove(surfaces, true);
+    // All at once, which an empty list of shapes means and which replaces them: from 4.9 on Gmsh heals shapes
+    // that are named one by one, and single faces are not sewn to each other.
+    occ::healShapes(made, {}, tolerance, true, true, true, true, true);
     occ::synchronize();
     if (all_volumes().empty())
       refuse("the geometry has no solid, and its faces do not close to one: " + open_faces_text(unit_),
@@ -73,21 +74,30 @@ class PartMaker {
              "sew, make solid); here they are joined where they meet within 0.01 % of the extent");
   }
 
+  /// Heals each body by a tolerance of its own. Gmsh 4.8 adds the healed body and keeps the old one, which is
+  /// removed here; later versions put it in the place of the old one, and list all other bodies with it.
   void heal() {
-    gmsh::vectorpair made;
-    const gmsh::vectorpair before = all_volumes();
-    std::map<int, std::string> labels;
-    for (const auto& [dimension, tag] : before) labels[tag] = tidy_label(tag);
-    for (const auto& volume : before) {
-      gmsh::vectorpair one;
-      occ::healShapes(one, {volume}, healing_ * extent_of({volume}).diagonal(), true, true, true, true, true);
-      for (const auto& [dimension, tag] : one)
-        if (dimension == 3 && tag != volume.second) healed_label_[tag] = labels[volume.second];
+    const gmsh::vectorpair old = all_volumes();
+    gmsh::vectorpair replaced;
+    for (const auto& volume : old) {
+      const std::string label = tidy_label(volume.second);
+      const gmsh::vectorpair before = all_volumes();
+      gmsh::vectorpair healed;
+      occ::healShapes(healed, {volume}, healing_ * extent_of({volume}).diagonal(), true, true, true, true,
+                      true);
+      bool added = false;
+      for (const auto& body : all_volumes())
+        if (std::find(before.begin(), before.end(), body) == before.end()) {
+          healed_label_[body.second] = label;
+          added = true;
+        }
+      if (added) replaced.push_back(volume);
     }
-    for (const auto& volume : before)
-      if (healed_label_.size() == before.size()) occ::remove({volume}, true);
+    for (const auto& body : all_volumes())
+      if (std::find(replaced.begin(), replaced.end(), body) != replaced.end()) occ::remove({body}, true);
     occ::synchronize();
-    if (all_volumes().empty()) throw InputError({source_.path}, "healing the geometry left no solid");
+    if (all_volumes().size() < old.size())
+      throw InputError({source_.path}, "healing the geometry left no solid of one of its bodies");
   }
 
   std::string label_of(int volume) const {

@@ -11,6 +11,7 @@
 #include "mesh/gmsh/casting_parts.hpp"
 #include "mesh/gmsh/casting_sizes.hpp"
 #include "mesh/gmsh/seam_cuts.hpp"
+#include "mesh/gmsh/size_callback.hpp"
 #include "mesh/meshing_outlook.hpp"
 #include "mesh/meshing_ways.hpp"
 #include "mesh/size_field.hpp"
@@ -104,7 +105,7 @@ class Mesher {
         outlook.overlap = overlap_;  // the log says what it has said once only
         tell_outlook(outlook);
       }
-      gmsh::model::mesh::setSizeCallback([&](int dimension, int tag, double x, double y, double z) {
+      set_size_callback([&](int dimension, int tag, double x, double y, double z) {
         const auto limit = limits.find({dimension, tag});
         double size = limit != limits.end() ? limit->second : coarse;
         if (least == nullptr) return size;

@@ -11,6 +11,7 @@
 #include "mesh/closed_shells.hpp"
 #include "mesh/gmsh/casting_parts.hpp"
 #include "mesh/gmsh/session.hpp"
+#include "mesh/gmsh/size_callback.hpp"
 #include "mesh/meshing_outlook.hpp"
 #include "mesh/meshing_ways.hpp"
 #include "mesh/size_field.hpp"
@@ -317,7 +318,7 @@ class FacetedMaker {
       if (!fields.contains(growth)) fields.emplace(growth, SizeField(low_, high_, samples, growth));
     const SizeField& least = fields.begin()->second;
     tell_outlook(outlook(least));
-    gmsh::model::mesh::setSizeCallback([&](int dimension, int tag, double x, double y, double z) {
+    set_size_callback([&](int dimension, int tag, double x, double y, double z) {
       const auto limit = limit_.find({dimension, tag});
       const double size = limit != limit_.end() ? limit->second : coarse;
       const auto growth = growth_.find(tag);

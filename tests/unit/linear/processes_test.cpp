@@ -2,6 +2,7 @@
 #include "system/processes.hpp"
 
 #include <gtest/gtest.h>
+#include <mpi.h>
 
 #include <array>
 #include <cstdlib>
@@ -65,7 +66,9 @@ TEST(Processes, OneAloneLoadsNoPlugInThatReachesOthersOrLooksForDevices) {
   if (processes::count() > 1) GTEST_SKIP() << "several processes reach each other";
   std::ifstream in("/proc/self/maps");
   const std::string loaded(std::istreambuf_iterator<char>(in), {});
+#if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION < 5  // later ones have these plug-ins in the library
   EXPECT_NE(loaded.find("/mca_pml_ob1.so"), std::string::npos);  // Open MPI's plug-ins are seen there
+#endif
   for (const char* name : {"mca_coll_tuned", "mca_coll_han", "mca_osc_rdma", "mca_op_avx", "mca_btl_tcp",
                            "hwloc_pci", "hwloc_opencl", "hwloc_gl"})
     EXPECT_EQ(loaded.find(name), std::string::npos) << name;

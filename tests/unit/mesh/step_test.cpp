@@ -14,6 +14,7 @@
 
 #include "mesh/casting_geometry.hpp"
 #include "mesh/gmsh/curved_faces.hpp"
+#include "mesh/meshing_ways.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "sample_mesh.hpp"
@@ -182,8 +183,9 @@ TEST_F(StepFile, WhatAGroupCannotFindIsSaid) {
   }
 }
 
-TEST_F(StepFile, FacesThatDoNotCloseToASolidAreToldOnceWithTheirOpenCurves) {
-  const std::string file = (std::filesystem::path(SOLIDUS_BINARY_DIR) / "open_box.step").string();
+/// Writes the faces of a box of 20 × 10 × 5 mm without its solid, and without its top where it is open.
+std::string faces_of_a_box(const std::string& name, bool open) {
+  const std::string file = (std::filesystem::path(SOLIDUS_BINARY_DIR) / name).string();
   gmsh::initialize(0, nullptr, false);
   gmsh::option::setNumber("General.Terminal", 0);
   const int box = gmsh::model::occ::addBox(0, 0, 0, 20, 10, 5);
@@ -194,11 +196,38 @@ TEST_F(StepFile, FacesThatDoNotCloseToASolidAreToldOnceWithTheirOpenCurves) {
   for (const auto& face : faces) {
     std::vector<double> centre(3);
     gmsh::model::occ::getCenterOfMass(2, face.second, centre[0], centre[1], centre[2]);
-    if (centre[2] > 4.9) gmsh::model::occ::remove({face});
+    if (open && centre[2] > 4.9) gmsh::model::occ::remove({face});
   }
   gmsh::model::occ::synchronize();
   gmsh::write(file);
   gmsh::finalize();
+  return file;
+}
+
+/// The sizes of every body [m].
+CastingGeometry sizes(double size) {
+  CastingGeometry geometry;
+  geometry.sizes = {{"body_1", size, size / 2}};
+  return geometry;
+}
+
+TEST_F(StepFile, FacesThatCloseAreASolid) {
+  const RawMesh mesh = mesh_casting({faces_of_a_box("closed_box.step", false), k_mm}, sizes(3e-3), 0);
+  EXPECT_NEAR(measure(mesh, "body_1"), k_plate, 1e-9 * k_plate);
+}
+
+TEST_F(StepFile, HealingKeepsEveryBody) {
+  CastingGeometry geometry = sizes(2e-3);
+  for (std::size_t way = 0; way < solid_ways().size(); ++way)
+    if (!geometry.only_way && solid_ways()[way].healing > 0) geometry.only_way = static_cast<int>(way);
+  const RawMesh mesh = mesh_casting({file_, k_mm}, geometry, 0);
+  EXPECT_NEAR(measure(mesh, "body_1"), k_plate, 1e-6 * k_plate);
+  EXPECT_NEAR(measure(mesh, "body_2"), k_pin, 0.03 * k_pin);  // 12 edges or more around it
+  EXPECT_EQ(mesh.groups.count("body_3"), 0U);
+}
+
+TEST_F(StepFile, FacesThatDoNotCloseToASolidAreToldOnceWithTheirOpenCurves) {
+  const std::string file = faces_of_a_box("open_box.step", true);
   std::string text;
   try {
     mesh_casting({file, k_mm}, {}, 0);
