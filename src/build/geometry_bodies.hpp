@@ -16,10 +16,6 @@ struct GeometryBody {
   mesh::BodyExtent extent;
 };
 
-inline bool is_metal(Role role) {
-  return role == Role::casting || role == Role::riser;
-}
-
 /// @param as  "NAME=ROLE"; without one the name of a body tells its role
 /// Throws InputError for a role or a body that there is not, and where no body is a casting.
 std::vector<GeometryBody> bodies_of(const mesh::RawMesh& mesh, const std::vector<std::string>& as);

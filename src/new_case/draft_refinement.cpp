@@ -10,10 +10,13 @@
 #include "build/case_file.hpp"
 #include "build/geometry_bodies.hpp"
 #include "build/mesh_input.hpp"
+#include "case/roles.hpp"
 #include "input/keys.hpp"
 #include "mesh/kept_mesh.hpp"
 #include "mesh/meshing_outlook.hpp"
+#include "mesh/quality.hpp"
 #include "new_case/draft_choice.hpp"
+#include "new_case/draft_layers.hpp"
 #include "new_case/rounding.hpp"
 #include "run/session.hpp"
 #include "system/log.hpp"
@@ -91,7 +94,7 @@ class Refinement {
     Draft bare = draft_;  // conditions come when the skins are known
     bare.films.clear();
     bare.symmetric.clear();
-    bare.layers = false;
+    bare.layers.clear();
     bare.cavity.clear();
     write_draft(bare);
     return raw_mesh(load_case(draft_.folder / "case.toml", {}, Physics::heat).spec);
@@ -119,11 +122,29 @@ class Refinement {
         if (die.role == Role::die && body.role != Role::die && body.role != Role::chill &&
             mesh.groups.contains(die.name + "_to_" + body.name))
           draft_.cavity.push_back(die.name + "_to_" + body.name);
+    find_heated_walls(mesh);
     for (const DraftBody& body : draft_.bodies) {
       if (mesh.groups.contains(body.name + "_free")) draft_.films.push_back(body.name);
-      if (is_metal(body.role) && mesh.groups.contains(body.name + "_symmetry"))
+      if (is_poured(body.role) && mesh.groups.contains(body.name + "_symmetry"))
         draft_.symmetric.push_back(body.name);
     }
+  }
+
+  /// The walls that get layers, with their areas. The elements of a file stay as they are.
+  void find_heated_walls(const mesh::RawMesh& mesh) {
+    heated_.clear();
+    if (draft_.meshed) return;
+    const std::vector<mesh::GroupReport> groups = mesh::assess(mesh).groups;
+    const auto measure = [&](const std::string& group) {
+      const auto found = std::ranges::find(groups, group, &mesh::GroupReport::name);
+      return found == groups.end() ? 0.0 : found->measure;
+    };
+    for (const DraftBody& body : draft_.bodies)
+      for (const DraftBody& poured : draft_.bodies) {
+        const std::string surface = body.name + "_to_" + poured.name;
+        if (has_layers(body.role) && is_poured(poured.role) && mesh.groups.contains(surface))
+          heated_.push_back({surface, body.name, poured.name, measure(surface), measure(body.group)});
+      }
   }
 
   std::optional<Role> role_of(const std::string& body) const {
@@ -172,17 +193,19 @@ class Refinement {
     // The estimate errs long for a riser in a sleeve, and for a casting that others enclose.
     constexpr double k_outlives = 2;
     const double of_castings = longest_freezing(checked);
+    std::vector<PouredTime> times;
     for (const results::PourOverview& pour : checked.overview.pours) {
       double own = pour.freezing_time.value_or(0), deep = pour.mould_reach;
       const double most = k_outlives * of_castings;
       if (of_castings > 0 && own > most) deep *= std::sqrt(most / own), own = most;
+      times.push_back({pour.body, own, pour.solidus});
       time = std::max(time, own);
       reach = std::max(reach, deep);
     }
     for (const results::BodyOverview& body : checked.overview.bodies) {
       estimate_.nodes += static_cast<double>(body.nodes);
       for (const DraftBody& draft : draft_.bodies)
-        if (draft.name == body.name && is_metal(draft.role))
+        if (draft.name == body.name && is_poured(draft.role))
           estimate_.metal_nodes += static_cast<double>(body.nodes);
     }
     // The estimate is of one dimension: the run ends when all is solid, well before this where it is right.
@@ -201,6 +224,11 @@ class Refinement {
       }
     }
     bool good = true;
+    if (std::vector<DraftLayers> layers = choose_layers(draft_, heated_, times, fineness_);
+        layers != draft_.layers) {
+      draft_.layers = std::move(layers);
+      good = false;
+    }
     constexpr double k_most = 6000, k_wanted = 3500, k_reaches = 2;
     const double finer = fineness_ * fineness_ * fineness_;
     if (estimate_.metal_nodes > k_most * finer && !draft_.meshed) {
@@ -224,6 +252,7 @@ class Refinement {
   const CastingProcess& process_;
   const material::Material& alloy_;
   double fineness_;
+  std::vector<HeatedWall> heated_;
   DraftEstimate estimate_;
 };
 

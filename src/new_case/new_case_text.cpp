@@ -24,10 +24,6 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-bool is_metal(const DraftBody& body) {
-  return body.role == Role::casting || body.role == Role::riser;
-}
-
 std::string mesh_text(const Draft& d) {
   std::string t =
       fmt::format("[mesh]\nfile = {}\nunit = {}\n", quoted(d.geometry.filename().string()), quoted(d.unit));
@@ -39,7 +35,7 @@ std::string mesh_text(const Draft& d) {
   t += "# Elements: the largest, and the smallest in thin walls. Half the size is about eight times the "
        "time.\n";
   for (const DraftBody& b : d.bodies) {
-    if (is_metal(b))
+    if (is_poured(b.role))
       t += fmt::format(
           "[[mesh.size]]\nbody = {}\nsize = {}\nsmallest = {}\nacross = 2    # through a wall\n\n",
           quoted(b.group), mm(d.size), mm(d.smallest));
@@ -66,19 +62,19 @@ std::string mesh_text(const Draft& d) {
   if (d.symmetry)
     t += fmt::format("[mesh.symmetry]   # the half below this plane\naxis = \"{}\"\nat = {}\n\n",
                      "xyz"[d.symmetry->axis], mm(d.symmetry->at));
-  if (d.layers && d.mould)
-    for (const DraftBody& b : d.bodies)
-      if (b.role == Role::casting)
-        t += fmt::format(
-            "[[mesh.layers]]   # at first the warm sand is thinner than an element\nname = \"sand_on_{0}\"\n"
-            "surface = \"{1}_to_{0}\"\nbody = {2}\n\n",
-            b.name, d.mould->name, quoted(d.mould->name));
+  if (!d.layers.empty())
+    t += "# Thin elements on what is poured, as deep as heat goes until it is solid: sqrt(a t), by an estimate.\n";
+  for (const DraftLayers& l : d.layers)
+    t += fmt::format(
+        "[[mesh.layers]]\nname = {}\nsurface = {}\nbody = {}\nnumber = {}\ngrowth = {:g}   # each is so many "
+        "times as thick as the one before\nfirst = {}\n\n",
+        quoted(l.name), quoted(l.surface), quoted(l.body), l.number, l.growth, mm(l.first));
   return t;
 }
 
 /// Whether a body leaves with the casting, and is new in the next shot.
 bool leaves(const DraftBody& b) {
-  return is_metal(b) || b.role == Role::core || b.role == Role::sleeve || b.role == Role::insulation;
+  return is_poured(b.role) || b.role == Role::core || b.role == Role::sleeve || b.role == Role::insulation;
 }
 
 std::string time_text(const Draft& d) {
@@ -158,7 +154,7 @@ std::string interface_text(const Draft& d) {
   std::string t;
   if (!d.law.empty() && d.mould)
     for (const DraftBody& b : d.bodies)
-      if (is_metal(b))
+      if (is_poured(b.role))
         t += fmt::format(
             "[[interface]]   # the process decides the law: {1} says where its numbers come from\n"
             "bodies = [{2}, {3}]\nlaw = \"{0}\"\n\n",
