@@ -27,10 +27,10 @@ bool has_layers(Role role) {
 
 std::vector<DraftLayers> choose_layers(const Draft& draft, const std::vector<HeatedWall>& walls,
                                        const std::vector<PouredTime>& times, double fineness) {
-  // The heat that a wall takes up too much with capacities at the nodes grows with h³ u'' of the elements'
-  // thickness h, and u'' of the temperature is large from the wall to 2.5 sqrt(a t): as deep as there is room
-  // for, with little growth (docs/decisions/0056-layers-of-what-is-poured.md).
-  constexpr double k_number = 8, k_growth = 1.2, k_depth = 1.8;
+  // With capacities at the nodes a wall takes up too much heat, by the sum of h³ u'' / 12 over elements of the
+  // thickness h, and u'' of the temperature is large from the wall to 2 sqrt(a t): layers go deep and grow
+  // little (docs/decisions/0056-layers-on-all-that-is-poured.md). More than twenty the key does not take.
+  constexpr double k_number = 7, k_growth = 1.2, k_depth = 1.4, k_most = 20;
   constexpr double k_of_body = 0.7;  // of a thin body's volume over its heated skin
   const double finer = std::max(1.0, fineness);
   std::vector<DraftLayers> layers;
@@ -42,7 +42,7 @@ std::vector<DraftLayers> choose_layers(const Draft& draft, const std::vector<Hea
     one.name = wall.body + "_on_" + wall.poured;
     one.surface = wall.surface;
     one.body = body->group;
-    one.number = static_cast<int>(std::lround(k_number * finer));
+    one.number = static_cast<int>(std::lround(std::min(k_most, k_number * finer)));
     one.growth = std::round(1e3 * std::pow(k_growth, 1 / finer)) / 1e3;
     double heated = 0;
     for (const HeatedWall& other : walls)

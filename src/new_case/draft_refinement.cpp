@@ -55,7 +55,7 @@ class Refinement {
       // The best way of meshing is looked for when the sizes are found, not for each that is tried.
       kept.be_content_with(mesh::k_usable_quality);
       bool of_sizes = true;
-      constexpr int k_turns = 5;
+      constexpr int k_turns = 6;
       for (int turn = 0; turn < k_turns; ++turn) {
         if (turn == 0) find_skins();  // sizes do not change which skins there are
         write_draft(draft_);
@@ -229,15 +229,8 @@ class Refinement {
       draft_.layers = std::move(layers);
       good = false;
     }
-    constexpr double k_most = 6000, k_wanted = 3500, k_reaches = 2;
-    const double finer = fineness_ * fineness_ * fineness_;
-    if (estimate_.metal_nodes > k_most * finer && !draft_.meshed) {
-      const double scale = std::cbrt(estimate_.metal_nodes / (k_wanted * finer));
-      draft_.size = two_digits(draft_.size * scale);
-      draft_.smallest = std::min(draft_.size, two_digits(draft_.smallest * scale));
-      draft_.mould_size = two_digits(draft_.mould_size * std::sqrt(scale));
-      good = false;
-    }
+    good = may_keep_sizes() && good;
+    constexpr double k_reaches = 2;
     if (draft_.mould && process_.walls > 0 && process_.mould == Role::mould)
       for (double& wall : draft_.mould->walls)
         if (wall > 0 && wall < k_reaches * reach) {
@@ -248,11 +241,40 @@ class Refinement {
     return good;
   }
 
+  /// Makes the elements of the metal larger where there are too many. Where features of the part ask for them
+  /// whatever the size is, larger elements elsewhere save little and resolve nothing: then sizes stay.
+  /// @return whether the sizes may stay
+  bool may_keep_sizes() {
+    constexpr double k_most = 6000, k_wanted = 3500;
+    const double finer = fineness_ * fineness_ * fineness_;
+    if (estimate_.metal_nodes <= k_most * finer || draft_.meshed || coarsening_is_vain_) return true;
+    if (finer_ && estimate_.metal_nodes > finer_->nodes / finer_->scale) {
+      draft_.size = finer_->size;
+      draft_.smallest = finer_->smallest;
+      draft_.mould_size = finer_->mould_size;
+      coarsening_is_vain_ = true;
+      return false;
+    }
+    const double scale = std::cbrt(estimate_.metal_nodes / (k_wanted * finer));
+    finer_ = {draft_.size, draft_.smallest, draft_.mould_size, estimate_.metal_nodes, scale};
+    draft_.size = two_digits(draft_.size * scale);
+    draft_.smallest = std::min(draft_.size, two_digits(draft_.smallest * scale));
+    draft_.mould_size = two_digits(draft_.mould_size * std::sqrt(scale));
+    return false;
+  }
+
+  /// Sizes before they were made larger by `scale`, and the nodes of the metal with them.
+  struct Sizes {
+    double size, smallest, mould_size, nodes, scale;
+  };
+
   Draft& draft_;
   const CastingProcess& process_;
   const material::Material& alloy_;
   double fineness_;
   std::vector<HeatedWall> heated_;
+  std::optional<Sizes> finer_;
+  bool coarsening_is_vain_ = false;
   DraftEstimate estimate_;
 };
 

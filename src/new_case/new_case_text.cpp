@@ -41,7 +41,7 @@ std::string mesh_text(const Draft& d) {
           quoted(b.group), mm(d.size), mm(d.smallest));
     else
       t += fmt::format(
-          "[[mesh.size]]\nbody = {}\nsize = {}\nacross = 0\ngrowth = 0.6  # away from the metal\n\n",
+          "[[mesh.size]]\nbody = {}\nsize = {}\nacross = 0\ngrowth = 0.2  # away from the metal\n\n",
           quoted(b.group), mm(d.mould_size));
   }
   if (d.mould) {
