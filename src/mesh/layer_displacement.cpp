@@ -21,7 +21,7 @@ constexpr double k_less = 0.85;          ///< of a displacement that was too lar
 constexpr double k_flatter = 0.5;        ///< the least share of its quality that an element keeps
 constexpr double k_good_enough = 0.35;   ///< or the quality that is enough
 constexpr double k_least_cosine = 0.15;  ///< between a displacement and the normal of each of its faces
-constexpr double k_least_share = 0.03;   ///< of the thickness; thinner layers are none
+constexpr double k_least_share = 0.06;   ///< of the thickness; thinner layers are none
 constexpr double k_one_plane = 1e-4;     ///< sine of the angle of normals that count as one
 
 std::size_t at(Index i) {
@@ -251,7 +251,7 @@ class Room {
     return true;
   }
 
-  /// Finds the vertices of bad elements, columns and layers.
+  /// Finds the vertices of bad elements and layers.
   void find_bad() {
     for (std::size_t i = 0; i < u_.size(); ++i) {
       moved_.x[i] = mesh_.x[i];
@@ -259,13 +259,13 @@ class Room {
     }
     bad_.assign(u_.size(), 0);
     look_at_elements();
-    look_at_columns();
     look_at_layers();
   }
 
   /// Finds bad elements and multiplies the displacements of their vertices. True: there are none.
   bool good(double factor) {
     find_bad();
+    look_at_columns();
     std::fill(changed_.begin(), changed_.end(), 0);
     bool all_good = true;
     for (std::size_t i = 0; i < u_.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "case/roles.hpp"
+#include "new_case/draft_layers.hpp"
 
 namespace solidus::model {
 
@@ -25,6 +26,8 @@ std::string quoted(const std::string& text) {
 }
 
 std::string mesh_text(const Draft& d) {
+  // Behind layers of sand elements that grow fast would take up too much heat.
+  constexpr double k_growth_of_sand = 0.2, k_growth = 0.6;
   std::string t =
       fmt::format("[mesh]\nfile = {}\nunit = {}\n", quoted(d.geometry.filename().string()), quoted(d.unit));
   if (d.way > 0)
@@ -41,8 +44,8 @@ std::string mesh_text(const Draft& d) {
           quoted(b.group), mm(d.size), mm(d.smallest));
     else
       t += fmt::format(
-          "[[mesh.size]]\nbody = {}\nsize = {}\nacross = 0\ngrowth = 0.2  # away from the metal\n\n",
-          quoted(b.group), mm(d.mould_size));
+          "[[mesh.size]]\nbody = {}\nsize = {}\nacross = 0\ngrowth = {}  # away from the metal\n\n",
+          quoted(b.group), mm(d.mould_size), has_layers(b.role) ? k_growth_of_sand : k_growth);
   }
   if (d.mould) {
     const auto& w = d.mould->walls;
