@@ -108,12 +108,14 @@ void add_layers(const std::vector<MeshLayersSpec>& sections, const std::string& 
     for (std::size_t k = 0; k < reports.size(); ++k) {
       const mesh::WallLayerReport& report = reports[k];
       const std::string &body = together[k].body, &surface = together[k].surface;
-      logging::info("layers of '{}' on '{}': {} of {:.3g} mm, the first {:.3g} mm; in the mean {:.3g} mm", body,
-                    surface, together[k].number, 1e3 * report.whole, 1e3 * report.first, 1e3 * report.mean);
+      logging::info("layers of '{}' on '{}': {} of {:.3g} mm, the first {:.3g} mm; in the mean {:.3g} mm",
+                    body, surface, together[k].number, 1e3 * report.whole, 1e3 * report.first,
+                    1e3 * report.mean);
       constexpr double k_little = 0.35;  // deep layers are thinner at corners and between bodies
       if (report.mean < k_little * report.whole)
         logging::warn(
-            "layers of '{}' on '{}' have room for {:.2g} of {:.2g} mm in the mean; {} of {} vertices have none",
+            "layers of '{}' on '{}' have room for {:.2g} of {:.2g} mm in the mean; {} of {} vertices have "
+            "none",
             body, surface, 1e3 * report.mean, 1e3 * report.whole, report.n_bare,
             report.n_bare + report.n_columns);
     }

@@ -197,8 +197,8 @@ class Room {
   }
 
   /// Layers get thinner, evenly along the wall, around what has no room, and the vertices of the body follow
-  /// each time. What is bad then moves less, one vertex at a time. In the end displacements that are still too
-  /// large are taken away.
+  /// each time. What is bad then moves less, one vertex at a time. In the end displacements that are still
+  /// too large are taken away.
   void fit(const LayerSpread& spread) {
     const std::vector<Point> wanted = u_;
     std::vector<double> share(u_.size(), 1);
@@ -305,7 +305,8 @@ class Room {
     for (const Corner& c : corners_) {
       const Point& u = u_[at(c.node)];
       const double length = std::sqrt(dot(u, u));
-      if (length > 0 && (length < k_least_share * wanted_[at(c.node)] || dot(u, c.normal) < k_least_cosine * length))
+      if (length > 0 &&
+          (length < k_least_share * wanted_[at(c.node)] || dot(u, c.normal) < k_least_cosine * length))
         bad_[at(c.node)] = 2;
     }
   }

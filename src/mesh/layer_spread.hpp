@@ -7,11 +7,11 @@
 
 namespace solidus::mesh {
 
-/// Vertices of a body that are not of its wall move as the mean of their neighbours does, where near neighbours
-/// count for more than distant ones. So the mesh gives way over the whole depth of the body, its larger
-/// elements more than its small ones. Vertices of plane boundary faces slide within their plane, those of
-/// straight edges along the edge; a vertex stays where surfaces of different groups meet within one plane, and
-/// where another body has it too.
+/// Vertices of a body that are not of its wall move as the mean of their neighbours does, where near
+/// neighbours count for more than distant ones. So the mesh gives way over the whole depth of the body, its
+/// larger elements more than its small ones. Vertices of plane boundary faces slide within their plane, those
+/// of straight edges along the edge; a vertex stays where surfaces of different groups meet within one plane,
+/// and where another body has it too.
 class LayerSpread {
  public:
   /// @param body  has the wall

@@ -89,7 +89,6 @@ WallTopology find_wall(const RawMesh& mesh, const std::vector<std::string>& surf
   const RawGroup& elements = mesh.groups.at(body);
   WallTopology wall;
   wall.on_wall.assign(mesh.x.size(), 0);
-  wall.on_boundary.assign(mesh.x.size(), 0);
   wall.held.assign(mesh.x.size(), 0);
   std::vector<std::size_t> asked(surfaces.size(), 0), found(surfaces.size(), 0);
   for (std::size_t s = 0; s < surfaces.size(); ++s)
@@ -109,11 +108,8 @@ WallTopology find_wall(const RawMesh& mesh, const std::vector<std::string>& surf
     const FaceKey key = face_key(nodes.data(), n);
     const bool outer = boundary.contains(key);
     bool touches = false;
-    for (int a = 0; a < n; ++a) {
-      const std::size_t node = at(nodes[static_cast<std::size_t>(a)]);
-      touches = touches || wall.on_wall[node] != 0;
-      if (outer) wall.on_boundary[node] = 1;
-    }
+    for (int a = 0; a < n; ++a)
+      touches = touches || wall.on_wall[at(nodes[static_cast<std::size_t>(a)])] != 0;
     const auto of_wall = wall.wall_faces.find(key);
     const bool is_wall = of_wall != wall.wall_faces.end();
     if (outer && !is_wall) wall.boundary.push_back({nodes, n});
@@ -121,8 +117,7 @@ WallTopology find_wall(const RawMesh& mesh, const std::vector<std::string>& surf
     wall.faces[key] = {0, k, f, e};
     if (is_wall && !outer)
       throw InputError(
-          {source},
-          "the surface '" + surfaces[at(of_wall->second)] + "' lies inside the body '" + body + "'",
+          {source}, "the surface '" + surfaces[at(of_wall->second)] + "' lies inside the body '" + body + "'",
           "a surface that bounds the body");
     if (!outer) return;
     (is_wall ? wall.wall : wall.around).push_back({nodes, n, is_wall ? of_wall->second : -1});

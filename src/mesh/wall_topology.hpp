@@ -32,15 +32,14 @@ struct WallFace {
 };
 
 struct WallTopology {
-  std::vector<WallFace> wall;     ///< the faces of the surfaces
-  std::vector<WallFace> around;   ///< further boundary faces of the body that touch the wall
-  std::vector<char> on_wall;      ///< [node]: a vertex of the wall
+  std::vector<WallFace> wall;      ///< the faces of the surfaces
+  std::vector<WallFace> around;    ///< further boundary faces of the body that touch the wall
+  std::vector<char> on_wall;       ///< [node]: a vertex of the wall
   std::vector<WallFace> boundary;  ///< all boundary faces of the body but those of the wall
-  std::vector<char> on_boundary;   ///< [node]: a vertex of a boundary face of the body
-  std::vector<char> held;         ///< [node]: on a face of `around` beyond which is another body
-  FaceOwners faces;               ///< faces of the body that touch the wall
+  std::vector<char> held;          ///< [node]: on a face of `around` beyond which is another body
+  FaceOwners faces;                ///< faces of the body that touch the wall
   std::unordered_map<FaceKey, int, FaceKeyHash> wall_faces;  ///< and the index of their surface
-  std::unordered_map<Edge, int, EdgeHash> wall_edges;  ///< and how many faces of the wall have it
+  std::unordered_map<Edge, int, EdgeHash> wall_edges;        ///< and how many faces of the wall have it
 };
 
 /// Local vertices of the edges of a shape, and its mid node on each (−1 for linear shapes).

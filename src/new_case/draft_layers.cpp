@@ -27,9 +27,10 @@ bool has_layers(Role role) {
 
 std::vector<DraftLayers> choose_layers(const Draft& draft, const std::vector<HeatedWall>& walls,
                                        const std::vector<PouredTime>& times, double fineness) {
-  // With capacities at the nodes a wall takes up too much heat, by the sum of h³ u'' / 12 over elements of the
-  // thickness h, and u'' of the temperature is large from the wall to 2 sqrt(a t): layers go deep and grow
-  // little (docs/decisions/0056-layers-on-all-that-is-poured.md). More than twenty the key does not take.
+  // With capacities at the nodes a wall takes up too much heat, by the sum of h³ u'' / 12 over elements of
+  // the thickness h, and u'' of the temperature is large from the wall to 2 sqrt(a t): layers go deep and
+  // grow little (docs/decisions/0056-layers-on-all-that-is-poured.md). More than twenty the key does not
+  // take.
   constexpr double k_number = 7, k_growth = 1.2, k_depth = 1.4, k_most = 20;
   constexpr double k_of_body = 0.7;  // of a thin body's volume over its heated skin
   const double finer = std::max(1.0, fineness);

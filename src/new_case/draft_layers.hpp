@@ -28,9 +28,9 @@ struct PouredTime {
 /// into them for most of the time.
 bool has_layers(Role role);
 
-/// The layers of a draft, one section for each wall, as deep as heat goes until the metal is solid: √(a t) with
-/// the diffusivity a of the wall's body [m²/s] and the freezing time t of the metal [s]; less where the body is
-/// thin. They grow from the wall inwards.
+/// The layers of a draft, one section for each wall, as deep as heat goes until the metal is solid: √(a t)
+/// with the diffusivity a of the wall's body [m²/s] and the freezing time t of the metal [s]; less where the
+/// body is thin. They grow from the wall inwards.
 /// @param fineness  so many times as many layers as usual, and never fewer than usual
 std::vector<DraftLayers> choose_layers(const Draft& draft, const std::vector<HeatedWall>& walls,
                                        const std::vector<PouredTime>& times, double fineness);

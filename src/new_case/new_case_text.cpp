@@ -66,7 +66,8 @@ std::string mesh_text(const Draft& d) {
     t += fmt::format("[mesh.symmetry]   # the half below this plane\naxis = \"{}\"\nat = {}\n\n",
                      "xyz"[d.symmetry->axis], mm(d.symmetry->at));
   if (!d.layers.empty())
-    t += "# Thin elements on what is poured, as deep as heat goes until it is solid: sqrt(a t), by an estimate.\n";
+    t += "# Thin elements on what is poured, as deep as heat goes until it is solid: sqrt(a t), by an "
+         "estimate.\n";
   for (const DraftLayers& l : d.layers)
     t += fmt::format(
         "[[mesh.layers]]\nname = {}\nsurface = {}\nbody = {}\nnumber = {}\ngrowth = {:g}   # each is so many "

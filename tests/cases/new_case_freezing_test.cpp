@@ -1,5 +1,5 @@
-/// Castings whose case `solidus new` makes freeze when they should: a ball in sand against finite volumes of one
-/// dimension.
+/// Castings whose case `solidus new` makes freeze when they should: a ball in sand against finite volumes of
+/// one dimension.
 #include <gmsh.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +49,8 @@ class Alloy {
  private:
   static double sensible(double t) {
     const double warm = std::clamp(t, 100.0, 577.0) - 100, slope = (1160.0 - 963.0) / 477;
-    return 963 * std::min(t - 100, 0.0) + 963 * warm + 0.5 * slope * warm * warm + 1160 * std::max(t - 577, 0.0);
+    return 963 * std::min(t - 100, 0.0) + 963 * warm + 0.5 * slope * warm * warm +
+           1160 * std::max(t - 577, 0.0);
   }
   static double liquid(double t) {
     if (t >= 614) return 1;
@@ -58,8 +59,8 @@ class Alloy {
   static constexpr double k_density = 2685, k_latent = 389e3, k_eutectic = 577;
 };
 
-/// When the centre of a ball in endless green sand is solid [s], by explicit finite volumes around points that
-/// lie on the skin and 0.4 mm and more behind it; 1000 W/(m² K) between both.
+/// When the centre of a ball in endless green sand is solid [s], by explicit finite volumes around points
+/// that lie on the skin and 0.4 mm and more behind it; 1000 W/(m² K) between both.
 double ball_is_solid_after(double radius, double start) {
   constexpr int k_metal = 10;
   constexpr double k_sand = 0.607, k_of_sand = 1500.0 * 1130, k_film = 1000;
@@ -137,8 +138,8 @@ TEST(NewCase, OfABallInSandFreezesWithinTwoPerCentOfItsTimeAtSevenTenthsOfTheFin
   const solidus::model::NewCaseReport report = solidus::model::make_new_case(options);
   solidus::model::RunOptions run;
   run.folder = root() / "run";
-  const solidus::model::RunResult result =
-      solidus::model::run_case(solidus::model::load_case(report.file, {}, solidus::model::Physics::heat), run);
+  const solidus::model::RunResult result = solidus::model::run_case(
+      solidus::model::load_case(report.file, {}, solidus::model::Physics::heat), run);
   ASSERT_TRUE(result.finished) << result.reason;
   const double right = ball_is_solid_after(0.03, 695);
   EXPECT_NEAR(right, 337, 0.5);

@@ -198,7 +198,8 @@ TEST(WallLayers, OnTwoWallsThatMeetGoAroundTheCornerBetweenThem) {
       EXPECT_EQ(report.n_bare, 0) << name(shape);
     }
     const auto corner = std::count_if(mesh.x.begin(), mesh.x.end(), [](const Point& p) {
-      return std::abs(p[0] - p[1]) < 1e-12 && (std::abs(p[0] - 0.01) < 1e-12 || std::abs(p[0] - 0.03) < 1e-12);
+      return std::abs(p[0] - p[1]) < 1e-12 &&
+             (std::abs(p[0] - 0.01) < 1e-12 || std::abs(p[0] - 0.03) < 1e-12);
     });
     EXPECT_EQ(corner, 2) << "both layers of either wall end at one vertex on the diagonal";
   }

@@ -52,8 +52,8 @@ TEST(DraftLayers, LieOnPartAndRiserAsDeepAsTheRootOfTheirTimes) {
 TEST(DraftLayers, OfAThinCoreLeaveItAThirdOfItsThickness) {
   // A plate of 10 mm with metal on both sides: half of it is all that heat from one side has.
   const double area = 0.04, volume = 0.5 * area * 0.01;
-  const std::vector<DraftLayers> layers =
-      choose_layers(draft(), {{"core_to_casting", "core", "casting", area, volume}}, {{"casting", 600, 850}}, 1);
+  const std::vector<DraftLayers> layers = choose_layers(
+      draft(), {{"core_to_casting", "core", "casting", area, volume}}, {{"casting", 600, 850}}, 1);
   ASSERT_EQ(layers.size(), 1U);
   EXPECT_NEAR(depth(layers[0]), 0.0035, 2e-4);
 }
@@ -71,9 +71,9 @@ TEST(DraftLayers, AreMoreAndThinnerInAFinerMeshAndNeverFewer) {
 }
 
 TEST(DraftLayers, ThereAreNoneWithoutAnEstimateNorInDiesAndChills) {
-  EXPECT_TRUE(choose_layers(draft(), {{"mould_to_casting", "mould", "casting", 0.02, 0.05}},
-                            {{"casting", 0, 850}}, 1)
-                  .empty());
+  EXPECT_TRUE(
+      choose_layers(draft(), {{"mould_to_casting", "mould", "casting", 0.02, 0.05}}, {{"casting", 0, 850}}, 1)
+          .empty());
   for (const Role role : {Role::mould, Role::core, Role::sleeve, Role::insulation})
     EXPECT_TRUE(has_layers(role)) << name(role);
   for (const Role role : {Role::casting, Role::riser, Role::chill, Role::die})
