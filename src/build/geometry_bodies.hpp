@@ -16,10 +16,6 @@ struct GeometryBody {
   mesh::BodyExtent extent;
 };
 
-inline bool is_metal(Role role) {
-  return role == Role::casting || role == Role::riser;
-}
-
 /// Preference of a name for a body (mesh/body_partition.hpp): 2 where it tells a role.
 int body_preference(const std::string& group);
 

@@ -92,16 +92,36 @@ mesh::CastingGeometry casting_geometry(const MeshSpec& m) {
   return geometry;
 }
 
-void add_layers(const MeshLayersSpec& l, const std::string& source, mesh::RawMesh& mesh) {
-  const mesh::WallLayerReport report =
-      mesh::add_wall_layers(mesh, {l.surface, l.body, l.number, l.growth, l.first}, source);
-  logging::info("layers of '{}' on '{}': {} of {:.3g} mm, the first {:.3g} mm", l.body, l.surface, l.number,
-                1e3 * report.whole, 1e3 * report.first);
-  if (report.mean < 0.7 * report.whole)
-    logging::warn(
-        "layers of '{}' on '{}' have room for {:.2g} of {:.2g} mm in the mean; {} of {} vertices have none",
-        l.body, l.surface, 1e3 * report.mean, 1e3 * report.whole, report.n_bare,
-        report.n_bare + report.n_columns);
+/// Sections of one body with as many layers of equal growth are made together, so that layers of neighbours
+/// meet.
+void add_layers(const std::vector<MeshLayersSpec>& sections, const std::string& source, mesh::RawMesh& mesh) {
+  std::vector<char> done(sections.size(), 0);
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    if (done[i] != 0 || sections[i].number == 0) continue;
+    std::vector<mesh::WallLayers> together;
+    for (std::size_t k = i; k < sections.size(); ++k) {
+      const MeshLayersSpec& l = sections[k];
+      if (l.body != sections[i].body || l.number != sections[i].number || l.growth != sections[i].growth)
+        continue;
+      done[k] = 1;
+      together.push_back({l.surface, l.body, l.number, l.growth, l.first});
+    }
+    const std::vector<mesh::WallLayerReport> reports = mesh::add_wall_layers(mesh, together, source);
+    for (std::size_t k = 0; k < reports.size(); ++k) {
+      const mesh::WallLayerReport& report = reports[k];
+      const std::string &body = together[k].body, &surface = together[k].surface;
+      logging::info("layers of '{}' on '{}': {} of {:.3g} mm, the first {:.3g} mm; in the mean {:.3g} mm",
+                    body, surface, together[k].number, 1e3 * report.whole, 1e3 * report.first,
+                    1e3 * report.mean);
+      constexpr double k_little = 0.35;  // deep layers are thinner at corners and between bodies
+      if (report.mean < k_little * report.whole)
+        logging::warn(
+            "layers of '{}' on '{}' have room for {:.2g} of {:.2g} mm in the mean; {} of {} vertices have "
+            "none",
+            body, surface, 1e3 * report.mean, 1e3 * report.whole, report.n_bare,
+            report.n_bare + report.n_columns);
+    }
+  }
 }
 
 /// The mesh of a case on process 0, and the contacts that its interfaces make.
@@ -137,8 +157,7 @@ mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) 
   }
   check_groups(spec, result);
   if (m.file) make_sound(spec, result);
-  for (const MeshLayersSpec& layers : m.layers)
-    if (layers.number > 0) add_layers(layers, name, result);
+  add_layers(m.layers, name, result);
   mesh::validate_and_orient(result, name);
   return result;
 }

@@ -192,7 +192,10 @@ Section<MeshLayersSpec> layers_keys() {
       "layers",
       "Thin layers of a body's elements on one of its surfaces, for a mould whose elements are thicker "
       "than the sand that is warm in the first minutes: a coarse mesh freezes too soon without them. "
-      "The body's own elements make room for them. Each costs about one node per node of the surface.");
+      "The body's own elements make room for them. Each costs about one node per node of the surface. "
+      "Sections "
+      "of one body with equal number and growth are made together: where their surfaces meet, so do the "
+      "layers.");
   s.key("name", &L::name).doc("The name of the layers, for `include` and `--set`.");
   s.key("surface", &L::surface).doc("The surface, on the body's own side.");
   s.key("body", &L::body).doc("The group of the mesh in which the layers lie: the mould.");

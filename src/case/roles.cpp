@@ -48,6 +48,10 @@ std::string_view name(Role role) {
   return names[static_cast<std::size_t>(role)];
 }
 
+bool is_poured(Role role) {
+  return role == Role::casting || role == Role::riser;
+}
+
 std::optional<Role> role_in_name(const std::string& name) {
   std::string low = name;
   std::transform(low.begin(), low.end(), low.begin(),

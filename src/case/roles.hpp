@@ -18,6 +18,10 @@ std::optional<Role> role_in_name(const std::string& name);
 /// body and material tell, or a mould.
 Role role_of(const BodySpec& body, const material::Material& material);
 
+/// Whether bodies of a role are poured: they start as melt, feed each other and heat what is around them. The
+/// one place that says so for geometries and drafts; a case that is built knows it by its materials.
+bool is_poured(Role role);
+
 /// Whether a body only conducts heat.
 bool only_conducts(const BodySpec& body);
 

@@ -4,19 +4,24 @@
 #include <cmath>
 
 #include "mesh/layer_elements.hpp"
+#include "mesh/layer_spread.hpp"
 #include "mesh/quality.hpp"
 
 namespace solidus::mesh {
 
 namespace {
 
-constexpr int k_sweeps = 20;             ///< of the mean of neighbours
-constexpr int k_rounds = 60;             ///< of moving less
+constexpr int k_first_sweeps = 200;      ///< of the mean of neighbours, before the first round
+constexpr int k_sweeps = 20;             ///< and before each further one
+constexpr int k_even_rounds = 40;        ///< of thinner layers, with the body's vertices following
+constexpr double k_thinner = 0.8;        ///< of layers that were too thick
+constexpr double k_steepest = 0.4;       ///< change of the thickness over the length of an edge of the wall
+constexpr int k_rounds = 60;             ///< of moving less, one vertex at a time
 constexpr double k_less = 0.85;          ///< of a displacement that was too large
 constexpr double k_flatter = 0.5;        ///< the least share of its quality that an element keeps
 constexpr double k_good_enough = 0.35;   ///< or the quality that is enough
 constexpr double k_least_cosine = 0.15;  ///< between a displacement and the normal of each of its faces
-constexpr double k_least_share = 0.03;   ///< of the thickness; thinner layers are none
+constexpr double k_least_share = 0.06;   ///< of the thickness; thinner layers are none
 constexpr double k_one_plane = 1e-4;     ///< sine of the angle of normals that count as one
 
 std::size_t at(Index i) {
@@ -68,6 +73,7 @@ struct Corner {
   Index node;
   Point normal;
   double angle;
+  int surface = -1;  ///< of the wall; -1: none
 };
 
 /// Sign of the orientation of the element that a face is of: meshes are not yet oriented.
@@ -84,7 +90,7 @@ void add_corners(const RawMesh& mesh, const WallFace& face, double sign, std::ve
     const auto node = [&](int b) { return face.nodes[static_cast<std::size_t>((a + b + n) % n)]; };
     const Point& x = mesh.x[at(node(0))];
     Point next = difference(mesh.x[at(node(1))], x);
-    Corner corner{node(0), {}, 1};
+    Corner corner{node(0), {}, 1, face.surface};
     if (n == 2) {
       corner.normal = a == 0 ? Point{-next[1], next[0], 0} : Point{next[1], -next[0], 0};
     } else {
@@ -142,8 +148,9 @@ Point along(Point d, const Corner* first, const Corner* last) {
 }
 
 /// Returns the displacements of the vertices of the wall if there was enough room.
+/// @param thickness  [surface of the wall]; between two of them its mean
 std::vector<Point> wanted(const RawMesh& mesh, const RawGroup& body, const WallTopology& wall,
-                          const std::vector<Corner>& corners, double thickness) {
+                          const std::vector<Corner>& corners, const std::vector<double>& thickness) {
   const std::vector<Corner> around = corners_of(mesh, body, wall, wall.around);
   std::vector<Point> u(mesh.x.size(), Point{});
   const auto less = [](const Corner& c, Index node) { return c.node < node; };
@@ -157,64 +164,31 @@ std::vector<Point> wanted(const RawMesh& mesh, const RawGroup& body, const WallT
     Point d{};
     if (wall.held[at(node)] == 0) d = best_direction(&*first, &*first + (last - first));
     if (rim != rim_end) d = along(d, &*rim, &*rim + (rim_end - rim));
-    double mean = 0, angles = 0, least = 1;
+    double mean = 0, least = 1, thick = 0;
     for (auto c = first; c != last; ++c) {
       mean += c->angle * dot(c->normal, d);
-      angles += c->angle;
+      thick += c->angle * thickness[static_cast<std::size_t>(c->surface)];
       least = std::min(least, dot(c->normal, d));
     }
-    if (least > k_least_cosine) add(u[at(node)], thickness / (mean / angles), d);
+    if (least > k_least_cosine) add(u[at(node)], thick / mean, d);
     first = last;
   }
   return u;
-}
-
-/// Vertices inside the body follow their neighbours.
-void spread(const RawGroup& body, const WallTopology& wall, std::vector<Point>& u) {
-  std::vector<Edge> edges;
-  for (const RawBlock& block : body.blocks) {
-    const std::vector<LocalEdge> local = edges_of(block.shape);
-    for (std::size_t e = 0; e < block.nodes.size(); e += static_cast<std::size_t>(node_count(block.shape)))
-      for (const LocalEdge& l : local) {
-        const Index a = block.nodes[e + static_cast<std::size_t>(l.a)];
-        const Index b = block.nodes[e + static_cast<std::size_t>(l.b)];
-        if (wall.on_boundary[at(a)] == 0 || wall.on_boundary[at(b)] == 0) edges.push_back(edge_key(a, b));
-      }
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  std::vector<Point> sum(u.size());
-  std::vector<int> n(u.size(), 0);
-  for (const auto& [a, b] : edges) {
-    ++n[at(a)];
-    ++n[at(b)];
-  }
-  for (int sweep = 0; sweep < k_sweeps; ++sweep) {
-    std::fill(sum.begin(), sum.end(), Point{});
-    for (const auto& [a, b] : edges) {
-      add(sum[at(a)], 1, u[at(b)]);
-      add(sum[at(b)], 1, u[at(a)]);
-    }
-    for (std::size_t i = 0; i < u.size(); ++i)
-      if (n[i] > 0 && wall.on_boundary[i] == 0)
-        for (std::size_t k = 0; k < 3; ++k) u[i][k] = sum[i][k] / n[i];
-  }
 }
 
 /// Makes displacements shorter until every element and every layer is good.
 class Room {
  public:
   Room(const RawMesh& mesh, const RawGroup& body, const WallTopology& wall,
-       const std::vector<Corner>& corners, double thickness, const std::vector<double>& levels,
-       std::vector<Point>& u)
+       const std::vector<Corner>& corners, const std::vector<double>& levels, std::vector<Point>& u)
       : mesh_(mesh),
         body_(body),
         wall_(wall),
         corners_(corners),
-        thickness_(thickness),
         levels_(levels),
         u_(u),
         changed_(u.size(), 1) {
+    for (const Point& d : u) wanted_.push_back(std::sqrt(dot(d, d)));
     moved_.dimension = mesh.dimension;
     moved_.x = mesh.x;
     for (const RawBlock& block : body.blocks)
@@ -222,23 +196,76 @@ class Room {
         quality_.push_back(element_quality(mesh, linear(block.shape), block.nodes.data() + e));
   }
 
-  /// In the end displacements that are still too large are taken away.
-  void fit() {
+  /// Layers get thinner, evenly along the wall, around what has no room, and the vertices of the body follow
+  /// each time. What is bad then moves less, one vertex at a time. In the end displacements that are still
+  /// too large are taken away.
+  void fit(const LayerSpread& spread) {
+    const std::vector<Point> wanted = u_;
+    std::vector<double> share(u_.size(), 1);
+    for (int round = 0; round <= k_even_rounds; ++round) {
+      make_even(share);
+      for (std::size_t i = 0; i < u_.size(); ++i)
+        if (wall_.on_wall[i] != 0)
+          for (std::size_t k = 0; k < 3; ++k) u_[i][k] = share[i] * wanted[i][k];
+      spread.sweep(u_, round == 0 ? k_first_sweeps : k_sweeps);
+      std::fill(changed_.begin(), changed_.end(), 1);
+      find_bad();
+      std::vector<char> thinner(u_.size(), 0);
+      bool all_good = true;
+      for (std::size_t i = 0; i < u_.size(); ++i) {
+        if (bad_[i] == 0 || dot(u_[i], u_[i]) == 0) continue;
+        all_good = false;
+        if (const Index owner = spread.wall_vertex(static_cast<Index>(i)); owner >= 0) thinner[at(owner)] = 1;
+      }
+      if (all_good) return;
+      if (round == k_even_rounds) break;
+      for (std::size_t i = 0; i < u_.size(); ++i)
+        if (thinner[i] != 0) share[i] *= k_thinner;
+    }
     for (int round = 0; !good(round < k_rounds ? k_less : 0.0); ++round) {
     }
   }
 
  private:
-  /// Finds bad elements and multiplies the displacements of their vertices. True: there are none.
-  bool good(double factor) {
+  /// The thickness of the layers changes along no edge of the wall by more than a share of its length.
+  void make_even(std::vector<double>& share) const {
+    bool changed = true;
+    constexpr int k_most = 100;
+    for (int round = 0; changed && round < k_most; ++round) {
+      changed = false;
+      for (const WallFace& face : wall_.wall)
+        for (int a = 0; a < face.n_vertices; ++a) {
+          const Index p = face.nodes[static_cast<std::size_t>(a)],
+                      q = face.nodes[static_cast<std::size_t>((a + 1) % face.n_vertices)];
+          changed = make_even(p, q, share) || make_even(q, p, share) || changed;
+        }
+    }
+  }
+  /// Makes the layers at p thinner where those at q, its neighbour, ask for it.
+  bool make_even(Index p, Index q, std::vector<double>& share) const {
+    if (!(wanted_[at(q)] > 0)) return false;  // layers end there with one step
+    const Point d = difference(mesh_.x[at(p)], mesh_.x[at(q)]);
+    const double most = share[at(q)] * wanted_[at(q)] + k_steepest * std::sqrt(dot(d, d));
+    if (share[at(p)] * wanted_[at(p)] <= most * (1 + 1e-9)) return false;
+    share[at(p)] = most / wanted_[at(p)];
+    return true;
+  }
+
+  /// Finds the vertices of bad elements and layers.
+  void find_bad() {
     for (std::size_t i = 0; i < u_.size(); ++i) {
       moved_.x[i] = mesh_.x[i];
       add(moved_.x[i], 1, u_[i]);
     }
     bad_.assign(u_.size(), 0);
     look_at_elements();
-    look_at_columns();
     look_at_layers();
+  }
+
+  /// Finds bad elements and multiplies the displacements of their vertices. True: there are none.
+  bool good(double factor) {
+    find_bad();
+    look_at_columns();
     std::fill(changed_.begin(), changed_.end(), 0);
     bool all_good = true;
     for (std::size_t i = 0; i < u_.size(); ++i) {
@@ -278,7 +305,8 @@ class Room {
     for (const Corner& c : corners_) {
       const Point& u = u_[at(c.node)];
       const double length = std::sqrt(dot(u, u));
-      if (length > 0 && (length < k_least_share * thickness_ || dot(u, c.normal) < k_least_cosine * length))
+      if (length > 0 &&
+          (length < k_least_share * wanted_[at(c.node)] || dot(u, c.normal) < k_least_cosine * length))
         bad_[at(c.node)] = 2;
     }
   }
@@ -330,9 +358,9 @@ class Room {
   const RawGroup& body_;
   const WallTopology& wall_;
   const std::vector<Corner>& corners_;
-  double thickness_;
   const std::vector<double>& levels_;
   std::vector<Point>& u_;
+  std::vector<double> wanted_;   ///< [node] lengths of the displacements of the wall [m]
   std::vector<double> quality_;  ///< of the elements, before
   std::vector<char> changed_;    ///< [node]: moves less than in the round before
   std::vector<char> bad_;        ///< [node]: 1 move less, 2 not at all
@@ -341,11 +369,12 @@ class Room {
 }  // namespace
 
 std::vector<Point> layer_displacement(const RawMesh& mesh, const RawGroup& body, const WallTopology& wall,
-                                      double thickness, const std::vector<double>& levels) {
+                                      const std::vector<double>& thickness,
+                                      const std::vector<double>& levels) {
   const std::vector<Corner> corners = corners_of(mesh, body, wall, wall.wall);
   std::vector<Point> u = wanted(mesh, body, wall, corners, thickness);
-  spread(body, wall, u);
-  Room(mesh, body, wall, corners, thickness, levels, u).fit();
+  const LayerSpread spread(mesh, body, wall);
+  Room(mesh, body, wall, corners, levels, u).fit(spread);
   return u;
 }
 

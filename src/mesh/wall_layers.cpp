@@ -1,6 +1,7 @@
 #include "mesh/wall_layers.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 
@@ -26,16 +27,18 @@ double length(const Point& p) {
   return std::hypot(p[0], p[1], p[2]);
 }
 
-/// The mean length of the wall's edges.
-double mean_edge(const RawMesh& mesh, const WallTopology& wall) {
+/// The mean length of the edges of one surface of the wall.
+double mean_edge(const RawMesh& mesh, const WallTopology& wall, int surface) {
   double sum = 0;
   std::size_t n = 0;
-  for (const WallFace& face : wall.wall)
+  for (const WallFace& face : wall.wall) {
+    if (face.surface != surface) continue;
     for (int a = 0; a < (face.n_vertices == 2 ? 1 : face.n_vertices); ++a, ++n) {
       const Point &p = mesh.x[at(face.nodes[static_cast<std::size_t>(a)])],
                   &q = mesh.x[at(face.nodes[static_cast<std::size_t>((a + 1) % face.n_vertices)])];
       sum += length({p[0] - q[0], p[1] - q[1], p[2] - q[2]});
     }
+  }
   return n > 0 ? sum / static_cast<double>(n) : 0;
 }
 
@@ -279,7 +282,8 @@ class Builder {
 
 /// Quads and hexahedra cannot lose a layer at some of their vertices only.
 void require_room(const RawMesh& mesh, const WallTopology& wall, const RawGroup& body,
-                  const std::vector<Point>& u, const std::string& source, const WallLayers& layers) {
+                  const std::vector<Point>& u, const std::string& source,
+                  const std::vector<WallLayers>& together) {
   for (const WallFace& face : wall.wall) {
     const FaceOwner& owner = wall.faces.at(face_key(face.nodes.data(), face.n_vertices));
     if (is_simplex(body.blocks[static_cast<std::size_t>(owner.block)].shape)) continue;
@@ -287,32 +291,60 @@ void require_room(const RawMesh& mesh, const WallTopology& wall, const RawGroup&
       const Index node = face.nodes[static_cast<std::size_t>(a)];
       if (length(u[at(node)]) > 0) continue;
       throw InputError({source},
-                       "there is no room for layers on '" + layers.surface + "' at node " +
+                       "there is no room for layers on '" +
+                           together[static_cast<std::size_t>(face.surface)].surface + "' at node " +
                            std::to_string(mesh.input_node[at(node)]),
                        "thinner layers, or triangles or tetrahedra, whose layers may end there");
     }
   }
 }
 
+/// How many vertices of a surface have layers, and how thick those are in the mean.
+void count_columns(const WallTopology& wall, int surface, const std::vector<Point>& u,
+                   WallLayerReport& report) {
+  std::vector<Index> vertices;
+  for (const WallFace& face : wall.wall)
+    if (face.surface == surface)
+      vertices.insert(vertices.end(), face.nodes.begin(), face.nodes.begin() + face.n_vertices);
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  for (const Index i : vertices) {
+    ++(length(u[at(i)]) > 0 ? report.n_columns : report.n_bare);
+    report.mean += length(u[at(i)]);
+  }
+  report.mean /= std::max<double>(1, static_cast<double>(vertices.size()));
+}
+
 }  // namespace
 
-WallLayerReport add_wall_layers(RawMesh& mesh, const WallLayers& layers, const std::string& source) {
-  WallTopology wall = find_wall(mesh, layers.surface, layers.body, source);
+std::vector<WallLayerReport> add_wall_layers(RawMesh& mesh, const std::vector<WallLayers>& together,
+                                             const std::string& source) {
+  const WallLayers& layers = together.front();
+  std::vector<std::string> surfaces;
+  for (const WallLayers& one : together) {
+    assert(one.body == layers.body && one.number == layers.number && one.growth == layers.growth);
+    surfaces.push_back(one.surface);
+  }
+  WallTopology wall = find_wall(mesh, surfaces, layers.body, source);
   const RawGroup& body = mesh.groups.at(layers.body);
   const std::vector<double> levels = shares(layers);
-  WallLayerReport report;
-  report.whole = layers.first ? *layers.first / levels.front() : k_of_edge * mean_edge(mesh, wall);
-  report.first = report.whole * levels.front();
-  std::vector<Point> u = layer_displacement(mesh, body, wall, report.whole, levels);
-  require_room(mesh, wall, body, u, source, layers);
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    if (wall.on_wall[i] == 0) continue;
-    ++(length(u[i]) > 0 ? report.n_columns : report.n_bare);
-    report.mean += length(u[i]);
+  std::vector<WallLayerReport> reports(together.size());
+  std::vector<double> thickness;
+  for (std::size_t s = 0; s < together.size(); ++s) {
+    reports[s].whole = together[s].first ? *together[s].first / levels.front()
+                                         : k_of_edge * mean_edge(mesh, wall, static_cast<int>(s));
+    reports[s].first = reports[s].whole * levels.front();
+    thickness.push_back(reports[s].whole);
   }
-  report.mean /= std::max<double>(1, static_cast<double>(report.n_columns + report.n_bare));
+  std::vector<Point> u = layer_displacement(mesh, body, wall, thickness, levels);
+  require_room(mesh, wall, body, u, source, together);
+  for (std::size_t s = 0; s < together.size(); ++s) count_columns(wall, static_cast<int>(s), u, reports[s]);
   Builder(mesh, layers, std::move(wall), std::move(u), levels).build();
-  return report;
+  return reports;
+}
+
+WallLayerReport add_wall_layers(RawMesh& mesh, const WallLayers& layers, const std::string& source) {
+  return add_wall_layers(mesh, std::vector<WallLayers>{layers}, source).front();
 }
 
 }  // namespace solidus::mesh

@@ -36,4 +36,11 @@ struct WallLayerReport {
 /// Throws InputError for a surface that does not bound the body.
 WallLayerReport add_wall_layers(RawMesh& mesh, const WallLayers& layers, const std::string& source);
 
+/// The same on several surfaces of one body at once: where two of them meet the layers go on from one to the
+/// other, with a thickness between those of both.
+/// @param together  layers of one body, equal in number and growth; not empty
+/// @return a report for each; vertices that two surfaces share count for both
+std::vector<WallLayerReport> add_wall_layers(RawMesh& mesh, const std::vector<WallLayers>& together,
+                                             const std::string& source);
+
 }  // namespace solidus::mesh

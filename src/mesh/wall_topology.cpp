@@ -1,6 +1,7 @@
 #include "mesh/wall_topology.hpp"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "system/errors.hpp"
 
@@ -83,55 +84,57 @@ std::vector<LocalEdge> edges_of(Shape shape) {
   return edges;
 }
 
-WallTopology find_wall(const RawMesh& mesh, const std::string& surface, const std::string& body,
+WallTopology find_wall(const RawMesh& mesh, const std::vector<std::string>& surfaces, const std::string& body,
                        const std::string& source) {
-  const RawGroup &faces = mesh.groups.at(surface), &elements = mesh.groups.at(body);
+  const RawGroup& elements = mesh.groups.at(body);
   WallTopology wall;
   wall.on_wall.assign(mesh.x.size(), 0);
-  wall.on_boundary.assign(mesh.x.size(), 0);
   wall.held.assign(mesh.x.size(), 0);
-  for (const RawBlock& block : faces.blocks) {
-    const auto nn = static_cast<std::size_t>(node_count(block.shape));
-    for (std::size_t f = 0; f < block.nodes.size(); f += nn) {
-      wall.wall_faces.insert(face_key(block.nodes.data() + f, vertex_count(block.shape)));
-      for (int a = 0; a < vertex_count(block.shape); ++a)
-        wall.on_wall[at(block.nodes[f + static_cast<std::size_t>(a)])] = 1;
+  std::vector<std::size_t> asked(surfaces.size(), 0), found(surfaces.size(), 0);
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+    for (const RawBlock& block : mesh.groups.at(surfaces[s]).blocks) {
+      const auto nn = static_cast<std::size_t>(node_count(block.shape));
+      for (std::size_t f = 0; f < block.nodes.size(); f += nn) {
+        const FaceKey key = face_key(block.nodes.data() + f, vertex_count(block.shape));
+        if (wall.wall_faces.try_emplace(key, static_cast<int>(s)).second) ++asked[s];
+        for (int a = 0; a < vertex_count(block.shape); ++a)
+          wall.on_wall[at(block.nodes[f + static_cast<std::size_t>(a)])] = 1;
+      }
     }
-  }
   const auto boundary = boundary_of(elements);
-  std::size_t found = 0;
   for_each_face(elements, [&](int k, Index e, int f, const std::vector<Index>& nodes) {
     const Shape shape = elements.blocks[static_cast<std::size_t>(k)].shape;
     const int n = vertex_count(face_shape(shape));
     const FaceKey key = face_key(nodes.data(), n);
     const bool outer = boundary.contains(key);
     bool touches = false;
-    for (int a = 0; a < n; ++a) {
-      const std::size_t node = at(nodes[static_cast<std::size_t>(a)]);
-      touches = touches || wall.on_wall[node] != 0;
-      if (outer) wall.on_boundary[node] = 1;
-    }
+    for (int a = 0; a < n; ++a)
+      touches = touches || wall.on_wall[at(nodes[static_cast<std::size_t>(a)])] != 0;
+    const auto of_wall = wall.wall_faces.find(key);
+    const bool is_wall = of_wall != wall.wall_faces.end();
+    if (outer && !is_wall) wall.boundary.push_back({nodes, n});
     if (!touches) return;
     wall.faces[key] = {0, k, f, e};
-    const bool of_wall = wall.wall_faces.contains(key);
-    if (of_wall && !outer)
-      throw InputError({source}, "the surface '" + surface + "' lies inside the body '" + body + "'",
-                       "a surface that bounds the body");
+    if (is_wall && !outer)
+      throw InputError(
+          {source}, "the surface '" + surfaces[at(of_wall->second)] + "' lies inside the body '" + body + "'",
+          "a surface that bounds the body");
     if (!outer) return;
-    (of_wall ? wall.wall : wall.around).push_back({nodes, n});
-    if (!of_wall) return;
-    ++found;
+    (is_wall ? wall.wall : wall.around).push_back({nodes, n, is_wall ? of_wall->second : -1});
+    if (!is_wall) return;
+    ++found[at(of_wall->second)];
     if (n == 2) return;
     for (int a = 0; a < n; ++a)
       ++wall.wall_edges[edge_key(nodes[static_cast<std::size_t>(a)],
                                  nodes[static_cast<std::size_t>((a + 1) % n)])];
   });
-  if (found != wall.wall_faces.size())
-    throw InputError({source},
-                     std::to_string(wall.wall_faces.size() - found) + " of the " +
-                         std::to_string(wall.wall_faces.size()) + " faces of '" + surface +
-                         "' are not faces of the body '" + body + "', which gets layers there",
-                     "the surface on the body's own side");
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+    if (found[s] != asked[s])
+      throw InputError({source},
+                       std::to_string(asked[s] - found[s]) + " of the " + std::to_string(asked[s]) +
+                           " faces of '" + surfaces[s] + "' are not faces of the body '" + body +
+                           "', which gets layers there",
+                       "the surface on the body's own side");
   hold_at_other_bodies(mesh, body, source, boundary, wall);
   return wall;
 }

@@ -19,7 +19,6 @@ struct CastingProcess {
   const char* law;                ///< of casting and mould; empty: by the materials
   double film;                    ///< outside [W/(m² K)]
   const char* film_source;
-  bool layers;  ///< of thin elements of the mould on the casting
   /// Shots have stages besides solidify [s], and a spray with its film [W/(m² K)] and the source of that.
   double pour = 0, open = 0, eject = 0, spray = 0, close = 0, spray_film = 0;
   const char* spray_source = "";

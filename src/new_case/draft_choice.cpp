@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/roles.hpp"
 #include "input/keys.hpp"
 #include "new_case/riser_choice.hpp"
 #include "new_case/rounding.hpp"
@@ -147,7 +148,6 @@ class Choice {
     body.role = process_.mould;
     describe(draft_, process_, body);
     draft_.law = process_.law;
-    draft_.layers = process_.layers;
     // Away from the metal elements grow with the wall that they fill, not with the part.
     draft_.mould_size = std::clamp(draft_.mould_size, two_digits(wall / 4),
                                    two_digits(std::max(wall / 1.5, std::max(draft_.size, wall / 4))));
@@ -158,7 +158,7 @@ class Choice {
     double riser = -1e300, other = -1e300;
     for (const GeometryBody& body : part_.bodies) {
       double& high = body.role == Role::riser ? riser : other;
-      if (is_metal(body.role)) high = std::max(high, body.extent.high[2]);
+      if (is_poured(body.role)) high = std::max(high, body.extent.high[2]);
     }
     const double top = part_.high[2], near = 1e-3 * (top - part_.low[2]);
     return process_.mould == Role::mould && riser > top - near && other < riser - near;

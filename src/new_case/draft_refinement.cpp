@@ -10,10 +10,13 @@
 #include "build/case_file.hpp"
 #include "build/geometry_bodies.hpp"
 #include "build/mesh_input.hpp"
+#include "case/roles.hpp"
 #include "input/keys.hpp"
 #include "mesh/kept_mesh.hpp"
 #include "mesh/meshing_outlook.hpp"
+#include "mesh/quality.hpp"
 #include "new_case/draft_choice.hpp"
+#include "new_case/draft_layers.hpp"
 #include "new_case/rounding.hpp"
 #include "run/session.hpp"
 #include "system/log.hpp"
@@ -52,7 +55,7 @@ class Refinement {
       // The best way of meshing is looked for when the sizes are found, not for each that is tried.
       kept.be_content_with(mesh::k_usable_quality);
       bool of_sizes = true;
-      constexpr int k_turns = 5;
+      constexpr int k_turns = 6;
       for (int turn = 0; turn < k_turns; ++turn) {
         if (turn == 0) find_skins();  // sizes do not change which skins there are
         write_draft(draft_);
@@ -91,7 +94,7 @@ class Refinement {
     Draft bare = draft_;  // conditions come when the skins are known
     bare.films.clear();
     bare.symmetric.clear();
-    bare.layers = false;
+    bare.layers.clear();
     bare.cavity.clear();
     write_draft(bare);
     return raw_mesh(load_case(draft_.folder / "case.toml", {}, Physics::heat).spec);
@@ -121,11 +124,29 @@ class Refinement {
         if (die.role == Role::die && body.role != Role::die && body.role != Role::chill &&
             mesh.groups.contains(die.name + "_to_" + body.name))
           draft_.cavity.push_back(die.name + "_to_" + body.name);
+    find_heated_walls(mesh);
     for (const DraftBody& body : draft_.bodies) {
       if (mesh.groups.contains(body.name + "_free")) draft_.films.push_back(body.name);
-      if (is_metal(body.role) && mesh.groups.contains(body.name + "_symmetry"))
+      if (is_poured(body.role) && mesh.groups.contains(body.name + "_symmetry"))
         draft_.symmetric.push_back(body.name);
     }
+  }
+
+  /// The walls that get layers, with their areas. The elements of a file stay as they are.
+  void find_heated_walls(const mesh::RawMesh& mesh) {
+    heated_.clear();
+    if (draft_.meshed) return;
+    const std::vector<mesh::GroupReport> groups = mesh::assess(mesh).groups;
+    const auto measure = [&](const std::string& group) {
+      const auto found = std::ranges::find(groups, group, &mesh::GroupReport::name);
+      return found == groups.end() ? 0.0 : found->measure;
+    };
+    for (const DraftBody& body : draft_.bodies)
+      for (const DraftBody& poured : draft_.bodies) {
+        const std::string surface = body.name + "_to_" + poured.name;
+        if (has_layers(body.role) && is_poured(poured.role) && mesh.groups.contains(surface))
+          heated_.push_back({surface, body.name, poured.name, measure(surface), measure(body.group)});
+      }
   }
 
   std::optional<Role> role_of(const std::string& body) const {
@@ -174,17 +195,19 @@ class Refinement {
     // The estimate errs long for a riser in a sleeve, and for a casting that others enclose.
     constexpr double k_outlives = 2;
     const double of_castings = longest_freezing(checked);
+    std::vector<PouredTime> times;
     for (const results::PourOverview& pour : checked.overview.pours) {
       double own = pour.freezing_time.value_or(0), deep = pour.mould_reach;
       const double most = k_outlives * of_castings;
       if (of_castings > 0 && own > most) deep *= std::sqrt(most / own), own = most;
+      times.push_back({pour.body, own, pour.solidus});
       time = std::max(time, own);
       reach = std::max(reach, deep);
     }
     for (const results::BodyOverview& body : checked.overview.bodies) {
       estimate_.nodes += static_cast<double>(body.nodes);
       for (const DraftBody& draft : draft_.bodies)
-        if (draft.name == body.name && is_metal(draft.role))
+        if (draft.name == body.name && is_poured(draft.role))
           estimate_.metal_nodes += static_cast<double>(body.nodes);
     }
     // The estimate is of one dimension: the run ends when all is solid, well before this where it is right.
@@ -203,15 +226,13 @@ class Refinement {
       }
     }
     bool good = true;
-    constexpr double k_most = 6000, k_wanted = 3500, k_reaches = 2;
-    const double finer = fineness_ * fineness_ * fineness_;
-    if (estimate_.metal_nodes > k_most * finer && !draft_.meshed) {
-      const double scale = std::cbrt(estimate_.metal_nodes / (k_wanted * finer));
-      draft_.size = two_digits(draft_.size * scale);
-      draft_.smallest = std::min(draft_.size, two_digits(draft_.smallest * scale));
-      draft_.mould_size = two_digits(draft_.mould_size * std::sqrt(scale));
+    if (std::vector<DraftLayers> layers = choose_layers(draft_, heated_, times, fineness_);
+        layers != draft_.layers) {
+      draft_.layers = std::move(layers);
       good = false;
     }
+    good = may_keep_sizes() && good;
+    constexpr double k_reaches = 2;
     if (draft_.mould && process_.walls > 0 && process_.mould == Role::mould)
       for (double& wall : draft_.mould->walls)
         if (wall > 0 && wall < k_reaches * reach) {
@@ -222,10 +243,40 @@ class Refinement {
     return good;
   }
 
+  /// Makes the elements of the metal larger where there are too many. Where features of the part ask for them
+  /// whatever the size is, larger elements elsewhere save little and resolve nothing: then sizes stay.
+  /// @return whether the sizes may stay
+  bool may_keep_sizes() {
+    constexpr double k_most = 6000, k_wanted = 3500;
+    const double finer = fineness_ * fineness_ * fineness_;
+    if (estimate_.metal_nodes <= k_most * finer || draft_.meshed || coarsening_is_vain_) return true;
+    if (finer_ && estimate_.metal_nodes > finer_->nodes / finer_->scale) {
+      draft_.size = finer_->size;
+      draft_.smallest = finer_->smallest;
+      draft_.mould_size = finer_->mould_size;
+      coarsening_is_vain_ = true;
+      return false;
+    }
+    const double scale = std::cbrt(estimate_.metal_nodes / (k_wanted * finer));
+    finer_ = {draft_.size, draft_.smallest, draft_.mould_size, estimate_.metal_nodes, scale};
+    draft_.size = two_digits(draft_.size * scale);
+    draft_.smallest = std::min(draft_.size, two_digits(draft_.smallest * scale));
+    draft_.mould_size = two_digits(draft_.mould_size * std::sqrt(scale));
+    return false;
+  }
+
+  /// Sizes before they were made larger by `scale`, and the nodes of the metal with them.
+  struct Sizes {
+    double size, smallest, mould_size, nodes, scale;
+  };
+
   Draft& draft_;
   const CastingProcess& process_;
   const material::Material& alloy_;
   double fineness_;
+  std::vector<HeatedWall> heated_;
+  std::optional<Sizes> finer_;
+  bool coarsening_is_vain_ = false;
   DraftEstimate estimate_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "case/roles.hpp"
+#include "new_case/draft_layers.hpp"
 
 namespace solidus::model {
 
@@ -24,11 +25,9 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-bool is_metal(const DraftBody& body) {
-  return body.role == Role::casting || body.role == Role::riser;
-}
-
 std::string mesh_text(const Draft& d) {
+  // Behind layers of sand elements that grow fast would take up too much heat.
+  constexpr double k_growth_of_sand = 0.2, k_growth = 0.6;
   std::string t = fmt::format("[mesh]\nfile = {}\n", quoted(d.geometry.filename().string()));
   if (!d.unit.empty()) t += fmt::format("unit = {}\n", quoted(d.unit));
   if (d.way > 0)
@@ -39,14 +38,14 @@ std::string mesh_text(const Draft& d) {
   t += "# Elements: the largest, and the smallest in thin walls. Half the size is about eight times the "
        "time.\n";
   for (const DraftBody& b : d.bodies) {
-    if (is_metal(b))
+    if (is_poured(b.role))
       t += fmt::format(
           "[[mesh.size]]\nbody = {}\nsize = {}\nsmallest = {}\nacross = 2    # through a wall\n\n",
           quoted(b.group), mm(d.size), mm(d.smallest));
     else
       t += fmt::format(
-          "[[mesh.size]]\nbody = {}\nsize = {}\nacross = 0\ngrowth = 0.6  # away from the metal\n\n",
-          quoted(b.group), mm(d.mould_size));
+          "[[mesh.size]]\nbody = {}\nsize = {}\nacross = 0\ngrowth = {}  # away from the metal\n\n",
+          quoted(b.group), mm(d.mould_size), has_layers(b.role) ? k_growth_of_sand : k_growth);
   }
   if (d.mould) {
     const auto& w = d.mould->walls;
@@ -66,19 +65,20 @@ std::string mesh_text(const Draft& d) {
   if (d.symmetry)
     t += fmt::format("[mesh.symmetry]   # the half below this plane\naxis = \"{}\"\nat = {}\n\n",
                      "xyz"[d.symmetry->axis], mm(d.symmetry->at));
-  if (d.layers && d.mould)
-    for (const DraftBody& b : d.bodies)
-      if (b.role == Role::casting)
-        t += fmt::format(
-            "[[mesh.layers]]   # at first the warm sand is thinner than an element\nname = \"sand_on_{0}\"\n"
-            "surface = \"{1}_to_{0}\"\nbody = {2}\n\n",
-            b.name, d.mould->name, quoted(d.mould->name));
+  if (!d.layers.empty())
+    t += "# Thin elements on what is poured, as deep as heat goes until it is solid: sqrt(a t), by an "
+         "estimate.\n";
+  for (const DraftLayers& l : d.layers)
+    t += fmt::format(
+        "[[mesh.layers]]\nname = {}\nsurface = {}\nbody = {}\nnumber = {}\ngrowth = {:g}   # each is so many "
+        "times as thick as the one before\nfirst = {}\n\n",
+        quoted(l.name), quoted(l.surface), quoted(l.body), l.number, l.growth, mm(l.first));
   return t;
 }
 
 /// Whether a body leaves with the casting, and is new in the next shot.
 bool leaves(const DraftBody& b) {
-  return is_metal(b) || b.role == Role::core || b.role == Role::sleeve || b.role == Role::insulation;
+  return is_poured(b.role) || b.role == Role::core || b.role == Role::sleeve || b.role == Role::insulation;
 }
 
 std::string time_text(const Draft& d) {
@@ -158,7 +158,7 @@ std::string interface_text(const Draft& d) {
   std::string t;
   if (!d.law.empty() && d.mould)
     for (const DraftBody& b : d.bodies)
-      if (is_metal(b))
+      if (is_poured(b.role))
         t += fmt::format(
             "[[interface]]   # the process decides the law: {1} says where its numbers come from\n"
             "bodies = [{2}, {3}]\nlaw = \"{0}\"\n\n",

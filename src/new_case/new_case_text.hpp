@@ -44,6 +44,14 @@ struct DraftRiser {
   std::optional<double> hollow = {};
 };
 
+/// Layers of thin elements of a body on one of its surfaces.
+struct DraftLayers {
+  std::string name, surface, body;  ///< the body by its group of the mesh
+  int number = 0;
+  double growth = 1, first = 0;  ///< thickness of the one on the surface [m]
+  bool operator==(const DraftLayers&) const = default;
+};
+
 struct DraftSymmetry {
   int axis = 0;
   double at = 0;  ///< [m]
@@ -62,7 +70,7 @@ struct Draft {
   std::optional<DraftMould> mould;
   std::optional<DraftRiser> riser;
   std::optional<DraftSymmetry> symmetry;
-  bool layers = false;
+  std::vector<DraftLayers> layers;
   std::vector<std::string> films, symmetric;  ///< bodies with skins in air, in the plane of symmetry
   double film = 0;                            ///< [W/(m² K)]
   std::string film_source;

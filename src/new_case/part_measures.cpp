@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/roles.hpp"
 #include "input/keys.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/file_format.hpp"
@@ -42,7 +43,7 @@ PartMeasures measure_part(const NewCaseOptions& options) {
   m.bodies = bodies_of(m.mesh, options.as, source.path);
   for (const GeometryBody& body : m.bodies) {
     if (body.role == Role::mould || body.role == Role::die) m.has_mould = true;
-    if (is_metal(body.role)) m.metal.push_back(body.name);
+    if (is_poured(body.role)) m.metal.push_back(body.name);
   }
   m.meshed = meshed && m.has_mould;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -51,7 +52,7 @@ PartMeasures measure_part(const NewCaseOptions& options) {
       m.low[i] = std::min(m.low[i], body.extent.low[i]), m.high[i] = std::max(m.high[i], body.extent.high[i]);
   }
   for (const GeometryBody& body : m.bodies)
-    if (is_metal(body.role)) {
+    if (is_poured(body.role)) {
       m.volume += body.extent.volume;
       m.area += body.extent.area;
       const std::vector<double> one = mesh::thickness_by_area(m.mesh, body.name);

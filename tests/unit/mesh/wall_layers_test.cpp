@@ -184,6 +184,69 @@ TEST(WallLayers, AreThinnerWhereThereIsNoRoom) {
   }
 }
 
+TEST(WallLayers, OnTwoWallsThatMeetGoAroundTheCornerBetweenThem) {
+  for (const Shape shape : {Shape::tri3, Shape::quad4}) {
+    RawMesh mesh = make_block({{0.4, 0.4}, {}, {8, 8}, "block"}, shape);
+    const auto before = measures(mesh);
+    const std::vector<WallLayerReport> reports =
+        add_wall_layers(mesh, {{"x_min", "block", 2, 2, 0.01}, {"y_min", "block", 2, 2, 0.01}}, "box");
+    validate_and_orient(mesh, "box");
+    expect_same_measures(mesh, before);
+    ASSERT_EQ(reports.size(), 2U);
+    for (const WallLayerReport& report : reports) {
+      EXPECT_EQ(report.n_columns, 9) << name(shape);
+      EXPECT_EQ(report.n_bare, 0) << name(shape);
+    }
+    const auto corner = std::count_if(mesh.x.begin(), mesh.x.end(), [](const Point& p) {
+      return std::abs(p[0] - p[1]) < 1e-12 &&
+             (std::abs(p[0] - 0.01) < 1e-12 || std::abs(p[0] - 0.03) < 1e-12);
+    });
+    EXPECT_EQ(corner, 2) << "both layers of either wall end at one vertex on the diagonal";
+  }
+}
+
+TEST(WallLayers, OfWallsWithThicknessesOfTheirOwnPassFromOneToTheOther) {
+  RawMesh mesh = make_block({{0.4, 0.4}, {}, {16, 16}, "block"}, Shape::tri3);
+  const std::vector<WallLayerReport> reports =
+      add_wall_layers(mesh, {{"x_min", "block", 1, 1, 0.04}, {"y_min", "block", 1, 1, 0.01}}, "box");
+  validate_and_orient(mesh, "box");
+  EXPECT_GT(reports[0].mean, 0.03);
+  EXPECT_LT(reports[1].mean, 0.02);
+  for (const WallLayerReport& report : reports) EXPECT_EQ(report.n_bare, 0);
+}
+
+TEST(WallLayers, MayBeManyElementsThickWhereTheBodyHasTheRoom) {
+  // Three elements deep of ten: those behind give way over the whole depth, on the open sides too.
+  for (const Shape shape : {Shape::tri3, Shape::tet4}) {
+    const bool solid = dimension(shape) == 3;
+    RawMesh mesh = solid ? make_block({{0.1, 0.04, 0.04}, {}, {10, 4, 4}, "block"}, shape)
+                         : make_block({{0.1, 0.04}, {}, {10, 4}, "block"}, shape);
+    const auto before = measures(mesh);
+    const WallLayerReport report = add_wall_layers(mesh, {"x_min", "block", 3, 1, 0.01}, "box");
+    validate_and_orient(mesh, "box");
+    expect_same_measures(mesh, before);
+    EXPECT_NEAR(report.mean, 0.03, 1e-12) << name(shape);
+    EXPECT_GT(assess(mesh).worst.front().quality, 0.2) << name(shape);
+  }
+}
+
+TEST(WallLayers, LeaveTheBordersOfSurfacesWithinAPlaneWhereTheyAre) {
+  RawMesh mesh = make_block({{0.1, 0.04}, {}, {10, 4}, "block"}, Shape::tri3);
+  RawGroup& bottom = mesh.groups.at("y_min");
+  RawBlock far{bottom.blocks.front().shape, {}, {}};
+  RawBlock& near = bottom.blocks.front();
+  for (std::size_t f = 6; f < near.input_element.size(); ++f) {  // those beyond 60 mm
+    far.nodes.insert(far.nodes.end(), near.nodes.begin() + static_cast<std::ptrdiff_t>(2 * f),
+                     near.nodes.begin() + static_cast<std::ptrdiff_t>(2 * f + 2));
+    far.input_element.push_back(near.input_element[f]);
+  }
+  mesh.groups["far"] = {1, {far}};
+  const auto before = measures(mesh);
+  add_wall_layers(mesh, {"x_min", "block", 2, 1, 0.01}, "box");
+  validate_and_orient(mesh, "box");
+  expect_same_measures(mesh, before);
+}
+
 TEST(WallLayers, OfAGeometryThatIsMeshedHereSurroundTheCasting) {
   const auto path =
       std::filesystem::temp_directory_path() /

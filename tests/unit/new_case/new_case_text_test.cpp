@@ -109,6 +109,23 @@ TEST(NewCaseText, NamesTheWayOfMeshingWhereItHadToBeLookedFor) {
   EXPECT_EQ(case_keys().read(parse_document(case_text(d), "case.toml")).mesh.way, 5);
 }
 
+TEST(NewCaseText, HasALayerSectionForEachWallAndSandThatGrowsSlowlyBehindThem) {
+  Draft d = draft();
+  d.layers = {{"core_on_casting", "core_to_casting", "core", 7, 1.2, 0.0015},
+              {"core_on_riser", "core_to_riser", "core", 7, 1.2, 0.002}};
+  const CaseSpec spec = case_keys().read(parse_document(case_text(d), "case.toml"));
+  ASSERT_EQ(spec.mesh.layers.size(), 2U);
+  EXPECT_EQ(spec.mesh.layers[1].surface, "core_to_riser");
+  EXPECT_EQ(spec.mesh.layers[1].body, "core");
+  EXPECT_EQ(spec.mesh.layers[1].number, 7);
+  EXPECT_EQ(spec.mesh.layers[1].growth, 1.2);
+  EXPECT_NEAR(*spec.mesh.layers[1].first, 0.002, 1e-12);
+  for (const MeshSizeSpec& size : spec.mesh.sizes) {
+    if (size.body == "core") EXPECT_EQ(size.growth, 0.2);
+    if (size.body == "die") EXPECT_EQ(size.growth, 0.6) << "without layers as before";
+  }
+}
+
 TEST(NewCaseText, OfAMeshWithItsMouldAsksForNoElements) {
   Draft d = draft();
   d.meshed = true;
