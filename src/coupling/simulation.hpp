@@ -45,6 +45,9 @@ struct TimeOptions {
   std::vector<double> output_times;  ///< met exactly; a checkpoint is due at each of them
   bool output_at_stage_ends = true;
   int checkpoint_every = 0;  ///< steps between further checkpoints; zero: none
+  /// Returns the times in a stage (number in `stages`) at which its conditions bend or jump, where steps end
+  /// too; empty: none are known.
+  std::function<std::vector<TimeEvent>(std::size_t stage)> events;
 };
 
 enum class Outcome {
@@ -147,6 +150,7 @@ class Simulation {
   void check_limits(Progress& p, const PlannedStep& step, const StepMeasure& measure);
   static bool measures_error(const StepOptions& step);
   bool stop_asked() const;
+  std::vector<TimeEvent> events(const Progress& p) const;
   bool checkpoint_due(const StepRecord& record) const;
   /// Writes a checkpoint of the committed state, from which a run goes on with this step control.
   void save(Progress& p, const ControlState& control);

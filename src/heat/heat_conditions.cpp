@@ -149,17 +149,24 @@ void HeatSystem::add_gauss_shares(int body, Volume& volume) const {
   }
 }
 
-void HeatSystem::Volume::set_time(double time) {
-  const std::size_t n_points = placed() ? x.size() : 1;
-  now.resize(n_points);
-  factor_now.resize(n_points);
-  power.values(x, time, now);
-  factor.values(x, time, factor_now);
-  std::fill(heat.begin(), heat.end(), 0.0);
-  for (const Share& share : shares) {
-    const auto point = static_cast<std::size_t>(share.point);
-    heat[static_cast<std::size_t>(share.node)] += now[point] * factor_now[point] * share.weight;
+void HeatSystem::Volume::set_window(const LoadWindow& window) {
+  const LoadLaw law{LoadLaw::Kind::power, {factor, power}};
+  if (placed()) {
+    constexpr int k_points = 2;
+    now.assign(x.size(), 0);
+    std::vector<double> power_now(x.size()), factor_now(x.size());
+    for (const TimePoint& point : time_points(window, law.pointers(), k_points)) {
+      power.values(x, point.time, power_now);
+      factor.values(x, point.time, factor_now);
+      for (std::size_t i = 0; i < now.size(); ++i) now[i] += point.weight * power_now[i] * factor_now[i];
+    }
+  } else {
+    const LoadValues mean = mean_load(window, law);
+    now.assign(1, mean[0] - mean[1]);
   }
+  std::fill(heat.begin(), heat.end(), 0.0);
+  for (const Share& share : shares)
+    heat[static_cast<std::size_t>(share.node)] += now[static_cast<std::size_t>(share.point)] * share.weight;
 }
 
 void HeatSystem::Volume::burn(const BurningState& state, double begin, double end) {

@@ -111,18 +111,18 @@ void HeatSystem::find_field_nodes(std::size_t body) {
     if (of_body[i] != 0) u.nodes.push_back(static_cast<Index>(i));
 }
 
-void HeatSystem::set_time(double time) {
+void HeatSystem::set_window(const LoadWindow& window) {
   if (placed_)
-    run_collectively([&] { evaluate(time); });
+    run_collectively([&] { evaluate(window); });
   else
-    evaluate(time);
+    evaluate(window);
 }
 
-void HeatSystem::evaluate(double time) {
-  for (SurfaceHeat& surface : surfaces_) surface.set_time(time);
+void HeatSystem::evaluate(const LoadWindow& window) {
+  for (SurfaceHeat& surface : surfaces_) surface.set_window(window);
   for (Volume& source : sources_)
-    if (!source.burning) source.set_time(time);
-  for (Prescribed& p : prescribed_) p.value.values(p.x, time, p.now);
+    if (!source.burning) source.set_window(window);
+  for (Prescribed& p : prescribed_) p.value.values(p.x, window.time, p.now);
 }
 
 void HeatSystem::set_burning(const BurningState& state, double begin, double end) {

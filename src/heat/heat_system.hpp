@@ -43,9 +43,11 @@ class HeatSystem {
   /// returns whether it did. Throws InputError as the constructor does. Collective.
   bool set_conditions(const ThermalConditions& conditions);
   const linear::ActiveSet& active() const { return active_; }
+  /// Loads are their means over the window from here on, temperatures that are prescribed those at its time.
   /// Collective where a condition varies with position. Throws InputError, on every process, where it has no
   /// value that is allowed.
-  void set_time(double time);
+  void set_window(const LoadWindow& window);
+  void set_time(double time) { set_window(LoadWindow::at(time)); }
   /// The power of the bodies that burn, constant from here on until the next call.
   /// @param state       at the start of the step, of all local nodes; empty: nothing burns
   /// @param begin, end  of the step [s]
@@ -167,10 +169,10 @@ class HeatSystem {
     std::vector<Share> shares = {};
     std::vector<Position> x = {};   ///< of the points; empty where power and factor are the same everywhere
     std::vector<double> heat = {};  ///< into the owned nodes at the time set [W]
-    std::vector<double> now = {}, factor_now = {};  ///< work, [point]
+    std::vector<double> now = {};  ///< work, [point]
     std::optional<Exothermic> burning = {};         ///< its power comes from set_burning()
     bool placed() const { return !power.uniform() || !factor.uniform(); }
-    void set_time(double time);
+    void set_window(const LoadWindow& window);
     void burn(const BurningState& state, double begin, double end);
   };
   /// Kirchhoff's potential at the nodes of one body whose conductivity varies.
@@ -184,7 +186,7 @@ class HeatSystem {
   int body_named(const std::string& name) const;
   void add_nodal_shares(int body, Volume& volume) const;
   void add_gauss_shares(int body, Volume& volume) const;
-  void evaluate(double time);
+  void evaluate(const LoadWindow& window);
   linear::NodeGraph graph() const;
   void bind();
   void add_conduction(const std::vector<material::Material>& materials);

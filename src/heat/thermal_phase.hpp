@@ -34,6 +34,7 @@
 #include "linear/contribution.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/load_window.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::heat {
@@ -108,6 +109,10 @@ struct ThermalPass {
   /// of a pass follow from its start, and change from pass to pass as long as an iteration between the phases
   /// goes round; a pass of backward Euler in the same step comes before.
   bool keeps_limits = false;
+  /// Of the loads of one stage; absent: the step, or its parts for two stages.
+  std::optional<LoadWindow> loads = {};
+
+  LoadWindow window() const { return loads.value_or(LoadWindow::over(time - dt, time)); }
 };
 
 class ThermalPhase {
@@ -254,7 +259,7 @@ class ThermalPhase {
   void book(std::span<const double> residual, double dt, std::span<double> heat) const;
   /// The start of a step: prescribed temperatures hold, and heats are those of their temperatures.
   /// @param all  false: of the prescribed ones alone
-  ThermalState start(const ThermalState& old, double time, bool all = true);
+  ThermalState start(const ThermalState& old, const LoadWindow& loads, bool all = true);
   /// Whether the enthalpy of the nodes is the unknown: with the closed rule, and with the open one where a
   /// material has an isothermal change.
   bool nodal() const { return truncated_newton_ != nullptr; }

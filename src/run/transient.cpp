@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "build/event_input.hpp"
 #include "build/heat_input.hpp"
 #include "build/mechanics_input.hpp"
 #include "build/scheme_input.hpp"
@@ -30,6 +31,11 @@ std::unique_ptr<coupling::ShotMap> shot_map(const CaseSpec& spec, const Assembly
 
 coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
   coupling::TimeOptions times = time_options(spec);
+  times.events = [&spec, &a, step = times.step.step, end = times.end](std::size_t stage) {
+    if (a.stages.empty()) return time_events(spec, nullptr, 0, end, step);
+    const StageRun& run = a.stages[stage];
+    return time_events(spec, &run, run.start, run.end, first_step(*run.stage, spec.time));
+  };
   std::optional<coupling::ErrorEstimate> estimate;
   if (spec.time.adaptive) {
     coupling::BodyNorm norm(a.mesh, spec.analysis.kind);
