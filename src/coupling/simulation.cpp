@@ -324,10 +324,18 @@ std::size_t Simulation::stage() const {
   return progress_->stage;
 }
 
+PlannedStep Simulation::plan(const Progress& p) const {
+  const double time = p.committed.time;
+  const PlannedStep step = p.control->plan(time);
+  if (loads_ == nullptr || !options_.stages[p.stage].step.adaptive) return step;
+  const double longest = loads_->lasting_loads(time, step.time);
+  return longest < step.dt ? p.control->plan(time, longest) : step;
+}
+
 // The committed state is not touched before the step is known to be good: a step that is repeated starts from
 // the same bits.
 Simulation::Try Simulation::try_step(Progress& p) {
-  const PlannedStep step = p.control->plan(p.committed.time);
+  const PlannedStep step = plan(p);
   StepMeasure measure;
   StepRecord record;
   if (heat_ != nullptr) heat_->begin_burning(p.committed.burning, p.committed.time, step.time);

@@ -70,6 +70,9 @@ class Simulation {
   /// Gives this phase the heat of bodies that burn, and brings State::burning along; must outlive the
   /// simulation.
   void follow_burning(heat::ThermalPhase& heat) { heat_ = &heat; }
+  /// Keeps adaptive steps so short that loads of this phase that move overlap with themselves from step to step;
+  /// must outlive the simulation.
+  void follow_loads(const heat::ThermalPhase& heat) { loads_ = &heat; }
   /// Lets the melt of this phase keep the viscosity of a longer step where the step control wants it
   /// (StepControl::viscous_step); must outlive the simulation.
   void follow_melt(mechanics::MechanicalPhase& mechanics) { mechanics_ = &mechanics; }
@@ -144,6 +147,7 @@ class Simulation {
   bool periodic(const Progress& p) const;
   Outcome stopped(const Stop& why, Progress& p, Outcome outcome);
   Try try_step(Progress& p);
+  PlannedStep plan(const Progress& p) const;
   void commit(Progress& p, const PlannedStep& step, const StepMeasure& measure);
   /// Gives the melt the viscosity that it has in this step.
   void set_viscosity(Progress& p, const PlannedStep& step);
@@ -163,6 +167,7 @@ class Simulation {
   std::vector<Observer*> observers_;
   criteria::Criteria* criteria_ = nullptr;
   heat::ThermalPhase* heat_ = nullptr;
+  const heat::ThermalPhase* loads_ = nullptr;
   mechanics::MechanicalPhase* mechanics_ = nullptr;
   std::function<bool()> stop_asked_;
   StageBegins stage_begins_;

@@ -82,7 +82,11 @@ bool StepControl::jumps_at(double time) const {
   return std::find(jumps_.begin(), jumps_.end(), time) != jumps_.end();
 }
 
-PlannedStep StepControl::plan(double time) const {
+PlannedStep StepControl::plan(double time, double at_most) const {
+  const double least = std::min(smallest_of_errors(options_), state_.size);
+  const bool held = options_.adaptive && std::max(at_most, least) < state_.size;
+  const double size = held ? std::max(at_most, least) : state_.size;
+  const std::string reason = held ? "load moves" : state_.reason;
   const double beyond = time + k_same_time * state_.size;
   const auto next = std::upper_bound(landings_.begin(), landings_.end(), beyond);
   double landing = next == landings_.end() ? end_ : *next;
@@ -94,16 +98,14 @@ PlannedStep StepControl::plan(double time) const {
   // A step is stretched by less than a cut shortens it, so that a step that was rejected is not planned
   // again.
   const double stretch = std::min(k_stretch, 0.5 * (1 / options_.cut - 1));
-  const double rest = landing - time, tolerance = stretch * state_.size;
-  if (rest <= state_.size + tolerance)
-    return {landing, rest,
-            rest < state_.size - tolerance ? what : state_.reason};
+  const double rest = landing - time, tolerance = stretch * size;
+  if (rest <= size + tolerance) return {landing, rest, rest < size - tolerance ? what : reason};
   // Two halves rather than a full step and a sliver, where the size is ours to choose.
-  if (options_.adaptive && rest < 1.5 * state_.size) {
+  if (options_.adaptive && rest < 1.5 * size) {
     const double half = rest / 2;
     return {time + half, half, at_event ? "event ahead" : "output time ahead"};
   }
-  return {time + state_.size, state_.size, state_.reason};
+  return {time + size, size, reason};
 }
 
 void StepControl::accepted(const PlannedStep& step, const StepMeasure& measure) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,7 +65,8 @@ class StepControl {
 
   bool finished(double time) const { return time >= end_; }
   double end() const { return end_; }
-  PlannedStep plan(double time) const;
+  /// @param at_most  the longest step that the loads allow; a fixed step does not ask for it
+  PlannedStep plan(double time, double at_most = HUGE_VAL) const;
   /// Whether a condition jumps at this end of a step, so that what has gone before tells nothing of what
   /// follows.
   bool jumps_at(double time) const;

@@ -112,17 +112,24 @@ void HeatSystem::find_field_nodes(std::size_t body) {
 }
 
 void HeatSystem::set_window(const LoadWindow& window) {
-  if (placed_)
-    run_collectively([&] { evaluate(window); });
-  else
-    evaluate(window);
-}
-
-void HeatSystem::evaluate(const LoadWindow& window) {
   for (SurfaceHeat& surface : surfaces_) surface.set_window(window);
   for (Volume& source : sources_)
     if (!source.burning) source.set_window(window);
-  for (Prescribed& p : prescribed_) p.value.values(p.x, window.time, p.now);
+  const auto prescribe = [&] {
+    for (Prescribed& p : prescribed_) p.value.values(p.x, window.time, p.now);
+  };
+  if (placed_)
+    run_collectively(prescribe);
+  else
+    prescribe();
+}
+
+double HeatSystem::lasting(double from, double to) const {
+  double longest = HUGE_VAL;
+  for (const SurfaceHeat& surface : surfaces_) longest = std::min(longest, surface.lasting(from, to));
+  for (const Volume& source : sources_)
+    if (source.load) longest = std::min(longest, source.load->lasting(from, to));
+  return longest;
 }
 
 void HeatSystem::set_burning(const BurningState& state, double begin, double end) {

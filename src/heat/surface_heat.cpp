@@ -167,22 +167,34 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
   }
   nodes.n_faces = nodes.n_counted = static_cast<Index>(nodes.nodes.size());
   patches_.push_back(std::move(nodes));
-  if (law_.placed()) place_points(mesh);
+  if (law_.placed()) place_points(mesh, kind, surface, closed);
 }
 
-void SurfaceHeat::place_points(const mesh::Mesh& mesh) {
-  std::vector<Position> points;
+void SurfaceHeat::place_points(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface,
+                               bool closed) {
+  std::vector<PlacedLoad::Point> points;
+  std::vector<PlacedLoad::Share> shares;
+  Index first_cell = 0;
   for (Patch& patch : patches_) {
     patch.first_point = points.size();
     for (Index face = 0; face < patch.n_faces; ++face)
       for (int q = 0; q < patch.n_points; ++q) {
-        Position& x = points.emplace_back();
+        const auto number = static_cast<Index>(points.size());
+        const double weight = patch.weight[patch.number(face, q)];
+        PlacedLoad::Point& point = points.emplace_back();
+        if (closed)
+          point.node = patch.nodes[static_cast<std::size_t>(face)];
+        else
+          point.cell = first_cell + face;
+        if (face < patch.n_counted) point.weight = weight;
         for (int a = 0; a < patch.n_nodes; ++a) {
           const Index node = patch.nodes[static_cast<std::size_t>(face * patch.n_nodes + a)];
           const double n = patch.values[static_cast<std::size_t>(q * patch.n_nodes + a)];
-          for (std::size_t i = 0; i < 3; ++i) x[i] += n * mesh.x[static_cast<std::size_t>(node)][i];
+          for (std::size_t i = 0; i < 3; ++i) point.x[i] += n * mesh.x[static_cast<std::size_t>(node)][i];
+          if (node < mesh.n_owned_nodes && !law_.exchanges()) shares.push_back({node, number, n * weight});
         }
       }
+    if (!closed) first_cell += patch.n_faces;
   }
   // The nodes at which the law is taken beside the points of integration.
   point_of_node_.assign(mesh.x.size(), 0);
@@ -190,7 +202,7 @@ void SurfaceHeat::place_points(const mesh::Mesh& mesh) {
     std::size_t& point = point_of_node_[static_cast<std::size_t>(node)];
     if (point != 0) return;
     point = points.size();
-    points.push_back(mesh.x[static_cast<std::size_t>(node)]);
+    points.push_back({mesh.x[static_cast<std::size_t>(node)], node, -1, 0});
   };
   for (const Index node : supplied_nodes_) place(node);
   for (const Pair& p : pairs_) {
@@ -198,7 +210,17 @@ void SurfaceHeat::place_points(const mesh::Mesh& mesh) {
     place(p.j);
   }
   for (const LimitedFlow& flow : flows_) place(flow.from);
-  law_.set_points(std::move(points));
+  std::vector<CellIntegrals::Cells> cells;
+  for (const mesh::ElementBlock& faces : surface.faces)
+    cells.push_back({faces.shape, faces.nodes, faces.n_counted});
+  load_ = std::make_unique<PlacedLoad>(mesh, kind, name_, law_.law(), std::move(cells), std::move(points),
+                                       std::move(shares));
+}
+
+void SurfaceHeat::set_window(const LoadWindow& window) {
+  if (!load_) return law_.set_window(window);
+  load_->set(window);
+  if (law_.exchanges()) law_.set_values(load_->means());
 }
 
 SurfaceFlux SurfaceHeat::at_node(std::span<const double> temperature, Index node) const {
@@ -208,6 +230,10 @@ SurfaceFlux SurfaceHeat::at_node(std::span<const double> temperature, Index node
 
 std::pair<double, double> SurfaceHeat::flux_range() const {
   double least = 0, greatest = 0;
+  if (is_placed_flux()) {  // of which only the sign counts
+    for (const double heat : load_->heat()) least = std::min(least, heat), greatest = std::max(greatest, heat);
+    return {least, greatest};
+  }
   for (const Patch& patch : patches_)
     for (std::size_t point = 0; point < patch.weight.size(); ++point) {
       const double q = law_.at(0.0, law_.placed() ? patch.first_point + point : 0).q;
@@ -249,6 +275,15 @@ void SurfaceHeat::bind(const linear::BlockMatrix& matrix) {
 double SurfaceHeat::add_residual(std::span<const double> temperature, std::span<double> r,
                                  double& moved) const {
   double counted = 0;
+  if (is_placed_flux()) {
+    const std::span<const double> heat = load_->heat();
+    for (std::size_t i = 0; i < heat.size(); ++i) {
+      counted += heat[i];
+      moved += std::abs(heat[i]);
+      r[i] -= heat[i];
+    }
+    return counted;
+  }
   for (const Patch& patch : patches_)
     for (Index face = 0; face < patch.n_faces; ++face)
       for (int q = 0; q < patch.n_points; ++q) {
@@ -284,6 +319,11 @@ double SurfaceHeat::flow(std::span<const double> temperature, std::size_t i) con
 
 void SurfaceHeat::add_supply(std::span<const double> temperature, std::span<double> gain,
                              std::span<double> loss) const {
+  if (is_placed_flux()) {
+    const std::span<const double> heat = load_->heat();
+    for (std::size_t i = 0; i < heat.size(); ++i) (heat[i] > 0 ? gain : loss)[i] += std::abs(heat[i]);
+    return;
+  }
   for (std::size_t s = 0; s < supplied_nodes_.size(); ++s) {
     const auto i = static_cast<std::size_t>(supplied_nodes_[s]);
     const double heat = supply_weight_[s] * at_node(temperature, supplied_nodes_[s]).q;
@@ -300,6 +340,7 @@ bool SurfaceHeat::diagonal() const {
 }
 
 void SurfaceHeat::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const {
+  if (is_placed_flux()) return;
   for (const Patch& patch : patches_) {
     const linear::BlockMatrix::Slot* slot = patch.slots.data();
     for (Index face = 0; face < patch.n_faces; ++face, slot += patch.n_nodes * patch.n_nodes)

@@ -1,6 +1,8 @@
 /// Heat through a surface as a function of its temperature: flux, film or radiation.
 #pragma once
 
+#include <cmath>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,6 +10,7 @@
 #include <vector>
 
 #include "heat/load_mean.hpp"
+#include "heat/placed_load.hpp"
 #include "heat/thermal_conditions.hpp"
 #include "heat/thermal_state.hpp"
 #include "linear/block_matrix.hpp"
@@ -87,8 +90,11 @@ class SurfaceHeat {
               SurfaceLaw law, bool closed);
   const std::string& name() const { return name_; }
   bool placed() const { return law_.placed(); }
-  /// Throws as SurfaceLaw::set_window does.
-  void set_window(const LoadWindow& window) { law_.set_window(window); }
+  /// Collective where it is placed. Throws InputError, on every process, where a function of position has no
+  /// value that is allowed.
+  void set_window(const LoadWindow& window);
+  /// The longest time after which a load that moves still overlaps with itself; collective (PlacedLoad).
+  double lasting(double from, double to) const { return load_ ? load_->lasting(from, to) : HUGE_VAL; }
   std::optional<TemperatureRange> ambient() const { return law_.ambient(); }  ///< as of its law
   /// The least and the greatest flux into the body at the time set, at a temperature of zero [W/m²].
   std::pair<double, double> flux_range() const;
@@ -135,10 +141,12 @@ class SurfaceHeat {
     double weight;  ///< −∫ N_i N_j dA > 0 [m²]
     linear::BlockMatrix::Slot ij = 0, ji = 0, ii = 0, jj = 0;
   };
-  /// Numbers the points of the patches and tells the law where they are.
-  void place_points(const mesh::Mesh& mesh);
+  /// Numbers the points of the patches and hands them to the load.
+  void place_points(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface, bool closed);
+  bool is_placed_flux() const { return load_ && !law_.exchanges(); }
   std::string name_;
   SurfaceLaw law_;
+  std::unique_ptr<PlacedLoad> load_;  ///< where the law differs from point to point
   std::vector<Patch> patches_;
   /// Numbers in the points of the law, [local node]; empty where the law is the same everywhere.
   std::vector<std::size_t> point_of_node_;

@@ -90,6 +90,7 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
   simulation_.add(why_);
   if (a.criteria) simulation_.follow(*a.criteria);
   if (a.mechanics) simulation_.follow_melt(*a.mechanics);
+  if (a.heat) simulation_.follow_loads(*a.heat);
   if (!a.initial.burning.lit.empty()) simulation_.follow_burning(*a.heat);
   simulation_.stop_when(options.stop_asked);
   simulation_.diagnose_by([this](const coupling::State& last, const StepRejected& rejected, double dt) {
