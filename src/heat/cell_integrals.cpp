@@ -79,7 +79,7 @@ struct CellIntegrals::Part {
   int level = 0;
   int n_samples = 0;
   std::array<Sample, 8> samples{};
-  LoadValues integral{}, largest{};
+  LoadValues integral{};
   double measure = 0;
   bool breaks = false;  ///< the load is known to jump in it
 };
@@ -93,6 +93,7 @@ class CellIntegrals::Division {
     result_.of_points.resize(cells.points_.size());
     result_.of_nodes.resize(cells.mesh_.x.size());
     result_.of_cells.resize(n_cells);
+    largest_.resize(n_cells);
   }
 
   Result run() {
@@ -170,6 +171,8 @@ class CellIntegrals::Division {
       begin_shape(part);
       find_breaks(part);
       bool matters = part.breaks;
+      const LoadValues mean = of_whole(cell).first;
+      for (std::size_t k = 0; k < k_values; ++k) largest_[c][k] = 2 * mean[k];
       for (std::size_t k = 0; k < k_values; ++k)
         matters = matters || cells_.measure_[c] * spread[k] > k_whole * scale_[k];
       if (matters)
@@ -189,11 +192,18 @@ class CellIntegrals::Division {
     for (std::size_t a = 0; a < n; ++a) {
       const LoadValues& v = result_.of_points[at(cells_.point_of_node(nodes[a]))];
       add(cell, nodes[a], shares[a], v);
-      if (with_samples_ && cells_.counted(cell) && (v[0] != 0 || v[1] != 0))
+      if (with_samples_ && cells_.counted(cell) && matters(shares[a], v))
         result_.samples.push_back({cells_.mesh_.x[at(nodes[a])], {}, shares[a], v});
     }
     if (cells_.counted(cell))
       for (std::size_t k = 0; k < k_values; ++k) accepted_[k] += std::abs(result_.of_cells[at(cell)][k]);
+  }
+  /// Whether a point is part of the distribution: the tails of a normal one reach everywhere.
+  bool matters(double weight, const LoadValues& v) const {
+    constexpr double k_nothing = 1e-9;
+    bool some = false;
+    for (std::size_t k = 0; k < k_values; ++k) some = some || weight * std::abs(v[k]) > k_nothing * scale_[k];
+    return some;
   }
   void add(Index cell, Index node, double weight, const LoadValues& v) {
     for (std::size_t k = 0; k < k_values; ++k) {
@@ -211,7 +221,7 @@ class CellIntegrals::Division {
       const Sample& s = part.samples[at(q)];
       shares_at(block.shape, s.xi, std::span(w).first(n));
       for (std::size_t a = 0; a < n; ++a) add(part.cell, nodes[a], w[a] * s.weight, s.value);
-      if (with_samples_ && counts && (s.value[0] != 0 || s.value[1] != 0)) result_.samples.push_back(s);
+      if (with_samples_ && counts && matters(s.weight, s.value)) result_.samples.push_back(s);
     }
     if (!counts) return;
     for (std::size_t k = 0; k < k_values; ++k) {
@@ -361,15 +371,16 @@ class CellIntegrals::Division {
     evaluate_(x, false, values);
     std::size_t i = 0;
     for (Part& part : parts) {
-      part.integral = part.largest = {};
+      part.integral = {};
       part.measure = 0;
+      LoadValues& largest = largest_[at(part.cell)];
       for (int q = 0; q < part.n_samples; ++q, ++i) {
         Sample& s = part.samples[at(q)];
         s.value = values[i];
         part.measure += s.weight;
         for (std::size_t k = 0; k < k_values; ++k) {
           part.integral[k] += s.weight * s.value[k];
-          part.largest[k] = std::max(part.largest[k], std::abs(s.value[k]));
+          largest[k] = std::max(largest[k], std::abs(s.value[k]));
         }
       }
     }
@@ -418,7 +429,8 @@ class CellIntegrals::Division {
           const bool more = find_breaks(part) >= 0;
           if (part.breaks)
             for (std::size_t k = 0; k < k_values; ++k) {
-              of_part[k] = std::max(of_part[k], 0.25 * part.measure * std::max(part.largest[k], open[p].largest[k]));
+              // Its points may all lie on the side where there is nothing.
+              of_part[k] = std::max(of_part[k], 0.25 * part.measure * largest_[at(part.cell)][k]);
               close = close && of_part[k] <= k_part * scale_[k];
             }
           close = close && !more;
@@ -437,6 +449,7 @@ class CellIntegrals::Division {
   const Breaks& breaks_;
   bool with_samples_;
   Result result_;
+  std::vector<LoadValues> largest_;  ///< magnitudes seen in each cell
   LoadValues scale_{}, accepted_{}, left_{};
 };
 

@@ -28,6 +28,14 @@ double share_of_points(double by_points, double integral) {
   return std::clamp((k_unresolved - off) / (k_unresolved - k_resolved), 0.0, 1.0);
 }
 
+bool same(const LoadWindow& a, const LoadWindow& b) {
+  const auto same_part = [](const LoadWindow::Part& p, const LoadWindow::Part& q) {
+    return p.begin == q.begin && p.end == q.end && p.weight == q.weight;
+  };
+  return a.time == b.time && a.n_parts == b.n_parts && same_part(a.parts[0], b.parts[0]) &&
+         same_part(a.parts[1], b.parts[1]);
+}
+
 /// A distribution that does not change in time is computed once.
 bool splits(const LoadLaw& law) {
   if (law.kind != LoadLaw::Kind::power || law.steady()) return false;
@@ -128,7 +136,8 @@ CellIntegrals::Result PlacedLoad::integrate(const LoadLaw& law, std::span<const 
 }
 
 void PlacedLoad::set(const LoadWindow& window) {
-  if (!(is_set_ && (scale_ || law_.steady()))) {
+  if (window_ && same(*window_, window)) return;
+  if (!window_ || !(scale_ || law_.steady())) {
     constexpr int k_points = 2, k_most_parts = 64;
     int parts = 1;
     if (moves() && window.n_parts > 0) {
@@ -149,8 +158,8 @@ void PlacedLoad::set(const LoadWindow& window) {
     else
       set_exchange(integrals, at_points);
     if (scale_) steady_heat_ = heat_;
-    is_set_ = true;
   }
+  window_ = window;
   if (!scale_) return;
   const LoadValues mean = mean_load(window, *scale_);
   for (std::size_t i = 0; i < heat_.size(); ++i) heat_[i] = (mean[0] - mean[1]) * steady_heat_[i];

@@ -77,7 +77,8 @@ class PlacedLoad {
   std::vector<Share> shares_;
   std::vector<double> heat_, steady_heat_;
   std::vector<LoadValues> means_;
-  bool is_set_ = false, told_coarse_ = false, told_uncertain_ = false;
+  std::optional<LoadWindow> window_;  ///< that is set
+  bool told_coarse_ = false, told_uncertain_ = false;
   std::array<double, 3> low_{}, high_{};  ///< the box of the cells
   mutable std::vector<std::vector<double>> kept_;  ///< values of steady functions at the fixed points
 };
