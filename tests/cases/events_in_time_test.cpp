@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
+#include <sstream>
 
 #include "case_folder.hpp"
 #include "restarted_run.hpp"
@@ -112,13 +113,13 @@ TEST_F(EventsInTime, APulseShorterThanTheSmallestStepBringsItsHeat) {
 }
 
 TEST_F(EventsInTime, TwentyPulsesOfAFormulaBringTheirHeat) {
-  const std::string pulses = R"({ formula = "1e6*(t-10*rint(t/10-0.5)<1)", unit = "W/m2" })";
+  const std::string pulses = R"~({ formula = "1e6*(t-10*rint(t/10-0.5)<1)", unit = "W/m2" })~";
   for (const std::string& time : {k_fixed, k_adaptive})
     EXPECT_NEAR(heat_in(run("pulses", bar(time, pulses))), 40000, 1) << time;
 }
 
 TEST_F(EventsInTime, AConditionOfTimeInAFormulaOfPlaceIsMet) {
-  const std::string pulse = R"({ formula = "1e6*(t>53.3 && t<54.3)*(1+0*y)", unit = "W/m2" })";
+  const std::string pulse = R"~({ formula = "1e6*(t>53.3 && t<54.3)*(1+0*y)", unit = "W/m2" })~";
   for (const std::string& time : {k_fixed, k_adaptive})
     EXPECT_NEAR(heat_in(run("placed", bar(time, pulse))), 2000, 0.1) << time;
 }
@@ -338,7 +339,7 @@ TEST_F(EventsInTime, TwoProcessesTakeTheSameStepsAndGiveTheSameHeat) {
   const auto go = [&](int processes) {
     const std::string folder = (folder_.root() / ("on" + std::to_string(processes))).string();
     const testing::Outcome outcome = testing::shell(
-        "env OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+        "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
         "mpirun -n " +
         std::to_string(processes) + " --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR "/solidus' run '" +
         file + "' --no-progress -o '" + folder + "'");
