@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "input/place_spec.hpp"
 #include "input/point_table.hpp"
@@ -24,7 +25,7 @@ class EventList {
       : stage_(stage), from_(from), to_(to), spacing_(step / k_times_a_step) {}
 
   /// @param at_ends  its values at the ends of steps count, rather than its mean over them
-  void add(const Function& f, TimeOrigin clock, bool at_ends, double of_values = 0) {
+  void add(const Function& f, TimeOrigin clock, bool at_ends, std::optional<double> of_values = {}) {
     const double start = clock == TimeOrigin::stage && stage_ != nullptr ? stage_->start : 0;
     const double from = from_ - start, to = to_ - start;
     if (f.place != nullptr) return add(*f.place, from, to, start, at_ends);
@@ -40,7 +41,8 @@ class EventList {
     for (std::size_t i = 0; i < x.size(); ++i)
       if (x[i] > from && x[i] < to) see(y[i]);
     const double tolerance = std::max((at_ends ? k_of_motions : k_of_loads) * (high - low),
-                                      of_values * std::max(std::abs(low), std::abs(high)));
+                                      of_values.value_or(at_ends ? 0 : k_of_loads) *
+                                          std::max(std::abs(low), std::abs(high)));
     for (const double time : corners(f.table, from, to, tolerance))
       events.push_back({start + time, at_ends, false});
   }

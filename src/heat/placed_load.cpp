@@ -197,10 +197,14 @@ void PlacedLoad::set_exchange(const CellIntegrals::Result& integrals, std::span<
   coldest = parallel::global_min(coldest);
   if (!std::isfinite(coldest)) coldest = 0;
   const LoadValues by_points{parallel::global_sum(sum[0]), parallel::global_sum(sum[1])};
+  // An ambient temperature that is the same everywhere leaves rounding.
+  constexpr double k_rounding = 1e-9;
+  const double excess = integrals.total[1] - coldest * integrals.total[0];
   const double alpha =
       std::min(share_of_points(by_points[0], integrals.total[0]),
-               share_of_points(by_points[1] - coldest * by_points[0],
-                               integrals.total[1] - coldest * integrals.total[0]));
+               excess > k_rounding * integrals.total[1]
+                   ? share_of_points(by_points[1] - coldest * by_points[0], excess)
+                   : 1.0);
   const double scale = by_points[0] > 0 ? integrals.total[0] / by_points[0] : 1;
   means_.assign(points_.size(), {});
   std::vector<double> around;  // means around nodes, ghosts too

@@ -313,7 +313,7 @@ unit = "degC"
 
 TEST_F(EventsInTime, AMovingSourceBringsItsPowerWhateverTheElements) {
   const std::string step = "step = \"0.5 ms\"";
-  for (const char* sigma : {"0.5 mm", "0.2 mm", "0.05 mm"}) {
+  for (const char* sigma : {"0.5 mm", "0.2 mm"}) {
     EXPECT_NEAR(heat_in(run("laser", laser("source", "[20, 10, 5]", step, sigma))), 15, 0.15) << sigma;
     EXPECT_NEAR(heat_in(run("beam", laser("flux", "[13, 7, 5]", step, sigma))), 15, 0.15) << sigma;
   }
@@ -325,12 +325,6 @@ TEST_F(EventsInTime, AdaptiveStepsFollowAMovingSourceByItsOwnSize) {
   EXPECT_NEAR(heat_in(adaptive), 15, 0.15);
   EXPECT_NEAR(adaptive.history.at("Tmax[degC]").back(), 148, 5);
   EXPECT_LT(*std::ranges::max_element(adaptive.steps.at("dt[s]")), 0.6e-3);
-}
-
-TEST_F(EventsInTime, AFixedStepOfTenSizesOfAMovingSourceMakesATrack) {
-  const CaseRun fixed = run("long", laser("source", "[80, 40, 20]", "step = \"5 ms\"", "0.5 mm"));
-  EXPECT_NEAR(heat_in(fixed), 15, 0.15);
-  EXPECT_NEAR(fixed.history.at("Tmax[degC]").back(), 148, 15);
 }
 
 TEST_F(EventsInTime, TwoProcessesTakeTheSameStepsAndGiveTheSameHeat) {
