@@ -11,6 +11,7 @@
 #include "input/keys.hpp"
 #include "input/point_table.hpp"
 #include "mesh/element_search.hpp"
+#include "numbers/time_events.hpp"
 #include "results/field_reader.hpp"
 
 namespace solidus::model {
@@ -66,8 +67,7 @@ Evaluate formula(const PlaceSpec& spec, AnalysisKind kind) {
   };
 }
 
-Evaluate points(const PlaceSpec& spec, AnalysisKind kind) {
-  auto table = std::make_shared<PointTable>(spec.file, spec.column, spec.key_unit, spec.where);
+Evaluate points(const PlaceSpec& spec, AnalysisKind kind, std::shared_ptr<const PointTable> table) {
   std::vector<std::size_t> component;  // of (x, y, z, t)
   for (const std::string& name : table->coordinates()) {
     std::optional<std::size_t> found;
@@ -148,18 +148,38 @@ class CheckedLaw : public PlaceLaw {
       case PlaceSpec::Kind::formula:
         evaluate_ = formula(spec, kind);
         conversion_ = spec.unit;
+        times_ = spec.formula->uses(k_variable_t);
+        places_ = false;
+        for (std::size_t v = 0; v < k_variable_t; ++v) places_ = places_ || spec.formula->uses(v);
+        find_breaks();
         break;
-      case PlaceSpec::Kind::points:
-        evaluate_ = points(spec, kind);
+      case PlaceSpec::Kind::points: {
+        const auto table =
+            std::make_shared<PointTable>(spec.file, spec.column, spec.key_unit, spec.where);
+        evaluate_ = points(spec, kind, table);
+        times_ = table->coordinates().back() == "t";
+        places_ = table->coordinates().front() != "t";
         break;
+      }
       case PlaceSpec::Kind::field: {
         evaluate_ = [field = std::make_shared<Field>(spec, kind)](const Position& x, double) {
           return field->value(x);
         };
         steady_ = !spec.moves();
+        times_ = false;
         break;
       }
     }
+  }
+
+  bool uses_place() const override { return spec_.moves() || places_; }
+  bool uses_time() const override { return spec_.moves() || times_; }
+  bool only_moves() const override { return spec_.moves() && !times_; }
+  void add_breaks(std::size_t axis, double low, double high, double time,
+                  std::vector<double>& coordinates) const override {
+    const double moved = spec_.velocity[axis] * time;
+    for (const double at : breaks_[axis])
+      if (at + moved > low && at + moved < high) coordinates.push_back(at + moved);
   }
 
   void values(std::span<const Position> x, double time, std::span<double> values) const override {
@@ -179,12 +199,33 @@ class CheckedLaw : public PlaceLaw {
   }
 
  private:
+  /// Coordinates at which comparisons of the formula that have one coordinate and no time change.
+  void find_breaks() {
+    for (const auto& comparison : spec_.formula->comparisons()) {
+      int used = -1, n_used = comparison->uses(k_variable_t) ? 2 : 0;
+      for (std::size_t v = 0; v < k_variable_t; ++v)
+        if (comparison->uses(v)) used = static_cast<int>(v), ++n_used;
+      if (n_used != 1) continue;
+      for (const Coordinate& c : coordinates(kind_)) {
+        if (static_cast<int>(c.variable) != used) continue;
+        const auto value = [&](double x) {
+          std::array<double, 5> variables{};
+          variables[c.variable] = x;
+          return comparison->value(variables);
+        };
+        constexpr double k_near = 1, k_far = 30, k_apart = 0.01;  ///< [m]
+        for (const auto& [low, high] : {std::pair(-k_far, -k_near), {-k_near, k_near}, {k_near, k_far}})
+          for (const TimeEvent& at : breaks(value, low, high, k_apart)) breaks_[c.component].push_back(at.time);
+      }
+    }
+    for (std::vector<double>& along : breaks_) std::sort(along.begin(), along.end());
+  }
   void check(double value, const Position& x, double time) const {
     if (value >= spec_.lower && value <= spec_.upper && !(spec_.lower_open && value <= spec_.lower) &&
         std::isfinite(value))
       return;
-    const std::string at =
-        text(x, kind_) + (spec_.with_time ? fmt::format(", t = {:g} s", time) : std::string());
+    std::string at = uses_place() ? text(x, kind_) : std::string();
+    if (spec_.with_time) at += fmt::format("{}t = {:g} s", at.empty() ? "" : ", ", time);
     if (!std::isfinite(value))
       throw InputError(spec_.where, fmt::format("'{}' is not finite at {}", spec_.key, at),
                        "a value everywhere: no division by zero, no root or logarithm of a negative number");
@@ -200,6 +241,8 @@ class CheckedLaw : public PlaceLaw {
   AnalysisKind kind_;
   Evaluate evaluate_;
   units::Conversion conversion_;
+  bool times_ = true, places_ = true;                 ///< what it depends on, but for its motion
+  std::array<std::vector<double>, 3> breaks_;         ///< by component of the position, where it is not moved
   bool steady_ = false;  ///< values are kept: points of a file are searched for once
   mutable std::vector<Position> kept_at_;
   mutable std::vector<double> kept_;

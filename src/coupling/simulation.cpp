@@ -38,6 +38,7 @@ struct Simulation::Progress {
   std::optional<StepControl> control;  ///< of the stage
   std::optional<MeasuredStep> step;
   std::vector<double> outputs;  ///< times at which fields are written, rising
+  std::vector<double> landings;  ///< these, and the end of the stage
   StepRecord record;            ///< of the step last committed; its rejections are those since
   struct Pending {
     PlannedStep step;
@@ -118,7 +119,8 @@ void Simulation::enter_stage(Progress& p, const std::optional<RestartData>& from
   if (asked_at_end || options_.output_at_stage_ends || &stage == &options_.stages.back())
     p.outputs.push_back(stage.end);
   std::sort(p.outputs.begin(), p.outputs.end());
-  p.control.emplace(stage.step, p.committed.time, std::move(landings));
+  p.landings = landings;
+  p.control.emplace(stage.step, p.committed.time, std::move(landings), events(p));
   if (!anew && from->options == stage.step) p.control->resume(from->control);
   measure_steps(p, stage.step, anew ? Rates{} : from->rates);
   p.record.stage = stage.name;
@@ -128,6 +130,10 @@ void Simulation::enter_stage(Progress& p, const std::optional<RestartData>& from
   p.solid_fraction = p.solid_fraction_of(p.committed);
   scheme_->synchronise(p.committed);
   scheme_->forget();  // as after a checkpoint of this state
+}
+
+std::vector<TimeEvent> Simulation::events(const Progress& p) const {
+  return options_.events ? options_.events(p.stage) : std::vector<TimeEvent>{};
 }
 
 /// Gives the phases the conditions of the stage.
@@ -291,6 +297,10 @@ void Simulation::conditions_changed() {
   scheme_->conditions_changed();
   scheme_->synchronise(p.committed);
   scheme_->forget();
+  if (p.ended || p.control->finished(p.committed.time)) return;
+  ControlState control = p.control->state();
+  p.control.emplace(options_.stages[p.stage].step, p.committed.time, p.landings, events(p));
+  p.control->resume(std::move(control));
 }
 
 bool Simulation::pending() const {
@@ -313,10 +323,18 @@ std::size_t Simulation::stage() const {
   return progress_->stage;
 }
 
+PlannedStep Simulation::plan(const Progress& p) const {
+  const double time = p.committed.time;
+  const PlannedStep step = p.control->plan(time);
+  if (loads_ == nullptr || !options_.stages[p.stage].step.adaptive) return step;
+  const double longest = loads_->lasting_loads(time, step.time);
+  return longest < step.dt ? p.control->plan(time, longest) : step;
+}
+
 // The committed state is not touched before the step is known to be good: a step that is repeated starts from
 // the same bits.
 Simulation::Try Simulation::try_step(Progress& p) {
-  const PlannedStep step = p.control->plan(p.committed.time);
+  const PlannedStep step = plan(p);
   StepMeasure measure;
   StepRecord record;
   if (heat_ != nullptr) heat_->begin_burning(p.committed.burning, p.committed.time, step.time);
@@ -399,6 +417,7 @@ void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure&
   p.step->commit();
   check_limits(p, step, measure);
   p.control->accepted(step, measure);
+  if (p.control->jumps_at(step.time)) p.step->forget();
   p.solid_fraction = p.record.solid_fraction;
   p.carried = {};
   if (shot_map_ != nullptr) {

@@ -45,6 +45,9 @@ struct TimeOptions {
   std::vector<double> output_times;  ///< met exactly; a checkpoint is due at each of them
   bool output_at_stage_ends = true;
   int checkpoint_every = 0;  ///< steps between further checkpoints; zero: none
+  /// Returns the times in a stage (number in `stages`) at which its conditions bend or jump, where steps end
+  /// too; empty: none are known.
+  std::function<std::vector<TimeEvent>(std::size_t stage)> events;
 };
 
 enum class Outcome {
@@ -67,6 +70,9 @@ class Simulation {
   /// Gives this phase the heat of bodies that burn, and brings State::burning along; must outlive the
   /// simulation.
   void follow_burning(heat::ThermalPhase& heat) { heat_ = &heat; }
+  /// Keeps adaptive steps so short that loads of this phase that move overlap with themselves from step to step;
+  /// must outlive the simulation.
+  void follow_loads(const heat::ThermalPhase& heat) { loads_ = &heat; }
   /// Asked before each step, on every process; the run stops when one of them says so.
   void stop_when(std::function<bool()> asked) { stop_asked_ = std::move(asked); }
   /// Called when a stage of the run begins, also where a run goes on inside it: gives the phases its
@@ -138,11 +144,12 @@ class Simulation {
   bool periodic(const Progress& p) const;
   Outcome stopped(const Stop& why, Progress& p, Outcome outcome);
   Try try_step(Progress& p);
+  PlannedStep plan(const Progress& p) const;
   void commit(Progress& p, const PlannedStep& step, const StepMeasure& measure);
-  /// Gives the melt the viscosity that it has in this step.
   void check_limits(Progress& p, const PlannedStep& step, const StepMeasure& measure);
   static bool measures_error(const StepOptions& step);
   bool stop_asked() const;
+  std::vector<TimeEvent> events(const Progress& p) const;
   bool checkpoint_due(const StepRecord& record) const;
   /// Writes a checkpoint of the committed state, from which a run goes on with this step control.
   void save(Progress& p, const ControlState& control);
@@ -155,6 +162,7 @@ class Simulation {
   std::vector<Observer*> observers_;
   criteria::Criteria* criteria_ = nullptr;
   heat::ThermalPhase* heat_ = nullptr;
+  const heat::ThermalPhase* loads_ = nullptr;
   std::function<bool()> stop_asked_;
   StageBegins stage_begins_;
   Diagnose diagnose_;

@@ -11,6 +11,7 @@
 #include "coupling/passes.hpp"
 #include "coupling/phase_iterate.hpp"
 #include "coupling/stability_audit.hpp"
+#include "heat/stage_loads.hpp"
 #include "material/time_integration.hpp"
 #include "mechanics/nodal_pressure.hpp"
 #include "system/errors.hpp"
@@ -144,11 +145,11 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
       .time = middle, .dt = first_dt, .temperature = old.heat.temperature, .plateau_share = share};
   State first;
   heat::ThermalIteration& thermal = newton_->thermal();
-  thermal.begin(old.heat, middle, first_dt);
+  thermal.begin(old.heat, first_dt, heat::first_loads(time, dt));
   const std::vector<double> coherency = coherency_of(phases_, old.heat);
   const StepEffort of_first = stage(old.mechanics, old.contacts, coherency, to_middle, first, deformation);
 
-  extrapolated = extrapolated && thermal.may_extrapolate(old.heat, first.heat, time);
+  extrapolated = extrapolated && thermal.may_extrapolate(old.heat, first.heat, heat::last_loads(time, dt, true));
   const double carried = extrapolated ? material::k_sdirk_carried : 1.0;
   contact.add(1, carried);
   for (std::size_t b = 0; b < deformation.size(); ++b)
@@ -160,7 +161,7 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
   to_end.dt = extrapolated ? first_dt : dt - first_dt;
   to_end.from_extrapolation = extrapolated;
   to_end.iterate = &first.mechanics;
-  thermal.begin_stage(old.heat, first.heat, carried, time, to_end.dt);
+  thermal.begin_stage(old.heat, first.heat, carried, to_end.dt, heat::last_loads(time, dt, extrapolated));
   StepEffort effort;
   try {
     effort = stage(start, second_start(phases_, old.contacts, first.contacts, carried), coherency, to_end,

@@ -34,7 +34,8 @@ double smallest_of_failures(const StepOptions& options) {
 
 }  // namespace
 
-StepControl::StepControl(const StepOptions& options, double start, std::vector<double> landings)
+StepControl::StepControl(const StepOptions& options, double start, std::vector<double> landings,
+                         std::vector<TimeEvent> events)
     : options_(options), landings_(std::move(landings)) {
   if (!(options_.step > 0)) throw std::invalid_argument("the time step must be positive");
   options_.max_step = options_.largest();
@@ -46,25 +47,63 @@ StepControl::StepControl(const StepOptions& options, double start, std::vector<d
   if (!(limits.temperature > 0) || !(limits.displacement > 0) || !(limits.solid_fraction > 0))
     throw std::invalid_argument("the limits of a step must be positive");
   std::sort(landings_.begin(), landings_.end());
+  const std::vector<double> all = landings_;
   std::erase_if(landings_, [start](double t) { return t <= start; });
   if (landings_.empty()) throw std::invalid_argument("the end time must lie after the start");
   end_ = landings_.back();
   state_.size = options_.step;
+  add_events(std::move(events), all);
 }
 
-PlannedStep StepControl::plan(double time) const {
-  const auto next = std::upper_bound(landings_.begin(), landings_.end(), time + k_same_time * state_.size);
-  const double landing = next == landings_.end() ? end_ : *next;
+/// @param landings  those before the start too: a run that goes on has the events of one that has not stopped
+void StepControl::add_events(std::vector<TimeEvent> events, const std::vector<double>& landings) {
+  const double same = k_same_time * options_.step, shortest = smallest_of_errors(options_);
+  for (const TimeEvent& event : in_order(std::move(events), same, shortest)) {
+    const auto next = std::lower_bound(landings.begin(), landings.end(), event.time);
+    double nearest = HUGE_VAL;
+    const auto see = [&](double landing) {
+      if (std::abs(landing - event.time) < std::abs(nearest - event.time)) nearest = landing;
+    };
+    if (next != landings.end()) see(*next);
+    if (next != landings.begin()) see(*(next - 1));
+    if (std::abs(nearest - event.time) > (event.at_ends ? same : shortest))
+      events_.push_back(event);
+    else if (event.jump)
+      jumps_.push_back(nearest);
+  }
+}
+
+bool StepControl::jumps_at(double time) const {
+  const auto found = std::lower_bound(events_.begin(), events_.end(), time,
+                                      [](const TimeEvent& e, double t) { return e.time < t; });
+  if (found != events_.end() && found->time == time) return found->jump;
+  return std::find(jumps_.begin(), jumps_.end(), time) != jumps_.end();
+}
+
+PlannedStep StepControl::plan(double time, double at_most) const {
+  const double least = std::min(smallest_of_errors(options_), state_.size);
+  const bool held = options_.adaptive && std::max(at_most, least) < state_.size;
+  const double size = held ? std::max(at_most, least) : state_.size;
+  const std::string reason = held ? "load moves" : state_.reason;
+  const double beyond = time + k_same_time * state_.size;
+  const auto next = std::upper_bound(landings_.begin(), landings_.end(), beyond);
+  double landing = next == landings_.end() ? end_ : *next;
+  const auto event = std::upper_bound(events_.begin(), events_.end(), beyond,
+                                      [](double t, const TimeEvent& e) { return t < e.time; });
+  const bool at_event = event != events_.end() && event->time < landing;
+  if (at_event) landing = event->time;
+  const std::string what = at_event ? "event" : landing == end_ ? "end" : "output time";
   // A step is stretched by less than a cut shortens it, so that a step that was rejected is not planned
   // again.
   const double stretch = std::min(k_stretch, 0.5 * (1 / options_.cut - 1));
-  const double rest = landing - time, tolerance = stretch * state_.size;
-  if (rest <= state_.size + tolerance)
-    return {landing, rest,
-            rest < state_.size - tolerance ? (landing == end_ ? "end" : "output time") : state_.reason};
+  const double rest = landing - time, tolerance = stretch * size;
+  if (rest <= size + tolerance) return {landing, rest, rest < size - tolerance ? what : reason};
   // Two halves rather than a full step and a sliver, where the size is ours to choose.
-  if (options_.adaptive && rest < 1.5 * state_.size) return {time + rest / 2, rest / 2, "output time ahead"};
-  return {time + state_.size, state_.size, state_.reason};
+  if (options_.adaptive && rest < 1.5 * size) {
+    const double half = rest / 2;
+    return {time + half, half, at_event ? "event ahead" : "output time ahead"};
+  }
+  return {time + size, size, reason};
 }
 
 void StepControl::accepted(const PlannedStep& step, const StepMeasure& measure) {

@@ -1,13 +1,15 @@
-/// The size of the next step: lands on output times, cuts after a rejection, and, where it is adaptive, grows
+/// The size of the next step: lands on output times and on events of the conditions, cuts after a rejection, and, where it is adaptive, grows
 /// and shrinks with the step limits and the effort of the iteration.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "coupling/step_limits.hpp"
+#include "numbers/time_events.hpp"
 
 namespace solidus::coupling {
 
@@ -52,11 +54,18 @@ class StepControl {
   /// @param landings times that must be met exactly (output times, the end), any order; those before `start`
   /// are ignored Throws std::invalid_argument for sizes that are not positive or contradict each other, or if
   /// no landing lies ahead.
-  StepControl(const StepOptions& options, double start, std::vector<double> landings);
+  /// @param events  where conditions bend or jump, any order: steps end there too, but for events of averaged
+  /// loads that are closer than the smallest step to another one or to a landing
+  StepControl(const StepOptions& options, double start, std::vector<double> landings,
+              std::vector<TimeEvent> events = {});
 
   bool finished(double time) const { return time >= end_; }
   double end() const { return end_; }
-  PlannedStep plan(double time) const;
+  /// @param at_most  the longest step that the loads allow; a fixed step does not ask for it
+  PlannedStep plan(double time, double at_most = HUGE_VAL) const;
+  /// Whether a condition jumps at this end of a step, so that what has gone before tells nothing of what
+  /// follows.
+  bool jumps_at(double time) const;
   /// The step is committed.
   void accepted(const PlannedStep& step, const StepMeasure& measure);
   /// The step did not go through, `why`. False when the next one would fall below the smallest step allowed.
@@ -76,6 +85,7 @@ class StepControl {
 
  private:
   static constexpr int k_patience = 3;
+  void add_events(std::vector<TimeEvent> events, const std::vector<double>& landings);
   void resize(double size, const std::string& reason);
   bool is_jump(const PlannedStep& step, const Strictest& limit) const;
   /// Without limits: back to the step asked for, after a cut.
@@ -83,6 +93,8 @@ class StepControl {
 
   StepOptions options_;
   std::vector<double> landings_;  ///< rising
+  std::vector<TimeEvent> events_;  ///< rising, none at a landing
+  std::vector<double> jumps_;      ///< landings at which a condition jumps
   double end_ = 0;
   ControlState state_;
 };

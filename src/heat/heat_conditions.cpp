@@ -55,10 +55,8 @@ void HeatSystem::add_sources(const std::vector<Source>& sources) {
   for (const Source& source : sources) {
     const int body = body_named(source.body);
     Volume volume{.name = source.name, .power = source.power, .factor = source.factor};
-    if (volume.placed() && at_nodes_[static_cast<std::size_t>(body)] == 0)
-      add_gauss_shares(body, volume);
-    else
-      add_nodal_shares(body, volume);
+    add_nodal_shares(body, volume);
+    if (volume.placed()) place(body, volume);
     volume.heat.resize(static_cast<std::size_t>(mesh_.n_owned_nodes));
     sources_.push_back(std::move(volume));
   }
@@ -122,44 +120,55 @@ void HeatSystem::add_nodal_shares(int body, Volume& volume) const {
   }
   for (std::size_t i = 0; i < weight.size(); ++i) {
     if (weight[i] == 0) continue;
-    volume.shares.push_back(
-        {static_cast<Index>(i), static_cast<Index>(volume.placed() ? volume.x.size() : 0), weight[i]});
-    if (volume.placed()) volume.x.push_back(mesh_.x[i]);
+    volume.shares.push_back({static_cast<Index>(i), weight[i]});
   }
 }
 
-/// Σ_q N_i(x_q) R(x_q) w_q over the elements around the owned nodes.
-void HeatSystem::add_gauss_shares(int body, Volume& volume) const {
+/// The points at which the power is taken are the nodes, or Gauss points where the body stores its heat there.
+void HeatSystem::place(int body, Volume& volume) const {
+  std::vector<CellIntegrals::Cells> cells;
+  std::vector<PlacedLoad::Point> points;
+  std::vector<PlacedLoad::Share> shares;
+  const bool at_nodes = at_nodes_[static_cast<std::size_t>(body)] != 0;
+  if (at_nodes)
+    for (const Volume::Share& share : volume.shares) {
+      shares.push_back({share.node, static_cast<Index>(points.size()), share.weight});
+      points.push_back({mesh_.x[static_cast<std::size_t>(share.node)], share.node, -1, share.weight});
+    }
   for (const mesh::ElementBlock& block : mesh_.blocks) {
     if (block.body != body || !active_.body(body)) continue;
+    cells.push_back({block.shape, block.nodes, block.n_counted});
+    if (at_nodes) continue;
     const mesh::BlockGeometry g(mesh_, block, kind_,
                                 mesh::gauss_rule(block.shape, 2 * mesh::order(block.shape) + 1));
     for (Index e = 0; e < block.size(); ++e)
       for (int q = 0; q < g.n_points; ++q) {
         const double weight = g.weight_at(e / k_lanes, q)[e % k_lanes];
-        const auto point = static_cast<Index>(volume.x.size());
-        Position& x = volume.x.emplace_back();
+        const auto number = static_cast<Index>(points.size());
+        PlacedLoad::Point& point = points.emplace_back();
         for (int a = 0; a < g.n_nodes; ++a) {
           const Index node = block.element(e)[a];
           const double n = g.values[static_cast<std::size_t>(q * g.n_nodes + a)];
-          for (std::size_t i = 0; i < 3; ++i) x[i] += n * mesh_.x[static_cast<std::size_t>(node)][i];
-          if (node < mesh_.n_owned_nodes) volume.shares.push_back({node, point, n * weight});
+          for (std::size_t i = 0; i < 3; ++i) point.x[i] += n * mesh_.x[static_cast<std::size_t>(node)][i];
+          if (node < mesh_.n_owned_nodes) shares.push_back({node, number, n * weight});
         }
       }
   }
+  volume.load = std::make_unique<PlacedLoad>(mesh_, kind_, volume.name,
+                                             LoadLaw{LoadLaw::Kind::power, {volume.factor, volume.power}},
+                                             std::move(cells), std::move(points), std::move(shares));
 }
 
-void HeatSystem::Volume::set_time(double time) {
-  const std::size_t n_points = placed() ? x.size() : 1;
-  now.resize(n_points);
-  factor_now.resize(n_points);
-  power.values(x, time, now);
-  factor.values(x, time, factor_now);
-  std::fill(heat.begin(), heat.end(), 0.0);
-  for (const Share& share : shares) {
-    const auto point = static_cast<std::size_t>(share.point);
-    heat[static_cast<std::size_t>(share.node)] += now[point] * factor_now[point] * share.weight;
+void HeatSystem::Volume::set_window(const LoadWindow& window) {
+  if (load) {
+    load->set(window);
+    std::copy(load->heat().begin(), load->heat().end(), heat.begin());
+    return;
   }
+  const LoadValues mean = mean_load(window, {LoadLaw::Kind::power, {factor, power}});
+  std::fill(heat.begin(), heat.end(), 0.0);
+  for (const Share& share : shares)
+    heat[static_cast<std::size_t>(share.node)] += (mean[0] - mean[1]) * share.weight;
 }
 
 void HeatSystem::Volume::burn(const BurningState& state, double begin, double end) {

@@ -111,18 +111,25 @@ void HeatSystem::find_field_nodes(std::size_t body) {
     if (of_body[i] != 0) u.nodes.push_back(static_cast<Index>(i));
 }
 
-void HeatSystem::set_time(double time) {
+void HeatSystem::set_window(const LoadWindow& window) {
+  for (SurfaceHeat& surface : surfaces_) surface.set_window(window);
+  for (Volume& source : sources_)
+    if (!source.burning) source.set_window(window);
+  const auto prescribe = [&] {
+    for (Prescribed& p : prescribed_) p.value.values(p.x, window.time, p.now);
+  };
   if (placed_)
-    run_collectively([&] { evaluate(time); });
+    run_collectively(prescribe);
   else
-    evaluate(time);
+    prescribe();
 }
 
-void HeatSystem::evaluate(double time) {
-  for (SurfaceHeat& surface : surfaces_) surface.set_time(time);
-  for (Volume& source : sources_)
-    if (!source.burning) source.set_time(time);
-  for (Prescribed& p : prescribed_) p.value.values(p.x, time, p.now);
+double HeatSystem::lasting(double from, double to) const {
+  double longest = HUGE_VAL;
+  for (const SurfaceHeat& surface : surfaces_) longest = std::min(longest, surface.lasting(from, to));
+  for (const Volume& source : sources_)
+    if (source.load) longest = std::min(longest, source.load->lasting(from, to));
+  return longest;
 }
 
 void HeatSystem::set_burning(const BurningState& state, double begin, double end) {

@@ -43,9 +43,14 @@ class HeatSystem {
   /// returns whether it did. Throws InputError as the constructor does. Collective.
   bool set_conditions(const ThermalConditions& conditions);
   const linear::ActiveSet& active() const { return active_; }
+  /// Loads are their means over the window from here on, temperatures that are prescribed those at its time.
   /// Collective where a condition varies with position. Throws InputError, on every process, where it has no
   /// value that is allowed.
-  void set_time(double time);
+  void set_window(const LoadWindow& window);
+  void set_time(double time) { set_window(LoadWindow::at(time)); }
+  /// The longest time from `from` on, up to `to`, after which every load that moves still overlaps with itself;
+  /// infinite where none moves farther (PlacedLoad::lasting). Collective.
+  double lasting(double from, double to) const;
   /// The power of the bodies that burn, constant from here on until the next call.
   /// @param state       at the start of the step, of all local nodes; empty: nothing burns
   /// @param begin, end  of the step [s]
@@ -157,20 +162,17 @@ class HeatSystem {
   struct Volume {
     std::string name;
     PlaceFunction power, factor;
-    /// Volume of a point of integration that counts for a node [m³]. The points are the nodes themselves, or
-    /// Gauss points where the body stores its heat there and its source varies with position.
+    /// Volume that counts for a node [m³].
     struct Share {
       Index node;
-      Index point;
       double weight;
     };
-    std::vector<Share> shares = {};
-    std::vector<Position> x = {};   ///< of the points; empty where power and factor are the same everywhere
+    std::vector<Share> shares = {};  ///< where power and factor are the same everywhere
     std::vector<double> heat = {};  ///< into the owned nodes at the time set [W]
-    std::vector<double> now = {}, factor_now = {};  ///< work, [point]
+    std::unique_ptr<PlacedLoad> load = {};  ///< where power or factor differs from place to place
     std::optional<Exothermic> burning = {};         ///< its power comes from set_burning()
     bool placed() const { return !power.uniform() || !factor.uniform(); }
-    void set_time(double time);
+    void set_window(const LoadWindow& window);
     void burn(const BurningState& state, double begin, double end);
   };
   /// Kirchhoff's potential at the nodes of one body whose conductivity varies.
@@ -183,8 +185,7 @@ class HeatSystem {
   void add_burning(const std::vector<Exothermic>& exothermics);
   int body_named(const std::string& name) const;
   void add_nodal_shares(int body, Volume& volume) const;
-  void add_gauss_shares(int body, Volume& volume) const;
-  void evaluate(double time);
+  void place(int body, Volume& volume) const;
   linear::NodeGraph graph() const;
   void bind();
   void add_conduction(const std::vector<material::Material>& materials);

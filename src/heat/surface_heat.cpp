@@ -24,48 +24,75 @@ double integral(const mesh::FaceGeometry& g, Index face, std::initializer_list<i
 
 }  // namespace
 
-SurfaceLaw::SurfaceLaw(const Flux& flux) : kind_(Kind::flux), driver_(flux.value), factor_(flux.factor) {}
-SurfaceLaw::SurfaceLaw(const Film& film)
-    : kind_(Kind::film), coefficient_(film.coefficient), driver_(film.ambient), factor_(film.factor) {}
-SurfaceLaw::SurfaceLaw(const Radiation& radiation)
-    : kind_(Kind::radiation),
-      coefficient_(radiation.emissivity),
-      driver_(radiation.ambient),
-      factor_(radiation.factor) {}
+SurfaceLaw::SurfaceLaw(const Flux& flux) : law_{LoadLaw::Kind::power, {flux.factor, flux.value}} {}
 
-bool SurfaceLaw::placed() const {
-  return !driver_.uniform() || !factor_.uniform() || !coefficient_.table.uniform();
+SurfaceLaw::SurfaceLaw(const Film& film) : law_{LoadLaw::Kind::film, {film.factor, film.ambient}} {
+  if (film.coefficient.of_temperature)
+    of_temperature_ = film.coefficient.table.table();
+  else
+    law_.functions.insert(law_.functions.begin() + 1, film.coefficient.table);
 }
 
-void SurfaceLaw::Now::set(const PlaceFunction& function, std::span<const Position> points, double time) {
-  if (function.uniform()) {
-    uniform_ = function.value(time);
+SurfaceLaw::SurfaceLaw(const Radiation& radiation)
+    : law_{LoadLaw::Kind::radiation, {radiation.factor, radiation.ambient}} {
+  if (radiation.emissivity.of_temperature)
+    of_temperature_ = radiation.emissivity.table.table();
+  else
+    law_.functions.insert(law_.functions.begin() + 1, radiation.emissivity.table);
+}
+
+SurfaceLaw::Now SurfaceLaw::now(const LoadValues& mean, double otherwise) const {
+  if (law_.kind == LoadLaw::Kind::power) return {1, mean[0] - mean[1]};
+  return {mean[0], law_.ambient(mean, otherwise)};
+}
+
+void SurfaceLaw::set_window(const LoadWindow& window) {
+  const PlaceFunction& driver = law_.functions.back();
+  if (!placed()) {
+    const double at_end = driver.value(window.time);
+    Now& everywhere = now_.emplace_back(now(mean_load(window, law_), at_end));
+    // Without rounding where it is the same all the time.
+    if (exchanges() && (window.n_parts == 0 || driver.steady())) everywhere.driver = at_end;
+    now_.erase(now_.begin(), now_.end() - 1);
     return;
   }
-  values_.resize(points.size());
-  function.values(points, time, values_);
+  constexpr int k_points = 2;
+  std::vector<LoadValues> means(points_.size());
+  std::vector<std::vector<double>> values(law_.functions.size(), std::vector<double>(points_.size()));
+  std::array<double, 3> of_functions{};
+  for (const TimePoint& time : time_points(window, law_.pointers(), k_points)) {
+    for (std::size_t f = 0; f < values.size(); ++f) law_.functions[f].values(points_, time.time, values[f]);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      for (std::size_t f = 0; f < values.size(); ++f) of_functions[f] = values[f][i];
+      const LoadValues v = law_.values(std::span(of_functions).first(values.size()));
+      for (std::size_t k = 0; k < v.size(); ++k) means[i][k] += time.weight * v[k];
+    }
+  }
+  set_values(means);
 }
 
-void SurfaceLaw::set_time(double time) {
-  driver_now_.set(driver_, points_, time);
-  factor_now_.set(factor_, points_, time);
-  if (!coefficient_.of_temperature) coefficient_now_.set(coefficient_.table, points_, time);
+void SurfaceLaw::set_values(std::span<const LoadValues> means) {
+  // Where nothing is exchanged the ambient temperature counts for nothing but the range of temperatures.
+  double otherwise = 0;
+  for (const LoadValues& mean : means) otherwise = std::max(otherwise, law_.ambient(mean, 0));
+  now_.resize(means.size());
+  for (std::size_t i = 0; i < means.size(); ++i) now_[i] = now(means[i], otherwise);
 }
 
 SurfaceFlux SurfaceLaw::at(double temperature, std::size_t point) const {
-  const double factor = factor_now_.at(point), driver = driver_now_.at(point);
-  if (kind_ == Kind::flux) return {factor * driver, 0.0};
-  const bool varies = coefficient_.of_temperature;
-  const double c = factor * (varies ? coefficient_.table.value(temperature) : coefficient_now_.at(point));
-  const double c_slope = varies ? factor * coefficient_.table.derivative(temperature) : 0.0;
+  const Now& n = now_[placed() ? point : 0];
+  if (!exchanges()) return {n.driver, 0.0};
+  const bool varies = of_temperature_.has_value();
+  const double c = varies ? n.coefficient * of_temperature_->value(temperature) : n.coefficient;
+  const double c_slope = varies ? n.coefficient * of_temperature_->derivative(temperature) : 0.0;
   double drive = 0, drive_slope = 0;
-  if (kind_ == Kind::film) {
-    drive = driver - temperature;
+  if (law_.kind == LoadLaw::Kind::film) {
+    drive = n.driver - temperature;
     drive_slope = -1.0;
   } else {
     // Θ|Θ|³ instead of Θ⁴: the same above absolute zero, and rising everywhere an iterate may stray.
     const double cube = k_stefan_boltzmann * std::abs(temperature * temperature * temperature);
-    const double ambient = driver * driver;
+    const double ambient = n.driver * n.driver;
     drive = k_stefan_boltzmann * ambient * ambient - cube * temperature;
     drive_slope = -4.0 * cube;
   }
@@ -74,16 +101,12 @@ SurfaceFlux SurfaceLaw::at(double temperature, std::size_t point) const {
 }
 
 std::optional<TemperatureRange> SurfaceLaw::ambient() const {
-  if (kind_ == Kind::flux) return std::nullopt;
+  if (!exchanges()) return std::nullopt;
   TemperatureRange range;
-  const auto include = [&range](double temperature) {
-    range.lowest = std::min(range.lowest, temperature);
-    range.highest = std::max(range.highest, temperature);
-  };
-  if (driver_.uniform())
-    include(driver_now_.at(0));
-  else
-    for (std::size_t point = 0; point < points_.size(); ++point) include(driver_now_.at(point));
+  for (const Now& n : now_) {
+    range.lowest = std::min(range.lowest, n.driver);
+    range.highest = std::max(range.highest, n.driver);
+  }
   return range;
 }
 
@@ -144,22 +167,34 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
   }
   nodes.n_faces = nodes.n_counted = static_cast<Index>(nodes.nodes.size());
   patches_.push_back(std::move(nodes));
-  if (law_.placed()) place_points(mesh);
+  if (law_.placed()) place_points(mesh, kind, surface, closed);
 }
 
-void SurfaceHeat::place_points(const mesh::Mesh& mesh) {
-  std::vector<Position> points;
+void SurfaceHeat::place_points(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface,
+                               bool closed) {
+  std::vector<PlacedLoad::Point> points;
+  std::vector<PlacedLoad::Share> shares;
+  Index first_cell = 0;
   for (Patch& patch : patches_) {
     patch.first_point = points.size();
     for (Index face = 0; face < patch.n_faces; ++face)
       for (int q = 0; q < patch.n_points; ++q) {
-        Position& x = points.emplace_back();
+        const auto number = static_cast<Index>(points.size());
+        const double weight = patch.weight[patch.number(face, q)];
+        PlacedLoad::Point& point = points.emplace_back();
+        if (closed)
+          point.node = patch.nodes[static_cast<std::size_t>(face)];
+        else
+          point.cell = first_cell + face;
+        if (face < patch.n_counted) point.weight = weight;
         for (int a = 0; a < patch.n_nodes; ++a) {
           const Index node = patch.nodes[static_cast<std::size_t>(face * patch.n_nodes + a)];
           const double n = patch.values[static_cast<std::size_t>(q * patch.n_nodes + a)];
-          for (std::size_t i = 0; i < 3; ++i) x[i] += n * mesh.x[static_cast<std::size_t>(node)][i];
+          for (std::size_t i = 0; i < 3; ++i) point.x[i] += n * mesh.x[static_cast<std::size_t>(node)][i];
+          if (node < mesh.n_owned_nodes && !law_.exchanges()) shares.push_back({node, number, n * weight});
         }
       }
+    if (!closed) first_cell += patch.n_faces;
   }
   // The nodes at which the law is taken beside the points of integration.
   point_of_node_.assign(mesh.x.size(), 0);
@@ -167,7 +202,7 @@ void SurfaceHeat::place_points(const mesh::Mesh& mesh) {
     std::size_t& point = point_of_node_[static_cast<std::size_t>(node)];
     if (point != 0) return;
     point = points.size();
-    points.push_back(mesh.x[static_cast<std::size_t>(node)]);
+    points.push_back({mesh.x[static_cast<std::size_t>(node)], node, -1, 0});
   };
   for (const Index node : supplied_nodes_) place(node);
   for (const Pair& p : pairs_) {
@@ -175,7 +210,17 @@ void SurfaceHeat::place_points(const mesh::Mesh& mesh) {
     place(p.j);
   }
   for (const LimitedFlow& flow : flows_) place(flow.from);
-  law_.set_points(std::move(points));
+  std::vector<CellIntegrals::Cells> cells;
+  for (const mesh::ElementBlock& faces : surface.faces)
+    cells.push_back({faces.shape, faces.nodes, faces.n_counted});
+  load_ = std::make_unique<PlacedLoad>(mesh, kind, name_, law_.law(), std::move(cells), std::move(points),
+                                       std::move(shares));
+}
+
+void SurfaceHeat::set_window(const LoadWindow& window) {
+  if (!load_) return law_.set_window(window);
+  load_->set(window);
+  if (law_.exchanges()) law_.set_values(load_->means());
 }
 
 SurfaceFlux SurfaceHeat::at_node(std::span<const double> temperature, Index node) const {
@@ -185,6 +230,10 @@ SurfaceFlux SurfaceHeat::at_node(std::span<const double> temperature, Index node
 
 std::pair<double, double> SurfaceHeat::flux_range() const {
   double least = 0, greatest = 0;
+  if (is_placed_flux()) {  // of which only the sign counts
+    for (const double heat : load_->heat()) least = std::min(least, heat), greatest = std::max(greatest, heat);
+    return {least, greatest};
+  }
   for (const Patch& patch : patches_)
     for (std::size_t point = 0; point < patch.weight.size(); ++point) {
       const double q = law_.at(0.0, law_.placed() ? patch.first_point + point : 0).q;
@@ -226,6 +275,15 @@ void SurfaceHeat::bind(const linear::BlockMatrix& matrix) {
 double SurfaceHeat::add_residual(std::span<const double> temperature, std::span<double> r,
                                  double& moved) const {
   double counted = 0;
+  if (is_placed_flux()) {
+    const std::span<const double> heat = load_->heat();
+    for (std::size_t i = 0; i < heat.size(); ++i) {
+      counted += heat[i];
+      moved += std::abs(heat[i]);
+      r[i] -= heat[i];
+    }
+    return counted;
+  }
   for (const Patch& patch : patches_)
     for (Index face = 0; face < patch.n_faces; ++face)
       for (int q = 0; q < patch.n_points; ++q) {
@@ -261,6 +319,11 @@ double SurfaceHeat::flow(std::span<const double> temperature, std::size_t i) con
 
 void SurfaceHeat::add_supply(std::span<const double> temperature, std::span<double> gain,
                              std::span<double> loss) const {
+  if (is_placed_flux()) {
+    const std::span<const double> heat = load_->heat();
+    for (std::size_t i = 0; i < heat.size(); ++i) (heat[i] > 0 ? gain : loss)[i] += std::abs(heat[i]);
+    return;
+  }
   for (std::size_t s = 0; s < supplied_nodes_.size(); ++s) {
     const auto i = static_cast<std::size_t>(supplied_nodes_[s]);
     const double heat = supply_weight_[s] * at_node(temperature, supplied_nodes_[s]).q;
@@ -277,6 +340,7 @@ bool SurfaceHeat::diagonal() const {
 }
 
 void SurfaceHeat::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const {
+  if (is_placed_flux()) return;
   for (const Patch& patch : patches_) {
     const linear::BlockMatrix::Slot* slot = patch.slots.data();
     for (Index face = 0; face < patch.n_faces; ++face, slot += patch.n_nodes * patch.n_nodes)

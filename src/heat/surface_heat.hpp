@@ -1,12 +1,16 @@
 /// Heat through a surface as a function of its temperature: flux, film or radiation.
 #pragma once
 
+#include <cmath>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "heat/load_mean.hpp"
+#include "heat/placed_load.hpp"
 #include "heat/thermal_conditions.hpp"
 #include "heat/thermal_state.hpp"
 #include "linear/block_matrix.hpp"
@@ -21,45 +25,47 @@ struct SurfaceFlux {
   double slope = 0;  ///< dq/dΘ [W/(m² K)]
 };
 
-/// The law of one surface at one time, at points of the surface.
+/// The law of one surface as a mean over a part of a step, or at one time, at points of the surface.
+///
+/// With Θ the temperature of the surface at the end of that part, the mean of h(t) (Θ_a(t) − Θ) is
+/// ⟨h⟩ (⟨h Θ_a⟩/⟨h⟩ − Θ): a film with the mean coefficient and a mean ambient temperature, weighted by it;
+/// radiation likewise with ⟨ε Θ_a⁴⟩.
 class SurfaceLaw {
  public:
   explicit SurfaceLaw(const Flux& flux);
   explicit SurfaceLaw(const Film& film);
   explicit SurfaceLaw(const Radiation& radiation);
   /// Whether it differs from point to point.
-  bool placed() const;
+  bool placed() const { return !law_.uniform(); }
   /// The points that at() will be asked for; needed where it is placed.
   void set_points(std::vector<Position> points) { points_ = std::move(points); }
+  std::span<const Position> points() const { return points_; }
   /// Throws InputError where a function of position has no value that is allowed. Not collective.
-  void set_time(double time);
+  void set_time(double time) { set_window(LoadWindow::at(time)); }
+  void set_window(const LoadWindow& window);
+  /// Gives the means of a law that is placed, one per point, in place of set_window().
+  void set_values(std::span<const LoadValues> means);
+  const LoadLaw& law() const { return law_; }
   /// Returns the flux and its slope at a temperature. If the exact derivative would make heat run away (a
   /// film coefficient that falls steeply with temperature), the slope is that of the frozen coefficient.
   /// @param point  number in set_points(); without meaning where the law is the same everywhere
   SurfaceFlux at(double temperature, std::size_t point = 0) const;
   /// Whether heat is exchanged with surroundings, by a film or by radiation.
-  bool exchanges() const { return kind_ != Kind::flux; }
+  bool exchanges() const { return law_.kind != LoadLaw::Kind::power; }
   /// The least and the greatest Θ_a of a film or of radiation at the time set [K]; none of a flux.
   std::optional<TemperatureRange> ambient() const;
 
  private:
-  /// A function at the time set: one value, or one a point.
-  class Now {
-   public:
-    void set(const PlaceFunction& function, std::span<const Position> points, double time);
-    double at(std::size_t point) const { return values_.empty() ? uniform_ : values_[point]; }
-
-   private:
-    double uniform_ = 0;
-    std::vector<double> values_;
+  /// The means set: of the flux, or of the coefficient (of its factor, where it is one of temperature) and Θ_a.
+  struct Now {
+    double coefficient = 1, driver = 0;
   };
-  enum class Kind { flux, film, radiation };
-  Kind kind_;
-  Coefficient coefficient_;
-  PlaceFunction driver_;  ///< flux or ambient
-  PlaceFunction factor_;
+  Now now(const LoadValues& mean, double otherwise) const;
+
+  LoadLaw law_;
+  std::optional<Table> of_temperature_;  ///< the coefficient, where it is a table of the temperature
   std::vector<Position> points_;
-  Now driver_now_, coefficient_now_, factor_now_;
+  std::vector<Now> now_;  ///< one, or one a point
 };
 
 /// A flow between two nodes that a limit may hold back (conduction_limiter.hpp).
@@ -84,8 +90,11 @@ class SurfaceHeat {
               SurfaceLaw law, bool closed);
   const std::string& name() const { return name_; }
   bool placed() const { return law_.placed(); }
-  /// Throws as SurfaceLaw::set_time does.
-  void set_time(double time) { law_.set_time(time); }
+  /// Collective where it is placed. Throws InputError, on every process, where a function of position has no
+  /// value that is allowed.
+  void set_window(const LoadWindow& window);
+  /// The longest time after which a load that moves still overlaps with itself; collective (PlacedLoad).
+  double lasting(double from, double to) const { return load_ ? load_->lasting(from, to) : HUGE_VAL; }
   std::optional<TemperatureRange> ambient() const { return law_.ambient(); }  ///< as of its law
   /// The least and the greatest flux into the body at the time set, at a temperature of zero [W/m²].
   std::pair<double, double> flux_range() const;
@@ -132,10 +141,12 @@ class SurfaceHeat {
     double weight;  ///< −∫ N_i N_j dA > 0 [m²]
     linear::BlockMatrix::Slot ij = 0, ji = 0, ii = 0, jj = 0;
   };
-  /// Numbers the points of the patches and tells the law where they are.
-  void place_points(const mesh::Mesh& mesh);
+  /// Numbers the points of the patches and hands them to the load.
+  void place_points(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface, bool closed);
+  bool is_placed_flux() const { return load_ && !law_.exchanges(); }
   std::string name_;
   SurfaceLaw law_;
+  std::unique_ptr<PlacedLoad> load_;  ///< where the law differs from point to point
   std::vector<Patch> patches_;
   /// Numbers in the points of the law, [local node]; empty where the law is the same everywhere.
   std::vector<std::size_t> point_of_node_;

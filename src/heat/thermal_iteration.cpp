@@ -45,13 +45,13 @@ double ThermalIteration::tolerance() const {
   return given > 0 ? given : nodal() ? k_nodal_tolerance : k_point_tolerance;
 }
 
-void ThermalIteration::begin(const ThermalState& old, double time, double dt) {
+void ThermalIteration::begin(const ThermalState& old, double dt, const LoadWindow& loads) {
   guard_.reset();
-  begin_stage(old, old, 0.0, time, dt);
+  begin_stage(old, old, 0.0, dt, loads);
 }
 
 void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& stage, double factor,
-                                   double time, double dt) {
+                                   double dt, const LoadWindow& loads) {
   old_ = &old;
   dt_ = dt;
   phase_.system_->exchange(true);
@@ -60,7 +60,7 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
     phase_.consistent_->begin_stage({dt}, old.temperature);
     if (factor != 0) phase_.consistent_->begin_stage({dt, factor}, stage.temperature);
   }
-  now_ = phase_.start(stage, time);
+  now_ = phase_.start(stage, loads);
   range_ = phase_.limit_conduction(stage, old).range;
   at_start_ = range_of(old.temperature, stage.temperature);
   if (nodal()) {
@@ -85,10 +85,11 @@ void ThermalIteration::restart(const ThermalState& state) {
   if (nodal()) newton_->begin(stored_from_, dt_, now_.enthalpy);
 }
 
-bool ThermalIteration::may_extrapolate(const ThermalState& old, const ThermalState& stage, double time) {
+bool ThermalIteration::may_extrapolate(const ThermalState& old, const ThermalState& stage,
+                                       const LoadWindow& loads) {
   if (!nodal()) return true;
   TemperatureRange around = phase_.system_->surroundings();  // at the end of the first stage
-  phase_.system_->set_time(time);
+  phase_.system_->set_window(loads);
   const TemperatureRange at_end = phase_.system_->surroundings();
   around = {std::min({around.lowest, at_end.lowest, at_start_.lowest}),
             std::max({around.highest, at_end.highest, at_start_.highest})};

@@ -26,15 +26,20 @@ class ThermalIteration {
   ~ThermalIteration();
 
   /// To `time` = t_n + dt from `old` at t_n, which is H* and must live until conclude().
-  void begin(const ThermalState& old, double time, double dt);
+  void begin(const ThermalState& old, double time, double dt) {
+    begin(old, dt, LoadWindow::over(time - dt, time));
+  }
+  /// The same to loads.time, with these loads.
+  void begin(const ThermalState& old, double dt, const LoadWindow& loads);
   /// The second stage of a two-stage method, from the first one: H* = H_n + factor (H_stage − H_n). Both
   /// states must live until conclude().
-  void begin_stage(const ThermalState& old, const ThermalState& stage, double factor, double time, double dt);
+  void begin_stage(const ThermalState& old, const ThermalState& stage, double factor, double dt,
+                   const LoadWindow& loads);
   /// Whether a second stage is worth a try from the extrapolation of the heats between `old` at t_n and
   /// `stage`, the end of the first stage (extrapolation_guard.hpp). Always with the open rule, whose
   /// temperatures have no bounds. Both states must live until overshoots(). Collective.
-  /// @param time  of the end of the step [s]
-  bool may_extrapolate(const ThermalState& old, const ThermalState& stage, double time);
+  /// @param loads  of the second stage
+  bool may_extrapolate(const ThermalState& old, const ThermalState& stage, const LoadWindow& loads);
   /// Whether the second stage, which started from there and ended in `next`, went too far: by more than
   /// deformation alone heats and cools. Collective.
   bool overshoots(const ThermalState& next) const;

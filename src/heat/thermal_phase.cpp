@@ -125,6 +125,10 @@ double ThermalPhase::seconds_solver() const {
   return solver_->seconds();
 }
 
+double ThermalPhase::lasting_loads(double from, double to) const {
+  return system_->lasting(from, to);
+}
+
 TemperatureRange ThermalPhase::ambient_range(double time, bool with_contributions) const {
   system_->set_time(time);
   return system_->ambient_range(with_contributions);

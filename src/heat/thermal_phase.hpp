@@ -34,6 +34,7 @@
 #include "linear/contribution.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/load_window.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::heat {
@@ -108,6 +109,10 @@ struct ThermalPass {
   /// of a pass follow from its start, and change from pass to pass as long as an iteration between the phases
   /// goes round; a pass of backward Euler in the same step comes before.
   bool keeps_limits = false;
+  /// Of the loads of one stage; absent: the step, or its parts for two stages.
+  std::optional<LoadWindow> loads = {};
+
+  LoadWindow window() const { return loads.value_or(LoadWindow::over(time - dt, time)); }
 };
 
 class ThermalPhase {
@@ -144,6 +149,10 @@ class ThermalPhase {
   ThermalState initial_state_of(const std::function<double(Index node, int body)>& enthalpy) const;
   /// From nodal temperatures [K], [local node], ghosts up to date.
   ThermalState initial_state_at_nodes(std::span<const double> temperature) const;
+
+  /// The longest time from `from` on, up to `to`, after which every load that moves overlaps with three fifths of
+  /// itself (placed_load.hpp); infinite where none moves that far. Collective.
+  double lasting_loads(double from, double to) const;
 
   /// Gives bodies that burn the power of the step that begins (heat/exothermic.hpp), constant in all its
   /// passes.
@@ -254,7 +263,7 @@ class ThermalPhase {
   void book(std::span<const double> residual, double dt, std::span<double> heat) const;
   /// The start of a step: prescribed temperatures hold, and heats are those of their temperatures.
   /// @param all  false: of the prescribed ones alone
-  ThermalState start(const ThermalState& old, double time, bool all = true);
+  ThermalState start(const ThermalState& old, const LoadWindow& loads, bool all = true);
   /// Whether the enthalpy of the nodes is the unknown: with the closed rule, and with the open one where a
   /// material has an isothermal change.
   bool nodal() const { return truncated_newton_ != nullptr; }

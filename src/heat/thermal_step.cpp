@@ -13,6 +13,7 @@
 #include "heat/nodal_enthalpy.hpp"
 #include "heat/point_storage.hpp"
 #include "heat/printed_heat.hpp"
+#include "heat/stage_loads.hpp"
 #include "heat/temperature_system.hpp"
 #include "heat/thermal_phase.hpp"
 #include "heat/truncated_newton.hpp"
@@ -84,7 +85,13 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   const bool flows = nodal() && !pass.adiabatic;
   ThermalState middle;
   ThermalReport report = solve_stage(
-      old, old, first, {pass.time - pass.dt + first.dt, pass.dt, pass.iterate, pass.newton_steps}, middle);
+      old, old, first,
+      {.time = pass.time - pass.dt + first.dt,
+       .dt = pass.dt,
+       .iterate = pass.iterate,
+       .newton_steps = pass.newton_steps,
+       .loads = first_loads(pass.time, pass.dt)},
+      middle);
   StageFlows stage_flows;
   if (flows) stage_flows.first = flow(old, middle, first);
   std::optional<ExtrapolationGuard> guard;
@@ -92,13 +99,17 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   bool second_order = true;
   if (flows && options_.integration == HeatIntegration::closed) {
     around = system_->surroundings();
-    system_->set_time(pass.time);
+    system_->set_window(last_loads(pass.time, pass.dt, true));
     const TemperatureRange at_end = system_->surroundings();
     around = {std::min(around.lowest, at_end.lowest), std::max(around.highest, at_end.highest)};
     guard.emplace(*system_, *storage_, old, middle);
     second_order = !pass.within_range || !guard->extrapolates_too_far(around);
   }
-  const ThermalPass to_end{pass.time, pass.dt, pass.iterate, pass.newton_steps};
+  ThermalPass to_end{.time = pass.time,
+                     .dt = pass.dt,
+                     .iterate = pass.iterate,
+                     .newton_steps = pass.newton_steps,
+                     .loads = last_loads(pass.time, pass.dt, second_order)};
   ThermalReport last = solve_stage(old, middle, second_order ? extrapolated : rest, to_end, next);
   const auto overshoots = [&] {
     if (!pass.within_range) return guard->overshoots(next, around, k_far_overshoot);
@@ -106,6 +117,7 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   };
   if (second_order && guard && overshoots()) {
     second_order = false;
+    to_end.loads = last_loads(pass.time, pass.dt, false);
     begin_stage(first, old.temperature);
     ThermalReport again = solve_stage(old, middle, rest, to_end, next);
     again.newton.add_solves(last.newton);
@@ -131,7 +143,7 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
   begin_stage(stage, before.temperature);
   // H* itself lies so far ahead at a front that the iteration begins half way to it.
   const bool half_way = nodal() && stage.carried != 0 && pass.iterate == nullptr;
-  next = start(pass.iterate != nullptr ? *pass.iterate : before, pass.time, !half_way);
+  next = start(pass.iterate != nullptr ? *pass.iterate : before, pass.window(), !half_way);
   ThermalReport report;
   if (!nodal()) {
     for (const auto& block : points_) {
@@ -181,8 +193,8 @@ std::vector<double> ThermalPhase::flow(const ThermalState& from, const ThermalSt
   return flow;
 }
 
-ThermalState ThermalPhase::start(const ThermalState& old, double time, bool all) {
-  system_->set_time(time);
+ThermalState ThermalPhase::start(const ThermalState& old, const LoadWindow& loads, bool all) {
+  system_->set_window(loads);
   ThermalState next{old.temperature, old.enthalpy};
   system_->prescribe(next.temperature);
   if (nodal())
@@ -245,7 +257,7 @@ std::vector<double> ThermalPhase::flow_at_end(const StageFlows& flows) const {
 std::vector<double> ThermalPhase::time_error(const ThermalState& now, const StageFlows& flows,
                                              std::span<const double> flow_before) {
   system_->exchange(true);
-  system_->set_time(flows.time);
+  system_->set_window(LoadWindow::over(flows.time - flows.last_share * flows.dt, flows.time));
   return (*spread_)(heat::time_error(flows, flow_before), now.temperature, flows.last_share * flows.dt);
 }
 

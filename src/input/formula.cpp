@@ -44,7 +44,50 @@ bool assigns(const std::string& text) {
   return false;
 }
 
+/// The length of the comparison that begins at a character; zero: none does.
+std::size_t comparison_at(const std::string& text, std::size_t i) {
+  const char c = text[i], next = i + 1 < text.size() ? text[i + 1] : ' ';
+  if (c == '<' || c == '>') return next == '=' ? 2 : 1;
+  return (c == '=' || c == '!') && next == '=' ? 2 : 0;
+}
+
+/// Whether an operand of a comparison ends before this character: what binds less than a comparison does.
+bool ends_operand(char c) {
+  return std::string("<>=!?:&|,").find(c) != std::string::npos;
+}
+
+/// The end of an operand, from a comparison on to the right (`step` 1) or to the left (−1).
+std::size_t operand_end(const std::string& text, std::size_t from, int step) {
+  const char opens = step > 0 ? '(' : ')', closes = step > 0 ? ')' : '(';
+  int depth = 0;
+  std::size_t i = from;
+  for (; i < text.size(); i += static_cast<std::size_t>(step)) {  // below zero it wraps round to the end
+    if (text[i] == opens) ++depth;
+    if (text[i] == closes && --depth < 0) break;
+    if (depth == 0 && ends_operand(text[i])) break;
+  }
+  return i;
+}
+
 }  // namespace
+
+std::vector<std::unique_ptr<const Formula>> Formula::comparisons() const {
+  std::vector<std::unique_ptr<const Formula>> found;
+  for (std::size_t i = 0; i < text_.size(); ++i) {
+    const std::size_t length = comparison_at(text_, i);
+    if (length == 0) continue;
+    const std::size_t begin = i == 0 ? 0 : operand_end(text_, i - 1, -1) + 1;
+    const std::size_t end = operand_end(text_, i + length, 1);
+    i += length - 1;
+    try {
+      found.push_back(
+          std::make_unique<const Formula>(text_.substr(begin, end - begin), variables_, constants_));
+    } catch (const std::invalid_argument&) {
+      continue;  // not one that stands by itself
+    }
+  }
+  return found;
+}
 
 std::vector<std::string> Formula::functions() {
   std::vector<std::string> names;
@@ -61,7 +104,11 @@ bool Formula::is_name(const std::string& text) {
 }
 
 Formula::Formula(std::string text, const std::vector<std::string>& variables, const Constants& constants)
-    : text_(std::move(text)), uses_(variables.size(), 0), parser_(std::make_unique<Parser>()) {
+    : text_(std::move(text)),
+      variables_(variables),
+      constants_(constants),
+      uses_(variables.size(), 0),
+      parser_(std::make_unique<Parser>()) {
   if (assigns(text_))
     throw std::invalid_argument("the formula assigns a value by '='; to compare, write '=='");
   mu::Parser& parser = parser_->parser;

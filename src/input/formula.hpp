@@ -31,6 +31,10 @@ class Formula {
   /// is not defined (0/0, sqrt(-1)).
   double value(std::span<const double> variables) const;
 
+  /// The comparisons in the formula, "x > 0.1" in "3e6 * (x > 0.1) * (t < 5)", each as a formula of the same
+  /// variables whose value is 1 or 0: where one of them changes the formula may jump or bend.
+  std::vector<std::unique_ptr<const Formula>> comparisons() const;
+
   /// "sin, cos, ...": the functions there are.
   static std::vector<std::string> functions();
   /// Whether a constant may have this name: a letter, then letters, digits and underscores; none of a
@@ -40,6 +44,8 @@ class Formula {
  private:
   struct Parser;
   std::string text_;
+  std::vector<std::string> variables_;
+  Constants constants_;
   std::vector<char> uses_;
   std::unique_ptr<Parser> parser_;
 };

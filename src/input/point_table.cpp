@@ -222,6 +222,11 @@ double PointTable::value(std::span<const double> at) const {
   return before + (t - times_[next - 1]) / (times_[next] - times_[next - 1]) * (after - before);
 }
 
+std::vector<double> PointTable::times() const {
+  if (names_.back() != "t") return {};
+  return grid() ? axes_.back() : times_;
+}
+
 bool PointTable::outside(std::span<const double> at) const {
   for (std::size_t i = 0; i < names_.size(); ++i) {
     const double margin = 1e-9 * std::max({high_[i] - low_[i], std::abs(low_[i]), std::abs(high_[i])});

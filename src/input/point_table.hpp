@@ -36,6 +36,8 @@ class PointTable {
   double value(std::span<const double> at) const;
   /// Whether a point lies outside the box of the points, by more than rounding.
   bool outside(std::span<const double> at) const;
+  /// The times of the points, rising; empty where the file has no t.
+  std::vector<double> times() const;
   /// Whether the points form a grid.
   bool grid() const { return !axes_.empty(); }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "numbers/time_function.hpp"
 
@@ -22,6 +23,17 @@ class PlaceLaw {
   /// @param values  one per position
   /// Throws InputError where the law has no value that is allowed. Not collective.
   virtual void values(std::span<const Position> x, double time, std::span<double> values) const = 0;
+  /// Whether it differs from place to place.
+  virtual bool uses_place() const { return true; }
+  /// Whether its value at a place changes in time.
+  virtual bool uses_time() const { return true; }
+  /// Whether it is one distribution that moves, the same at all times for who moves with it.
+  virtual bool only_moves() const { return false; }
+  /// Adds coordinates in (low, high) of an axis at which the law is known to jump or bend.
+  virtual void add_breaks(std::size_t axis, double low, double high, double time,
+                          std::vector<double>& coordinates) const {
+    (void)axis, (void)low, (void)high, (void)time, (void)coordinates;
+  }
 };
 
 class PlaceFunction {
@@ -36,19 +48,43 @@ class PlaceFunction {
       : law_(std::move(law)), start_(start), duration_(duration) {}
 
   /// Whether it is the same everywhere.
-  bool uniform() const { return law_ == nullptr; }
-  /// The value everywhere; of a uniform function.
-  double value(double time) const { return uniform_.value(time); }
+  bool uniform() const { return law_ == nullptr || !law_->uses_place(); }
+  /// Whether it is the same at all times.
+  bool steady() const { return law_ == nullptr ? uniform_.constant() : !law_->uses_time(); }
+  /// Whether it is given by numbers with straight lines between them.
+  bool tabulated() const { return law_ == nullptr; }
+  bool only_moves() const { return law_ != nullptr && law_->only_moves(); }
+  /// The value everywhere; of a uniform function. Throws InputError as the law does.
+  double value(double time) const {
+    if (law_ == nullptr) return uniform_.value(time);
+    double value = 0;
+    law_->values(std::span(&k_anywhere, 1), on_clock(time), std::span(&value, 1));
+    return value;
+  }
   double derivative(double time) const { return uniform_.derivative(time); }
+  /// The table of a function that is tabulated(), whatever its argument is.
+  const Table& table() const { return uniform_.table(); }
+  /// Adds the times in (from, to) at which its slope may change, as far as it is tabulated.
+  void add_bends(double from, double to, std::vector<double>& times) const {
+    if (law_ == nullptr) return uniform_.add_bends(from, to, times);
+    if (start_ + duration_ > from && start_ + duration_ < to) times.push_back(start_ + duration_);
+  }
+  void add_breaks(std::size_t axis, double low, double high, double time,
+                  std::vector<double>& coordinates) const {
+    if (law_ != nullptr) law_->add_breaks(axis, low, high, on_clock(time), coordinates);
+  }
   /// @param values  one per position. Throws InputError as the law does. Not collective.
   void values(std::span<const Position> x, double time, std::span<double> values) const {
     if (law_ == nullptr)
       std::fill(values.begin(), values.end(), uniform_.value(time));
     else
-      law_->values(x, time >= start_ + duration_ ? duration_ : time - start_, values);
+      law_->values(x, on_clock(time), values);
   }
 
  private:
+  static constexpr Position k_anywhere{};
+  double on_clock(double time) const { return time >= start_ + duration_ ? duration_ : time - start_; }
+
   TimeFunction uniform_;
   std::shared_ptr<const PlaceLaw> law_;
   double start_ = 0;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "build/event_input.hpp"
 #include "build/heat_input.hpp"
 #include "build/mechanics_input.hpp"
 #include "build/scheme_input.hpp"
@@ -30,6 +31,11 @@ std::unique_ptr<coupling::ShotMap> shot_map(const CaseSpec& spec, const Assembly
 
 coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
   coupling::TimeOptions times = time_options(spec);
+  times.events = [&spec, &a, step = times.step.step, end = times.end](std::size_t stage) {
+    if (a.stages.empty()) return time_events(spec, nullptr, 0, end, step);
+    const StageRun& run = a.stages[stage];
+    return time_events(spec, &run, run.start, run.end, first_step(*run.stage, spec.time));
+  };
   std::optional<coupling::ErrorEstimate> estimate;
   if (spec.time.adaptive) {
     coupling::BodyNorm norm(a.mesh, spec.analysis.kind);
@@ -83,6 +89,7 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
   if (recorder != nullptr) simulation_.add(*recorder);
   simulation_.add(why_);
   if (a.criteria) simulation_.follow(*a.criteria);
+  if (a.heat) simulation_.follow_loads(*a.heat);
   if (!a.initial.burning.lit.empty()) simulation_.follow_burning(*a.heat);
   simulation_.stop_when(options.stop_asked);
   simulation_.diagnose_by([this](const coupling::State& last, const StepRejected& rejected, double dt) {

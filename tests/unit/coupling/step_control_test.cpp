@@ -1,5 +1,6 @@
 #include "coupling/step_control.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,6 +46,57 @@ TEST(StepControl, TurnsMayEndEarlyAfterThreeFailuresUntilAStepSettles) {
   EXPECT_TRUE(control.may_end_early()) << "steps that follow need not fail anew";
   control.accepted(control.plan(0.2), iterations(3));
   EXPECT_FALSE(control.may_end_early());
+}
+
+std::vector<double> ends_of_steps(StepControl& control, double time = 0) {
+  std::vector<double> ends;
+  while (!control.finished(time)) {
+    const PlannedStep step = control.plan(time);
+    ends.push_back(time = step.time);
+    control.accepted(step, iterations(3));
+  }
+  return ends;
+}
+
+TEST(StepControl, FixedStepsEndAtEventsAndGoOnFromThereWithWholeSteps) {
+  StepControl control(step_of(1), 0, {5.0}, {{2.25, false, false}, {2.75, true, false}});
+  EXPECT_THAT(ends_of_steps(control), ::testing::ElementsAre(1, 2, 2.25, 2.75, 3.75, 4.75, 5));
+}
+
+TEST(StepControl, AdaptiveStepsEndAtEventsAndHaveTheirSizeBackBehindThem) {
+  StepControl control(adaptive(1, 10), 0, {100.0}, {{53.3, false, false}, {53.31, false, false}});
+  const std::vector<double> ends = ends_of_steps(control);
+  const auto event = std::find(ends.begin(), ends.end(), 53.31);
+  ASSERT_NE(event, ends.end());
+  EXPECT_EQ(*(event - 1), 53.3);
+  EXPECT_NEAR(*(event + 1) - *event, 10, 1e-9);
+}
+
+TEST(StepControl, EventsWithinRoundingAreOneAndThoseOfMeansNoCloserThanTheSmallestStep) {
+  StepControl same(step_of(1), 0, {5.0}, {{2.5, true, false}, {2.5 + 1e-12, true, false}});
+  EXPECT_THAT(ends_of_steps(same), ::testing::ElementsAre(1, 2, 2.5, 3.5, 4.5, 5));
+  StepControl close(step_of(1), 0, {5.0}, {{2.5, false, false}, {2.5001, false, false}, {5 - 1e-5, false, false}});
+  EXPECT_THAT(ends_of_steps(close), ::testing::ElementsAre(1, 2, 2.5, 3.5, 4.5, 5));
+  StepControl exact(step_of(1), 0, {5.0}, {{2.5, false, false}, {2.5001, true, false}});
+  EXPECT_THAT(ends_of_steps(exact), ::testing::ElementsAre(1, 2, 2.5, 2.5001, 3.5001, 4.5001, 5));
+}
+
+TEST(StepControl, ARunThatGoesOnFromAnOutputHasTheEventsOfOneThatHasNotStopped) {
+  const std::vector<solidus::TimeEvent> events{{2.00001, false, true}, {3.5, false, true}};
+  StepControl whole(step_of(1), 0, {2.0, 5.0}, events), rest(step_of(1), 2, {2.0, 5.0}, events);
+  const std::vector<double> all = ends_of_steps(whole);
+  EXPECT_EQ(std::vector<double>(all.begin() + 2, all.end()), ends_of_steps(rest, 2));
+  EXPECT_TRUE(whole.jumps_at(2)) << "an output stands for it";
+  EXPECT_TRUE(whole.jumps_at(3.5));
+  EXPECT_FALSE(whole.jumps_at(5));
+}
+
+TEST(StepControl, ALoadThatMovesShortensAdaptiveStepsAlone) {
+  const StepControl fixed(step_of(1), 0, {5.0}), control(adaptive(1, 10), 0, {5.0});
+  EXPECT_EQ(fixed.plan(0, 0.25).dt, 1);
+  EXPECT_EQ(control.plan(0, 0.25).dt, 0.25);
+  EXPECT_EQ(control.plan(0, 0.25).reason, "load moves");
+  EXPECT_EQ(control.plan(0, 1e-9).dt, 1.0 / 1024);
 }
 
 TEST(StepControl, FixedStepsMeetTheEndExactly) {
