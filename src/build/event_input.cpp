@@ -40,9 +40,9 @@ class EventList {
     const auto x = f.table.x(), y = f.table.y();
     for (std::size_t i = 0; i < x.size(); ++i)
       if (x[i] > from && x[i] < to) see(y[i]);
-    const double tolerance = std::max((at_ends ? k_of_motions : k_of_loads) * (high - low),
-                                      of_values.value_or(at_ends ? 0 : k_of_loads) *
-                                          std::max(std::abs(low), std::abs(high)));
+    const double tolerance =
+        std::max((at_ends ? k_of_motions : k_of_loads) * (high - low),
+                 of_values.value_or(at_ends ? 0 : k_of_loads) * std::max(std::abs(low), std::abs(high)));
     for (const double time : corners(f.table, from, to, tolerance))
       events.push_back({start + time, at_ends, false});
   }
@@ -63,8 +63,7 @@ class EventList {
     if (place.kind != PlaceSpec::Kind::formula || !place.formula->uses(k_variable_t)) return;
     if (alone(*place.formula)) return add(*place.formula, from, to, start, at_ends);
     for (const auto& comparison : place.formula->comparisons())
-      if (comparison->uses(k_variable_t) && alone(*comparison))
-        add(*comparison, from, to, start, at_ends);
+      if (comparison->uses(k_variable_t) && alone(*comparison)) add(*comparison, from, to, start, at_ends);
   }
   /// Whether time is all that a formula depends on.
   static bool alone(const Formula& formula) {

@@ -17,8 +17,8 @@ std::array<double, 3> gravity(const AnalysisSpec& analysis);
 /// @param stage  whose conditions; null: those of all stages
 mechanics::MechanicalConditions mechanical_conditions(const CaseSpec& spec, const StageRun* stage = nullptr);
 mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec);
-/// The sections of the bodies that deform at the start (mechanics::sections), [body] [m]; zeros in an analysis
-/// of heat alone. Collective.
+/// The sections of the bodies that deform at the start (mechanics::sections), [body] [m]; zeros in an
+/// analysis of heat alone. Collective.
 std::vector<double> sections_of(const CaseSpec& spec, const mesh::Mesh& mesh);
 
 }  // namespace solidus::model

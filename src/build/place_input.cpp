@@ -154,8 +154,7 @@ class CheckedLaw : public PlaceLaw {
         find_breaks();
         break;
       case PlaceSpec::Kind::points: {
-        const auto table =
-            std::make_shared<PointTable>(spec.file, spec.column, spec.key_unit, spec.where);
+        const auto table = std::make_shared<PointTable>(spec.file, spec.column, spec.key_unit, spec.where);
         evaluate_ = points(spec, kind, table);
         times_ = table->coordinates().back() == "t";
         places_ = table->coordinates().front() != "t";
@@ -215,7 +214,8 @@ class CheckedLaw : public PlaceLaw {
         };
         constexpr double k_near = 1, k_far = 30, k_apart = 0.01;  ///< [m]
         for (const auto& [low, high] : {std::pair(-k_far, -k_near), {-k_near, k_near}, {k_near, k_far}})
-          for (const TimeEvent& at : breaks(value, low, high, k_apart)) breaks_[c.component].push_back(at.time);
+          for (const TimeEvent& at : breaks(value, low, high, k_apart))
+            breaks_[c.component].push_back(at.time);
       }
     }
     for (std::vector<double>& along : breaks_) std::sort(along.begin(), along.end());
@@ -241,9 +241,9 @@ class CheckedLaw : public PlaceLaw {
   AnalysisKind kind_;
   Evaluate evaluate_;
   units::Conversion conversion_;
-  bool times_ = true, places_ = true;                 ///< what it depends on, but for its motion
-  std::array<std::vector<double>, 3> breaks_;         ///< by component of the position, where it is not moved
-  bool steady_ = false;  ///< values are kept: points of a file are searched for once
+  bool times_ = true, places_ = true;          ///< what it depends on, but for its motion
+  std::array<std::vector<double>, 3> breaks_;  ///< by component of the position, where it is not moved
+  bool steady_ = false;                        ///< values are kept: points of a file are searched for once
   mutable std::vector<Position> kept_at_;
   mutable std::vector<double> kept_;
 };

@@ -162,7 +162,8 @@ Section<ContactSpec> contact_keys() {
           "Penalty = factor x Young's modulus / height of the elements, of the stiffer of the two surfaces. "
           "Without it and `penalty` the factor is 10, with integration = \"mortar\" 100; next to a melt the "
           "penalty is then at most that with which the `atmosphere` moves a liquid skin by 0.1 % of the free "
-          "contraction of ten sections (volume over cooling surface) of the body, and with the penalty alone it rises where the skin gets solid, to the factor on "
+          "contraction of ten sections (volume over cooling surface) of the body, and with the penalty alone "
+          "it rises where the skin gets solid, to the factor on "
           "the stiffness of the softer surface, if both bodies have a Young's modulus.");
   s.key("stabilisation", &C::stabilisation)
       .initially(1e-8)

@@ -267,15 +267,14 @@ mechanics::StepDeformation SequentialSplit::mechanical_phase(const State& old, c
   const std::vector<double>& temperature =
       phases_.heat != nullptr ? warm.heat.temperature : phases_.temperature;
   const std::vector<double> share = plateau_share(phases_, warm.heat);
-  mechanics::MechanicalReport report =
-      mechanical_pass(phases_, {old.mechanics, warm.contacts}, trial,
-                      {.time = time,
-                       .dt = dt,
-                       .temperature = temperature,
-                       .plateau_share = share,
-                       .guess = start.displacement,
-                       .guessed_pressure = start.pressure},
-                      effort);
+  mechanics::MechanicalReport report = mechanical_pass(phases_, {old.mechanics, warm.contacts}, trial,
+                                                       {.time = time,
+                                                        .dt = dt,
+                                                        .temperature = temperature,
+                                                        .plateau_share = share,
+                                                        .guess = start.displacement,
+                                                        .guessed_pressure = start.pressure},
+                                                       effort);
   trial.displacement_rate = rate(old.mechanics.displacement, trial.mechanics.displacement, dt);
   trial.pressure_rate = rate(old.mechanics.pressure, trial.mechanics.pressure, dt);
   contact.add(phases_.mechanics->work_share());

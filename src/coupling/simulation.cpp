@@ -37,9 +37,9 @@ struct Simulation::Progress {
   StageStart stage_start;
   std::optional<StepControl> control;  ///< of the stage
   std::optional<MeasuredStep> step;
-  std::vector<double> outputs;  ///< times at which fields are written, rising
+  std::vector<double> outputs;   ///< times at which fields are written, rising
   std::vector<double> landings;  ///< these, and the end of the stage
-  StepRecord record;            ///< of the step last committed; its rejections are those since
+  StepRecord record;             ///< of the step last committed; its rejections are those since
   struct Pending {
     PlannedStep step;
     StepMeasure measure;
@@ -49,9 +49,9 @@ struct Simulation::Progress {
   bool ended = false;              ///< observers were told of the end
   double solid_fraction = 1;       ///< of the committed state
   ShotHistory shots;
-  BodyHeat carried;                ///< of bodies that came and left since the last step
-  int saved = -1;                  ///< the step whose checkpoint is written
-  bool warned = false;             ///< of a limit that the smallest step exceeds
+  BodyHeat carried;     ///< of bodies that came and left since the last step
+  int saved = -1;       ///< the step whose checkpoint is written
+  bool warned = false;  ///< of a limit that the smallest step exceeds
   Stop stop;
 };
 

@@ -70,8 +70,8 @@ class Simulation {
   /// Gives this phase the heat of bodies that burn, and brings State::burning along; must outlive the
   /// simulation.
   void follow_burning(heat::ThermalPhase& heat) { heat_ = &heat; }
-  /// Keeps adaptive steps so short that loads of this phase that move overlap with themselves from step to step;
-  /// must outlive the simulation.
+  /// Keeps adaptive steps so short that loads of this phase that move overlap with themselves from step to
+  /// step; must outlive the simulation.
   void follow_loads(const heat::ThermalPhase& heat) { loads_ = &heat; }
   /// Asked before each step, on every process; the run stops when one of them says so.
   void stop_when(std::function<bool()> asked) { stop_asked_ = std::move(asked); }

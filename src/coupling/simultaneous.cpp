@@ -149,7 +149,8 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
   const std::vector<double> coherency = coherency_of(phases_, old.heat);
   const StepEffort of_first = stage(old.mechanics, old.contacts, coherency, to_middle, first, deformation);
 
-  extrapolated = extrapolated && thermal.may_extrapolate(old.heat, first.heat, heat::last_loads(time, dt, true));
+  extrapolated =
+      extrapolated && thermal.may_extrapolate(old.heat, first.heat, heat::last_loads(time, dt, true));
   const double carried = extrapolated ? material::k_sdirk_carried : 1.0;
   contact.add(1, carried);
   for (std::size_t b = 0; b < deformation.size(); ++b)

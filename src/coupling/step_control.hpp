@@ -1,5 +1,5 @@
-/// The size of the next step: lands on output times and on events of the conditions, cuts after a rejection, and, where it is adaptive, grows
-/// and shrinks with the step limits and the effort of the iteration.
+/// The size of the next step: lands on output times and on events of the conditions, cuts after a rejection,
+/// and, where it is adaptive, grows and shrinks with the step limits and the effort of the iteration.
 #pragma once
 
 #include <algorithm>
@@ -92,7 +92,7 @@ class StepControl {
   void recover();
 
   StepOptions options_;
-  std::vector<double> landings_;  ///< rising
+  std::vector<double> landings_;   ///< rising
   std::vector<TimeEvent> events_;  ///< rising, none at a landing
   std::vector<double> jumps_;      ///< landings at which a condition jumps
   double end_ = 0;

@@ -255,8 +255,8 @@ class CellIntegrals::Division {
     }
     return all;
   }
-  /// Finds out whether the load is known to jump in a part. Returns the axis along which it is to be halved so
-  /// that no two jumps lie in it; −1: it need not be.
+  /// Finds out whether the load is known to jump in a part. Returns the axis along which it is to be halved
+  /// so that no two jumps lie in it; −1: it need not be.
   int find_breaks(Part& part) const {
     part.breaks = false;
     int axis = -1;
@@ -291,7 +291,8 @@ class CellIntegrals::Division {
       for (std::size_t j = 0; j < at(dim); ++j) {
         Point a = middle, b = middle;
         a[j] = part.corners[0][j], b[j] = part.corners[1][j];
-        if (const double way = std::abs(coordinate(a) - coordinate(b)); way > longest) longest = way, across = j;
+        if (const double way = std::abs(coordinate(a) - coordinate(b)); way > longest)
+          longest = way, across = j;
       }
       halves[0].corners[1][across] = halves[1].corners[0][across] = middle[across];
       return halves;
@@ -299,7 +300,8 @@ class CellIntegrals::Division {
     std::pair<std::size_t, std::size_t> edge{0, 1};
     for (std::size_t i = 0; i <= at(dim); ++i)
       for (std::size_t j = i + 1; j <= at(dim); ++j)
-        if (const double way = std::abs(coordinate(part.corners[i]) - coordinate(part.corners[j])); way > longest)
+        if (const double way = std::abs(coordinate(part.corners[i]) - coordinate(part.corners[j]));
+            way > longest)
           longest = way, edge = {i, j};
     const Point middle = half_way(part.corners[edge.first], part.corners[edge.second]);
     halves[0].corners[edge.first] = halves[1].corners[edge.second] = middle;
@@ -343,7 +345,7 @@ class CellIntegrals::Division {
     for (Part& part : parts) {
       const Shape shape = cells_.blocks_[cells_.block_of(part.cell)].shape;
       const int dim = mesh::dimension(shape);
-      const Shape simple = dim == 1 ? Shape::line2
+      const Shape simple = dim == 1   ? Shape::line2
                            : dim == 2 ? (is_box(shape) ? Shape::quad4 : Shape::tri3)
                                       : (is_box(shape) ? Shape::hex8 : Shape::tet4);
       const mesh::Rule& rule = rule_of(simple);
@@ -361,7 +363,8 @@ class CellIntegrals::Division {
           for (std::size_t i = 0; i < at(dim); ++i)
             s.xi[j] += eta[i] * (part.corners[i + 1][j] - part.corners[0][j]);
         }
-        const auto [position, size] = map(cells_.mesh_, cells_.kind_, shape, cells_.nodes_of(part.cell), s.xi);
+        const auto [position, size] =
+            map(cells_.mesh_, cells_.kind_, shape, cells_.nodes_of(part.cell), s.xi);
         s.x = position;
         s.weight = rule[q].weight * part.share * size;
         x.push_back(position);
@@ -386,8 +389,9 @@ class CellIntegrals::Division {
     }
   }
   static const mesh::Rule& rule_of(Shape shape) {
-    static const mesh::Rule line = mesh::gauss_rule(Shape::line2, 3), quad = mesh::gauss_rule(Shape::quad4, 3),
-                            hex = mesh::gauss_rule(Shape::hex8, 3), triangle = mesh::gauss_rule(Shape::tri3, 2),
+    static const mesh::Rule line = mesh::gauss_rule(Shape::line2, 3),
+                            quad = mesh::gauss_rule(Shape::quad4, 3), hex = mesh::gauss_rule(Shape::hex8, 3),
+                            triangle = mesh::gauss_rule(Shape::tri3, 2),
                             tetrahedron = mesh::gauss_rule(Shape::tet4, 2);
     if (shape == Shape::line2) return line;
     if (shape == Shape::quad4) return quad;
@@ -463,7 +467,7 @@ CellIntegrals::CellIntegrals(const mesh::Mesh& mesh, AnalysisKind kind, std::vec
     const auto n = at(mesh::node_count(block.shape));
     const auto n_cells = static_cast<Index>(block.nodes.size() / n);
     const mesh::Rule rule = mesh::gauss_rule(block.shape, 2 * mesh::order(block.shape) + 1);
-    const Point middle = is_box(block.shape) ? Point{}
+    const Point middle = is_box(block.shape)                 ? Point{}
                          : mesh::dimension(block.shape) == 2 ? Point{1.0 / 3, 1.0 / 3, 0}
                                                              : Point{0.25, 0.25, 0.25};
     first_share_.push_back(shares_.size());

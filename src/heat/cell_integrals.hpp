@@ -1,12 +1,12 @@
-/// Integrals of a load over the elements of a body or the faces of a surface, by elements that are divided until
-/// what is left does not matter, however much smaller than an element the load is.
+/// Integrals of a load over the elements of a body or the faces of a surface, by elements that are divided
+/// until what is left does not matter, however much smaller than an element the load is.
 ///
 /// An element whose values at nodes and centroid differ by what could matter in the total is divided into 2^d
 /// parts, each again, as long as Gauss' rule on the parts and on the whole differ by more than 1e-5 of the
-/// total. The total is that of all processes, known better after every round: where the tail of a narrow load is
-/// all that was seen at first, the parts with the larger values lead to it. Elements are halved first until no
-/// two coordinates at which the load is known to jump lie in one part (`x > 0.03`), so that nothing between them
-/// is missed, and a part with such a coordinate counts as wrong by a quarter of what it holds.
+/// total. The total is that of all processes, known better after every round: where the tail of a narrow load
+/// is all that was seen at first, the parts with the larger values lead to it. Elements are halved first
+/// until no two coordinates at which the load is known to jump lie in one part (`x > 0.03`), so that nothing
+/// between them is missed, and a part with such a coordinate counts as wrong by a quarter of what it holds.
 #pragma once
 
 #include <array>
@@ -30,7 +30,8 @@ class CellIntegrals {
   /// @param x      positions
   /// @param fixed  they are points()
   using Evaluate = std::function<void(std::span<const Position> x, bool fixed, std::span<LoadValues> values)>;
-  /// Coordinates at which the load is known to jump, rising, by component, and the least distance of two of them.
+  /// Coordinates at which the load is known to jump, rising, by component, and the least distance of two of
+  /// them.
   struct Breaks {
     std::array<std::vector<double>, 3> at;
     std::array<double, 3> apart{HUGE_VAL, HUGE_VAL, HUGE_VAL};
@@ -57,8 +58,8 @@ class CellIntegrals {
   std::span<const Position> points() const { return points_; }
   /// The number of a node's point; −1: it belongs to no cell.
   Index point_of_node(Index node) const { return point_of_node_[static_cast<std::size_t>(node)]; }
-  /// ∫ W_a, [local node]; right for owned nodes. W_a are the basis functions of linear shapes, of quadratic ones
-  /// N_a²/Σ N_b²: not negative, and their sum is one.
+  /// ∫ W_a, [local node]; right for owned nodes. W_a are the basis functions of linear shapes, of quadratic
+  /// ones N_a²/Σ N_b²: not negative, and their sum is one.
   std::span<const double> of_nodes() const { return node_measure_; }
   double of_cell(Index cell) const { return measure_[static_cast<std::size_t>(cell)]; }
   /// Collective. Throws, on every process, what the function throws.

@@ -124,7 +124,8 @@ void HeatSystem::add_nodal_shares(int body, Volume& volume) const {
   }
 }
 
-/// The points at which the power is taken are the nodes, or Gauss points where the body stores its heat there.
+/// The points at which the power is taken are the nodes, or Gauss points where the body stores its heat
+/// there.
 void HeatSystem::place(int body, Volume& volume) const {
   std::vector<CellIntegrals::Cells> cells;
   std::vector<PlacedLoad::Point> points;

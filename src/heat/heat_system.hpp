@@ -48,8 +48,8 @@ class HeatSystem {
   /// value that is allowed.
   void set_window(const LoadWindow& window);
   void set_time(double time) { set_window(LoadWindow::at(time)); }
-  /// The longest time from `from` on, up to `to`, after which every load that moves still overlaps with itself;
-  /// infinite where none moves farther (PlacedLoad::lasting). Collective.
+  /// The longest time from `from` on, up to `to`, after which every load that moves still overlaps with
+  /// itself; infinite where none moves farther (PlacedLoad::lasting). Collective.
   double lasting(double from, double to) const;
   /// The power of the bodies that burn, constant from here on until the next call.
   /// @param state       at the start of the step, of all local nodes; empty: nothing burns
@@ -167,10 +167,10 @@ class HeatSystem {
       Index node;
       double weight;
     };
-    std::vector<Share> shares = {};  ///< where power and factor are the same everywhere
-    std::vector<double> heat = {};  ///< into the owned nodes at the time set [W]
-    std::unique_ptr<PlacedLoad> load = {};  ///< where power or factor differs from place to place
-    std::optional<Exothermic> burning = {};         ///< its power comes from set_burning()
+    std::vector<Share> shares = {};          ///< where power and factor are the same everywhere
+    std::vector<double> heat = {};           ///< into the owned nodes at the time set [W]
+    std::unique_ptr<PlacedLoad> load = {};   ///< where power or factor differs from place to place
+    std::optional<Exothermic> burning = {};  ///< its power comes from set_burning()
     bool placed() const { return !power.uniform() || !factor.uniform(); }
     void set_window(const LoadWindow& window);
     void burn(const BurningState& state, double begin, double end);

@@ -73,7 +73,8 @@ PlacedLoad::PlacedLoad(const mesh::Mesh& mesh, AnalysisKind kind, std::string na
 }
 
 bool PlacedLoad::moves() const {
-  return std::ranges::any_of(law_.functions, [](const PlaceFunction& f) { return !f.uniform() && !f.steady(); });
+  return std::ranges::any_of(law_.functions,
+                             [](const PlaceFunction& f) { return !f.uniform() && !f.steady(); });
 }
 
 void PlacedLoad::average(const LoadLaw& law, std::span<const TimePoint> times, std::span<const Position> x,
@@ -128,11 +129,9 @@ CellIntegrals::Breaks PlacedLoad::breaks(const LoadLaw& law, std::span<const Tim
 
 CellIntegrals::Result PlacedLoad::integrate(const LoadLaw& law, std::span<const TimePoint> times,
                                             bool with_samples) const {
-  return cells_.integrate(
-      [&](std::span<const Position> x, bool fixed, std::span<LoadValues> values) {
-        average(law, times, x, fixed, values);
-      },
-      breaks(law, times), with_samples);
+  return cells_.integrate([&](std::span<const Position> x, bool fixed,
+                              std::span<LoadValues> values) { average(law, times, x, fixed, values); },
+                          breaks(law, times), with_samples);
 }
 
 void PlacedLoad::set(const LoadWindow& window) {
@@ -142,17 +141,17 @@ void PlacedLoad::set(const LoadWindow& window) {
     int parts = 1;
     if (moves() && window.n_parts > 0) {
       const double begin = window.parts[0].begin, end = window.parts[at(window.n_parts - 1)].end;
-      parts = static_cast<int>(std::min<double>(k_most_parts, std::ceil((end - begin) / lasting(begin, end))));
+      parts =
+          static_cast<int>(std::min<double>(k_most_parts, std::ceil((end - begin) / lasting(begin, end))));
       parts = std::max(parts, 1);
     }
     const std::vector<TimePoint> times = time_points(window, law_.pointers(), k_points, parts);
     const CellIntegrals::Result integrals = integrate(law_, times, false);
     std::vector<LoadValues> apart(x_.size()), at_points(points_.size());
-    if (parallel::any_process(!x_.empty()))
-      run_collectively([&] { average(law_, times, x_, false, apart); });
+    if (parallel::any_process(!x_.empty())) run_collectively([&] { average(law_, times, x_, false, apart); });
     for (std::size_t p = 0, i = 0; p < points_.size(); ++p)
-      at_points[p] = points_[p].node >= 0 ? integrals.of_points[at(cells_.point_of_node(points_[p].node))]
-                                          : apart[i++];
+      at_points[p] =
+          points_[p].node >= 0 ? integrals.of_points[at(cells_.point_of_node(points_[p].node))] : apart[i++];
     if (law_.kind == LoadLaw::Kind::power)
       set_power(integrals, at_points);
     else
@@ -200,11 +199,10 @@ void PlacedLoad::set_exchange(const CellIntegrals::Result& integrals, std::span<
   // An ambient temperature that is the same everywhere leaves rounding.
   constexpr double k_rounding = 1e-9;
   const double excess = integrals.total[1] - coldest * integrals.total[0];
-  const double alpha =
-      std::min(share_of_points(by_points[0], integrals.total[0]),
-               excess > k_rounding * integrals.total[1]
-                   ? share_of_points(by_points[1] - coldest * by_points[0], excess)
-                   : 1.0);
+  const double alpha = std::min(share_of_points(by_points[0], integrals.total[0]),
+                                excess > k_rounding * integrals.total[1]
+                                    ? share_of_points(by_points[1] - coldest * by_points[0], excess)
+                                    : 1.0);
   const double scale = by_points[0] > 0 ? integrals.total[0] / by_points[0] : 1;
   means_.assign(points_.size(), {});
   std::vector<double> around;  // means around nodes, ghosts too
@@ -220,9 +218,9 @@ void PlacedLoad::set_exchange(const CellIntegrals::Result& integrals, std::span<
       means_[p][k] = alpha * scale * at_points[p][k];
       if (alpha == 1) continue;
       const Point& point = points_[p];
-      means_[p][k] += (1 - alpha) * (point.node >= 0 ? around[2 * at(point.node) + k]
-                                                     : integrals.of_cells[at(point.cell)][k] /
-                                                           cells_.of_cell(point.cell));
+      means_[p][k] += (1 - alpha) *
+                      (point.node >= 0 ? around[2 * at(point.node) + k]
+                                       : integrals.of_cells[at(point.cell)][k] / cells_.of_cell(point.cell));
     }
   check(integrals, alpha);
 }
@@ -230,7 +228,8 @@ void PlacedLoad::set_exchange(const CellIntegrals::Result& integrals, std::span<
 void PlacedLoad::check(const CellIntegrals::Result& integrals, double by_points) {
   if (by_points == 0 && !std::exchange(told_coarse_, true))
     logging::info(
-        "'{}' is smaller than the elements that it acts on: its power is its integral, but temperatures around it "
+        "'{}' is smaller than the elements that it acts on: its power is its integral, but temperatures "
+        "around it "
         "are means over elements, which a finer mesh would resolve",
         name_);
   if (integrals.uncertain > k_uncertain && !std::exchange(told_uncertain_, true))

@@ -1,12 +1,12 @@
-/// The loads of the two stages of a step (docs/theory/thermal.md): means over parts of the step that add up to
-/// it. The heat that the first stage brings counts (1 − γ) Δt, that of the second γ Δt:
+/// The loads of the two stages of a step (docs/theory/thermal.md): means over parts of the step that add up
+/// to it. The heat that the first stage brings counts (1 − γ) Δt, that of the second γ Δt:
 ///
 ///   first stage    mean over [t_n, t_{n+1} − γ Δt]
 ///   second stage   mean over [t_{n+1} − γ Δt, t_{n+1}]
 ///
-/// No load is larger than it ever is in the step, and for smooth loads the order stays two: the sum is exact, and
-/// each is the load of its stage to O(Δt). Where the second stage is one of backward Euler over (1 − γ) Δt, the
-/// first counts γ Δt only; what it has then taken from its part too little stands in the second.
+/// No load is larger than it ever is in the step, and for smooth loads the order stays two: the sum is exact,
+/// and each is the load of its stage to O(Δt). Where the second stage is one of backward Euler over (1 − γ)
+/// Δt, the first counts γ Δt only; what it has then taken from its part too little stands in the second.
 #pragma once
 
 #include "material/time_integration.hpp"

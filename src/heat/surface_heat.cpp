@@ -231,7 +231,8 @@ SurfaceFlux SurfaceHeat::at_node(std::span<const double> temperature, Index node
 std::pair<double, double> SurfaceHeat::flux_range() const {
   double least = 0, greatest = 0;
   if (is_placed_flux()) {  // of which only the sign counts
-    for (const double heat : load_->heat()) least = std::min(least, heat), greatest = std::max(greatest, heat);
+    for (const double heat : load_->heat())
+      least = std::min(least, heat), greatest = std::max(greatest, heat);
     return {least, greatest};
   }
   for (const Patch& patch : patches_)

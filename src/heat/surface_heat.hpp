@@ -56,7 +56,8 @@ class SurfaceLaw {
   std::optional<TemperatureRange> ambient() const;
 
  private:
-  /// The means set: of the flux, or of the coefficient (of its factor, where it is one of temperature) and Θ_a.
+  /// The means set: of the flux, or of the coefficient (of its factor, where it is one of temperature) and
+  /// Θ_a.
   struct Now {
     double coefficient = 1, driver = 0;
   };

@@ -150,8 +150,8 @@ class ThermalPhase {
   /// From nodal temperatures [K], [local node], ghosts up to date.
   ThermalState initial_state_at_nodes(std::span<const double> temperature) const;
 
-  /// The longest time from `from` on, up to `to`, after which every load that moves overlaps with three fifths of
-  /// itself (placed_load.hpp); infinite where none moves that far. Collective.
+  /// The longest time from `from` on, up to `to`, after which every load that moves overlaps with three
+  /// fifths of itself (placed_load.hpp); infinite where none moves that far. Collective.
   double lasting_loads(double from, double to) const;
 
   /// Gives bodies that burn the power of the step that begins (heat/exothermic.hpp), constant in all its

@@ -84,14 +84,13 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
       rest{pass.dt - first.dt, 1};
   const bool flows = nodal() && !pass.adiabatic;
   ThermalState middle;
-  ThermalReport report = solve_stage(
-      old, old, first,
-      {.time = pass.time - pass.dt + first.dt,
-       .dt = pass.dt,
-       .iterate = pass.iterate,
-       .newton_steps = pass.newton_steps,
-       .loads = first_loads(pass.time, pass.dt)},
-      middle);
+  ThermalReport report = solve_stage(old, old, first,
+                                     {.time = pass.time - pass.dt + first.dt,
+                                      .dt = pass.dt,
+                                      .iterate = pass.iterate,
+                                      .newton_steps = pass.newton_steps,
+                                      .loads = first_loads(pass.time, pass.dt)},
+                                     middle);
   StageFlows stage_flows;
   if (flows) stage_flows.first = flow(old, middle, first);
   std::optional<ExtrapolationGuard> guard;

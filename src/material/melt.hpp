@@ -66,8 +66,8 @@ inline constexpr double k_least_step_share = 1e-8, k_most_step_share = 1e-2;
 inline constexpr double k_mush_strength = 1e-2, k_mush_rate = 1e-3;
 /// Fall of the viscosity of the network below coherency, and the solid fraction over which it falls so far.
 inline constexpr double k_mush_onset = 1e-3, k_mush_onset_width = 0.05;
-/// Where a material has no conductivity: that of metals at their melting point is 5e-6 to 6e-5 [m²/s]. And the
-/// section where no body is given: that of a plate of 20 mm [m].
+/// Where a material has no conductivity: that of metals at their melting point is 5e-6 to 6e-5 [m²/s]. And
+/// the section where no body is given: that of a plate of 20 mm [m].
 inline constexpr double k_metal_diffusivity = 2e-5, k_section = 0.01;
 /// The pressure of the atmosphere at sea level [Pa].
 inline constexpr double k_atmosphere = 101325;

@@ -326,7 +326,7 @@ class MechanicalPhase {
   bool plastic_ = false;
   std::vector<std::unique_ptr<BlockKernel>> blocks_;
   std::unique_ptr<Loads> loads_;
-  std::vector<double> weight_;                    ///< of the bodies, [local node][component] [N]
+  std::vector<double> weight_;               ///< of the bodies, [local node][component] [N]
   std::vector<material::MeltModulus> melt_;  ///< [body]
   std::unique_ptr<linear::BlockMatrix> matrix_;
   std::unique_ptr<NodalPressure> pressure_;  ///< null without mixed elements

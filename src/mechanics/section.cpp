@@ -82,8 +82,8 @@ bool is_held(const mesh::FaceKey& key, const mesh::Point& normal, const std::vec
   constexpr double k_along = 0.999;
   for (unsigned i = 0; i < 3; ++i)
     if (std::abs(normal[i]) > k_along)
-      return std::ranges::all_of(
-          key.vertices, [&](Index node) { return node < 0 || (held[at(node)] & (1U << i)) != 0; });
+      return std::ranges::all_of(key.vertices,
+                                 [&](Index node) { return node < 0 || (held[at(node)] & (1U << i)) != 0; });
   return false;
 }
 
@@ -122,8 +122,9 @@ std::vector<double> volumes(const mesh::Mesh& mesh, AnalysisKind kind, int body)
   return result;
 }
 
-/// The sum over all processes, the same bits however the parts are spread over them: whole numbers of a 2^30th
-/// of the largest part. What hangs on it is kept in checkpoints, which other numbers of processes read.
+/// The sum over all processes, the same bits however the parts are spread over them: whole numbers of a
+/// 2^30th of the largest part. What hangs on it is kept in checkpoints, which other numbers of processes
+/// read.
 double sum_in_any_order(const std::vector<double>& parts) {
   const double largest =
       parallel::global_max(parts.empty() ? 0.0 : *std::max_element(parts.begin(), parts.end()));

@@ -49,7 +49,8 @@ void each_number(C& c, const Visit& visit) {
   const auto all = [&visit](auto&... n) { (visit(n), ...); };
   all(c.state.time, k.steps, c.rejected, c.shortened, c.state.mechanics.dt_before, k.stage.number,
       k.stage.time);
-  all(k.control.size, k.control.refused, k.control.refused_ratio, k.control.before_refusal, k.control.failures, k.rates.changed);
+  all(k.control.size, k.control.refused, k.control.refused_ratio, k.control.before_refusal,
+      k.control.failures, k.rates.changed);
   all(o.step, o.adaptive, o.min_step, o.max_step, o.growth, o.cut, o.easy_iterations);
   all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.solid_fraction,
       o.limits.inertia);

@@ -67,7 +67,8 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   if (a.mechanics)
     for (std::size_t b = 0; b < a.mechanics->melt().size(); ++b)
       if (const material::MeltModulus& melt = a.mechanics->melt()[b]; melt.modulus > 0)
-        r.summary.melt.push_back({spec.bodies[b].name, melt.modulus, melt.time, material::measured_against(melt)});
+        r.summary.melt.push_back(
+            {spec.bodies[b].name, melt.modulus, melt.time, material::measured_against(melt)});
   r.summary.processes = processes::count();
   return r;
 }

@@ -150,10 +150,11 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
   }
   std::vector<std::string> melts;
   for (const results::ChosenMelt& melt : r.summary.melt)
-    melts.push_back(fmt::format(
-        "body '{}': its melt has a viscosity of {:.3g} Pa s: {:.3g} Pa, {}, times {:.3g} s, a hundredth of the time "
-        "in which heat crosses its section",
-        melt.body, melt.modulus * melt.time, melt.modulus, melt.against, melt.time));
+    melts.push_back(
+        fmt::format("body '{}': its melt has a viscosity of {:.3g} Pa s: {:.3g} Pa, {}, times {:.3g} s, a "
+                    "hundredth of the time "
+                    "in which heat crosses its section",
+                    melt.body, melt.modulus * melt.time, melt.modulus, melt.against, melt.time));
   for (const std::string& text : logging::told_once(melts)) logging::info("{}", text);
   std::vector<std::string> tables;
   for (const ProfileSpec& profile : c.spec.profiles) tables.push_back(profile.name + ".csv");

@@ -133,7 +133,8 @@ void expect_converged(const Sweep& s, double solid_after, double gap, double por
 
 TEST(CoupledSteps, ABarInAClosedDieFreezesAtTheSameTimeWithTheSameGapAndPoresWhateverTheStep) {
   k_here.write("half.msh", testing::square_bar(Piece::half, 8));
-  expect_converged(sweep("bar", testing::square_bar_case(Piece::half, "half.msh", true)), 34.4, 156.8, 0.0518);
+  expect_converged(sweep("bar", testing::square_bar_case(Piece::half, "half.msh", true)), 34.4, 156.8,
+                   0.0518);
 }
 
 TEST(CoupledSteps, ACylinderInAnOpenMouldFreezesAtTheSameTimeWithTheSameGapWhateverTheStep) {
@@ -162,9 +163,9 @@ TEST(CoupledSteps, AMouldThatOnlyConductsDoesNotDecideHowLongStepsAre) {
   k_here.write("far.msh", testing::square_bar(Piece::quarter, 4, 20, 200));
   std::vector<double> steps, gaps;
   for (const char* mesh : {"near.msh", "far.msh"}) {
-    const CaseRun run = k_here.run(
-        std::string("mould_") + mesh[0], testing::square_bar_case(Piece::quarter, mesh, false),
-        {"time.adaptive=true", "time.end=20 s", "body.die.physics=heat"});
+    const CaseRun run =
+        k_here.run(std::string("mould_") + mesh[0], testing::square_bar_case(Piece::quarter, mesh, false),
+                   {"time.adaptive=true", "time.end=20 s", "body.die.physics=heat"});
     ASSERT_TRUE(run.finished) << run.reason;
     steps.push_back(static_cast<double>(run.history.at("time[s]").size()));
     gaps.push_back(testing::at(run.history, "gap_corner[um]", 20));

@@ -1,5 +1,5 @@
-/// Pulses between two steps, and loads smaller than the elements or faster than the steps: heat and strain are
-/// those of the functions in the case file (docs/guide/time_steps.md, docs/guide/places.md).
+/// Pulses between two steps, and loads smaller than the elements or faster than the steps: heat and strain
+/// are those of the functions in the case file (docs/guide/time_steps.md, docs/guide/places.md).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,7 +66,8 @@ std::string points(const std::vector<std::array<double, 2>>& table) {
   std::ostringstream text;
   text.precision(17);
   text << "{ of = \"time\", argument_unit = \"s\", unit = \"W/m2\", points = [";
-  for (std::size_t i = 0; i < table.size(); ++i) text << (i > 0 ? ", [" : "[") << table[i][0] << ", " << table[i][1] << "]";
+  for (std::size_t i = 0; i < table.size(); ++i)
+    text << (i > 0 ? ", [" : "[") << table[i][0] << ", " << table[i][1] << "]";
   text << "] }";
   return text.str();
 }
@@ -169,7 +170,8 @@ TEST_F(EventsInTime, ARestartInAPulseGivesTheSameBits) {
 TEST_F(EventsInTime, AStageMeetsTheEventsOfItsOwnClock) {
   std::string staged = bar("step = \"1 s\"", points({{0, 0}, {3.3, 0}, {3.4, 1e6}, {3.5, 0}}));
   staged.replace(staged.find("kind = \"flux\""), 13, "kind = \"flux\"\ntime = \"stage\"");
-  staged += "[[stage]]\nname = \"one\"\nduration = \"10 s\"\n[[stage]]\nname = \"two\"\nduration = \"5.5 s\"\n";
+  staged +=
+      "[[stage]]\nname = \"one\"\nduration = \"10 s\"\n[[stage]]\nname = \"two\"\nduration = \"5.5 s\"\n";
   const CaseRun stages = run("stages", staged);
   EXPECT_NEAR(heat_in(stages), 2 * 0.002 * 1e5, 1e-6);
   for (const double point : {3.3, 3.4, 3.5, 13.3, 13.4, 13.5})
@@ -276,9 +278,8 @@ TEST_F(EventsInTime, ASprayNarrowerThanAnElementTakesItsHeat) {
 std::string laser(const std::string& kind, const std::string& divisions, const std::string& time,
                   const std::string& sigma) {
   const bool source = kind == "source";
-  const std::string formula = source
-                                  ? "2*P/((2*pi)^1.5*s^3)*exp(-((x-x0)^2+y^2+z^2)/(2*s^2))"
-                                  : "P/(2*pi*s^2)*exp(-((x-x0)^2+y^2)/(2*s^2))";
+  const std::string formula = source ? "2*P/((2*pi)^1.5*s^3)*exp(-((x-x0)^2+y^2+z^2)/(2*s^2))"
+                                     : "P/(2*pi*s^2)*exp(-((x-x0)^2+y^2)/(2*s^2))";
   return R"(title = "Laser"
 [analysis]
 kind = "solid"
@@ -328,12 +329,13 @@ TEST_F(EventsInTime, AdaptiveStepsFollowAMovingSourceByItsOwnSize) {
 }
 
 TEST_F(EventsInTime, TwoProcessesTakeTheSameStepsAndGiveTheSameHeat) {
-  const std::string file = folder_.write(
-      "two.toml", laser("source", "[20, 10, 5]", "step = \"1 ms\"\nadaptive = true", "0.2 mm"));
+  const std::string file =
+      folder_.write("two.toml", laser("source", "[20, 10, 5]", "step = \"1 ms\"\nadaptive = true", "0.2 mm"));
   const auto go = [&](int processes) {
     const std::string folder = (folder_.root() / ("on" + std::to_string(processes))).string();
     const testing::Outcome outcome = testing::shell(
-        "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+        "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
         "mpirun -n " +
         std::to_string(processes) + " --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR "/solidus' run '" +
         file + "' --no-progress -o '" + folder + "'");

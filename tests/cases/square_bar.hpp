@@ -72,7 +72,8 @@ inline std::string square_bar(Piece piece, int cells, double a = 20, double b = 
     }
   std::ostringstream out;
   out.precision(17);
-  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n9\n2 1 \"cast\"\n2 2 \"die\"\n1 3 \"c_skin\"\n"
+  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n9\n2 1 \"cast\"\n2 2 \"die\"\n1 3 "
+         "\"c_skin\"\n"
          "1 4 \"d_in\"\n1 5 \"d_out\"\n1 6 \"cx\"\n1 7 \"cy\"\n1 8 \"dx\"\n1 9 \"dy\"\n$EndPhysicalNames\n"
       << "$Nodes\n"
       << places.size() << "\n";
@@ -160,7 +161,8 @@ group = "cast"
   };
   plane("cx", "ux"), plane("dx", "ux");
   if (piece != Piece::half) plane("cy", "uy"), plane("dy", "uy");
-  if (piece == Piece::half) text += R"([[mechanical_condition]]
+  if (piece == Piece::half)
+    text += R"([[mechanical_condition]]
 name = "floor"
 group = "d_out"
 kind = "displacement"

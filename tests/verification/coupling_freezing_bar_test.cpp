@@ -94,7 +94,8 @@ TEST(FreezingBar, LagOfEveryScheme) {
     SCOPED_TRACE(scheme.name);
     const Errors& e = errors[scheme.name];
     // The strain of metal that freezes within a step goes with the mean stiffness of the step: first order,
-    // with hardly any error left where the heat is of second order. Heat of two stages passes one kink a node.
+    // with hardly any error left where the heat is of second order. Heat of two stages passes one kink a
+    // node.
     if (scheme.stepping || scheme.double_pass)
       EXPECT_LT(*std::ranges::max_element(e.displacement), 1.2e-6);
     else

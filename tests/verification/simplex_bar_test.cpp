@@ -127,8 +127,7 @@ TEST(BarFromMeltToSolid, PullsWithStabilisedSimplicesAsWithHexesAndQuads) {
       EXPECT_LT(std::abs(end), 0.01) << c.element.name;
       EXPECT_NEAR(simplex.mean_stress[last] / reference.mean_stress[last], 1, 0.01) << c.element.name;
       // The algebraic stabilisation of tetrahedra holds gradients of the pressure in a shell of one row.
-      EXPECT_LT(worst, c.element.name == verification::k_tet4_algebraic.name ? 0.05 : 0.02)
-          << c.element.name;
+      EXPECT_LT(worst, c.element.name == verification::k_tet4_algebraic.name ? 0.05 : 0.02) << c.element.name;
     }
     if (!isothermal) continue;
     auto out =

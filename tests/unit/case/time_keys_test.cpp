@@ -74,7 +74,8 @@ TEST(TimeKeys, WhatIsNotGivenHasItsDefault) {
   EXPECT_DOUBLE_EQ(limits.solid_fraction, 0.1);
   EXPECT_DOUBLE_EQ(displacement_error(c.time, std::vector<double>{0.0, 0.2, 0.5}), 6e-5);
   EXPECT_GT(displacement_error(c.time, std::vector<double>{0.0}), 1);  // heat alone
-  EXPECT_DOUBLE_EQ(displacement_error(spec("adaptive = true\ndisplacement_error = \"3 um\"").time, std::vector<double>{2.0}),
+  EXPECT_DOUBLE_EQ(displacement_error(spec("adaptive = true\ndisplacement_error = \"3 um\"").time,
+                                      std::vector<double>{2.0}),
                    3e-6);
 }
 

@@ -75,7 +75,8 @@ TEST(StepControl, AdaptiveStepsEndAtEventsAndHaveTheirSizeBackBehindThem) {
 TEST(StepControl, EventsWithinRoundingAreOneAndThoseOfMeansNoCloserThanTheSmallestStep) {
   StepControl same(step_of(1), 0, {5.0}, {{2.5, true, false}, {2.5 + 1e-12, true, false}});
   EXPECT_THAT(ends_of_steps(same), ::testing::ElementsAre(1, 2, 2.5, 3.5, 4.5, 5));
-  StepControl close(step_of(1), 0, {5.0}, {{2.5, false, false}, {2.5001, false, false}, {5 - 1e-5, false, false}});
+  StepControl close(step_of(1), 0, {5.0},
+                    {{2.5, false, false}, {2.5001, false, false}, {5 - 1e-5, false, false}});
   EXPECT_THAT(ends_of_steps(close), ::testing::ElementsAre(1, 2, 2.5, 3.5, 4.5, 5));
   StepControl exact(step_of(1), 0, {5.0}, {{2.5, false, false}, {2.5001, true, false}});
   EXPECT_THAT(ends_of_steps(exact), ::testing::ElementsAre(1, 2, 2.5, 2.5001, 3.5001, 4.5001, 5));

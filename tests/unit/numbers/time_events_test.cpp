@@ -80,7 +80,8 @@ TEST(TimeEvents, OfTwoThatAreCloseTheSecondOneStaysOnlyWhereItsEndsCount) {
   };
   EXPECT_THAT(times(in_order({{2.0005, false, false}, {2, false, false}, {1, false, false}}, 1e-9, 1e-3)),
               ElementsAre(1, 2));
-  EXPECT_THAT(times(in_order({{2, false, false}, {2.0005, true, false}}, 1e-9, 1e-3)), ElementsAre(2, 2.0005));
+  EXPECT_THAT(times(in_order({{2, false, false}, {2.0005, true, false}}, 1e-9, 1e-3)),
+              ElementsAre(2, 2.0005));
   EXPECT_THAT(times(in_order({{2, true, false}, {2 + 1e-12, true, true}}, 1e-9, 1e-3)), ElementsAre(2));
   EXPECT_TRUE(in_order({{2, true, false}, {2 + 1e-12, true, true}}, 1e-9, 1e-3).front().jump);
 }
