@@ -46,11 +46,27 @@ SurfaceLaw::Now SurfaceLaw::now(const LoadValues& mean, double otherwise) const 
   return {mean[0], law_.ambient(mean, otherwise)};
 }
 
+/// The mean over the window; of an exchange in a step of backward Euler that of LoadWindow::to_end.
+LoadValues SurfaceLaw::mean_over(const LoadWindow& window) const {
+  const LoadValues mean = mean_load(window, law_);
+  if (!window.to_end || !exchanges()) return mean;
+  constexpr double k_inside = 1e-9;  // of the step: a formula may jump at its ends, where steps end
+  const LoadWindow::Part& step = window.parts[0];
+  const double inside = k_inside * (step.end - step.begin);
+  const LoadValues begin = law_.values_at(step.begin + inside), end = law_.values_at(step.end - inside);
+  LoadValues corrected = mean;
+  for (std::size_t k = 0; k < mean.size(); ++k) corrected[k] += 0.5 * (end[k] - begin[k]);
+  // Where the coefficient jumps within the step there is no straight line.
+  const bool jumps = corrected[0] < 0.5 * std::min(begin[0], end[0]) ||
+                     corrected[0] > 1.5 * std::max({begin[0], end[0], 0.0});
+  return jumps ? mean : corrected;
+}
+
 void SurfaceLaw::set_window(const LoadWindow& window) {
   const PlaceFunction& driver = law_.functions.back();
   if (!placed()) {
     const double at_end = driver.value(window.time);
-    Now& everywhere = now_.emplace_back(now(mean_load(window, law_), at_end));
+    Now& everywhere = now_.emplace_back(now(mean_over(window), at_end));
     // Without rounding where it is the same all the time.
     if (exchanges() && (window.n_parts == 0 || driver.steady())) everywhere.driver = at_end;
     now_.erase(now_.begin(), now_.end() - 1);

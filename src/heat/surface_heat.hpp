@@ -61,6 +61,7 @@ class SurfaceLaw {
   struct Now {
     double coefficient = 1, driver = 0;
   };
+  LoadValues mean_over(const LoadWindow& window) const;
   Now now(const LoadValues& mean, double otherwise) const;
 
   LoadLaw law_;

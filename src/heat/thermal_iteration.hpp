@@ -27,7 +27,7 @@ class ThermalIteration {
 
   /// To `time` = t_n + dt from `old` at t_n, which is H* and must live until conclude().
   void begin(const ThermalState& old, double time, double dt) {
-    begin(old, dt, LoadWindow::over(time - dt, time));
+    begin(old, dt, LoadWindow::backward_euler(time - dt, time));
   }
   /// The same to loads.time, with these loads.
   void begin(const ThermalState& old, double dt, const LoadWindow& loads);

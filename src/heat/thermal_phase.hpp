@@ -112,7 +112,7 @@ struct ThermalPass {
   /// Of the loads of one stage; absent: the step, or its parts for two stages.
   std::optional<LoadWindow> loads = {};
 
-  LoadWindow window() const { return loads.value_or(LoadWindow::over(time - dt, time)); }
+  LoadWindow window() const { return loads.value_or(LoadWindow::backward_euler(time - dt, time)); }
 };
 
 class ThermalPhase {

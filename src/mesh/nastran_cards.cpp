@@ -141,7 +141,7 @@ void Cards::take(const std::string& line, int depth) {
   std::string name = capitals(first);
   const bool large = name.ends_with('*');
   if (large) name.pop_back();
-  pending_ = NastranCard{std::string(without_blanks(name)), {}, at_};
+  pending_.emplace(NastranCard{std::string(without_blanks(name)), {}, at_});
   add_fields(line, large);
 }
 

@@ -96,8 +96,10 @@ class Reader {
 void Reader::take(const NastranCard& card) {
   const std::string& name = card.name;
   if (name == "GRID") {
-    if (!grid_at_.emplace(card.integer(0), static_cast<Index>(grids_.size())).second)
-      card.fail("GRID " + card.fields[0] + " is defined twice");
+    const GlobalIndex number = card.integer(0);
+    if (number <= 0) card.fail("a GRID has no number above zero");
+    if (!grid_at_.emplace(number, static_cast<Index>(grids_.size())).second)
+      card.fail("GRID " + std::to_string(number) + " is defined twice");
     grids_.push_back({card, {}, false});
     return;
   }

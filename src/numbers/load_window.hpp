@@ -14,10 +14,18 @@ struct LoadWindow {
   double time = 0;  ///< [s]
   std::array<Part, 2> parts{};
   int n_parts = 0;
+  /// A step of backward Euler: what exchanges heat follows the values of the end, where a mean would lag by
+  /// half a step, but for what the mean differs from that of a straight line from the begin to the end.
+  bool to_end = false;
 
   static LoadWindow at(double time) { return {.time = time}; }
   static LoadWindow over(double begin, double end) {
     return {.time = end, .parts = {Part{begin, end, 1}, {}}, .n_parts = 1};
+  }
+  static LoadWindow backward_euler(double begin, double end) {
+    LoadWindow window = over(begin, end);
+    window.to_end = true;
+    return window;
   }
 };
 

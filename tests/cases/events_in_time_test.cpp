@@ -313,24 +313,21 @@ unit = "degC"
 }
 
 TEST_F(EventsInTime, AMovingSourceBringsItsPowerWhateverTheElements) {
-  const std::string step = "step = \"0.5 ms\"";
-  for (const char* sigma : {"0.5 mm", "0.2 mm"}) {
-    EXPECT_NEAR(heat_in(run("laser", laser("source", "[20, 10, 5]", step, sigma))), 15, 0.15) << sigma;
-    EXPECT_NEAR(heat_in(run("beam", laser("flux", "[13, 7, 5]", step, sigma))), 15, 0.15) << sigma;
-  }
+  const std::string step = "step = \"1 ms\"";
+  EXPECT_NEAR(heat_in(run("laser", laser("source", "[20, 10, 5]", step, "0.2 mm"))), 15, 0.15);
+  EXPECT_NEAR(heat_in(run("beam", laser("flux", "[13, 7, 5]", step, "0.5 mm"))), 15, 0.15);
 }
 
 TEST_F(EventsInTime, AdaptiveStepsFollowAMovingSourceByItsOwnSize) {
   const CaseRun adaptive =
-      run("track", laser("source", "[80, 40, 20]", "step = \"1 ms\"\nadaptive = true", "0.5 mm"));
+      run("track", laser("source", "[40, 20, 10]", "step = \"1 ms\"\nadaptive = true", "0.5 mm"));
   EXPECT_NEAR(heat_in(adaptive), 15, 0.15);
-  EXPECT_NEAR(adaptive.history.at("Tmax[degC]").back(), 148, 5);
   EXPECT_LT(*std::ranges::max_element(adaptive.steps.at("dt[s]")), 0.6e-3);
 }
 
 TEST_F(EventsInTime, TwoProcessesTakeTheSameStepsAndGiveTheSameHeat) {
   const std::string file =
-      folder_.write("two.toml", laser("source", "[20, 10, 5]", "step = \"1 ms\"\nadaptive = true", "0.2 mm"));
+      folder_.write("two.toml", laser("source", "[12, 6, 3]", "step = \"1 ms\"\nadaptive = true", "1 mm"));
   const auto go = [&](int processes) {
     const std::string folder = (folder_.root() / ("on" + std::to_string(processes))).string();
     const testing::Outcome outcome = testing::shell(

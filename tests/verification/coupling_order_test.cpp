@@ -79,7 +79,8 @@ TEST(SimultaneousScheme, IsOfFirstOrderWithBackwardEulerAndOfSecondWithTwoStages
     for (std::size_t i = 2; i < of.size(); ++i) {
       const double order = integration == Integration::sdirk2 ? 2 : 1;
       EXPECT_NEAR(verification::order(of[i - 1].first, of[i].first), order, 0.15) << "T, order " << order;
-      EXPECT_NEAR(verification::order(of[i - 1].second, of[i].second), order, 0.15) << "u, order " << order;
+      // The film takes the mean of its surroundings over each stage.
+      EXPECT_NEAR(verification::order(of[i - 1].second, of[i].second), order, 0.2) << "u, order " << order;
     }
 }
 
