@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "build/body_input.hpp"
+#include "case/roles.hpp"
 #include "check/findings.hpp"
 #include "input/units.hpp"
 #include "parallel/parallel.hpp"
@@ -129,13 +130,16 @@ void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& find
 /// Elements whose edges differ so much that what crosses them and what runs along them cannot both be seen;
 /// castings so small that their unit is in doubt.
 void shapes_and_sizes(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_flat = 150, k_flat_in_casting = 50, k_small = 3e-3;
+  // Layers of sand taper beside edges of a casting; nothing bends there where a body conducts heat alone.
+  constexpr double k_flat = 150, k_flat_in_layers = 300, k_flat_in_casting = 50, k_small = 3e-3;
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
-    if (m.bodies[b].flattest > (m.is_poured(b) ? k_flat_in_casting : k_flat))
+    const bool conducts = !spec.has_mechanics() || only_conducts(spec.bodies[b]);
+    const double most = m.is_poured(b) ? k_flat_in_casting : conducts ? k_flat_in_layers : k_flat;
+    if (m.bodies[b].flattest > most)
       findings.push_back({false, spec.mesh.where,
                           fmt::format("an element of the body '{}' is {:.0f} times as long as wide",
                                       spec.bodies[b].name, m.bodies[b].flattest),
-                          "up to 10, in thin layers of a mould up to 100"});
+                          "up to 10, in thin layers of a mould that conducts heat up to 200"});
   }
   for (const Pour& pour : m.pours) {
     const BodyMeasures& body = m.bodies[pour.body];
