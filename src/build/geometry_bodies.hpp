@@ -19,7 +19,8 @@ struct GeometryBody {
 /// Preference of a name for a body (mesh/body_partition.hpp): 2 where it tells a role.
 int body_preference(const std::string& group);
 
-/// Of groups that hold the same elements some are bodies, and the others are named in the log.
+/// Finds the bodies of a mesh and their roles. Where groups hold the same elements it chooses those that are
+/// bodies and names the others in the log.
 /// @param as    "NAME=ROLE"; without one the name of a body tells its role
 /// @param path  of the mesh, for messages
 /// Throws InputError for a role or a body that there is not, where no body is a casting, and where groups

@@ -10,7 +10,7 @@
 
 namespace solidus::heat {
 
-/// What a surface or a source takes of its functions of time: quantities that are averaged together.
+/// The quantities of a load that are averaged over a step together, as LoadLaw::Kind lists them.
 using LoadValues = std::array<double, 2>;
 
 /// A load as its functions make it: the last one drives it, the others multiply.
@@ -24,7 +24,8 @@ struct LoadLaw {
   std::vector<PlaceFunction> functions;
 
   LoadValues values(std::span<const double> of_functions) const;
-  /// Of functions that are all uniform. Throws InputError as they do.
+  /// The quantities at a time, where all functions are uniform in space. Throws InputError as the functions
+  /// do.
   LoadValues values_at(double time) const;
   bool uniform() const;
   bool steady() const;

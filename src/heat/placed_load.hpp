@@ -45,9 +45,9 @@ class PlacedLoad {
              std::vector<Share> shares = {});
   /// Collective. Throws InputError, on every process, where a function has no value that is allowed.
   void set(const LoadWindow& window);
-  /// Of a power: heat into the owned nodes at the window set [W].
+  /// The heat of a power into the owned nodes over the window that is set [W].
   std::span<const double> heat() const { return heat_; }
-  /// Of an exchange: its means, one a point.
+  /// The means of an exchange (a film or radiation), one for each point.
   std::span<const LoadValues> means() const { return means_; }
   /// The longest time from `from` on, up to `to`, after which the load overlaps with three fifths of itself,
   /// whatever its power is by then; infinite where that is longer, and of loads that do not move. A normal

@@ -109,7 +109,8 @@ struct ThermalPass {
   /// of a pass follow from its start, and change from pass to pass as long as an iteration between the phases
   /// goes round; a pass of backward Euler in the same step comes before.
   bool keeps_limits = false;
-  /// Of the loads of one stage; absent: the step, or its parts for two stages.
+  /// The part of the step over which loads are averaged in one stage; absent: the whole step, or its parts
+  /// where the phase takes two stages.
   std::optional<LoadWindow> loads = {};
 
   LoadWindow window() const { return loads.value_or(LoadWindow::backward_euler(time - dt, time)); }

@@ -332,7 +332,10 @@ TEST(Shots, DeformingCastingsAreNewInADeformingDie) {
   for (std::size_t s = 1; s < 5; ++s) {
     // What moved with the die and shrank has left; the next casting begins where it is drawn, on the wall of
     // a die that has grown.
-    EXPECT_GT(std::abs(h.at("u_casting[mm]")[(s - 1) * n + 12] - h.at("u_casting[mm]")[1]), 0.002) << s;
+    double moved = 0;
+    for (std::size_t step = 2; step <= 12; ++step)
+      moved = std::max(moved, std::abs(h.at("u_casting[mm]")[(s - 1) * n + step] - h.at("u_casting[mm]")[1]));
+    EXPECT_GT(moved, 0.02) << s;
     EXPECT_NEAR(h.at("u_casting[mm]")[s * n + 1], h.at("u_casting[mm]")[1], 0.01) << s;
     EXPECT_EQ(h.at("closed_fraction[1]")[s * n + 1], 1) << s;
     EXPECT_EQ(h.at("closed_fraction[1]")[s * n + 14], 0) << s;

@@ -79,8 +79,10 @@ TEST(SimultaneousScheme, IsOfFirstOrderWithBackwardEulerAndOfSecondWithTwoStages
     for (std::size_t i = 2; i < of.size(); ++i) {
       const double order = integration == Integration::sdirk2 ? 2 : 1;
       EXPECT_NEAR(verification::order(of[i - 1].first, of[i].first), order, 0.15) << "T, order " << order;
-      // The film takes the mean of its surroundings over each stage.
-      EXPECT_NEAR(verification::order(of[i - 1].second, of[i].second), order, 0.2) << "u, order " << order;
+      // The film takes the mean of its surroundings over each stage, of second order with shorter steps
+      // alone.
+      EXPECT_NEAR(verification::order(of[i - 1].second, of[i].second), order, i + 1 == of.size() ? 0.15 : 0.2)
+          << "u, order " << order;
     }
 }
 
