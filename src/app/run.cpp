@@ -12,10 +12,13 @@
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
 #include "app/watch.hpp"
+#include "build/mechanics_input.hpp"
+#include "build/time_input.hpp"
 #include "linear/interruption.hpp"
 #include "parallel/parallel.hpp"
 #include "results/progress.hpp"
 #include "results/run_folder.hpp"
+#include "run/error_runs.hpp"
 #include "system/processes.hpp"
 #include "system/terminal.hpp"
 
@@ -38,10 +41,40 @@ std::string shown_path(const fs::path& folder) {
   return here.empty() || *here.begin() == ".." ? folder.lexically_normal().string() : here.string();
 }
 
+/// Runs the case, and what --sure asks for beside it.
+model::RunResult run_all(const CaseArguments& arguments, const model::Case& c,
+                         const model::RunOptions& options) {
+  std::optional<results::Summary> summary;
+  double displacement_error = 0;
+  {
+    model::Session session(c, options);  // whose memory the runs beside it need
+    const model::RunResult result = session.run();
+    if (!result.finished || !arguments.sure) return result;
+    summary = *session.summary();
+    displacement_error =
+        model::displacement_error(c.spec.time, model::sections_of(c.spec, session.assembly().mesh));
+  }
+  const auto load = [&](const std::vector<std::string>& overrides) {
+    CaseArguments beside = arguments;
+    beside.set.insert(beside.set.end(), overrides.begin(), overrides.end());
+    return load_case(beside);
+  };
+  const model::ErrorRuns made =
+      model::run_beside(c, std::move(*summary), displacement_error, options, load,
+                        [](const std::string& text) { print("--sure: " + text + "\n"); });
+  const model::OutputSpec& output = c.spec.output;
+  print(results::text(*made.summary.answers, made.summary.criteria,
+                      {output.length_unit, output.temperature_unit, output.stress_unit}));
+  return {};
+}
+
 }  // namespace
 
 ExitCode run(const CaseArguments& arguments) {
   const model::Case c = load_case(arguments);
+  if (arguments.sure && c.spec.time.steady)
+    throw InputError(c.spec.time.where, "--sure compares answers of a transient run, and this case is steady",
+                     "a run without --sure");
   model::RunOptions options;
   options.folder = results_folder(arguments, c);
   const int rank = processes::rank();
@@ -56,7 +89,7 @@ ExitCode run(const CaseArguments& arguments) {
     watch.emplace(options.folder);
     print("Watch it in a browser on this machine: " + watch->address() + "\n");
   }
-  const model::RunResult result = model::run_case(c, options);
+  const model::RunResult result = run_all(arguments, c, options);
   if (watch) watch->finish();
   note_folder(options.folder);  // a run that stopped is drawn as far as it came
   if (arguments.report && rank == 0) write_report({.folders = {options.folder.string()}, .output = {}});

@@ -25,6 +25,7 @@ struct CaseArguments {
   bool coupled = false;          ///< heat and mechanics, whatever the case says
   bool watch = false;            ///< serve the report while the run goes on
   bool report = false;           ///< write the report at the end
+  bool sure = false;             ///< compare with runs beside it for the errors of the answers
 };
 
 /// Writes to stdout on process 0; says so when that is not possible (a full disk behind a redirection).

@@ -5,6 +5,7 @@
 #include "build/cast_bodies.hpp"
 #include "criteria/freezing.hpp"
 #include "criteria/pools.hpp"
+#include "criteria/resolution.hpp"
 #include "criteria/strain_criteria.hpp"
 
 namespace solidus::model {
@@ -23,6 +24,7 @@ std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const me
     all->add(std::make_unique<criteria::Freezing>(
         mesh, spec.analysis.kind, storage,
         criteria::FreezingOptions{.evaluation = spec.criteria.evaluation, .bodies = followed}));
+    all->add(std::make_unique<criteria::Resolution>(mesh, spec.analysis.kind, followed));
     try {
       all->add(std::make_unique<criteria::Pools>(
           mesh, storage,

@@ -85,15 +85,15 @@ StrainCriteria::StrainCriteria(const mesh::Mesh& mesh, AnalysisKind kind,
                                std::vector<double> temperature)
     : mesh_(mesh),
       components_(static_cast<std::size_t>(displacement_components(kind))),
-      materials_(materials),
       temperature_(std::move(temperature)),
       body_of_node_(bodies_of_nodes(mesh, materials)),
+      ghosts_(mesh),
       rigid_(mesh, kind) {
   std::size_t first = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
     blocks_.push_back(
-        {ElementStrain(mesh, block, kind), &material.casting, material.solidification(), {}, first});
+        {ElementStrain(mesh, block, kind), &block, &material.casting, material.solidification(), {}, first});
     std::vector<Index>& nodes = blocks_.back().nodes;
     if (material.solidification() != nullptr) nodes = block.nodes;
     std::sort(nodes.begin(), nodes.end());
@@ -127,6 +127,7 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
   std::vector<double>&at_coherency = record.columns[k_at_coherency].values,
   &brittle = record.columns[k_brittle].values;
   std::vector<double> before(mesh_.x.size()), after(mesh_.x.size());  // f_S of the block's material
+  std::vector<char> soft(mesh_.x.size(), 0);  // nodes at elements that begin the step as melt
   // Mean values of quadratic basis functions are negative at some nodes.
   const auto mean = [](const OfBlock& block, const std::vector<double>& fraction, Index batch) {
     return max(min(block.strain.mean(fraction, batch), Lane(1.0)), Lane(0.0));
@@ -148,6 +149,10 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
       const LaneMask melt = from < Lane(block.casting->coherency_fraction);
       const std::size_t first = block.first + static_cast<std::size_t>(batch) * k_lanes;
       const int count = std::min<int>(k_lanes, block.strain.n_elements() - batch * k_lanes);
+      for (int lane = 0; lane < count; ++lane)
+        if (from[lane] < block.casting->coherency_fraction)
+          for (const Index node : block.nodes_of(batch * k_lanes + lane))
+            soft[static_cast<std::size_t>(node)] = 1;
       Sym<Lane> reference = load(at_coherency, first, count), sum = load(brittle, first, count);
       for (std::size_t i = 0; i < k_tensor; ++i) {
         reference.c[i] = select(melt, strain.c[i], reference.c[i]);
@@ -158,13 +163,10 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
     }
   }
   std::vector<double>& displacement = record.columns[k_displacement].values;
-  for (std::size_t node = 0; node < mesh_.x.size(); ++node) {
-    const material::Material& material = materials_[static_cast<std::size_t>(body_of_node_[node])];
-    if (material.solidification() == nullptr ||
-        solid_fraction(*material.solidification(), old, node) >= material.casting.coherency_fraction)
-      continue;
-    for (std::size_t i = node * components_; i < (node + 1) * components_; ++i) displacement[i] = u[i];
-  }
+  for (std::size_t node = 0; node < mesh_.x.size(); ++node)
+    if (soft[node] != 0)
+      for (std::size_t i = node * components_; i < (node + 1) * components_; ++i) displacement[i] = u[i];
+  ghosts_.update(displacement, static_cast<int>(components_));
 }
 
 std::vector<CriterionField> StrainCriteria::fields() const {

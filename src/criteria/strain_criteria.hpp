@@ -10,7 +10,8 @@
 ///   strain_since_coherency  √(2/3 dev (ε − ε_c) : dev (ε − ε_c))
 ///   brittle_strain          the largest principal value of Σ χ dev Δε, χ the share of a step in which the
 ///                           solid fraction runs through the brittle range
-///   distortion              the displacement since coherency without the best rigid motion of each body [m]
+///   distortion              the displacement since coherency without the best rigid motion of each body [m];
+///                           a node is coherent when all its elements are (coupling/coherency.hpp)
 ///
 /// Strains are measured by their deviators: thermal strain and the shrinkage of freezing are volumetric, so a
 /// body that shrinks freely has none. Metal that melts again forgets. The solid fraction is the mean over the
@@ -25,6 +26,7 @@
 #include "criteria/element_strain.hpp"
 #include "criteria/rigid_fit.hpp"
 #include "material/material.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::criteria {
 
@@ -49,10 +51,14 @@ class StrainCriteria : public Criterion {
  private:
   struct OfBlock {
     ElementStrain strain;
+    const mesh::ElementBlock* block;
     const material::Casting* casting;
     const material::PhaseChange* freezing;  ///< null: always solid
     std::vector<Index> nodes;               ///< of a block that freezes, each once
     std::size_t first;                      ///< element in columns of cells
+    std::span<const Index> nodes_of(Index element) const {
+      return {block->element(element), static_cast<std::size_t>(mesh::node_count(block->shape))};
+    }
   };
   std::span<const double> temperature(const CriterionInput& moment) const;
   double solid_fraction(const material::PhaseChange& freezing, const CriterionInput& moment,
@@ -60,10 +66,10 @@ class StrainCriteria : public Criterion {
 
   const mesh::Mesh& mesh_;
   std::size_t components_;
-  const std::vector<material::Material>& materials_;
   std::vector<double> temperature_;
   std::vector<OfBlock> blocks_;
   std::vector<int> body_of_node_;  ///< [local node]: the first one that can melt, else the first one
+  parallel::GhostExchange ghosts_;
   RigidFit rigid_;
 };
 

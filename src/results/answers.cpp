@@ -11,6 +11,7 @@
 #include "mesh/block_geometry.hpp"
 #include "numbers/types.hpp"
 #include "parallel/parallel.hpp"
+#include "results/spots.hpp"
 
 namespace solidus::results {
 
@@ -39,19 +40,8 @@ class Largest {
   double number_ = -1;
 };
 
-/// Values of a field; empty if the run has no such field.
-struct Values {
-  std::vector<double> storage;
-  std::span<const double> values;
-  Values(const FieldSet& fields, std::string_view name) {
-    if (const Field* field = fields.find(name)) values = field->read(storage);
-  }
-  bool empty() const { return values.empty(); }
-  double operator[](std::size_t i) const { return values[i]; }
-};
-
 /// The owned nodes of a body.
-std::vector<char> nodes_of(const mesh::Mesh& mesh, int body) {
+std::vector<char> owned_nodes_of(const mesh::Mesh& mesh, int body) {
   std::vector<char> chosen(static_cast<std::size_t>(mesh.n_owned_nodes), 0);
   for (const mesh::ElementBlock& block : mesh.blocks)
     if (block.body == body)
@@ -75,9 +65,9 @@ CastAnswer cast_answer(const mesh::Mesh& mesh, const coupling::Phases& phases, c
   CastAnswer answer;
   answer.cast = cast;
   answer.solid_fraction = phases.heat->mean_solid_fraction(state.heat, cast.body);
-  const std::vector<char> nodes = nodes_of(mesh, cast.body);
+  const std::vector<char> nodes = owned_nodes_of(mesh, cast.body);
   const auto last_melt = [&] {
-    const Values frozen(fields, "solidified_at");
+    const FieldValues frozen(fields, "solidified_at");
     return largest_at(mesh, nodes, [&](std::size_t i) {
       return frozen.empty() || frozen[i] < 0 ? std::nullopt : std::optional(frozen[i]);
     });
@@ -94,7 +84,7 @@ CastAnswer cast_answer(const mesh::Mesh& mesh, const coupling::Phases& phases, c
     answer.froze = last_melt();
     return answer;
   }
-  const Values solid(fields, "solid_fraction"), temperature(fields, "temperature");
+  const FieldValues solid(fields, "solid_fraction"), temperature(fields, "temperature");
   const std::optional<ValueAt> softest =
       largest_at(mesh, nodes, [&](std::size_t i) { return std::optional(-solid[i]); });
   if (softest)
@@ -142,7 +132,7 @@ std::vector<GapAnswer> largest_of_contacts(const mesh::Mesh& mesh, const couplin
 
 std::vector<GapAnswer> largest_gaps(const mesh::Mesh& mesh, const coupling::Phases& phases,
                                     const FieldSet& fields) {
-  const Values gap(fields, "gap");
+  const FieldValues gap(fields, "gap");
   return largest_of_contacts(mesh, phases, [&](std::size_t, std::size_t i) {
     return !gap.empty() && gap[i] > 0 ? std::optional(gap[i]) : std::nullopt;
   });
@@ -163,19 +153,10 @@ std::vector<GapAnswer> deepest_overlaps(const mesh::Mesh& mesh, const coupling::
   });
 }
 
-mesh::Point centre(const mesh::Mesh& mesh, const mesh::ElementBlock& block, Index element) {
-  mesh::Point sum{};
-  const int n = mesh::node_count(block.shape);
-  for (int a = 0; a < n; ++a)
-    for (std::size_t k = 0; k < 3; ++k)
-      sum[k] += mesh.x[static_cast<std::size_t>(block.element(element)[a])][k] / n;
-  return sum;
-}
-
 /// The largest von Mises stress in some bodies, and which of them has it.
 void add_stress(const mesh::Mesh& mesh, const FieldSet& fields, const std::vector<char>& bodies,
                 Answers& answers) {
-  const Values stress(fields, "von_mises");
+  const FieldValues stress(fields, "von_mises");
   if (stress.empty()) return;
   std::vector<Largest> of_body(mesh.bodies.size());
   std::size_t first = 0;
@@ -200,7 +181,7 @@ void add_stress(const mesh::Mesh& mesh, const FieldSet& fields, const std::vecto
 /// The pores of the cast bodies, where any have opened.
 std::optional<Answers::Pores> pores(const mesh::Mesh& mesh, AnalysisKind kind, const FieldSet& fields,
                                     const std::vector<char>& bodies) {
-  const Values fraction(fields, "pore_fraction");
+  const FieldValues fraction(fields, "pore_fraction");
   if (fraction.empty()) return {};
   Largest densest;
   double volume = 0, whole = 0;
@@ -241,7 +222,7 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
   for (const CastBody& cast : castings) {
     if (phases.heat != nullptr) a.castings.push_back(cast_answer(mesh, phases, state, cast, fields));
     stressed[static_cast<std::size_t>(cast.body)] = 1;
-    const std::vector<char> own = nodes_of(mesh, cast.body);
+    const std::vector<char> own = owned_nodes_of(mesh, cast.body);
     for (std::size_t i = 0; i < own.size(); ++i) cast_nodes[i] |= own[i];
   }
   if (!castings.empty()) a.pools = cut_off_pools(state.criteria);
@@ -249,13 +230,10 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
   if (!castings.empty()) a.pores = pores(mesh, phases.mechanics->kind(), fields, stressed);
   a.gaps = largest_gaps(mesh, phases, fields);
   a.overlaps = deepest_overlaps(mesh, phases, state.heat.temperature);
-  if (const Field* field = fields.find("distortion"); field != nullptr && !castings.empty()) {
-    const Values distortion(fields, "distortion");
-    const auto n = static_cast<std::size_t>(field->components);
+  if (const FieldValues distortion(fields, "distortion"); !distortion.empty() && !castings.empty()) {
     a.distortion = largest_at(mesh, cast_nodes, [&](std::size_t i) {
-      double square = 0;
-      for (std::size_t k = 0; k < n; ++k) square += distortion[i * n + k] * distortion[i * n + k];
-      return square > 0 ? std::optional(std::sqrt(square)) : std::nullopt;
+      const double length = distortion.length(i);
+      return length > 0 ? std::optional(length) : std::nullopt;
     });
   }
   add_stress(mesh, fields, stressed, a);

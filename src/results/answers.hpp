@@ -26,10 +26,19 @@ struct CastBody {
   bool feeds = false;  ///< it is a riser: it should be the last to freeze
 };
 
+/// The error of an answer, in its unit: it is expected within ± total() of the answer without steps and mesh.
+struct ErrorBand {
+  double step = 0, mesh = 0;
+  /// What it comes from: the run itself (answer_errors.hpp), or runs beside it (run/error_runs.hpp).
+  bool step_compared = false, mesh_compared = false;
+  double total() const { return step + mesh; }
+};
+
 /// A value and where it is.
 struct ValueAt {
   double value = 0;
   mesh::Point where{};  ///< of the nominal shape [m]
+  std::optional<ErrorBand> error = {};
 };
 
 /// Progress of the freezing of a cast body.
@@ -61,9 +70,10 @@ struct Answers {
   std::optional<CutOffPools> pools;
   /// Shrinkage pores of cast bodies in mixed elements (mechanics/pores.hpp); absent where there are none.
   struct Pores {
-    double volume = 0;  ///< of all [m³], in two dimensions per depth or radian
-    double share = 0;   ///< of the volume of the castings
-    ValueAt densest;    ///< the largest pore fraction
+    double volume = 0;                    ///< of all [m³], in two dimensions per depth or radian
+    double share = 0;                     ///< of the volume of the castings
+    std::optional<ErrorBand> error = {};  ///< of the share
+    ValueAt densest;                      ///< the largest pore fraction
   };
   std::optional<Pores> pores;
   std::vector<GapAnswer> gaps;        ///< by contact, those that are open somewhere
@@ -73,6 +83,8 @@ struct Answers {
   std::string stressed_body;
   std::vector<ShotRow> shots;           ///< those that are over; known to the process that writes
   std::optional<double> energy_defect;  ///< relative, as relative_energy_defect of the summary
+  /// Errors of findings of criteria, by their names.
+  std::vector<std::pair<std::string, ErrorBand>> criteria_errors;
 };
 
 /// Collective; the same on every process.

@@ -5,10 +5,21 @@ namespace solidus::results {
 
 namespace {
 
+/// The error of an answer, as members of what holds it.
+void add_error(Json& json, const std::optional<ErrorBand>& error, const std::string& unit) {
+  if (!error) return;
+  json.add("error[" + unit + "]", error->total())
+      .add("error_of_step[" + unit + "]", error->step)
+      .add("error_of_mesh[" + unit + "]", error->mesh)
+      .add("step_compared", error->step_compared)
+      .add("mesh_compared", error->mesh_compared);
+}
+
 Json value_json(const ValueAt& value, const std::string& unit) {
   Json json;
   json.add("value[" + unit + "]", value.value)
       .add("at[m]", Json::Array(value.where.begin(), value.where.end()));
+  add_error(json, value.error, unit);
   return json;
 }
 
@@ -36,10 +47,12 @@ Json json(const Answers& a) {
     }
     json.add("pools_cut_off", std::move(pools));
   }
-  if (a.pores)
-    json.add("pores", value_json(a.pores->densest, "1")
-                          .add("volume[m3]", a.pores->volume)
-                          .add("share_of_casting", a.pores->share));
+  if (a.pores) {
+    Json pores = value_json(a.pores->densest, "1");
+    pores.add("volume[m3]", a.pores->volume).add("share_of_casting", a.pores->share);
+    add_error(pores, a.pores->error, "1");
+    json.add("pores", std::move(pores));
+  }
   Json gaps;
   for (const GapAnswer& gap : a.gaps) gaps.add(gap.contact, value_json(gap.gap, "m"));
   json.add("largest_gaps", std::move(gaps));
@@ -48,6 +61,13 @@ Json json(const Answers& a) {
   json.add("deepest_overlaps", std::move(overlaps));
   if (a.distortion) json.add("largest_distortion", value_json(*a.distortion, "m"));
   if (a.stress) json.add("largest_von_mises", value_json(*a.stress, "Pa").add("body", a.stressed_body));
+  Json of_criteria;
+  for (const auto& [name, error] : a.criteria_errors) {
+    Json of_one;
+    add_error(of_one, error, "SI");
+    of_criteria.add(name, std::move(of_one));
+  }
+  if (!a.criteria_errors.empty()) json.add("errors_of_criteria", std::move(of_criteria));
   if (!a.shots.empty()) json.add("shots", results::json(a.shots));
   if (a.energy_defect) json.add("relative_energy_defect", *a.energy_defect);
   return json;

@@ -21,6 +21,16 @@ constexpr double k_sunk = 3;
 /// Share of the largest distortion beyond which an overlap of two bodies is reported.
 constexpr double k_overlap = 0.05;
 
+/// A value with its error where it has one: "36.7 ± 1.6 s (step 0.4, mesh 1.2)".
+/// @param factor  from SI to the unit shown
+std::string with_error(double value, const std::optional<ErrorBand>& error, double factor,
+                       const std::string& unit) {
+  const std::string space = unit.empty() ? "" : " ";
+  if (!error || !(error->total() > 0)) return fmt::format("{:.4g}{}{}", value * factor, space, unit);
+  return fmt::format("{:.4g} ± {:.2g}{}{} (step {:.2g}, mesh {:.2g})", value * factor,
+                     error->total() * factor, space, unit, error->step * factor, error->mesh * factor);
+}
+
 /// Values in the units that the user wants to read.
 class Formatter {
  public:
@@ -35,6 +45,12 @@ class Formatter {
   }
   std::string length(double metres) const {
     return fmt::format("{:.4g} {}", units::to_display(metres, "m", units_.length), units_.length);
+  }
+  std::string length(const ValueAt& metres) const {
+    return with_error(metres.value, metres.error, units::to_display(1, "m", units_.length), units_.length);
+  }
+  std::string stress(const ValueAt& pascal) const {
+    return with_error(pascal.value, pascal.error, units::to_display(1, "Pa", units_.stress), units_.stress);
   }
   std::string temperature(double kelvin) const {
     return fmt::format("{:.4g} {}", units::to_display(kelvin, "K", units_.temperature), units_.temperature);
@@ -66,12 +82,14 @@ std::string line(std::string_view what, const std::string& answer) {
 
 std::string cast_text(const CastAnswer& answer, double time, const Formatter& format) {
   if (!answer.there)
-    return answer.froze ? fmt::format("has left; its last melt froze {:.4g} s after pouring {}",
-                                      answer.froze->value, format.place(answer.froze->where))
+    return answer.froze ? fmt::format("has left; its last melt froze {} after pouring {}",
+                                      with_error(answer.froze->value, answer.froze->error, 1, "s"),
+                                      format.place(answer.froze->where))
                         : "has left";
   if (answer.solid_fraction == 1)
-    return answer.froze ? fmt::format("solid; its last melt froze {:.4g} s after pouring {}",
-                                      answer.froze->value, format.place(answer.froze->where))
+    return answer.froze ? fmt::format("solid; its last melt froze {} after pouring {}",
+                                      with_error(answer.froze->value, answer.froze->error, 1, "s"),
+                                      format.place(answer.froze->where))
                         : "solid";
   // A body that is not solid is never reported as "100 % solid".
   const double percent = std::min(100 * answer.solid_fraction, 99.9);
@@ -164,15 +182,18 @@ constexpr Line k_lines[] = {{"longest local solidification time", "local_solidif
                             {"least dimensionless Niyama", "dimensionless_niyama_min", "", 1},
                             {"largest estimate of porosity", "shrinkage_porosity_max", "%", 100}};
 
-std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, const Formatter& format) {
+std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, const Answers& answers,
+                           const Formatter& format) {
   std::string text;
   for (const Line& wanted : k_lines) {
     const auto f = std::find_if(found.begin(), found.end(), [&](const criteria::CriterionResult& finding) {
       return finding.name == wanted.finding;
     });
     if (f == found.end()) continue;
-    std::string answer = fmt::format("{:.4g}", f->value * wanted.factor);
-    if (!wanted.unit.empty()) answer += fmt::format(" {}", wanted.unit);
+    std::optional<ErrorBand> error;
+    for (const auto& [name, of_finding] : answers.criteria_errors)
+      if (name == wanted.finding) error = of_finding;
+    std::string answer = with_error(f->value, error, wanted.factor, std::string(wanted.unit));
     if (f->somewhere) answer += " " + format.place(f->where);
     text += line(wanted.text, answer);
   }
@@ -190,14 +211,15 @@ std::string text(const Answers& a, const std::vector<criteria::CriterionResult>&
                  cast_text(cast, a.time - a.poured, format));
   text += riser_lines(a);
   if (a.pools) text += line("pools of melt cut off", pools_text(*a.pools, format));
-  if (!a.castings.empty()) text += criteria_lines(criteria, format);
+  if (!a.castings.empty()) text += criteria_lines(criteria, a, format);
   if (a.pores)
     text += line("shrinkage that nothing fed (pores)",
-                 fmt::format("{:.3g} % of the casting; the densest, {:.3g} %, {}", 100 * a.pores->share,
+                 fmt::format("{} of the casting; the densest, {:.3g} %, {}",
+                             with_error(a.pores->share, a.pores->error, 100, "%"),
                              100 * a.pores->densest.value, format.place(a.pores->densest.where)));
   for (const GapAnswer& gap : a.gaps)
     text += line(fmt::format("largest gap of '{}'", gap.contact),
-                 fmt::format("{} {}{}", format.length(gap.gap.value), format.place(gap.gap.where),
+                 fmt::format("{} {}{}", format.length(gap.gap), format.place(gap.gap.where),
                              sunk_text(gap.gap.value, a.distortion)));
   for (const GapAnswer& overlap : a.overlaps)
     if (a.distortion && overlap.gap.value > k_overlap * a.distortion->value)
@@ -208,9 +230,9 @@ std::string text(const Answers& a, const std::vector<criteria::CriterionResult>&
               format.length(overlap.gap.value), format.place(overlap.gap.where)));
   if (a.distortion)
     text += line("largest distortion",
-                 fmt::format("{} {}", format.length(a.distortion->value), format.place(a.distortion->where)));
+                 fmt::format("{} {}", format.length(*a.distortion), format.place(a.distortion->where)));
   if (a.stress)
-    text += line("largest von Mises stress", fmt::format("{} in '{}' {}", format.stress(a.stress->value),
+    text += line("largest von Mises stress", fmt::format("{} in '{}' {}", format.stress(*a.stress),
                                                          a.stressed_body, format.place(a.stress->where)));
   if (a.energy_defect)
     text += line("energy", fmt::format("{} {:.1e} of the heat exchanged",

@@ -197,6 +197,7 @@ void Recorder::step(const coupling::StepRecord& taken, const coupling::State& st
   stage_ = record.stage_of_case;
   cycle_ = record.cycle;
   fields_.update(state);
+  if (!options_.castings.empty()) last_step_.step(fields_.bodies());
   if (criteria_probed_) fields_.update_criteria(state);
   on_first_process([&] { steps_->add(step_row(record, step_table())); });
   add_history_row(state);
@@ -290,6 +291,8 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
   if (!options_.steady) {
     fields_.update_criteria(state);
     s.answers = answers(mesh_, phases_, state, options_.castings, fields_.bodies(), mechanical);
+    if (phases_.criteria != nullptr) s.criteria = phases_.criteria->findings(state.criteria);
+    add_errors(mesh_, phases_, state, fields_.bodies(), last_step_, *s.answers, s.criteria);
     if (shots_) s.answers->shots = shots_->rows();
     if (!criteria_probed_) fields_.release_criteria();
     if (phases_.heat != nullptr) s.answers->energy_defect = globals_.relative_defect();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "coupling/phases.hpp"
+#include "results/answer_errors.hpp"
 #include "results/answers.hpp"
 #include "results/checkpoint.hpp"
 #include "results/field_output.hpp"
@@ -60,6 +61,8 @@ class Recorder : public coupling::Observer {
   void checkpoint(const coupling::RestartData& continuation, const coupling::State& state) override;
   void stopped(const coupling::Stop& stop, const coupling::State& state) override;
   void end(const coupling::State& state) override;
+  /// What the run left in summary.json, once it has ended; final values are known to process 0.
+  const Summary& summary() const { return options_.summary; }
 
  private:
   StepTable step_table() const;
@@ -96,6 +99,7 @@ class Recorder : public coupling::Observer {
   std::optional<ShotTable> shots_;           // on process 0, in a run with shots
   std::optional<Progress> progress_;         // on process 0
   std::vector<double> last_row_;
+  LastStep last_step_;
   int stage_ = 0, cycle_ = 0;  ///< of the last row, as in StepRecord
   int shot_ = 0;               ///< as in State
   double since_pouring_ = 0;   ///< [s]

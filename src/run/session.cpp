@@ -251,6 +251,10 @@ const Assembly& Session::assembly() const {
   return parts_->a;
 }
 
+const results::Summary* Session::summary() const {
+  return parts_->recorder ? &parts_->recorder->summary() : nullptr;
+}
+
 RunResult run_case(Case c, const RunOptions& options) {
   return Session(std::move(c), options).run();
 }

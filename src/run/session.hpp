@@ -72,6 +72,8 @@ class Session {
   const coupling::StepRecord& record() const;
   const Case& running() const;
   const Assembly& assembly() const;
+  /// What summary.json says, after run(); null without a folder.
+  const results::Summary* summary() const;
 
  private:
   struct Parts;

@@ -1,0 +1,114 @@
+#include "run/error_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "case/nearby_case.hpp"
+#include "results/answer_comparison.hpp"
+#include "results/output_error.hpp"
+#include "results/progress.hpp"
+#include "system/log.hpp"
+#include "system/processes.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// Runs beside a run that are less different than this tell nothing: their differences are those of chance.
+constexpr double k_least_ratio = 1.2;
+
+/// A run beside says again what the run has said.
+class Quiet {
+ public:
+  Quiet() : level_(logging::level()) { logging::set_level(logging::Level::silent); }
+  ~Quiet() { logging::set_level(level_); }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+
+ private:
+  logging::Level level_;
+};
+
+/// A comparison that is to be made.
+struct Wanted {
+  results::ErrorPart part;
+  const char* name;    ///< for people
+  const char* folder;  ///< below sure/
+  NearbyCase how;
+};
+
+/// How much finer a run was than one beside it.
+double ratio(results::ErrorPart part, AnalysisKind kind, const results::Summary& run,
+             const results::Summary& beside) {
+  if (part == results::ErrorPart::step)
+    return static_cast<double>(run.steps) / static_cast<double>(beside.steps);
+  const double nodes = static_cast<double>(run.mesh.nodes) / static_cast<double>(beside.mesh.nodes);
+  return std::pow(nodes, 1.0 / (kind == AnalysisKind::solid ? 3.0 : 2.0));
+}
+
+/// The summary of a run beside, or why there is none.
+struct Beside {
+  std::optional<results::Summary> summary;
+  std::string why_not;
+};
+
+Beside run_one(const Wanted& wanted, const RunOptions& options, const LoadBeside& load) {
+  RunOptions beside = options;
+  beside.folder = options.folder / "sure" / wanted.folder;
+  beside.progress = nullptr;
+  beside.terminal = beside.restart = beside.profile = false;
+  const Quiet quiet;
+  try {
+    Session session(load(wanted.how.overrides), beside);
+    const RunResult result = session.run();
+    if (!result.finished) return {{}, result.reason};
+    return {*session.summary(), {}};
+  } catch (const InputError& error) {
+    return {{}, error.what()};
+  }
+}
+
+}  // namespace
+
+ErrorRuns run_beside(const Case& c, results::Summary summary, double displacement_error,
+                     const RunOptions& options, const LoadBeside& load,
+                     const std::function<void(const std::string&)>& say) {
+  ErrorRuns made{std::move(summary), true};
+  const Wanted wanted[] = {
+      {results::ErrorPart::step, "longer steps", "longer_steps", longer_steps(c.spec, displacement_error)},
+      {results::ErrorPart::mesh, "larger elements", "larger_elements", coarser_mesh(c.spec)}};
+  for (const Wanted& comparison : wanted) {
+    const auto leave = [&](const std::string& why) {
+      made.complete = false;
+      say(fmt::format("no comparison with {}: {}; the estimate stands", comparison.name, why));
+    };
+    if (!comparison.how.why_not.empty()) {
+      leave(comparison.how.why_not);
+      continue;
+    }
+    if (options.stop_asked && options.stop_asked()) {
+      leave("stopped as asked");
+      continue;
+    }
+    const double start = processes::wall_time();
+    const Beside beside = run_one(comparison, options, load);
+    if (!beside.summary || !beside.summary->answers) {
+      leave(beside.why_not);
+      continue;
+    }
+    const double finer = ratio(comparison.part, c.spec.analysis.kind, made.summary, *beside.summary);
+    if (!(finer > k_least_ratio)) {
+      leave(fmt::format("it differs by a factor of {:.3g} only", finer));
+      continue;
+    }
+    compare_errors(comparison.part, finer, *beside.summary->answers, beside.summary->criteria,
+                   *made.summary.answers, made.summary.criteria);
+    say(fmt::format("compared with {}, a factor of {:.3g}, in {}", comparison.name, finer,
+                    results::duration_text(processes::wall_time() - start)));
+  }
+  results::on_first_process([&] { results::write_summary(options.folder / "summary.json", made.summary); });
+  return made;
+}
+
+}  // namespace solidus::model

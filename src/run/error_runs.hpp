@@ -1,0 +1,33 @@
+/// Runs beside a run, for the errors of its answers: `solidus run --sure`.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "run/session.hpp"
+
+namespace solidus::model {
+
+/// Loads the case that ran, with further overrides.
+using LoadBeside = std::function<Case(const std::vector<std::string>& overrides)>;
+
+/// What comes of the runs beside one.
+struct ErrorRuns {
+  results::Summary summary;  ///< that of the run, its answers with errors by comparison
+  bool complete = true;      ///< both comparisons were made; else the estimates stand where one is missing
+};
+
+/// Runs the case with longer steps and with larger elements (case/nearby_case.hpp), in the folders
+/// sure/longer_steps and sure/larger_elements of the run's, and takes the errors of its answers from the
+/// differences (results/answer_comparison.hpp). A run beside it that cannot be made, does not end or does not
+/// differ enough leaves the estimate. Writes summary.json anew. Collective.
+/// @param summary             of the run, which must have ended
+/// @param displacement_error  of the case (displacement_error() of build/time_input.hpp) [m]
+/// @param options             of the run
+/// @param say                 told what is done, in sentences
+ErrorRuns run_beside(const Case& c, results::Summary summary, double displacement_error,
+                     const RunOptions& options, const LoadBeside& load,
+                     const std::function<void(const std::string&)>& say);
+
+}  // namespace solidus::model
