@@ -57,7 +57,13 @@ NearbyCase longer_steps(const CaseSpec& spec, double displacement_error) {
     made.why_not = "a steady case has no steps";
     return made;
   }
+  // Steps that must meet outputs are no longer than the time between them.
+  if (t.end) made.overrides.push_back(fmt::format("output.every={} s", *t.end));
   if (t.adaptive && t.error_control != coupling::ErrorControl::none) {
+    constexpr double k_default_largest = 10;  // times the first step (coupling::StepOptions::largest)
+    if (t.max_step || t.step)
+      made.overrides.push_back(fmt::format(
+          "time.max_step={} s", k_steps * t.max_step.value_or(k_default_largest * t.step.value_or(0))));
     if (spec.has_heat()) {
       made.overrides.push_back(
           fmt::format("time.temperature_error={} K", k_errors * t.temperature_error.value_or(1.0)));

@@ -13,8 +13,11 @@ namespace solidus::results {
 
 namespace {
 
-/// Of a quantity that integrates the flow of heat, in units of η².
-constexpr double k_flow = 0.8;
+/// Of a quantity that integrates the flow of heat, in units of η². Meshes of solids have few elements across
+/// a wall, so that η² is large there and says less.
+double of_flow(const mesh::Mesh& mesh) {
+  return mesh.dimension == 3 ? 0.2 : 0.8;
+}
 /// Of the step in which the last melt of a body froze.
 constexpr double k_within = 0.5;
 /// Of the difference of an extreme to what is around it.
@@ -44,6 +47,7 @@ class ErrorFinder {
         phases_(phases),
         fields_(fields),
         last_(last),
+        k_flow_(of_flow(mesh)),
         flow_(with_others(told.flow_error)),
         within_(told.frozen_within) {}
 
@@ -61,7 +65,7 @@ class ErrorFinder {
   /// @param around  the share that counts of its difference to what is around it
   ErrorBand of_state(double value, double change, double around) const {
     return {.step = change + late_ * std::abs(value),
-            .mesh = k_flow * worst_flow_ * std::abs(value) + around};
+            .mesh = k_flow_ * worst_flow_ * std::abs(value) + around};
   }
   /// What the process that owns a spot knows of a scalar field there: {change, around}, on all. Collective.
   std::array<double, 2> at(const std::optional<Spot>& spot, std::string_view field) const;
@@ -72,6 +76,7 @@ class ErrorFinder {
   const coupling::Phases& phases_;
   const FieldSet& fields_;
   const LastStep& last_;
+  double k_flow_;                   ///< of_flow()
   std::vector<double> flow_;        ///< [body]
   std::span<const double> within_;  ///< [local node] [s]
   std::vector<char> cast_nodes_;    ///< [local node]
@@ -90,7 +95,7 @@ void ErrorFinder::of_freezing(CastAnswer& body) {
   own[b] = 1;
   const std::optional<Spot> spot = node_spot(mesh_, body.froze->where, nodes_of(mesh_, own));
   const double step = k_within * parallel::global_max(spot ? within_[spot->at] : 0.0);
-  body.froze->error = ErrorBand{.step = step, .mesh = k_flow * flow_[b] * body.froze->value};
+  body.froze->error = ErrorBand{.step = step, .mesh = k_flow_ * flow_[b] * body.froze->value};
   late_ = std::max(late_, step / body.froze->value);
 }
 
@@ -158,7 +163,7 @@ std::optional<ErrorBand> ErrorFinder::of_criterion(const criteria::CriterionResu
   const std::optional<Spot> spot = node_spot(mesh_, found.where, cast_nodes_);
   if (is_niyama) return of_state(found.value, 0, k_around_niyama * at(spot, "niyama")[1]);
   return ErrorBand{.step = k_within * parallel::global_max(spot ? within_[spot->at] : 0.0),
-                   .mesh = k_flow * worst_flow_ * found.value};
+                   .mesh = k_flow_ * worst_flow_ * found.value};
 }
 
 void ErrorFinder::find(Answers& answers, const std::vector<criteria::CriterionResult>& criteria) {

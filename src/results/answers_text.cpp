@@ -127,25 +127,40 @@ std::string shot_lines(const std::vector<ShotRow>& shots, const Formatter& forma
   return text;
 }
 
+double error_of(const std::optional<ValueAt>& value) {
+  return value && value->error ? value->error->total() : 0;
+}
+
+/// The verdict on a riser that froze so much later than the part [s]. Times of both that are wrong together
+/// leave their difference right, so that the larger of both errors is that of the difference.
+std::string margin_text(double later, double error) {
+  const std::string band = error > 0 ? fmt::format(" ± {:.2g}", error) : "";
+  if (std::abs(later) < error)
+    return fmt::format("froze {:.4g}{} s {} the part: too close to tell whether it fed to the end",
+                       std::abs(later), band, later > 0 ? "after" : "before");
+  return later > 0
+             ? fmt::format("outlived the part by {:.4g}{} s", later, band)
+             : fmt::format("froze {:.4g}{} s before the part: it could not feed to the end", -later, band);
+}
+
 /// Says of each riser whether it fed the castings to the end.
 std::string riser_lines(const Answers& answers) {
   bool part_solid = true, any_part = false;
-  double part = 0;
+  double part = 0, part_error = 0;
   for (const CastAnswer& a : answers.castings) {
     if (a.cast.feeds || (!a.there && !a.froze)) continue;
     any_part = true;
     part_solid = part_solid && a.froze;
-    if (a.froze) part = std::max(part, a.froze->value);
+    if (!a.froze) continue;
+    part = std::max(part, a.froze->value);
+    part_error = std::max(part_error, error_of(a.froze));
   }
   std::string text;
   for (const CastAnswer& riser : answers.castings) {
     if (!riser.cast.feeds || (!riser.there && !riser.froze) || !any_part) continue;
     std::string verdict;
     if (riser.froze && part_solid)
-      verdict = riser.froze->value > part
-                    ? fmt::format("outlived the part by {:.4g} s", riser.froze->value - part)
-                    : fmt::format("froze {:.4g} s before the part: it could not feed to the end",
-                                  part - riser.froze->value);
+      verdict = margin_text(riser.froze->value - part, std::max(part_error, error_of(riser.froze)));
     else if (part_solid)
       verdict = "outlived the part";
     else if (riser.froze)

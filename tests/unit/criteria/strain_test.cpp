@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "../mechanics/lattice.hpp"
 #include "criteria/strain_criteria.hpp"
@@ -57,8 +58,11 @@ class Bar {
   }
 
   void step(double temperature, const Motion& u) {
+    step([temperature](const Point&) { return temperature; }, u);
+  }
+  void step(const std::function<double(const Point&)>& temperature, const Motion& u) {
     heat::ThermalState heat;
-    heat.temperature.assign(mesh_.x.size(), temperature);
+    for (const Point& x : mesh_.x) heat.temperature.push_back(temperature(x));
     mechanics::MechanicalState mechanics;
     for (const Point& x : mesh_.x)
       for (std::size_t i = 0; i < components(); ++i) mechanics.displacement.push_back(u(x)[i]);
@@ -245,6 +249,24 @@ TEST(Distortion, CountsFromCoherencyOn) {
   const Bar::Fields f = bar.fields();
   for (std::size_t node = 0; node < bar.mesh().x.size(); ++node)
     EXPECT_NEAR(f.distortion[2 * node], 0.02 * bar.mesh().x[node][0], k_rounding);
+}
+
+// A wall that is solid stands beside melt that sinks. The nodes between them are solid, their elements on one
+// side are not: they go with the melt, and that is no distortion.
+TEST(Distortion, OfANodeBeginsWhenAllItsElementsAreCoherent) {
+  Bar bar({AnalysisKind::axisymmetric, Shape::quad4});
+  const auto half_solid = [](const Point& x) { return x[0] < 0.5 ? k_cold : k_hot; };
+  const auto sinks = [](double by) {
+    return [by](const Point& x) { return Point{0, x[0] < 0.2 ? 0.0 : -by, 0}; };
+  };
+  bar.step(half_solid, sinks(0));
+  bar.step(half_solid, sinks(0.1));
+  bar.step(k_cold, sinks(0.1));
+  bar.step(k_cold, sinks(0.1));
+  bool between = false;
+  for (const Point& x : bar.mesh().x) between = between || (x[0] > 0.2 && x[0] < 0.5);
+  EXPECT_TRUE(between) << "no solid node beside melt";
+  expect_all(bar.fields().distortion, 0);
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+/// Errors of answers by comparison, of answers whose error is known.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "results/answer_comparison.hpp"
+
+namespace solidus::results {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Answers that are off by a share of themselves.
+Answers off_by(double share) {
+  Answers a;
+  a.castings.push_back({.cast = {0, "part", false}, .solid_fraction = 1});
+  a.castings[0].froze = ValueAt{100 * (1 + share), {}};
+  a.gaps = {{"wall", {1e-4 * (1 + share), {}}}};
+  a.distortion = ValueAt{2e-4 * (1 + share), {}};
+  a.stress = ValueAt{5e6 * (1 + share), {}};
+  a.pores = Answers::Pores{.volume = 0, .share = 0.01 * (1 + share), .densest = {}};
+  a.criteria_errors = {{"niyama_min", {}}};
+  return a;
+}
+
+// Errors of first order: 1 % with steps h, 2 % with steps 2h.
+TEST(ComparedAnswers, OfFirstOrderAreGivenTheirErrorByAQuarterMore) {
+  Answers fine = off_by(0.01);
+  const std::vector<criteria::CriterionResult> niyama{{"niyama_min", "1", 3 * 1.01, true, {}}};
+  const std::vector<criteria::CriterionResult> coarse_niyama{{"niyama_min", "1", 3 * 1.02, true, {}}};
+  compare_errors(ErrorPart::step, 2, off_by(0.02), coarse_niyama, fine, niyama);
+  EXPECT_NEAR(fine.castings[0].froze->error->step, 1.25 * 1, 1e-9);
+  EXPECT_NEAR(fine.gaps[0].gap.error->step, 1.25 * 1e-6, 1e-15);
+  EXPECT_NEAR(fine.distortion->error->step, 1.25 * 2e-6, 1e-15);
+  EXPECT_NEAR(fine.stress->error->step, 1.25 * 5e4, 1e-4);
+  EXPECT_NEAR(fine.pores->error->step, 1.25 * 1e-4, 1e-12);
+  EXPECT_NEAR(fine.criteria_errors[0].second.step, 1.25 * 0.03, 1e-12);
+  EXPECT_TRUE(fine.stress->error->step_compared);
+  EXPECT_FALSE(fine.stress->error->mesh_compared);
+  EXPECT_EQ(fine.stress->error->mesh, 0);
+}
+
+TEST(ComparedAnswers, KeepTheEstimateOfTheOtherPart) {
+  Answers fine = off_by(0.01);
+  fine.castings[0].froze->error = ErrorBand{.step = 0.5, .mesh = 7};
+  compare_errors(ErrorPart::mesh, 3, off_by(0.03), {}, fine, {});
+  EXPECT_NEAR(fine.castings[0].froze->error->mesh, 1.25 * 1, 1e-9);
+  EXPECT_EQ(fine.castings[0].froze->error->step, 0.5);
+}
+
+TEST(ComparedAnswers, AreToldWithTheirError) {
+  Answers a = off_by(0);
+  a.castings[0].froze->error = ErrorBand{.step = 0.5, .mesh = 1.25};
+  EXPECT_THAT(text(a, {}), HasSubstr("froze 100 ± 1.8 s (step 0.5, mesh 1.2) after pouring"));
+}
+
+Answers with_riser(double part, double riser, double error) {
+  Answers a;
+  a.castings.push_back({.cast = {0, "part", false}, .solid_fraction = 1});
+  a.castings.push_back({.cast = {1, "riser", true}, .solid_fraction = 1});
+  a.castings[0].froze = ValueAt{part, {}, ErrorBand{.mesh = error}};
+  a.castings[1].froze = ValueAt{riser, {}, ErrorBand{.mesh = error}};
+  return a;
+}
+
+TEST(RiserVerdict, IsNotGivenWithinTheErrorOfTheTimes) {
+  EXPECT_THAT(text(with_riser(100, 130, 5), {}), HasSubstr("outlived the part by 30 ± 5 s"));
+  EXPECT_THAT(text(with_riser(100, 70, 5), {}),
+              HasSubstr("froze 30 ± 5 s before the part: it could not feed to the end"));
+  EXPECT_THAT(text(with_riser(100, 97, 5), {}),
+              HasSubstr("froze 3 ± 5 s before the part: too close to tell whether it fed to the end"));
+}
+
+}  // namespace
+}  // namespace solidus::results
