@@ -1,0 +1,81 @@
+"""The errors that a run states of its answers: against finer runs, and by comparison with runs beside it."""
+
+import re
+import statistics
+import subprocess
+import unittest
+
+import castings_with_errors as castings
+from program import PATIENCE, PROGRAM, ProgramTest, solidus
+from summary_test import CASE, GEOMETRY
+
+
+
+class StatedErrors(ProgramTest):
+    # Two of the castings of the nightly run.
+    def test_cover_the_errors_of_castings(self):
+        for name in ("nodular_iron_sand", "alsi10mg_die"):
+            found = list(castings.stated(PROGRAM, self.folder, name))
+            self.assertEqual(len(found), 5, name)
+            for answer, value, stated, error in found:
+                with self.subTest(casting=name, answer=answer, value=value):
+                    self.assertGreaterEqual(stated, error)
+            self.assertLessEqual(statistics.median(stated / max(error, 1e-12) for _, _, stated, error in found), 10)
+
+    def test_are_the_same_on_two_processes(self):
+        folder = self.folder / "casting"
+        one = castings.answers(castings.run(PROGRAM, folder, castings.make(PROGRAM, folder, "alsi10mg_die", 1)))
+        subprocess.run(["mpirun", "-n", "2", PROGRAM, "run", "case", "--no-progress", "-o", "on_two"], cwd=folder, check=True,
+                       capture_output=True, timeout=120 * PATIENCE)
+        two = castings.answers(self.summary(folder / "on_two"))
+        self.assertEqual(one.keys(), two.keys())
+        for answer, numbers in one.items():
+            for own, other in zip(numbers, two[answer], strict=True):
+                self.assertAlmostEqual(own, other, delta=1e-3 * abs(numbers[0]) + 1e-2 * numbers[1], msg=answer)
+
+
+class Sure(ProgramTest):
+    def casting(self):
+        folder = self.folder / "casting"
+        castings.make(PROGRAM, folder, "nodular_iron_sand", 1)
+        return folder
+
+    def test_compares_with_longer_steps_and_larger_elements(self):
+        folder = self.casting()
+        told = self.done("run", "case", "--sure", "--no-progress", "-o", "out", cwd=folder)
+        self.assertRegex(told, r"--sure: compared with longer steps, a factor of [12]\.\d+")
+        self.assertRegex(told, r"--sure: compared with larger elements, a factor of [12]\.\d+")
+        # Printed twice, as estimated and as compared.
+        self.assertEqual(len(re.findall(r"its last melt froze [\d.]+ ± [\d.]+ s \(step [\d.]+, mesh [\d.]+\)", told)), 2)
+        run = self.summary(folder / "out")
+        steps, mesh = (self.summary(folder / f"out/sure/{name}") for name in ("longer_steps", "larger_elements"))
+        froze, longer, larger = (s["answers"]["castings"]["part"]["last_melt_froze"] for s in (run, steps, mesh))
+        self.assertTrue(froze["step_compared"] and froze["mesh_compared"])
+        # Richardson for errors of first order, and a quarter more.
+        of_step = 1.25 * abs(froze["value[s]"] - longer["value[s]"]) / (run["steps"] / steps["steps"] - 1)
+        edges = (run["mesh"]["nodes"] / mesh["mesh"]["nodes"]) ** 0.5
+        of_mesh = 1.25 * abs(froze["value[s]"] - larger["value[s]"]) / (edges - 1)
+        self.assertAlmostEqual(froze["error_of_step[s]"], of_step, delta=1e-6)
+        self.assertAlmostEqual(froze["error_of_mesh[s]"], of_mesh, delta=1e-6)
+
+    def test_says_what_it_cannot_compare(self):
+        self.write("plate.geo", GEOMETRY)
+        self.write("case.toml", CASE.format(end=40, feeders="top"))
+        told = self.done("run", "case.toml", "--sure", "--no-progress", "-o", "out")
+        self.assertIn("no comparison with larger elements: the sizes of the elements of", told)
+        self.assertIn("the estimate stands", told)
+        self.assertIn("compared with longer steps, a factor of 2", told)
+
+    def test_of_a_steady_case_is_refused(self):
+        folder = self.casting()
+        case = folder / "case/case.toml"
+        lines = case.read_text().splitlines()
+        start, end = lines.index("[time]"), lines.index("[[body]]")
+        case.write_text("\n".join([*lines[:start], "[time]", "steady = true", *lines[end:]]))
+        refused = solidus("run", "case", "--sure", cwd=folder)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("--sure compares answers of a transient run", refused.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
