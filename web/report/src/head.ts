@@ -1,7 +1,7 @@
 /** The head of the page: titles, how each run ended, its key figures and warnings. */
 import { byId, h } from "./dom";
 import { duration, place, short, Unit, unitOf, withUnit } from "./quantities";
-import type { Page, Run } from "./run";
+import type { Answer, Page, Run } from "./run";
 import type { Workbench } from "./workbench";
 
 type Node_ = Node | null;
@@ -24,7 +24,30 @@ export function final(run: Run, header: string): number | undefined {
 interface Figure {
   label: string;
   text: (run: Run) => string | undefined;
+  /** What step and mesh may have made of it: "± 1.1 s (step 0.5, mesh 0.65)". */
+  error?: (run: Run) => string | undefined;
   place?: (run: Run) => { at: number[]; label: string } | undefined;
+}
+
+/** The error of an answer as people read it. */
+function errorText(answer: Answer | undefined, si: string, format: (v: number) => string): string | undefined {
+  const of = (part: string) => answer?.[`error${part}[${si}]`];
+  const all = of(""), step = of("_of_step"), mesh = of("_of_mesh");
+  if (typeof all !== "number" || typeof step !== "number" || typeof mesh !== "number" || all <= 0) return undefined;
+  const whole = format(rounded(all)), unit = whole.replace(/^\S+/, "");
+  const bare = (part: number) => format(rounded(part)).replace(unit, "");  // the unit is told once
+  return `± ${whole} (step ${bare(step)}, mesh ${bare(mesh)})`;
+}
+
+/** To two figures, as an error is told. */
+function rounded(value: number): number {
+  return Number(value.toPrecision(2));
+}
+
+/** The casting, no riser, whose last melt froze last. */
+function lastFrozen(run: Run): Answer | undefined {
+  const all = Object.values(run.summary.answers?.castings ?? {}).map((c) => c.last_melt_froze).filter((a) => a !== undefined);
+  return all.reduce((late: Answer | undefined, a) => (late && (late["value[s]"] as number) >= (a["value[s]"] as number) ? late : a), undefined);
 }
 
 function figures(): Figure[] {
@@ -56,9 +79,11 @@ function figures(): Figure[] {
     };
   };
   return [
-    { label: "Freezes last", ...of("solidified_at", "max", (v) => duration(v)) },
-    { label: "Longest freezing", ...of("local_solidification_time", "max", (v) => duration(v)) },
-    { label: "Least Niyama", ...of("niyama", "min", (v, u) => withUnit(v, u)) },
+    { label: "Freezes last", ...of("solidified_at", "max", (v) => duration(v)), error: (r) => errorText(lastFrozen(r), "s", duration) },
+    { label: "Longest freezing", ...of("local_solidification_time", "max", (v) => duration(v)),
+      error: (r) => errorText(r.summary.answers?.errors_of_criteria?.local_solidification_time_max, "SI", duration) },
+    { label: "Least Niyama", ...of("niyama", "min", (v, u) => withUnit(v, u)),
+      error: (r) => errorText(r.summary.answers?.errors_of_criteria?.niyama_min, "SI", (v) => withUnit(v, criterion(r, "niyama", "min")!.unit)) },
     { label: "Porosity (estimate)", ...of("shrinkage_porosity", "max", (v, u) => withUnit(v, u)) },
     { label: "Pores, in all", text: (r) => {
       const pores = r.summary.answers?.pores;
@@ -66,9 +91,10 @@ function figures(): Figure[] {
     }, place: (r) => {
       const pores = r.summary.answers?.pores;
       return pores && { at: pores["at[m]"], label: `densest, ${withUnit(pores["value[1]"], unitOf("pore_fraction", "1"))}` };
-    } },
+    }, error: (r) => errorText(r.summary.answers?.pores, "1", (v) => withUnit(v, unitOf("pore_fraction", "1"))) },
     { label: "Pools closed off", text: (r) => (typeof r.summary.criteria?.closed_off_pools === "number" ? String(r.summary.criteria.closed_off_pools) : undefined) },
-    { label: "Von Mises at end", ...largest("von_mises") },
+    { label: "Von Mises at end", ...largest("von_mises"),
+      error: (r) => errorText(r.summary.answers?.largest_von_mises, "Pa", (v) => withUnit(v, unitOf("von_mises", "Pa"))) },
     { label: "Plastic strain", ...largest("equivalent_plastic_strain") },
     { label: "At the end", text: (r) => {
       const low = final(r, "T_min[degC]"), high = final(r, "T_max[degC]");
@@ -108,6 +134,7 @@ export function buildHead(page: Page, bench: Workbench): void {
     if (texts.every((t) => t === undefined)) continue;
     const at = figure.place?.(page.runs[0]);
     const content: Node_[] = [h("span", {}, figure.label), ...texts.map((t) => bold(t ?? "–"))];
+    for (const error of page.runs.map((r) => figure.error?.(r))) if (error !== undefined) content.push(h("em", { class: "error", title: "As far as step and mesh go" }, error));
     if (at && bench.ready)
       box.append(h("button", { class: "figure", title: "Show it in the picture", click: () => bench.fly(at.at, at.label) }, ...content, h("em", {}, `${place(at.at, page.runs[0].dimension)} ↗`)));
     else box.append(h("div", { class: "figure" }, ...content));

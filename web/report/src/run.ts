@@ -240,6 +240,9 @@ export class Table {
   }
 }
 
+/** An answer with its error in SI: value[s], error[s], error_of_step[s], error_of_mesh[s]. */
+export type Answer = Record<string, unknown>;
+
 /** summary.json; every member may be missing. */
 export interface Summary {
   outcome?: string;
@@ -255,7 +258,12 @@ export interface Summary {
   relative_energy_defect?: number;
   final?: Record<string, number>;
   criteria?: Record<string, number | number[]>;
-  answers?: { pores?: { "value[1]": number; "at[m]": number[]; "volume[m3]": number; share_of_casting: number } };
+  answers?: {
+    castings?: Record<string, { last_melt_froze?: Answer }>;
+    largest_von_mises?: Answer;
+    errors_of_criteria?: Record<string, Answer>;
+    pores?: Answer & { "value[1]": number; "at[m]": number[]; "volume[m3]": number; share_of_casting: number };
+  };
   warnings?: string[];
   understood?: {
     bodies?: Record<string, unknown>[];
