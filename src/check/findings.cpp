@@ -32,6 +32,7 @@ Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   find_in_stage_times(spec, a, m, found);
   find_in_free_skins(spec, a, m, found);
   find_in_elements(spec, a, found);
+  find_in_bending(spec, a, m, found);
   find_in_mechanics(spec, a, m, found);
   find_on_surfaces(spec, a, m, found);
   find_partly_in_contact(spec, a, found);

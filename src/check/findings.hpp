@@ -69,6 +69,8 @@ void find_in_leaving(const CaseSpec& spec, const Assembly& a, const CaseMeasures
 void find_in_stage_times(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Castings that shrink in elements without pores and feeding. Collective.
 void find_in_elements(const CaseSpec& spec, const Assembly& a, Findings& findings);
+/// Thin bodies that bend, of elements that cannot. Collective.
+void find_in_bending(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Supports and loads. Collective.
 void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Conditions that share a surface with another one, or with a contact; castings held at both ends.

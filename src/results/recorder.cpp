@@ -6,6 +6,7 @@
 #include "coupling/energy_scale.hpp"
 #include "coupling/internal_energy.hpp"
 #include "results/output_error.hpp"
+#include "results/stress_jump.hpp"
 #include "results/vtkhdf.hpp"
 #include "system/log.hpp"
 #include "system/processes.hpp"
@@ -288,6 +289,8 @@ void Recorder::end(const coupling::State& state) {
 void Recorder::conclude(const std::string& outcome, const coupling::State& state, bool mechanical) {
   if (progress_) progress_->end(outcome, options_.profile ? profile::text() : "");
   Summary& s = options_.summary;
+  if (mechanical && phases_.mechanics != nullptr)
+    tell_stress_jumps(mesh_, phases_.mechanics->kind(), fields_.bodies());
   if (!options_.steady) {
     fields_.update_criteria(state);
     s.answers = answers(mesh_, phases_, state, options_.castings, fields_.bodies(), mechanical);

@@ -1,0 +1,82 @@
+/// Bodies whose elements cannot bend as they should.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "case/roles.hpp"
+#include "check/findings.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+bool of_first_order(const mesh::Mesh& mesh, int body) {
+  return std::ranges::none_of(mesh.blocks, [&](const mesh::ElementBlock& block) {
+    return block.body == body && mesh::node_count(block.shape) > mesh::vertex_count(block.shape);
+  });
+}
+
+/// The largest extent of a body over its thickness, twice its volume over its skin.
+double slenderness(const BodyMeasures& body) {
+  double extent = 0;
+  for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, body.high[k] - body.low[k]);
+  return body.volume > 0 ? extent * body.skin / (2 * body.volume) : 0.0;
+}
+
+/// The nodes on the skin of a body, [local node]. A face with an owned node has all its elements here, so
+/// that it is on the skin where one of them has it; ghosts learn it from their owners.
+std::vector<char> skin_nodes(const mesh::Mesh& mesh, int body) {
+  using Key = std::array<Index, 4>;
+  std::map<Key, int> faces;
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (block.body != body) continue;
+    const auto n = static_cast<std::size_t>(mesh::vertex_count(mesh::face_shape(block.shape)));
+    for (Index e = 0; e < block.size(); ++e)
+      for (int f = 0; f < mesh::face_count(block.shape); ++f) {
+        Key key{-1, -1, -1, -1};
+        std::ranges::transform(mesh::face_nodes(block.shape, f).first(n), key.begin(),
+                               [&](int local) { return block.element(e)[local]; });
+        std::ranges::sort(key);
+        ++faces[key];
+      }
+  }
+  std::vector<double> on_skin(mesh.x.size(), 0.0);
+  for (const auto& [key, elements] : faces)
+    if (elements == 1)
+      for (const Index node : key)
+        if (node >= 0 && node < mesh.n_owned_nodes) on_skin[static_cast<std::size_t>(node)] = 1;
+  parallel::GhostExchange(mesh).update(on_skin, 1);
+  return {on_skin.begin(), on_skin.end()};
+}
+
+}  // namespace
+
+// A plate or a strip of one element of first order through its thickness bends with a third (tetrahedra) to
+// four fifths (hexahedra) of its deflection, and its stress is even through the thickness.
+void find_in_bending(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_slender = 10, k_most = 0.5;
+  if (!a.mechanics) return;
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+    const auto body = static_cast<int>(b);
+    const bool told = std::ranges::any_of(
+        m.pours, [&](const Pour& pour) { return pour.body == b && pour.spanned > k_most; });
+    if (told || only_conducts(spec.bodies[b]) || !(slenderness(m.bodies[b]) > k_slender) ||
+        !of_first_order(a.mesh, body))
+      continue;
+    const double share = share_between(a.mesh, spec.analysis.kind, body, skin_nodes(a.mesh, body));
+    if (share > k_most)
+      findings.push_back(
+          {false, spec.mesh.where,
+           fmt::format(
+               "{:.0f} % of the thin body '{}' are elements of first order that reach from skin to skin: "
+               "they bend too stiffly, tetrahedra to a third and hexahedra to four fifths of what they "
+               "should",
+               100 * share, spec.bodies[b].name),
+           "elements of second order (mesh.order = 2), or four through a wall that bends"});
+  }
+}
+
+}  // namespace solidus::model
