@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "case_folder.hpp"
@@ -84,6 +85,33 @@ unit = "1"
 group = "part"
 )";
 
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), with);
+}
+
+/// The cylinder and the mould of section 7.3 of the monograph with the gap law of its table 7.9 and an alloy
+/// that melts.
+std::string cylinder_of_the_monograph() {
+  std::string text = k_cylinder;
+  for (const auto& [what, with] : std::vector<std::pair<std::string, std::string>>{
+           {"radius = \"20 mm\"", "radius = \"15 mm\""},
+           {"height = \"40 mm\"", "height = \"70 mm\""},
+           {"mould_wall = \"25 mm\"", "mould_wall = \"20 mm\""},
+           {"mould_bottom = \"25 mm\"", "mould_bottom = \"20 mm\""},
+           {"mould_height = \"70 mm\"", "mould_height = \"90 mm\""},
+           {"h13_tool_steel", "steel_mould"},
+           {"coefficient = \"200 W/m2/K\"", "coefficient = \"0 W/m2/K\""},
+           {"conductance = \"3000 W/m2/K\"", "conductance = \"2.30 N/mm/s/K\""},
+           {"gap_law = \"gas\"\ngas_conductivity = \"0.05 W/m/K\"",
+            "gap_law = \"table\"\n[contact.heat.gap_conductance]\nof = \"gap\"\nargument_unit = \"mm\"\n"
+            "unit = \"N/mm/s/K\"\n"
+            "points = [[0, 2.30], [0.01, 2.20], [0.02, 1.40], [0.06, 0.35], [0.10, 0.30]]"}})
+    text = replaced(text, what, with);
+  return text;
+}
+
 struct Answers {
   double solid_after = 0;  ///< [s]
   double centre = 0;       ///< at 40 s [°C]
@@ -139,6 +167,10 @@ TEST(CoupledSteps, ABarInAClosedDieFreezesAtTheSameTimeWithTheSameGapAndPoresWha
 
 TEST(CoupledSteps, ACylinderInAnOpenMouldFreezesAtTheSameTimeWithTheSameGapWhateverTheStep) {
   expect_converged(sweep("cylinder", k_cylinder), 27.5, 120.2, 0.0005);
+}
+
+TEST(CoupledSteps, TheCylinderOfTheMonographOfAnAlloyDoesSoToo) {
+  expect_converged(sweep("monograph", cylinder_of_the_monograph()), 20.06, 94.5, 0.0015);
 }
 
 TEST(CoupledSteps, AQuarterOfABarIsTheWholeBar) {
