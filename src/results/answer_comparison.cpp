@@ -13,8 +13,8 @@ class Comparison {
 
   void take(double value, double beside, std::optional<ErrorBand>& error) const {
     if (!error) error.emplace();
-    const double found = factor_ * std::abs(value - beside);
-    (part_ == ErrorPart::step ? error->step : error->mesh) = found;
+    double& of_part = part_ == ErrorPart::step ? error->step : error->mesh;
+    of_part = std::max(factor_ * std::abs(value - beside), k_least * of_part);
     (part_ == ErrorPart::step ? error->step_compared : error->mesh_compared) = true;
   }
   void take(ValueAt& value, const ValueAt& beside) const { take(value.value, beside.value, value.error); }
@@ -23,7 +23,7 @@ class Comparison {
   }
 
  private:
-  static constexpr double k_safety = 1.25;
+  static constexpr double k_safety = 1.25, k_least = 0.5;
   ErrorPart part_;
   double factor_;
 };

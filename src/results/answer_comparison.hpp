@@ -5,7 +5,8 @@
 ///
 /// which is Richardson's extrapolation for an error of first order, with the factor of safety of P. J.
 /// Roache, Perspective: a method for uniform reporting of grid refinement studies, J. Fluids Eng. 116 (1994)
-/// 405–413. An error of second order is then a third of it with r = 2.
+/// 405–413. An error of second order is then a third of it with r = 2. Two runs can agree by chance: what
+/// comes out below half of the estimate is taken as that half.
 #pragma once
 
 #include <vector>

@@ -41,10 +41,17 @@ TEST(ComparedAnswers, OfFirstOrderAreGivenTheirErrorByAQuarterMore) {
 
 TEST(ComparedAnswers, KeepTheEstimateOfTheOtherPart) {
   Answers fine = off_by(0.01);
-  fine.castings[0].froze->error = ErrorBand{.step = 0.5, .mesh = 7};
+  fine.castings[0].froze->error = ErrorBand{.step = 0.5, .mesh = 2};
   compare_errors(ErrorPart::mesh, 3, off_by(0.03), {}, fine, {});
   EXPECT_NEAR(fine.castings[0].froze->error->mesh, 1.25 * 1, 1e-9);
   EXPECT_EQ(fine.castings[0].froze->error->step, 0.5);
+}
+
+TEST(ComparedAnswers, ThatAgreeByChanceKeepHalfOfTheEstimate) {
+  Answers fine = off_by(0.01);
+  fine.stress->error = ErrorBand{.step = 8e4, .mesh = 0};
+  compare_errors(ErrorPart::step, 2, off_by(0.01), {}, fine, {});
+  EXPECT_EQ(fine.stress->error->step, 4e4);
 }
 
 TEST(ComparedAnswers, AreToldWithTheirError) {
