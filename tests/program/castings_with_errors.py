@@ -95,7 +95,7 @@ POTS = {
     "alsi10mg_die": pot(30, 60, 30, 6, "aluminium_alsi10mg", 680, H13, 200, 600),
     "nodular_iron_sand": pot(50, 50, 60, 5, "nodular_iron", 1350, "furan_sand", 20, 12000),
     "pure_aluminium_die": pot(20, 80, 25, 2, "pure_aluminium", 700, H13, 200, 300, 2500),
-    "az91_quads": pot(25, 40, 25, 3, "magnesium_am60", 690, H13, 200, 300, 3000, element="quad4"),
+    "am60_quads": pot(25, 40, 25, 3, "magnesium_am60", 690, H13, 200, 300, 3000, element="quad4"),
     "alsi9cu3_quads": pot(45, 25, 30, 3, "aluminium_alsi9cu3", 680, "cast_iron_die", 250, 600, 2000, element="quad4"),
     "steel_quadratic_heat": pot(30, 50, 50, 6, "low_carbon_steel", 1600, "green_sand", 20, 6000, heat=True, element="tri6"),
 }
