@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct RawMesh {
   std::map<std::string, RawGroup> groups;  ///< named groups of every dimension, as in the input
   /// What was left out or taken for something while the file was read, for the user: a sentence each.
   std::vector<std::string> notes = {};
+  /// Of all solids of a CAD file, by its surfaces and not by the mesh's facets [m]; absent: it is no CAD file.
+  std::optional<Point> centre_of_volume = {};
 };
 
 /// A mesh file and how it is to be read.

@@ -232,6 +232,8 @@ void put_mesh(const RawMesh& mesh, const PutBytes& put) {
   }
   put_number(mesh.notes.size(), put);
   for (const std::string& note : mesh.notes) put_text(note, put);
+  put_number(mesh.centre_of_volume.has_value(), put);
+  if (mesh.centre_of_volume) put_number(*mesh.centre_of_volume, put);
 }
 
 RawMesh take_mesh(const TakeBytes& take, double most_bytes) {
@@ -254,6 +256,7 @@ RawMesh take_mesh(const TakeBytes& take, double most_bytes) {
   const auto n_notes = take_number<std::size_t>(take);
   if (n_notes > k_most_notes) throw MessageError("more notes than a mesh has");
   for (std::size_t i = 0; i < n_notes; ++i) mesh.notes.push_back(take_text(take));
+  if (take_number<bool>(take)) mesh.centre_of_volume = take_number<Point>(take);
   return mesh;
 }
 

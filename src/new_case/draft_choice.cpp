@@ -82,20 +82,23 @@ class Choice {
   void choose_symmetry() {
     const auto axis = static_cast<std::size_t>(options_.symmetry[0] - 'x');
     const double middle = 0.5 * (part_.low[axis] + part_.high[axis]);
+    // The box is that of the facets of a coarse mesh, and so is the centre of its bodies: the CAD kernel has
+    // the centre of the surfaces themselves, in which the plane lies.
     double first = 0, whole = 0;
     for (const GeometryBody& body : part_.bodies)
       first += body.extent.volume * body.extent.centre[axis], whole += body.extent.volume;
+    const double centre = part_.mesh.centre_of_volume ? (*part_.mesh.centre_of_volume)[axis] : first / whole;
     constexpr double k_even = 2e-3;
-    if (std::abs(first / whole - middle) > k_even * (part_.high[axis] - part_.low[axis]))
+    if (std::abs(centre - middle) > k_even * (part_.high[axis] - part_.low[axis]))
       throw InputError(
           {"--symmetry"},
           fmt::format(
               "the geometry is not symmetric in {}: its centre of volume lies at {:.4g} mm, the middle "
               "of its box at {:.4g} mm",
-              options_.symmetry, 1e3 * first / whole, 1e3 * middle),
+              options_.symmetry, 1e3 * centre, 1e3 * middle),
           "an axis normal to a plane of symmetry");
     // A cut beside the plane that faces and edges of the part lie on would leave slivers.
-    draft_.symmetry = {static_cast<int>(axis), round_place(middle, part_.high[axis] - part_.low[axis])};
+    draft_.symmetry = {static_cast<int>(axis), round_place(centre, part_.high[axis] - part_.low[axis])};
   }
 
   /// Sizes for about 3500 nodes of metal, with two elements through walls where those suffice. Of a part that

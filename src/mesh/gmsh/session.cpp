@@ -188,6 +188,30 @@ MeshingOutlook outlook_of(const MeshSource& source, FileFormat format) {
   return o;
 }
 
+/// The centre of the solids that Gmsh has; nothing where it has none, or where it cannot measure them.
+std::optional<Point> centre_of_solids(double unit) {
+  namespace occ = gmsh::model::occ;
+  Point moment{};
+  double whole = 0;
+  try {
+    gmsh::vectorpair volumes;
+    occ::getEntities(volumes, 3);
+    for (const auto& [dimension, tag] : volumes) {
+      double volume = 0;
+      Point centre{};
+      occ::getMass(dimension, tag, volume);
+      occ::getCenterOfMass(dimension, tag, centre[0], centre[1], centre[2]);
+      whole += volume;
+      for (std::size_t i = 0; i < 3; ++i) moment[i] += volume * centre[i];
+    }
+  } catch (const std::string&) {
+    return {};
+  }
+  if (!(whole > 0)) return {};
+  for (double& x : moment) x *= unit / whole;
+  return moment;
+}
+
 void generate(const std::string& path, double size, int element_order) {
   try {
     if (size > 0) {
@@ -382,6 +406,7 @@ RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const Castin
   }
   RawMesh mesh = mesh_of_session(source, casting != nullptr || is_geometry(format));
   if (format == FileFormat::gmsh_script) mesh.notes = notes_of_options(source);
+  if (is_cad(format)) mesh.centre_of_volume = centre_of_solids(source.unit_in_metres);
   return mesh;
 }
 

@@ -58,10 +58,12 @@ TEST(ReaderMessage, ARequestArrivesAsItWas) {
 }
 
 TEST(ReaderMessage, AMeshArrivesAsItWas) {
-  const RawMesh mesh = make_block({{1, 2}, {}, {3, 4}}, Shape::quad8);
+  RawMesh mesh = make_block({{1, 2}, {}, {3, 4}}, Shape::quad8);
+  mesh.centre_of_volume = Point{0.5, 1, 0};
   Pipe pipe;
   put_mesh(mesh, pipe.put);
   const RawMesh back = take_mesh(pipe.take, 1e9);
+  EXPECT_EQ(back.centre_of_volume, mesh.centre_of_volume);
   EXPECT_EQ(back.dimension, mesh.dimension);
   EXPECT_EQ(back.x, mesh.x);
   EXPECT_EQ(back.input_node, mesh.input_node);
