@@ -26,6 +26,25 @@ def _of_castings(castings):
             yield f"{name}: hottest melt[degC]", casting["hottest_melt"]["value[K]"] - 273.15
 
 
+def _band_of(entry, unit, factor=1.0):
+    """The band of step and mesh that stands beside a value, a half width; nothing where there is none."""
+    band = entry.get(f"band[{unit}]") if isinstance(entry, dict) else None
+    return None if band is None else factor * band
+
+
+def bands(summary):
+    """Name as of answers() -> half width of the error of step and mesh, where the run states it."""
+    given, found = summary.get("answers", {}), {}
+    for name, casting in given.get("castings", {}).items():
+        found[f"{name}: last melt froze[s]"] = _band_of(casting.get("last_melt_froze"), "s")
+        found[f"{name}: hottest melt[degC]"] = _band_of(casting.get("hottest_melt"), "K")
+    for contact, gap in given.get("largest_gaps", {}).items():
+        found[f"largest gap of {contact}[mm]"] = _band_of(gap, "m", 1e3)
+    found["largest distortion[mm]"] = _band_of(given.get("largest_distortion"), "m", 1e3)
+    found["largest von Mises stress[MPa]"] = _band_of(given.get("largest_von_mises"), "Pa", 1e-6)
+    return {name: band for name, band in found.items() if band is not None}
+
+
 def answers(summary):
     """Name with unit -> number: what the run answers and what its criteria found, in the units of its terminal."""
     given, found = summary.get("answers", {}), {}
@@ -36,6 +55,7 @@ def answers(summary):
     for name, key, factor in (("longest local solidification time[s]", "local_solidification_time_max[s]", 1.0),
                               ("largest arm spacing[um]", "secondary_arm_spacing_max[m]", 1e6),
                               ("least Niyama[K0.5 s0.5/mm]", "niyama_min[K^0.5 s^0.5/m]", 1e-3),
+                              ("least dimensionless Niyama[1]", "dimensionless_niyama_min", 1.0),
                               ("largest porosity[%]", "shrinkage_porosity_max", 100.0)):
         if key in criteria:
             found[name] = factor * criteria[key]
@@ -43,6 +63,8 @@ def answers(summary):
         found[f"largest gap of {contact}[mm]"] = 1e3 * gap["value[m]"]
     if "largest_distortion" in given:
         found["largest distortion[mm]"] = 1e3 * given["largest_distortion"]["value[m]"]
+    if "pores" in given:
+        found["pores, share of the casting[%]"] = 100.0 * given["pores"]["share_of_casting"]
     if "largest_von_mises" in given:
         found["largest von Mises stress[MPa]"] = 1e-6 * given["largest_von_mises"]["value[Pa]"]
     return found

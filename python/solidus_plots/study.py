@@ -5,29 +5,17 @@ with its reason. docs/guide/study.md describes the file and what comes out.
 """
 
 import argparse
-from concurrent.futures import ThreadPoolExecutor
-import json
-import os
 from pathlib import Path
-import signal
 import subprocess
 import sys
-import threading
 import time
 
 from solidus_plots import study_plots, style
 from solidus_plots.answers import answers, read_summary
 from solidus_plots.compare import as_text, write_csv
+from solidus_plots.many_runs import INTERRUPTED, Runner, how_it_ended, jobs_from, program
 from solidus_plots.study_file import read_study
 from solidus_plots.vtu import ResultError
-
-RECORD = "run.json"  # in the folder of a run: its values and how it ended
-INTERRUPTED = 130
-
-
-def program():
-    """The program that runs the cases: the one that was called."""
-    return os.environ.get("SOLIDUS_PROGRAM", "solidus")
 
 
 def assignment(key, value):
@@ -40,66 +28,8 @@ def arguments(study, values):
     return [word for change in changes for word in ("--set", change)]
 
 
-def _reason(log, code):
-    """Why a run failed: the last thing it said on its own."""
-    lines = [line for line in log.read_text(errors="replace").splitlines() if line.strip()]
-    begins = [i for i, line in enumerate(lines) if line.startswith("solidus: ")]
-    if begins:
-        return lines[begins[-1]].removeprefix("solidus: ").strip()
-    return f"exit code {code}" + (f": {lines[-1].strip()}" if lines else "")
-
-
-class Runner:
-    """Runs what is to be run and keeps a record of each."""
-
-    def __init__(self, study, folder, restart):
-        self._study, self._folder, self._restart = study, folder, restart
-        self._processes, self._lock, self._stopped = set(), threading.Lock(), False
-
-    def folder_of(self, number):
-        return self._folder / f"run_{number + 1:0{len(str(len(self._study.runs)))}d}"
-
-    def run(self, number):
-        """The record of a run: {values, code, reason, seconds}; nothing where the study was interrupted."""
-        folder, words = self.folder_of(number), arguments(self._study, self._study.runs[number])
-        record_file = folder / RECORD
-        if self._restart and record_file.exists():
-            record = json.loads(record_file.read_text())
-            if record.get("arguments") == words:
-                return record
-        folder.mkdir(parents=True, exist_ok=True)
-        record_file.unlink(missing_ok=True)
-        start, log = time.monotonic(), folder / "log.txt"
-        with log.open("w") as out:
-            with self._lock:
-                if self._stopped:
-                    return None
-                process = subprocess.Popen([program(), "run", str(self._study.case), "-o", str(folder), "--no-progress",
-                                            *words], stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                           start_new_session=True,  # Ctrl-C is handed on by stop(), once
-                                           env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})
-                self._processes.add(process)
-            reason = None
-            try:
-                code = process.wait(self._study.limit)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                code, reason = process.wait(), f"stopped after the limit of {self._study.limit:g} s"
-            with self._lock:
-                self._processes.discard(process)
-        if self._stopped:
-            return None
-        record = {"arguments": words, "code": code, "seconds": round(time.monotonic() - start, 3),
-                  "reason": reason or ("" if code == 0 else _reason(log, code))}
-        record_file.write_text(json.dumps(record, indent=2) + "\n")
-        return record
-
-    def stop(self):
-        """No further run begins; those that are under way leave a checkpoint."""
-        with self._lock:
-            self._stopped = True
-            for process in self._processes:
-                process.send_signal(signal.SIGINT)
+def folder_of(study, folder, number):
+    return folder / f"run_{number + 1:0{len(str(len(study.runs)))}d}"
 
 
 def results_of(study, folders, records):
@@ -141,22 +71,15 @@ def table(study, folders, records):
 
 def run_study(study, folder, jobs, restart):
     """Runs everything, writes table and pictures; the number of failed runs, nothing where it was interrupted."""
-    runner = Runner(study, folder, restart)
-    folders = [runner.folder_of(number) for number in range(len(study.runs))]
-    records = [None] * len(study.runs)
+    folders = [folder_of(study, folder, number) for number in range(len(study.runs))]
+    words = [arguments(study, values) for values in study.runs]
     start = time.monotonic()
-    try:
-        with ThreadPoolExecutor(jobs) as pool:
-            try:
-                for number, record in enumerate(pool.map(runner.run, range(len(study.runs)))):
-                    records[number] = record
-                    how = "interrupted" if record is None else "finished" if record["code"] == 0 else record["reason"]
-                    print(f"  {number + 1}/{len(study.runs)}  {' '.join(arguments(study, study.runs[number])[1::2])}: {how}",
-                          flush=True)
-            except KeyboardInterrupt:
-                runner.stop()
-                raise
-    except KeyboardInterrupt:
+
+    def announce(number, record):
+        print(f"  {number + 1}/{len(study.runs)}  {' '.join(words[number][1::2])}: {how_it_ended(record)}", flush=True)
+
+    records = Runner(study.case, restart, study.limit).run_all(list(zip(folders, words)), jobs, announce)
+    if records is None:
         return None
     header, rows = table(study, folders, records)
     write_csv(folder / "study.csv", header, rows)
@@ -184,9 +107,7 @@ def main(given=None):
     options = parser.parse_args(given)
     try:
         study = read_study(options.file)
-        if options.jobs and not (options.jobs.isdigit() and int(options.jobs) > 0):
-            raise ResultError(f"--jobs is a whole number of runs at a time, not '{options.jobs}'")
-        jobs = int(options.jobs) if options.jobs else len(os.sched_getaffinity(0))
+        jobs = jobs_from(options.jobs)
         if options.dry_run:
             header = ["run", *(parameter.key for parameter in study.parameters)]
             print(as_text(header, [[str(number + 1), *map(str, run)] for number, run in enumerate(study.runs)]))

@@ -1,4 +1,4 @@
-/// The verbs that Python does: plot, compare, study.
+/// The verbs that Python does: plot, compare, study, uncertain.
 #pragma once
 
 #include <optional>
@@ -23,9 +23,12 @@ class PythonVerbs {
   std::optional<ExitCode> run() const;
 
  private:
-  CLI::App *plot_, *compare_, *study_;
-  std::string folder_, other_, plots_, output_, jobs_;
-  bool no_plots_ = false, restart_ = false, dry_run_ = false;
+  std::optional<ExitCode> run_uncertain() const;
+
+  CLI::App *plot_, *compare_, *study_, *uncertain_;
+  std::string folder_, other_, plots_, output_, jobs_, runs_, samples_, seed_;
+  bool no_plots_ = false, restart_ = false, dry_run_ = false, one_sided_ = false, parameters_ = false;
+  CaseArguments uncertain_case_;
 };
 
 }  // namespace solidus::app

@@ -33,6 +33,8 @@ void print(const std::string& text);
 
 ExitCode run(const CaseArguments& arguments);
 ExitCode check(const CaseArguments& arguments);
+/// Prints as JSON what of a case is uncertain, and by how much; checks the case as check() does.
+ExitCode list_uncertain(const CaseArguments& arguments);
 /// Prints a case as one file: includes, overrides and defaults in place, paths absolute. Reads no mesh.
 ExitCode resolve(const CaseArguments& arguments);
 /// Lists the variants of a case (build/case_layers.hpp).

@@ -75,6 +75,7 @@ Case load_case(const std::filesystem::path& path, const std::vector<std::string>
   case_keys().assign(result.spec, result.document);
   resolve_stages(result.spec);
   check_case(result.spec);
+  vary_conditions(result.spec);
   decide_physics(result.spec);
   return result;
 }

@@ -211,6 +211,7 @@ mesh::Mesh load_mesh(CaseSpec& spec) {
     const profile::Part part("reading and meshing");
     results::on_first_process([&] { raw = raw_mesh(spec); });
   }
+  vary_contacts(spec);
   const profile::Part part("partition");
   std::vector<std::string> bodies, replicated;
   std::vector<mesh::BodyWork> work;

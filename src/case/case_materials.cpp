@@ -42,6 +42,8 @@ std::vector<material::Material> load_materials(const CaseSpec& spec) {
   std::vector<material::Material> materials;
   for (const BodySpec& body : spec.bodies) {
     materials.push_back(material::find_material(body.material, folders, body.where));
+    if (const auto by = spec.vary.bodies.find(body.name); by != spec.vary.bodies.end())
+      material::vary(materials.back(), by->second, spec.vary.where);
     // The material of a chill or a die may melt, but it is no casting that solidifies.
     if (const Role role = role_of(body, materials.back()); role != Role::casting && role != Role::riser)
       for (material::PhaseChange& change : materials.back().phase_changes) change.solidification = false;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "case/friction_spec.hpp"
+#include "case/variation.hpp"
 #include "contact/parameters.hpp"
 #include "coupling/scheme_kind.hpp"
 #include "coupling/step_limits.hpp"
@@ -400,6 +401,8 @@ struct CaseSpec {
   std::vector<ProfileSpec> profiles;
   CriteriaSpec criteria;
   OutputSpec output;
+  VarySpec vary;
+  SpreadSpec spread;
 
   /// Null where none has this name.
   const RigidSurfaceSpec* rigid_surface(const std::string& name) const {

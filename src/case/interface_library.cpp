@@ -55,6 +55,8 @@ const Section<InterfaceCard>& card_keys() {
     s.key("range", &C::range).doc("Between what the conductance lies in practice.");
     s.key("estimate", &C::estimate).initially(false).doc("The numbers were not checked against the source.");
     s.sections("published", &C::published, published_keys());
+    s.section("spread", &C::spread,
+              contact_spread_keys("spread", "How far the heat transfer may lie from that of the card."));
     return s;
   }();
   return declaration;
@@ -103,6 +105,7 @@ std::vector<InterfaceCard> interface_cards() {
       if (cards.contains(name)) continue;
       InterfaceCard card = card_keys().read(load_document(entry.path()));
       card.name = name;
+      check_spreads(card.spread, name);
       cards.emplace(name, std::move(card));
     }
   std::vector<InterfaceCard> list;

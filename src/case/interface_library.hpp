@@ -32,6 +32,7 @@ struct InterfaceCard {
   std::string source, range;  ///< origin of the numbers, and range of the conductance
   bool estimate = false;      ///< not checked against the source
   std::vector<PublishedConductance> published;
+  ContactSpreads spread;  ///< how far the law may be off
 };
 
 /// Beside the folders of materials: `interfaces` in place of `materials`.

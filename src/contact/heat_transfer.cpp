@@ -109,6 +109,24 @@ void HeatTransferLaw::check_transition() const {
 }
 
 Conductance HeatTransferLaw::at(double penetration, double pressure, double temperature) const {
+  const double closed_factor = spec_.conductance_factor, gap_factor = spec_.gap_factor;
+  Conductance h = given(penetration, pressure, temperature);
+  if (closed_factor == 1 && gap_factor == 1) return h;
+  const Conductance contact = given(0, 0, temperature);
+  // A gap that conducts nothing, or more than contact, has no resistance of its own to be varied.
+  const bool resists = h.value > 0 && h.value < contact.value;
+  if (penetration >= 0 || closed_factor == gap_factor || !resists)
+    return {closed_factor * h.value, closed_factor * h.by_penetration, closed_factor * h.by_pressure,
+            closed_factor * h.by_temperature};
+  const double shared = 1 / closed_factor - 1 / gap_factor;
+  const double varied = 1 / (shared / contact.value + 1 / (gap_factor * h.value));
+  const double by_given = varied / h.value * varied / h.value / gap_factor;
+  const double by_contact = varied / contact.value * varied / contact.value * shared;
+  return {varied, by_given * h.by_penetration, 0,
+          by_given * h.by_temperature + by_contact * contact.by_temperature};
+}
+
+Conductance HeatTransferLaw::given(double penetration, double pressure, double temperature) const {
   const double warmth = std::max(temperature, 0.0);
   const bool parted = penetration < 0;
   const double x = parted ? -penetration : std::max(pressure, 0.0);

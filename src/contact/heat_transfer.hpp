@@ -59,6 +59,10 @@ struct HeatTransferSpec {
   /// Emissivities of the slave's and the master's surface; absent or zero: no radiation.
   double slave_emissivity = 0, master_emissivity = 0;
 
+  /// Factors on the law as a whole: on the conductance of contact, and on what the gap conducts beyond it,
+  /// 1/h(g) = 1/(h(0) f_c) + (1/h(g) - 1/h(0))/f_g. Both laws still meet where the gap opens.
+  double conductance_factor = 1, gap_factor = 1;
+
   bool smooth = false;
   /// With `smooth`: g_t [m], p_t [Pa]; absent: 1 µm, 0.1 MPa.
   std::optional<double> transition_gap, transition_pressure;
@@ -102,6 +106,8 @@ class HeatTransferLaw {
  private:
   LawConductance open(double gap, double temperature) const;
   LawConductance closed(double pressure, double temperature) const;
+  /// The law without its factors.
+  Conductance given(double penetration, double pressure, double temperature) const;
   void prepare_laws();
   /// At the temperatures that matter.
   void check_continuity() const;

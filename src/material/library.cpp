@@ -250,10 +250,32 @@ Material make_material(std::string name, const MaterialData& data) {
   return m;
 }
 
-Material load_material(const fs::path& file, std::span<const fs::path> library) {
+namespace {
+
+/// What a file says of a material: the material, and how well it is known.
+struct Card {
+  Material material;
+  MaterialSpreads spreads;
+};
+
+Card load_card(const fs::path& file, std::span<const fs::path> library) {
   constexpr int deepest = 8;  // more generations than anyone needs: a circle
   const Value document = load_with_base(file, library, deepest);
-  return make_material(file.stem().string(), material_section().read(document));
+  MaterialData data = material_section().read(document);
+  Material material = make_material(file.stem().string(), data);
+  check_spreads(data.spread, material, file.string());
+  return {std::move(material), std::move(data.spread)};
+}
+
+}  // namespace
+
+Material load_material(const fs::path& file, std::span<const fs::path> library) {
+  return load_card(file, library).material;
+}
+
+MaterialSpreads find_spreads(const std::string& reference, std::span<const fs::path> library,
+                             const SourceLocation& where) {
+  return load_card(locate(reference, library, where), library).spreads;
 }
 
 Material find_material(const std::string& reference, std::span<const fs::path> library,

@@ -14,6 +14,7 @@
 #include "material/external_law.hpp"
 #include "material/flow_keys.hpp"
 #include "material/material.hpp"
+#include "material/varied.hpp"
 
 namespace solidus::material {
 
@@ -56,6 +57,7 @@ struct MaterialData {
   std::optional<FlowData> plasticity;
   std::optional<ExternalData> external;
   Casting casting;
+  MaterialSpreads spread;
   SourceLocation where;
 };
 

@@ -181,6 +181,7 @@ Section<MaterialData> material_keys() {
   s.section("plasticity", &MaterialData::plasticity, flow_section());
   s.section("external", &MaterialData::external, external_section());
   s.section("casting", &MaterialData::casting, casting_keys());
+  s.section("spread", &MaterialData::spread, material_spread_keys());
   s.place(&MaterialData::where);
   return s;
 }

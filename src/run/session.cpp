@@ -221,6 +221,7 @@ void Session::change(const std::string& assignment) {
   case_keys().assign(spec, document);
   resolve_stages(spec);
   check_case(spec);
+  vary_conditions(spec);
   p.c.document = std::move(document);
   p.c.spec.thermal_conditions = std::move(spec.thermal_conditions);
   p.c.spec.mechanical_conditions = std::move(spec.mechanical_conditions);

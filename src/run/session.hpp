@@ -14,6 +14,7 @@
 
 #include "build/case_file.hpp"
 #include "check/coupling_estimate.hpp"
+#include "check/uncertain_parameters.hpp"
 #include "results/summary.hpp"
 
 namespace solidus::model {
@@ -85,6 +86,7 @@ struct CheckedRun {
   results::MeshCounts mesh;
   results::Overview overview;
   std::vector<CouplingEstimate> couplings;  ///< one per body where heat and deformation are coupled
+  UncertainParameters uncertain;
 };
 
 /// Everything that run_case does before it computes, but for the results folder. Collective. Throws

@@ -60,6 +60,36 @@ TEST(HeatTransfer, IsContinuousWhereContactIsLost) {
   }
 }
 
+// 1/h(g) = 1/(f_c h(0)) + (1/h(g) - 1/h(0))/f_g: the gas of a gap of 0.1 mm alone has 0.06/1e-4 = 600 W/(m² K).
+TEST(HeatTransfer, FactorsMultiplyContactAndWhatTheGapConductsBeyondIt) {
+  HeatTransferSpec spec = gas_spec(0, 5000);
+  spec.conductance_factor = 2;
+  spec.gap_factor = 1.5;
+  const HeatTransferLaw law(spec);
+  EXPECT_DOUBLE_EQ(at(law, -1e-6, 1e6), 10000);
+  EXPECT_NEAR(at(law, 0, 0), 10000, 1e-9);
+  EXPECT_NEAR(at(law, 1e-4, 0), 1 / (1.0 / 10000 + 1 / (1.5 * 600)), 1e-9);
+  EXPECT_NEAR(at(law, 1e-9, 0), 10000, 2);
+}
+
+TEST(HeatTransfer, WithFactorsHasTheDerivativesOfItsValues) {
+  std::vector<HeatTransferSpec> laws{gas_spec(0.95), monograph_spec()};
+  laws.front().smooth = true;
+  laws.push_back(gas_spec(0, 5000));
+  for (HeatTransferSpec spec : laws) {
+    spec.conductance_factor = 0.4;
+    spec.gap_factor = 1.7;
+    const HeatTransferLaw law(spec);
+    for (const double gap : {3e-7, 2e-5, 7e-5}) {
+      const double d = 1e-3 * gap;
+      const double slope = (law.at(-gap + d, 0, 700).value - law.at(-gap - d, 0, 700).value) / (2 * d);
+      EXPECT_NEAR(law.at(-gap, 0, 700).by_penetration, slope, 1e-4 * std::abs(slope));
+    }
+    const double pressed = (law.at(0, 2.1e6, 700).value - law.at(0, 1.9e6, 700).value) / 2e5;
+    EXPECT_NEAR(law.at(0, 2e6, 700).by_pressure, pressed, 1e-2 * std::abs(pressed));
+  }
+}
+
 TEST(HeatTransfer, AcrossAGapFollowsTheTableAndStaysConstantBeyondIt) {
   const HeatTransferLaw law(monograph_spec());
   EXPECT_DOUBLE_EQ(at(law, 3e-5, 0), 0.5 * (2300 + 350));
@@ -110,6 +140,18 @@ HeatTransferSpec family_spec() {
   s.families = {{400, Table({0, 1e7, 1e8}, {1000, 2000, 4000}), Table({0, 5e-5, 1e-4}, {1000, 400, 300})},
                 {800, Table({0, 2e7, 1e8}, {1600, 3000, 5000}), Table({0, 4e-5, 1e-4}, {1600, 500, 450})}};
   return s;
+}
+
+TEST(HeatTransfer, WithFactorsHasTheDerivativeInTemperature) {
+  HeatTransferSpec spec = family_spec();
+  spec.conductance_factor = 0.4;
+  spec.gap_factor = 1.7;
+  const HeatTransferLaw law(spec);
+  for (const double gap : {2e-5, 8e-5}) {
+    const double warmed = (law.at(-gap, 0, 601).value - law.at(-gap, 0, 599).value) / 2;
+    EXPECT_GT(warmed, 0.1);
+    EXPECT_NEAR(law.at(-gap, 0, 600).by_temperature, warmed, 1e-4 * warmed);
+  }
 }
 
 std::vector<HeatTransferSpec> smooth_laws() {
