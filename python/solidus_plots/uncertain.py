@@ -129,7 +129,7 @@ def write_results(folder, title, parameters, found, said):
                 "parameters": [asdict(parameter) for parameter in parameters],
                 "answers": [{"name": answer.name, "unit": answer.unit, "value": answer.best,
                              "plus_minus": answer.spread(), "step_and_mesh": answer.band,
-                             "incomplete": answer.incomplete,
+                             "jumps": answer.jumps(), "incomplete": answer.incomplete,
                              "parts": [{**asdict(part), "plus_minus": part.spread()} for part in answer.parts]}
                             for answer in found]}
     (folder / "uncertain.json").write_text(json.dumps(document, indent=2) + "\n")
@@ -139,9 +139,16 @@ def answer_lines(found):
     """One line an answer, and what has to be said of them."""
     width = max(len(answer.name) for answer in found)
     lines = [f"  {answer.name:{width}}  {line(answer)}" for answer in found]
+    jumping = [answer.name for answer in found if answer.jumps()]
+    if jumping:
+        lines.append(f"about as much by whatever is moved, so by steps and mesh more than by data: {', '.join(jumping)}")
     for answer in found:
-        lines += [f"{answer.name}: not in proportion to the {part.label}: {rounded(part.down, answer.spread())} at its lower "
-                  f"end, {rounded(part.up, answer.spread())} at its upper" for part in answer.bent_parts()]
+        if answer.jumps():
+            continue
+        ends = [f"{part.label} ({rounded(part.down, answer.spread())} at its lower end, {rounded(part.up, answer.spread())} at "
+                "its upper)" for part in answer.bent_parts()]
+        if ends:
+            lines.append(f"{answer.name}: not in proportion to {', '.join(ends)}")
     for answer in found:
         if answer.incomplete:
             lines.append(f"{answer.name}: without {', '.join(answer.incomplete)}, whose run failed or has no such answer")

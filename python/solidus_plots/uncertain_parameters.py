@@ -50,61 +50,81 @@ def parameter_of(entry):
 
 def together(label, members):
     """Parameters that are moved at once, all up or all down."""
-    if len(members) == 1:
-        return members[0]
+    flat = [one for member in members for one in (member.members or [member])]
     origins = ("usual", "estimate", "stated")
     return Parameter(label, members[0].group, all(member.mechanical for member in members), "together",
-                     min((member.origin for member in members), key=origins.index), members=members)
+                     min((member.origin for member in flat), key=origins.index), members=flat)
 
 
-def _materials(parameters, mechanical):
-    """Labels of moulds: material -> its parameters, those of mechanics or the others."""
+def _of(parameter):
+    """The material, card or name that a parameter belongs to."""
+    return parameter.label.rsplit(" of ", 1)[-1]
+
+
+def _by_owner(parameters, label, chosen):
+    """Bunches (label, members) of the chosen parameters, one for each material or card."""
     found = {}
     for parameter in parameters:
-        if parameter.group == "mould" and parameter.mechanical == mechanical:
-            found.setdefault(parameter.label.split(" of ", 1)[1], []).append(parameter)
-    return found
+        if chosen(parameter):
+            found.setdefault(_of(parameter), []).append(parameter)
+    return [(f"{label} of {owner}", members) for owner, members in found.items()]
 
 
-def _replaced(parameters, bunches):
-    """The list with each bunch (label, members) in the place of its first member."""
-    bunch_of = {id(member): (label, members) for label, members in bunches for member in members}
-    result, done = [], set()
-    for parameter in parameters:
-        label, members = bunch_of.get(id(parameter), ("", None))
-        if members is None:
-            result.append(parameter)
-        elif label not in done:
-            done.add(label)
-            result.append(together(label, members))
-    return result
+def _all(label, chosen):
+    return lambda parameters: [(label, [parameter for parameter in parameters if chosen(parameter)])]
 
 
-def _group(parameters, group, label):
-    members = [parameter for parameter in parameters if parameter.group == group and not parameter.mechanical]
-    return [(label, members)] if len(members) > 1 else []
+def _heat(group):
+    return lambda parameter: parameter.group == group and not parameter.mechanical
 
 
-# From what blurs the result least: each step moves more of what surrounds the casting together.
+def _mechanics_of_moulds(parameter):
+    return parameter.group == "mould" and parameter.mechanical
+
+
+def _stiffness(parameter):
+    return parameter.label.startswith(("Young's modulus", "Poisson's ratio"))
+
+
+# From what blurs the result least: each step makes bunches (label, members) of what surrounds the casting.
 STEPS = (
-    lambda all_of: [(f"stiffness and expansion of {name}", members) for name, members in _materials(all_of, True).items()],
-    lambda all_of: _group(all_of, "surroundings", "what surrounds the case, together"),
-    lambda all_of: [(f"conductivity and heat capacity of {name}", members)
-                    for name, members in _materials(all_of, False).items()],
-    lambda all_of: _group(all_of, "interface", "heat transfer of all interfaces together"),
-    lambda all_of: _group(all_of, "mould", "conductivity and heat capacity of all moulds together"),
-    lambda all_of: [("stiffness and expansion of all moulds together",
-                     [one for one in all_of if one.group == "mould" and one.mechanical])],
+    lambda parameters: _by_owner(parameters, "stiffness", _stiffness),
+    lambda parameters: _by_owner(parameters, "stiffness and expansion", _mechanics_of_moulds),
+    _all("what surrounds the case, together", _heat("surroundings")),
+    lambda parameters: _by_owner(parameters, "heat transfer", _heat("interface")),
+    lambda parameters: _by_owner(parameters, "conductivity and heat capacity", _heat("mould")),
+    _all("temperatures at the start, together", _heat("start")),
+    _all("heat transfer of all interfaces together", _heat("interface")),
+    _all("conductivity and heat capacity of all moulds together", _heat("mould")),
+    _all("stiffness and expansion of all moulds together", _mechanics_of_moulds),
 )
 
 
+def _width(parameter):
+    """How far a parameter is off, as a share; of temperatures against a hundred kelvin."""
+    if parameter.members:
+        return root_of_squares(_width(member) for member in parameter.members)
+    return {"factor": parameter.amount - 1.0, "shift": 0.01 * parameter.amount}.get(parameter.kind, parameter.amount)
+
+
+def _dispensable(parameter):
+    """Order in which parameters are kept: those of heat, of the criteria, of mechanics."""
+    return 2 if parameter.mechanical else 1 if parameter.label.startswith(("arm spacing", "viscosity of the melt")) else 0
+
+
 def merged(parameters, most):
-    """At most so many parameters, as far as moving things together goes: those left, and those left out."""
+    """At most so many parameters, as far as moving things together goes: those left, and those left out.
+
+    Bunches are made one after the other, in each step that of the least known data last.
+    """
     for step in STEPS:
-        if len(parameters) <= most:
-            break
-        parameters = _replaced(parameters, step(parameters))
-    return parameters[:most], parameters[most:]
+        for label, members in sorted(step(parameters), key=lambda bunch: root_of_squares(map(_width, bunch[1]))):
+            if len(parameters) > most and len(members) > 1:
+                place = parameters.index(members[0])
+                parameters = [parameter for parameter in parameters if parameter not in members]
+                parameters.insert(place, together(label, members))
+    kept = sorted(parameters, key=_dispensable)[:most]
+    return [one for one in parameters if one in kept], [one for one in parameters if one not in kept]
 
 
 def root_of_squares(values):

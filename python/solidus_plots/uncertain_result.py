@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 import math
+from statistics import median
 import tomllib
 
 from solidus_plots.answers import answers, bands, read_summary
@@ -9,6 +10,8 @@ from solidus_plots.style import unit_text
 from solidus_plots.uncertain_parameters import root_of_squares
 
 BENT = 0.3  # of the part: an answer that bends so much in a parameter is said to
+JUMPS = 0.3  # of the largest part: where half of all parts are above it, an answer has no order of what matters
+MANY = 6  # parameters from which that can be told
 MUCH = 1 / 3  # of the spread of an answer: such a parameter is worth a run at its other end
 NAMED = 0.05  # of the variance: parameters below it are counted together
 
@@ -40,6 +43,11 @@ class Answer:
 
     def spread(self):
         return root_of_squares([*(part.spread() for part in self.parts), self.band or 0.0])
+
+    def jumps(self):
+        """Whether it changes about as much whatever is moved, as an extreme does that goes from node to node."""
+        parts = [part.spread() for part in self.parts]
+        return len(parts) >= MANY and median(parts) > JUMPS * parts[0]
 
     def bent_parts(self):
         """Those that make a third of the spread and are not straight lines."""

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <optional>
+
 #include "app/material_tables.hpp"
 #include "app/verbs.hpp"
 #include "case/case_materials.hpp"
@@ -96,13 +98,27 @@ std::string describe(const Material& m) {
   return out;
 }
 
+/// How far the values may be off, a line a property that has a spread.
+std::string spreads(const material::MaterialSpreads& of) {
+  std::string out;
+  for (const material::VariedProperty& row : material::varied_properties()) {
+    const std::optional<Spread>& spread = of.*row.spread;
+    if (!spread) continue;
+    const std::string origin = !spread->estimate       ? spread->source
+                               : spread->source.empty() ? "estimate"
+                                                        : "estimate: " + spread->source;
+    out += fmt::format("  {:<29} {:<15} {}\n", row.key, spread_text(*spread), origin);
+  }
+  return out.empty() ? "" : "Spread: half the width that holds 95 %\n" + out;
+}
+
 }  // namespace
 
 ExitCode materials(const std::string& name, const std::string& output) {
   const auto folders = model::material_folders();
   if (!name.empty()) {
     const Material material = material::find_material(name, folders);
-    std::string out = describe(material);
+    std::string out = describe(material) + spreads(material::find_spreads(name, folders));
     if (const auto known_as = material::designations(name, folders); !known_as.empty())
       out += fmt::format("Also named {}\n", fmt::join(known_as, ", "));
     if (!output.empty()) {

@@ -58,19 +58,19 @@ Section<BodySpreads> body_spread_keys() {
   Section<BodySpreads> s("body", "Of a body, by its name, in place of what the card of its material says.");
   for (const material::VariedProperty& row : material::varied_properties()) {
     std::optional<Spread> BodySpreads::*const member = row.spread;
-    s.section(row.key, member, spread_keys(row.key, row.doc));
+    s.section(row.key, member, spread_keys()).doc(row.doc);
   }
   s.section("initial_temperature", &BodySpreads::initial_temperature,
-            spread_keys("initial_temperature", "Of the temperature at the start."));
+            spread_keys()).doc("Of the temperature at the start.");
   return s;
 }
 
 Section<ConditionSpreads> condition_spread_keys() {
   Section<ConditionSpreads> s("thermal_condition", "Of a thermal condition, by its name.");
   s.section("coefficient", &ConditionSpreads::coefficient,
-            spread_keys("coefficient", "Of coefficient, emissivity, flux, power or heat."));
+            spread_keys()).doc("Of coefficient, emissivity, flux, power or heat.");
   s.section("temperature", &ConditionSpreads::temperature,
-            spread_keys("temperature", "Of ambient or temperature."));
+            spread_keys()).doc("Of ambient or temperature.");
   return s;
 }
 
@@ -152,9 +152,9 @@ void check_spreads(const SpreadSpec& spreads) {
 Section<ContactSpreads> contact_spread_keys(const char* name, const char* doc) {
   Section<ContactSpreads> s(name, doc);
   s.section("conductance", &ContactSpreads::conductance,
-            spread_keys("conductance", "Of the conductance of contact."));
+            spread_keys()).doc("Of the conductance of contact.");
   s.section("gap", &ContactSpreads::gap,
-            spread_keys("gap", "Of what the open gap conducts beyond the resistance of contact."));
+            spread_keys()).doc("Of what the open gap conducts beyond the resistance of contact.");
   return s;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -254,11 +255,22 @@ std::string cell(std::string text) {  // a pipe would end a Markdown cell
   return text;
 }
 
+/// Whether several keys of a section have the keys of one and the same section, as the spreads of a card: the
+/// manual shows them as rows, and what they have in common once.
+bool is_one_of_many(const Key& key, const SectionInfo& info) {
+  const auto alike = [&](const Key& other) {
+    return other.kind == Key::Kind::section && other.section == key.section;
+  };
+  return key.kind == Key::Kind::section && std::count_if(info.keys.begin(), info.keys.end(), alike) > 1;
+}
+
 void manual_of_section(const SectionInfo& info, const std::string& title, const std::string& path,
                        std::string& out) {
   out += fmt::format("## {}\n\n{}\n\n", title, info.doc);
   std::string rows;
   for (const Key& key : info.keys) {
+    if (is_one_of_many(key, info))
+      rows += fmt::format("| `{}` | table, keys below | none | {} |\n", key.name, cell(key.doc_text));
     if (is_section(key)) continue;
     std::string meaning = key.doc_text;
     for (std::size_t i = 0; i < key.allowed.size(); ++i)
@@ -272,8 +284,15 @@ void manual_of_section(const SectionInfo& info, const std::string& title, const 
                         cell(meaning));
   }
   if (!rows.empty()) out += "| key | type | default | meaning |\n|---|---|---|---|\n" + rows + "\n";
+  std::vector<const SectionInfo*> shown;
   for (const Key& key : info.keys) {
     if (!is_section(key)) continue;
+    if (is_one_of_many(key, info)) {
+      if (std::find(shown.begin(), shown.end(), key.section.get()) != shown.end()) continue;
+      shown.push_back(key.section.get());
+      manual_of_section(*key.section, fmt::format("`[{}.KEY]`", path), path + ".KEY", out);
+      continue;
+    }
     const std::string inner = child_path(path, key);
     manual_of_section(*key.section, "`" + heading(key, inner) + "`", inside(key, inner), out);
   }

@@ -4,8 +4,10 @@
 
 namespace solidus {
 
-Section<Spread> spread_keys(const std::string& name, const std::string& of) {
-  Section<Spread> s(name, of);
+namespace {
+
+Section<Spread> declared_keys() {
+  Section<Spread> s("spread", "A spread: relative, factor or shift, and where it comes from.");
   s.key("relative", &Spread::relative)
       .range(0, 0.9)
       .doc("Half width of the range that holds 95 % of the values, as a share of the value: 0.05 is 5 %.");
@@ -24,6 +26,13 @@ Section<Spread> spread_keys(const std::string& name, const std::string& of) {
       .doc("It is not printed with the value, but typical of such data.");
   s.place(&Spread::where);
   return s;
+}
+
+}  // namespace
+
+const Section<Spread>& spread_keys() {
+  static const Section<Spread> keys = declared_keys();
+  return keys;
 }
 
 void check_spread(const Spread& spread, bool of_temperature, const std::string& what) {

@@ -147,7 +147,7 @@ Section<MaterialSpreads> material_spread_keys() {
       "deviations), of whole tables by one factor. `solidus uncertain` carries them to the answers; without "
       "one it takes a usual one and says so.");
   for (const VariedProperty& row : varied_properties())
-    s.section(row.key, row.spread, spread_keys(row.key, row.doc));
+    s.section(row.key, row.spread, spread_keys()).doc(row.doc);
   return s;
 }
 

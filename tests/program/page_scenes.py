@@ -58,6 +58,7 @@ SCENES = {
     "study.md": Scene({"case.toml": "cases/aluminium_cylinder/case.toml"},
                       {"study.toml": 'title = "Pouring', "latin.toml": 'case = "case.toml"\nmethod'},
                       lines=["solidus study latin.toml --dry-run"], words={"FILE": "study.toml"}),
+    "uncertain.md": Scene(texts={"case.toml": 'title = "A plate in a die"'}),
     "troubleshooting.md": Scene(texts={"case.toml": 'title = "A plate'}, words={"FILE": "~/solidus/cases/bracket/bracket.geo --unit mm"}),
 }
 
