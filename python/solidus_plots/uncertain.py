@@ -61,7 +61,7 @@ def remarks(parameters, left_out, not_varied):
     if left_out:
         lines.append(f"left out, to keep to the number of runs: {', '.join(parameter.label for parameter in left_out)}")
     if not_varied:
-        lines.append(f"not varied, for it is given by place: {', '.join(not_varied)}")
+        lines += [f"not varied: {what}" for what in not_varied]
     return lines
 
 

@@ -104,7 +104,7 @@ std::string spreads(const material::MaterialSpreads& of) {
   for (const material::VariedProperty& row : material::varied_properties()) {
     const std::optional<Spread>& spread = of.*row.spread;
     if (!spread) continue;
-    const std::string origin = !spread->estimate       ? spread->source
+    const std::string origin = !spread->estimate        ? spread->source
                                : spread->source.empty() ? "estimate"
                                                         : "estimate: " + spread->source;
     out += fmt::format("  {:<29} {:<15} {}\n", row.key, spread_text(*spread), origin);

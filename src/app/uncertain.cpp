@@ -39,7 +39,9 @@ Json json(const UncertainParameter& p) {
   if (p.spread.relative) json.add("relative", *p.spread.relative);
   if (p.spread.factor) json.add("factor", *p.spread.factor);
   if (p.spread.shift) json.add("shift[K]", *p.spread.shift);
-  return json.add("spread", spread_text(p.spread)).add("origin", text(p.origin)).add("source", p.spread.source);
+  return json.add("spread", spread_text(p.spread))
+      .add("origin", text(p.origin))
+      .add("source", p.spread.source);
 }
 
 }  // namespace

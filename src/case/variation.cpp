@@ -1,6 +1,7 @@
 #include "case/variation.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <string_view>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "case/case_spec.hpp"
+#include "system/log.hpp"
 
 namespace solidus::model {
 
@@ -39,10 +41,12 @@ Section<BodyFactors> body_vary_keys() {
 }
 
 Section<ContactFactors> contact_vary_keys() {
-  Section<ContactFactors> s("contact", "Of the heat through a contact, by its name; that of an interface is A_B.");
+  Section<ContactFactors> s("contact",
+                            "Of the heat through a contact, by its name; that of an interface is A_B.");
   factor_key(s, "conductance", &ContactFactors::conductance, "On the conductance of contact. A factor.");
-  factor_key(s, "gap", &ContactFactors::gap,
-             "On what the open gap conducts beyond the resistance of contact, of the gas for example. A factor.");
+  factor_key(
+      s, "gap", &ContactFactors::gap,
+      "On what the open gap conducts beyond the resistance of contact, of the gas for example. A factor.");
   return s;
 }
 
@@ -60,22 +64,22 @@ Section<BodySpreads> body_spread_keys() {
     std::optional<Spread> BodySpreads::*const member = row.spread;
     s.section(row.key, member, spread_keys()).doc(row.doc);
   }
-  s.section("initial_temperature", &BodySpreads::initial_temperature,
-            spread_keys()).doc("Of the temperature at the start.");
+  s.section("initial_temperature", &BodySpreads::initial_temperature, spread_keys())
+      .doc("Of the temperature at the start.");
   return s;
 }
 
 Section<ConditionSpreads> condition_spread_keys() {
   Section<ConditionSpreads> s("thermal_condition", "Of a thermal condition, by its name.");
-  s.section("coefficient", &ConditionSpreads::coefficient,
-            spread_keys()).doc("Of coefficient, emissivity, flux, power or heat.");
-  s.section("temperature", &ConditionSpreads::temperature,
-            spread_keys()).doc("Of ambient or temperature.");
+  s.section("coefficient", &ConditionSpreads::coefficient, spread_keys())
+      .doc("Of coefficient, emissivity, flux, power or heat.");
+  s.section("temperature", &ConditionSpreads::temperature, spread_keys()).doc("Of ambient or temperature.");
   return s;
 }
 
 template <class Map, class Sections>
-void check_names(const Map& named, const Sections& sections, const char* heading, const SourceLocation& where) {
+void check_names(const Map& named, const Sections& sections, const char* heading,
+                 const SourceLocation& where) {
   std::vector<std::string> names;
   for (const auto& section : sections) names.push_back(section.name);
   for (const auto& [name, data] : named)
@@ -147,19 +151,54 @@ void check_spreads(const SpreadSpec& spreads) {
   }
 }
 
+/// Factors and shifts that change something, in words: "conductivity x 1.1".
+class Changes {
+ public:
+  void factor(const std::string& where, const std::string& key, double by) {
+    if (by != 1) texts_.push_back(fmt::format("{} of {} x {:.4g}", key, where, by));
+  }
+  void shift(const std::string& where, const std::string& key, double by) {
+    if (by != 0) texts_.push_back(fmt::format("{} of {} {:+.4g} K", key, where, by));
+  }
+  const std::vector<std::string>& texts() const { return texts_; }
+
+ private:
+  std::vector<std::string> texts_;
+};
+
+/// Says what is not as the data have it: cards and files of the case do not show it.
+void announce(const VarySpec& vary) {
+  Changes changes;
+  for (const auto& [name, body] : vary.bodies) {
+    for (const material::VariedProperty& row : material::varied_properties())
+      row.shift ? changes.shift(name, row.key, body.*row.factor)
+                : changes.factor(name, row.key, body.*row.factor);
+    changes.shift(name, "initial_temperature", body.initial_temperature);
+  }
+  for (const auto& [name, contact] : vary.contacts) {
+    changes.factor(name, "conductance", contact.conductance);
+    changes.factor(name, "gap", contact.gap);
+  }
+  for (const auto& [name, condition] : vary.conditions) {
+    changes.factor(name, "coefficient", condition.coefficient);
+    changes.shift(name, "temperature", condition.temperature);
+  }
+  if (!changes.texts().empty()) logging::info("varied: {}", fmt::join(changes.texts(), ", "));
+}
+
 }  // namespace
 
 Section<ContactSpreads> contact_spread_keys(const char* name, const char* doc) {
   Section<ContactSpreads> s(name, doc);
-  s.section("conductance", &ContactSpreads::conductance,
-            spread_keys()).doc("Of the conductance of contact.");
-  s.section("gap", &ContactSpreads::gap,
-            spread_keys()).doc("Of what the open gap conducts beyond the resistance of contact.");
+  s.section("conductance", &ContactSpreads::conductance, spread_keys()).doc("Of the conductance of contact.");
+  s.section("gap", &ContactSpreads::gap, spread_keys())
+      .doc("Of what the open gap conducts beyond the resistance of contact.");
   return s;
 }
 
 void check_spreads(const ContactSpreads& spreads, const std::string& of) {
-  if (spreads.conductance) check_spread(*spreads.conductance, false, fmt::format("'conductance' of '{}'", of));
+  if (spreads.conductance)
+    check_spread(*spreads.conductance, false, fmt::format("'conductance' of '{}'", of));
   if (spreads.gap) check_spread(*spreads.gap, false, fmt::format("'gap' of '{}'", of));
 }
 
@@ -175,9 +214,10 @@ Section<VarySpec> vary_keys() {
 }
 
 Section<SpreadSpec> spread_keys_of_case() {
-  Section<SpreadSpec> s("spread",
-                        "How far data of the case may be off, for `solidus uncertain`; a run does not look at "
-                        "it. Names as in [vary].");
+  Section<SpreadSpec> s(
+      "spread",
+      "How far data of the case may be off, for `solidus uncertain`; a run does not look at "
+      "it. Names as in [vary].");
   s.named_sections("body", &SpreadSpec::bodies, body_spread_keys());
   s.named_sections("contact", &SpreadSpec::contacts,
                    contact_spread_keys("contact", "Of the heat through a contact, by its name."));
@@ -192,6 +232,7 @@ void vary_conditions(CaseSpec& spec) {
   check_names(spec.spread.bodies, spec.bodies, "body", spec.spread.where);
   check_names(spec.spread.conditions, spec.thermal_conditions, "thermal condition", spec.spread.where);
   check_spreads(spec.spread);
+  announce(spec.vary);
   for (BodySpec& body : spec.bodies)
     if (const auto by = spec.vary.bodies.find(body.name);
         by != spec.vary.bodies.end() && by->second.initial_temperature != 0)

@@ -61,6 +61,12 @@ class ParameterList {
  public:
   void add(const std::string& shared_as, UncertainParameter parameter) {
     if (is_zero(parameter.spread)) return;
+    // A path of --set has its parts between dots and its value behind the first sign of equality.
+    const std::string& key = parameter.places.front().key;
+    if (std::count(key.begin(), key.end(), '.') != 3 || key.find('=') != std::string::npos) {
+      found.fixed.push_back(parameter.label + ", for a dot or = in a name");
+      return;
+    }
     const auto [at, fresh] = index_.emplace(shared_as, found.list.size());
     if (fresh) {
       found.list.push_back(std::move(parameter));
@@ -120,8 +126,9 @@ class Collector {
     std::map<std::string_view, Known> spreads;
     for (const material::VariedProperty& row : material::varied_properties())
       if (row.has(a_.materials[b]) && uses(row.key, use))
-        spreads.emplace(row.key, known(own == spec_.spread.bodies.end() ? std::nullopt : own->second.*row.spread,
-                                       card.*row.spread, row.usual));
+        spreads.emplace(row.key,
+                        known(own == spec_.spread.bodies.end() ? std::nullopt : own->second.*row.spread,
+                              card.*row.spread, row.usual));
     const bool one_capacity = join_capacity(spreads, use);
     for (const material::VariedProperty& row : material::varied_properties()) {
       const auto at = spreads.find(row.key);
@@ -188,8 +195,7 @@ class Collector {
                  k.spread,
                  k.origin});
     };
-    add("conductance", "conductance",
-        known(by_case.conductance, by_card.conductance, usual_factor(k_usual)),
+    add("conductance", "conductance", known(by_case.conductance, by_card.conductance, usual_factor(k_usual)),
         contact.heat->conductance_factor);
     if (opens(c))
       add("gap", "conduction of the gap", known(by_case.gap, by_card.gap, usual_factor(k_usual_gap)),
@@ -213,10 +219,11 @@ class Collector {
     const auto own = spec_.spread.bodies.find(body.name);
     const bool cast = m_.is_poured(b);
     constexpr double k_usual = 10;  // [K]
-    const Known k = known(own == spec_.spread.bodies.end() ? std::nullopt : own->second.initial_temperature, {},
-                          usual_shift(k_usual));
+    const Known k = known(own == spec_.spread.bodies.end() ? std::nullopt : own->second.initial_temperature,
+                          {}, usual_shift(k_usual));
     if (body.initial_temperature.place != nullptr) {
-      list_.found.fixed.push_back(fmt::format("the temperature of {} at the start", body.name));
+      list_.found.fixed.push_back(
+          fmt::format("the temperature of {} at the start, for it is given by place", body.name));
       return;
     }
     const std::string quantity = cast ? "pouring temperature" : "temperature at the start";
@@ -255,7 +262,7 @@ class Collector {
     if (c.kind != Kind::temperature) {
       const auto [what, data, usual] = strength_of(c);
       if (data != nullptr && data->place != nullptr)
-        list_.found.fixed.push_back(fmt::format("{} of {}", what, c.name));
+        list_.found.fixed.push_back(fmt::format("{} of {}, for it is given by place", what, c.name));
       else
         add("coefficient", what, known(by_case.coefficient, {}, usual), now.coefficient);
     }

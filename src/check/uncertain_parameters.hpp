@@ -14,7 +14,7 @@ namespace solidus::model {
 struct UncertainParameter {
   /// A place where the parameter stands, and the factor or shift [K] that the case itself has there.
   struct Place {
-    std::string key;   ///< "vary.body.part.density"
+    std::string key;  ///< "vary.body.part.density"
     double value = 0;
   };
   enum class Origin {
@@ -25,9 +25,9 @@ struct UncertainParameter {
   /// What may be varied together where there are too many parameters.
   enum class Group { casting, mould, interface, start, surroundings };
 
-  std::string label;      ///< "conductivity of green_sand"
-  std::string quantity;   ///< "conductivity"
-  std::string of;         ///< the material, card, contact or condition
+  std::string label;     ///< "conductivity of green_sand"
+  std::string quantity;  ///< "conductivity"
+  std::string of;        ///< the material, card, contact or condition
   Group group = Group::casting;
   bool mechanical = false;  ///< heat alone does not depend on it
   std::vector<Place> places;
@@ -37,7 +37,7 @@ struct UncertainParameter {
 
 struct UncertainParameters {
   std::vector<UncertainParameter> list;
-  std::vector<std::string> fixed;  ///< data given by place, which cannot be varied, in words
+  std::vector<std::string> fixed;  ///< data that cannot be varied, and why, in words
 };
 
 /// Data with a spread of zero are left out, and data that this case does not use.

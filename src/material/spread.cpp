@@ -20,7 +20,9 @@ Section<Spread> declared_keys() {
       .difference()
       .range(0, 500)
       .doc("Half width of the range that holds 95 % of the temperatures.");
-  s.key("source", &Spread::source).initially("").doc("Where the range is printed, or what it is guessed from.");
+  s.key("source", &Spread::source)
+      .initially("")
+      .doc("Where the range is printed, or what it is guessed from.");
   s.key("estimate", &Spread::estimate)
       .initially(false)
       .doc("It is not printed with the value, but typical of such data.");
@@ -36,8 +38,8 @@ const Section<Spread>& spread_keys() {
 }
 
 void check_spread(const Spread& spread, bool of_temperature, const std::string& what) {
-  const int given = int{spread.relative.has_value()} + int{spread.factor.has_value()} +
-                    int{spread.shift.has_value()};
+  const int given =
+      int{spread.relative.has_value()} + int{spread.factor.has_value()} + int{spread.shift.has_value()};
   const char* const allowed = of_temperature ? "{ shift = \"5 K\", estimate = true }, for example"
                                              : "{ relative = 0.05, source = \"…\" } or { factor = 1.5, … }";
   if (given != 1)

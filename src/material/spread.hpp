@@ -23,7 +23,8 @@ struct Spread {
   SourceLocation where;
 };
 
-/// The keys of a spread, `{ relative = 0.05, source = "…" }`; one section for all quantities that may have one.
+/// The keys of a spread, `{ relative = 0.05, source = "…" }`; one section for all quantities that may have
+/// one.
 const Section<Spread>& spread_keys();
 
 /// Checks that exactly one measure is given, the one of temperatures for a temperature and for nothing else,

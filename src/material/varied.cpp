@@ -31,8 +31,9 @@ bool gives_off_latent_heat(const Material& m) {
                      [](const PhaseChange& change) { return change.latent_heat > 0; });
 }
 bool changes_its_volume(const Material& m) {
-  return std::any_of(m.phase_changes.begin(), m.phase_changes.end(),
-                     [](const PhaseChange& change) { return change.volume_change < 0 || change.volume_change > 0; });
+  return std::any_of(m.phase_changes.begin(), m.phase_changes.end(), [](const PhaseChange& change) {
+    return change.volume_change < 0 || change.volume_change > 0;
+  });
 }
 bool yields(const Material& m) {
   return m.flow.has_value();
@@ -45,7 +46,8 @@ bool creeps(const Material& m) {
 
 /// Multiplies the parameters of a law that are stresses.
 template <std::size_t N>
-void multiply_stresses(std::array<Table, N>& tables, std::span<const LawParameter> parameters, double factor) {
+void multiply_stresses(std::array<Table, N>& tables, std::span<const LawParameter> parameters,
+                       double factor) {
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (std::string_view(parameters[i].unit) == "Pa") tables[i] = tables[i].scaled(factor);
 }
@@ -59,9 +61,9 @@ void strengthen(Material& m, double factor) {
   if (flow.curves.empty()) return;
   std::vector<double> stresses(flow.curves.stresses().begin(), flow.curves.stresses().end());
   for (double& stress : stresses) stress *= factor;
-  flow.curves = FlowCurves({flow.curves.strains().begin(), flow.curves.strains().end()},
-                           {flow.curves.temperatures().begin(), flow.curves.temperatures().end()},
-                           std::move(stresses));
+  flow.curves =
+      FlowCurves({flow.curves.strains().begin(), flow.curves.strains().end()},
+                 {flow.curves.temperatures().begin(), flow.curves.temperatures().end()}, std::move(stresses));
 }
 
 void shift_changes(Material& m, double shift) {
@@ -81,8 +83,8 @@ std::vector<VariedProperty> all_properties() {
   using F = MaterialFactors;
   using S = MaterialSpreads;
   std::vector<VariedProperty> rows;
-  rows.push_back({"density", "density", "Of the density.", &F::density, &S::density, false, share(0.03), always,
-                  [](Material& m, double f) { m.density *= f; }});
+  rows.push_back({"density", "density", "Of the density.", &F::density, &S::density, false, share(0.03),
+                  always, [](Material& m, double f) { m.density *= f; }});
   rows.push_back({"conductivity", "conductivity", "Of the whole table of the conductivity.", &F::conductivity,
                   &S::conductivity, false, share(0.10), always,
                   [](Material& m, double f) { m.conductivity = m.conductivity.scaled(f); }});
@@ -93,11 +95,15 @@ std::vector<VariedProperty> all_properties() {
                   &S::latent_heat, false, share(0.07), gives_off_latent_heat, [](Material& m, double f) {
                     for (PhaseChange& change : m.phase_changes) change.latent_heat *= f;
                   }});
-  rows.push_back({"freezing_temperatures", "freezing temperatures",
-                  "Of the temperatures of all phase changes, which move together.", &F::freezing_temperatures,
-                  &S::freezing_temperatures, true,
+  rows.push_back({"freezing_temperatures",
+                  "freezing temperatures",
+                  "Of the temperatures of all phase changes, which move together.",
+                  &F::freezing_temperatures,
+                  &S::freezing_temperatures,
+                  true,
                   {.relative = {}, .factor = {}, .shift = 5, .source = {}, .estimate = true, .where = {}},
-                  changes, shift_changes});
+                  changes,
+                  shift_changes});
   rows.push_back({"volume_change", "volume change", "Of the volume change of all phase changes.",
                   &F::volume_change, &S::volume_change, false, share(0.20), changes_its_volume,
                   [](Material& m, double f) {
@@ -112,12 +118,18 @@ std::vector<VariedProperty> all_properties() {
   rows.push_back({"expansion", "expansion", "Of the whole table of the thermal expansion.", &F::expansion,
                   &S::expansion, false, share(0.07), deforms,
                   [](Material& m, double f) { m.expansion = m.expansion.scaled(f); }});
-  rows.push_back({"strength", "strength",
-                  "Of all stresses of [plasticity] (flow stress, hardening, flow curves), which move together.",
-                  &F::strength, &S::strength, false, share(0.30), yields, strengthen});
-  rows.push_back({"creep_viscosity", "creep viscosity", "Of the viscosity of [plasticity].",
-                  &F::creep_viscosity, &S::creep_viscosity, false,
-                  {.relative = {}, .factor = 3, .shift = {}, .source = {}, .estimate = true, .where = {}}, creeps,
+  rows.push_back(
+      {"strength", "strength",
+       "Of all stresses of [plasticity] (flow stress, hardening, flow curves), which move together.",
+       &F::strength, &S::strength, false, share(0.30), yields, strengthen});
+  rows.push_back({"creep_viscosity",
+                  "creep viscosity",
+                  "Of the viscosity of [plasticity].",
+                  &F::creep_viscosity,
+                  &S::creep_viscosity,
+                  false,
+                  {.relative = {}, .factor = 3, .shift = {}, .source = {}, .estimate = true, .where = {}},
+                  creeps,
                   [](Material& m, double f) {
                     Table& viscosity = m.flow->rate[Perzyna::viscosity];
                     viscosity = viscosity.scaled(f);
@@ -157,12 +169,13 @@ void vary(Material& material, const MaterialFactors& factors, const SourceLocati
     const double by = factors.*row.factor;
     if (by == k_none.*row.factor) continue;
     if (!row.has(material))
-      throw InputError(where, fmt::format("'{}' cannot vary: the material '{}' has none", row.key, material.name));
+      throw InputError(where,
+                       fmt::format("'{}' cannot vary: the material '{}' has none", row.key, material.name));
     row.apply(material, by);
   }
   constexpr double k_incompressible = 0.4999;
-  if (material.mechanical() && !(material.poisson_ratio.max_value() <= k_incompressible &&
-                                 material.poisson_ratio.min_value() > -1))
+  if (material.mechanical() &&
+      !(material.poisson_ratio.max_value() <= k_incompressible && material.poisson_ratio.min_value() > -1))
     throw InputError(where,
                      fmt::format("Poisson's ratio of '{}' becomes {:.4g}", material.name,
                                  material.poisson_ratio.max_value()),
@@ -179,9 +192,10 @@ void check_spreads(MaterialSpreads& spreads, const Material& material, const std
     check_spread(*spread, row.shift, fmt::format("'{}'", row.key));
     if (row.has(material)) continue;
     if (spread->where.file == file)
-      throw InputError(spread->where,
-                       fmt::format("[spread] has '{}', which the material '{}' has not", row.key, material.name),
-                       fmt::format("one of: {}", fmt::join(there, ", ")));
+      throw InputError(
+          spread->where,
+          fmt::format("[spread] has '{}', which the material '{}' has not", row.key, material.name),
+          fmt::format("one of: {}", fmt::join(there, ", ")));
     spread.reset();
   }
 }

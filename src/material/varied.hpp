@@ -33,8 +33,8 @@ struct VariedProperty {
   const char* doc;
   double MaterialFactors::*factor;
   std::optional<Spread> MaterialSpreads::*spread;
-  bool shift;                 ///< a temperature: added, not multiplied
-  Spread usual;               ///< where the card has none
+  bool shift;                    ///< a temperature: added, not multiplied
+  Spread usual;                  ///< where the card has none
   bool (*has)(const Material&);  ///< whether the material has it
   void (*apply)(Material&, double);
 };

@@ -19,8 +19,8 @@ CheckedRun check_run(Case c) {
   results::check_output(a.mesh, a.phases, recorder_options(c, {}, a));
   for (std::size_t i = 0; i < a.stages.size(); ++i)
     if (a.stages[i].cycle <= 1) apply(c.spec, i, {}, nullptr, a);
-  CheckedRun checked{counts(c.spec, a.mesh), overview(c.spec, a, measures), {},
-                     uncertain_parameters(c.spec, a, measures)};
+  CheckedRun checked{
+      counts(c.spec, a.mesh), overview(c.spec, a, measures), {}, uncertain_parameters(c.spec, a, measures)};
   if (a.phases.audits_stability())
     checked.couplings = coupling_estimates(c.spec, a.materials, a.mesh, a.start);
   return checked;

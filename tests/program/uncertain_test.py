@@ -140,9 +140,69 @@ class Uncertain(ProgramTest):
         self.assertLess(answer["rank_correlations"]["film coefficient of air"], -0.8)
         self.assertIn("60 runs, 0 failed", said)
 
+    def test_what_a_case_does_not_use_is_not_uncertain(self):
+        self.write("case.toml", """
+title = "A bush in sand"
+[analysis]
+kind = "axisymmetric"
+gravity = "9.81 m/s2"
+[mesh]
+shape = "cylinder_in_mould"
+element = "tri3"
+[mesh.cylinder_in_mould]
+radius = "10 mm"
+height = "20 mm"
+mould_wall = "10 mm"
+mould_bottom = "10 mm"
+mould_height = "30 mm"
+element_size = "5 mm"
+mould_element_size = "5 mm"
+[time]
+end = "10 s"
+step = "1 s"
+[[body]]
+name = "part"
+material = "brass"
+initial_temperature = "1020 degC"
+[[body]]
+name = "mould"
+material = "furan_sand"
+initial_temperature = { formula = "293.15 + 0*x", unit = "K" }
+[[interface]]
+bodies = "all"
+[[thermal_condition]]
+name = "wind.1"
+group = "part_free"
+kind = "film"
+coefficient = "20 W/m2/K"
+ambient = "20 degC"
+[spread.body.mould]
+conductivity = { relative = 0.07, source = "own" }
+[spread.contact.part_mould]
+conductance = { factor = 1.2, source = "own" }
+""")
+        def listed(*words):
+            document = json.loads(self.done("uncertain", "case.toml", "--parameters", "--log", "warn", *words))
+            return {entry["label"]: entry for entry in document["parameters"]}, document["not_varied"]
+        coupled, fixed = listed()
+        heat, _ = listed("--heat-only")
+        # Sand neither melts nor deforms: its density and specific heat are one thing. The case's own spreads come first.
+        sand = coupled["heat capacity per volume of furan_sand"]
+        self.assertAlmostEqual(sand["relative"], math.hypot(0.065, 0.1))
+        self.assertNotIn("density of furan_sand", coupled)
+        self.assertEqual(coupled["conductivity of mould"]["relative"], 0.07)
+        self.assertEqual(coupled["conductance of part_mould"]["factor"], 1.2)
+        self.assertEqual(coupled["conduction of the gap of copper_alloy_in_sand"]["factor"], 1.5)
+        mechanical = {label for label, entry in coupled.items() if entry["mechanical"]}
+        self.assertEqual(mechanical, {f"{what} of brass" for what in (
+            "volume change", "Young's modulus", "Poisson's ratio", "expansion", "strength")})
+        self.assertEqual(set(coupled) - set(heat), mechanical | {"conduction of the gap of copper_alloy_in_sand"})
+        self.assertEqual(len(fixed), 2, fixed)
+        self.assertIn("for it is given by place", fixed[0])
+        self.assertIn("film coefficient of wind.1, for a dot", fixed[1])
+
     def test_few_runs_move_things_together_and_say_so(self):
-        self.write_case(case=CASE.replace("divisions = [2, 1]", "divisions = [2, 1]")
-                        + '[[thermal_condition]]\nname = "top"\ngroup = "y_max"\nkind = "film"\n'
+        self.write_case(case=CASE + '[[thermal_condition]]\nname = "top"\ngroup = "y_max"\nkind = "film"\n'
                           'coefficient = "1 W/m2/K"\nambient = "20 degC"\n')
         said = self.done("uncertain", "case.toml", "--runs", "7", "--dry-run")
         self.assertIn("moved together, to keep to the number of runs: film coefficient of air, film coefficient of top", said)

@@ -61,8 +61,9 @@ TEST(Vary, ReachesTheMaterialOfTheBodyItNames) {
 
 TEST(Vary, RefusesWhatTheCaseHasNot) {
   EXPECT_EQ(error("[vary.body.bar]\ndensity = 1.1\n"), "");
-  EXPECT_THAT(error("[vary.body.bra]\ndensity = 1.1\n"),
-              AllOf(HasSubstr("case.toml:"), HasSubstr("no body named 'bra'"), HasSubstr("did you mean 'bar'")));
+  EXPECT_THAT(
+      error("[vary.body.bra]\ndensity = 1.1\n"),
+      AllOf(HasSubstr("case.toml:"), HasSubstr("no body named 'bra'"), HasSubstr("did you mean 'bar'")));
   EXPECT_THAT(error("[vary.body.bar]\ndensity = -1.1\n"), HasSubstr("-1.1"));
   EXPECT_THAT(error("[vary.thermal_condition.wind]\ncoefficient = 1.1\n"), HasSubstr("no thermal condition"));
   EXPECT_THAT(error("[vary.contact.wall]\nconductance = 1.1\n"), HasSubstr("no contact named 'wall'"));

@@ -60,7 +60,8 @@ TEST(HeatTransfer, IsContinuousWhereContactIsLost) {
   }
 }
 
-// 1/h(g) = 1/(f_c h(0)) + (1/h(g) - 1/h(0))/f_g: the gas of a gap of 0.1 mm alone has 0.06/1e-4 = 600 W/(m² K).
+// 1/h(g) = 1/(f_c h(0)) + (1/h(g) - 1/h(0))/f_g: the gas of a gap of 0.1 mm alone has 0.06/1e-4 = 600 W/(m²
+// K).
 TEST(HeatTransfer, FactorsMultiplyContactAndWhatTheGapConductsBeyondIt) {
   HeatTransferSpec spec = gas_spec(0, 5000);
   spec.conductance_factor = 2;

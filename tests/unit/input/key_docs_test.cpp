@@ -8,6 +8,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Change {
   double latent_heat = 0;
@@ -63,6 +64,30 @@ TEST(KeyDocs, TheManualHasARowForEveryKey) {
   const std::string manual = reference_manual(declaration().info(), "Sample");
   EXPECT_THAT(manual, AllOf(HasSubstr("| `step` | quantity [s] | `\"1 s\"` |"), HasSubstr("`[change.NAME]`"),
                             HasSubstr("Film \\| coefficient")));
+}
+
+struct Ends {
+  std::optional<Change> first, last;
+};
+
+TEST(KeyDocs, TheManualShowsOnceWhatSeveralKeysHaveInCommon) {
+  Section<Change> change("change", "A phase change.");
+  change.quantity("latent_heat", &Change::latent_heat, "J/kg").doc("Released on cooling.");
+  Section<Ends> ends("ends", "Both ends.");
+  ends.section("first", &Ends::first, change).doc("The first one.");
+  ends.section("last", &Ends::last, change).doc("The last one.");
+  struct Whole {
+    Ends ends;
+  };
+  Section<Whole> whole("", "A file.");
+  whole.section("ends", &Whole::ends, ends);
+  const std::string manual = reference_manual(whole.info(), "Sample");
+  EXPECT_THAT(manual, AllOf(HasSubstr("| `first` | table, keys below | none | The first one. |"),
+                            HasSubstr("| `last` | table, keys below | none | The last one. |"),
+                            HasSubstr("## `[ends.KEY]`"), Not(HasSubstr("[ends.first]"))));
+  const std::size_t at = manual.find("Released on cooling.");
+  EXPECT_NE(at, std::string::npos);
+  EXPECT_EQ(manual.find("Released on cooling.", at + 1), std::string::npos);
 }
 
 }  // namespace

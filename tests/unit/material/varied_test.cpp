@@ -77,7 +77,8 @@ TEST(Spread, OfACardIsRefusedWithItsLine) {
                     HasSubstr("density, conductivity, specific_heat")));
   EXPECT_THAT(refusal("densiti = { relative = 0.02, estimate = true }"), HasSubstr("did you mean 'density'"));
   EXPECT_THAT(refusal("density = { estimate = true }"), HasSubstr("no width"));
-  EXPECT_THAT(refusal("density = { relative = 0.1, factor = 2, estimate = true }"), HasSubstr("more than one"));
+  EXPECT_THAT(refusal("density = { relative = 0.1, factor = 2, estimate = true }"),
+              HasSubstr("more than one"));
   EXPECT_THAT(refusal("density = { relative = 0.1 }"), HasSubstr("not where it comes from"));
   EXPECT_THAT(refusal("density = { shift = \"3 K\", estimate = true }"), HasSubstr("no temperature"));
 }
@@ -124,12 +125,14 @@ TEST(VariedMaterial, HasItsTablesMultipliedAndItsFreezingMoved) {
     const double before = given.flow->hardening[i].value(500), after = m.flow->hardening[i].value(500);
     EXPECT_TRUE(after == 2 * before || (after == before && before < 1e4)) << i;
   }
-  EXPECT_DOUBLE_EQ(m.flow->rate[Perzyna::viscosity].value(700), 4 * given.flow->rate[Perzyna::viscosity].value(700));
+  EXPECT_DOUBLE_EQ(m.flow->rate[Perzyna::viscosity].value(700),
+                   4 * given.flow->rate[Perzyna::viscosity].value(700));
   EXPECT_DOUBLE_EQ(*m.casting.arm_spacing, 0.5 * *given.casting.arm_spacing);
 }
 
 TEST(VariedMaterial, ThatNoMaterialCanBeIsRefused) {
-  Material sand = find_material("green_sand", k_library), metal = find_material("aluminium_alsi7mg", k_library);
+  Material sand = find_material("green_sand", k_library),
+           metal = find_material("aluminium_alsi7mg", k_library);
   MaterialFactors by;
   by.young_modulus = 1.1;
   EXPECT_THROW(vary(sand, by, {}), InputError);
