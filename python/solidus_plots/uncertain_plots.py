@@ -34,7 +34,8 @@ def _bars(axes, answer):
     spread = answer.spread()
     axes.axvspan(answer.best - spread, answer.best + spread, color="#000000", alpha=0.07, linewidth=0, zorder=0)
     unit = "" if answer.unit in ("", "1") else f" {style.unit_text(answer.unit)}"
-    axes.set_title(f"{answer.name}: {rounded(answer.best, spread)}{unit} ± {rounded(spread, spread)}", loc="left", fontsize=9)
+    axes.set_title(f"{answer.name}: {rounded(answer.best, spread)}{unit} ± {rounded(spread, spread)}"
+                   f"{' (about as much by whatever is moved)' if answer.jumps() else ''}", loc="left", fontsize=9)
     axes.set_xlabel(style.axis_label("", answer.unit).strip(), fontsize=8)
     axes.grid(axis="y", visible=False)
 

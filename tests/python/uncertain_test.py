@@ -5,6 +5,7 @@ import unittest
 
 import numpy as np
 
+from solidus_plots.answers import answers, bands
 from solidus_plots.uncertain_parameters import Parameter, merged, parameter_of
 from solidus_plots.uncertain_result import evaluate, line, rounded, worth_the_other_side
 from solidus_plots.uncertain_samples import points, summarised
@@ -55,6 +56,16 @@ class Results(unittest.TestCase):
         self.assertEqual(line(found[0]), "100.0 s ± 7.5 (u 6.6, v 3.0, step and mesh 2.0)")
         self.assertEqual([part.label for part in found[0].bent_parts()], ["u"])
         self.assertEqual(found[0].incomplete, [])
+
+    def test_bands_of_step_and_mesh_stand_beside_the_values_they_are_of(self):
+        summary = {"answers": {"castings": {"part": {"last_melt_froze": {"value[s]": 165.0, "band[s]": 4.0}, "riser": False}},
+                               "largest_gaps": {"wall": {"value[m]": 2e-4, "band[m]": 1e-5}},
+                               "largest_distortion": {"value[m]": 1e-3}}}
+        found = bands(summary)
+        self.assertEqual(set(found), {"part: last melt froze[s]", "largest gap of wall[mm]"})
+        self.assertEqual(found["part: last melt froze[s]"], 4.0)
+        self.assertAlmostEqual(found["largest gap of wall[mm]"], 0.01)
+        self.assertLessEqual(set(found), set(answers(summary)))
 
     def test_the_other_end_is_run_where_a_third_of_a_spread_is_made(self):
         parameters = [parameter("large"), parameter("small"), parameter("of another answer")]
