@@ -111,11 +111,11 @@ def evaluate(best, band, parameters, ups, downs):
 
 
 def worth_the_other_side(found, parameters, most):
-    """Numbers of the parameters that make a third of the spread of some answer, the largest first."""
+    """Numbers of the parameters that make a third of the spread of some answer that ranks them, the largest first."""
     share = [0.0] * len(parameters)
     numbers = {parameter.label: number for number, parameter in enumerate(parameters)}
     for answer in found:
-        for part in answer.parts:
+        for part in answer.parts if not answer.jumps() else []:
             number = numbers[part.label]
             share[number] = max(share[number], part.spread() / answer.spread())
     order = sorted(range(len(share)), key=lambda number: -share[number])
