@@ -26,22 +26,26 @@ def _of_castings(castings):
             yield f"{name}: hottest melt[degC]", casting["hottest_melt"]["value[K]"] - 273.15
 
 
-def _band_of(entry, unit, factor=1.0):
-    """The band of step and mesh that stands beside a value, a half width; nothing where there is none."""
-    band = entry.get(f"band[{unit}]") if isinstance(entry, dict) else None
-    return None if band is None else factor * band
+def _error_of(entry, unit, factor=1.0):
+    """The error by step and mesh that stands beside a value, a half width; nothing where there is none."""
+    error = entry.get(f"error[{unit}]") if isinstance(entry, dict) else None
+    return None if error is None else factor * error
 
 
 def bands(summary):
     """Name as of answers() -> half width of the error of step and mesh, where the run states it."""
     given, found = summary.get("answers", {}), {}
     for name, casting in given.get("castings", {}).items():
-        found[f"{name}: last melt froze[s]"] = _band_of(casting.get("last_melt_froze"), "s")
-        found[f"{name}: hottest melt[degC]"] = _band_of(casting.get("hottest_melt"), "K")
+        found[f"{name}: last melt froze[s]"] = _error_of(casting.get("last_melt_froze"), "s")
+        found[f"{name}: hottest melt[degC]"] = _error_of(casting.get("hottest_melt"), "K")
     for contact, gap in given.get("largest_gaps", {}).items():
-        found[f"largest gap of {contact}[mm]"] = _band_of(gap, "m", 1e3)
-    found["largest distortion[mm]"] = _band_of(given.get("largest_distortion"), "m", 1e3)
-    found["largest von Mises stress[MPa]"] = _band_of(given.get("largest_von_mises"), "Pa", 1e-6)
+        found[f"largest gap of {contact}[mm]"] = _error_of(gap, "m", 1e3)
+    found["largest distortion[mm]"] = _error_of(given.get("largest_distortion"), "m", 1e3)
+    found["largest von Mises stress[MPa]"] = _error_of(given.get("largest_von_mises"), "Pa", 1e-6)
+    found["pores, share of the casting[%]"] = _error_of(given.get("pores"), "1", 100.0)
+    criteria = given.get("errors_of_criteria", {})
+    found["longest local solidification time[s]"] = _error_of(criteria.get("local_solidification_time_max"), "SI")
+    found["least Niyama[K0.5 s0.5/mm]"] = _error_of(criteria.get("niyama_min"), "SI", 1e-3)
     return {name: band for name, band in found.items() if band is not None}
 
 

@@ -58,8 +58,8 @@ class Results(unittest.TestCase):
         self.assertEqual(found[0].incomplete, [])
 
     def test_bands_of_step_and_mesh_stand_beside_the_values_they_are_of(self):
-        summary = {"answers": {"castings": {"part": {"last_melt_froze": {"value[s]": 165.0, "band[s]": 4.0}, "riser": False}},
-                               "largest_gaps": {"wall": {"value[m]": 2e-4, "band[m]": 1e-5}},
+        summary = {"answers": {"castings": {"part": {"last_melt_froze": {"value[s]": 165.0, "error[s]": 4.0}, "riser": False}},
+                               "largest_gaps": {"wall": {"value[m]": 2e-4, "error[m]": 1e-5}},
                                "largest_distortion": {"value[m]": 1e-3}}}
         found = bands(summary)
         self.assertEqual(set(found), {"part: last melt froze[s]", "largest gap of wall[mm]"})
