@@ -53,6 +53,8 @@ def answers(summary):
     """Name with unit -> number: what the run answers and what its criteria found, in the units of its terminal."""
     given, found = summary.get("answers", {}), {}
     found.update(_of_castings(given.get("castings", {})))
+    if "yield" in given:
+        found["yield[%]"] = 100.0 * given["yield"]
     if "pools_cut_off" in given:
         found["pools cut off[1]"] = given["pools_cut_off"]["number"]
     criteria = summary.get("criteria", {})

@@ -15,13 +15,14 @@ std::vector<results::CastBody> cast_bodies(const CaseSpec& spec,
     if (freezing == nullptr || start[b].high <= freezing->fraction.solidus()) continue;
     const BodySpec& body = spec.bodies[b];
     const Role role = role_of(body, materials[b]);
-    if (role != Role::casting && role != Role::riser) continue;
+    if (!is_poured(role)) continue;
     const std::vector<std::string>& feeders = spec.criteria.feeders;
     // Names tell only where the case does not.
     const bool named = feeders.empty() && role_in_name(body.name) == Role::riser;
     const bool feeds = role == Role::riser || named ||
                        std::find(feeders.begin(), feeders.end(), body.mesh_group()) != feeders.end();
-    cast.push_back({static_cast<int>(b), spec.bodies[b].name, feeds});
+    const bool gates = role == Role::gating || (!body.role && role_in_name(body.name) == Role::gating);
+    cast.push_back({static_cast<int>(b), spec.bodies[b].name, feeds, gates && !feeds});
   }
   return cast;
 }

@@ -17,8 +17,8 @@ namespace solidus::model {
 namespace {
 
 std::map<std::string, Role> wanted_roles(const std::vector<std::string>& as) {
-  const std::vector<Role> all = {Role::casting, Role::riser,  Role::mould, Role::core,
-                                 Role::chill,   Role::sleeve, Role::die,   Role::insulation};
+  const std::vector<Role> all = {Role::casting, Role::riser,  Role::gating, Role::mould,     Role::core,
+                                 Role::chill,   Role::sleeve, Role::die,    Role::insulation};
   std::map<std::string, Role> wanted;
   std::vector<std::string> names;
   for (const Role role : all) names.emplace_back(name(role));

@@ -76,10 +76,7 @@ std::vector<std::pair<BodyPair, std::size_t>> wanted_pairs(const CaseSpec& spec,
       wanted.emplace_back(pair, i);
       taken.insert(pair);
     }
-  const auto metal = [&](int b) {
-    const Role role = roles[static_cast<std::size_t>(b)];
-    return role == Role::casting || role == Role::riser;
-  };
+  const auto metal = [&](int b) { return is_poured(roles[static_cast<std::size_t>(b)]); };
   // Metal that was drawn as several bodies is one where they share nodes.
   for (const mesh::SplitNodes& s : shared)
     if (metal(s.bodies.first) && metal(s.bodies.second)) taken.insert(s.bodies);

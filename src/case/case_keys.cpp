@@ -41,6 +41,7 @@ Section<BodySpec> body_keys() {
            {{"automatic", std::nullopt, "a casting where the material can melt, else what its name says"},
             {"casting", Role::casting, "what is poured"},
             {"riser", Role::riser, "metal that feeds the casting"},
+            {"gating", Role::gating, "sprue, runners and gates: poured with the casting and cut off"},
             {"mould", Role::mould, "what is broken off or shaken out"},
             {"core", Role::core, "a mould inside the casting"},
             {"chill", Role::chill, "a piece that draws heat, whatever it is made of"},

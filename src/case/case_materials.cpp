@@ -45,7 +45,7 @@ std::vector<material::Material> load_materials(const CaseSpec& spec) {
     if (const auto by = spec.vary.bodies.find(body.name); by != spec.vary.bodies.end())
       material::vary(materials.back(), by->second, spec.vary.where);
     // The material of a chill or a die may melt, but it is no casting that solidifies.
-    if (const Role role = role_of(body, materials.back()); role != Role::casting && role != Role::riser)
+    if (const Role role = role_of(body, materials.back()); !is_poured(role))
       for (material::PhaseChange& change : materials.back().phase_changes) change.solidification = false;
     if (spec.has_mechanics() && !only_conducts(body) && !materials.back().mechanical())
       throw InputError(

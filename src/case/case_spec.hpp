@@ -188,7 +188,7 @@ struct CycleSpec {
 enum class TimeOrigin { run, stage };
 
 /// Role of a body in the foundry. Criteria, solid fraction and summary are of castings and risers.
-enum class Role { casting, riser, mould, core, chill, sleeve, die, insulation };
+enum class Role { casting, riser, mould, core, chill, sleeve, die, insulation, gating };
 
 struct BodySpec {
   std::string name;

@@ -71,7 +71,9 @@ std::optional<int> score(const InterfaceSide& side, const InterfacePartner& part
   if (best < 0) return {};
   if (side.roles.empty()) return best;
   constexpr int k_role = 20;
-  if (std::find(side.roles.begin(), side.roles.end(), name(partner.role)) == side.roles.end()) return {};
+  // Gating is metal like the part that it leads to.
+  const Role role = partner.role == Role::gating ? Role::casting : partner.role;
+  if (std::find(side.roles.begin(), side.roles.end(), name(role)) == side.roles.end()) return {};
   return best + k_role;
 }
 

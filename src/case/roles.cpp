@@ -17,15 +17,17 @@ namespace solidus::model {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Role>, 24> k_words = {{
+constexpr std::array<std::pair<std::string_view, Role>, 28> k_words = {{
     {"riser", Role::riser},        {"feeder", Role::riser}, {"speiser", Role::riser},
     {"sleeve", Role::sleeve},      {"chill", Role::chill},  {"insulation", Role::insulation},
     {"insulat", Role::insulation}, {"core", Role::core},    {"kern", Role::core},
     {"mould", Role::mould},        {"mold", Role::mould},   {"sand", Role::mould},
     {"drag", Role::mould},         {"cope", Role::mould},   {"shell", Role::mould},
     {"kokille", Role::die},        {"die", Role::die},      {"tool_steel", Role::die},
-    {"cast", Role::casting},       {"part", Role::casting}, {"guss", Role::casting},
-    {"runner", Role::casting},     {"gate", Role::casting}, {"sprue", Role::casting},
+    {"runner", Role::gating},      {"gate", Role::gating},  {"ingate", Role::gating},
+    {"gating", Role::gating},      {"sprue", Role::gating}, {"pouring", Role::gating},
+    {"einguss", Role::gating},     {"cast", Role::casting}, {"part", Role::casting},
+    {"guss", Role::casting},
 }};
 
 /// Whether a text has a word: a short one stands alone ("die" is no part of "diesel"), one of more than four
@@ -43,13 +45,13 @@ bool has_word(const std::string& text, std::string_view word) {
 }  // namespace
 
 std::string_view name(Role role) {
-  constexpr std::array<std::string_view, 8> names = {"casting", "riser",  "mould", "core",
-                                                     "chill",   "sleeve", "die",   "insulation"};
+  constexpr std::array<std::string_view, 9> names = {"casting", "riser", "mould",      "core",  "chill",
+                                                     "sleeve",  "die",   "insulation", "gating"};
   return names[static_cast<std::size_t>(role)];
 }
 
 bool is_poured(Role role) {
-  return role == Role::casting || role == Role::riser;
+  return role == Role::casting || role == Role::riser || role == Role::gating;
 }
 
 std::optional<Role> role_in_name(const std::string& name) {
@@ -64,9 +66,7 @@ std::optional<Role> role_in_name(const std::string& name) {
 Role role_of(const BodySpec& body, const material::Material& material) {
   if (body.role) return *body.role;
   if (material.solidification() != nullptr) return Role::casting;
-  const auto solid = [](std::optional<Role> role) {
-    return role && *role != Role::casting && *role != Role::riser;
-  };
+  const auto solid = [](std::optional<Role> role) { return role && !is_poured(*role); };
   if (const auto told = role_in_name(body.name); solid(told)) return *told;
   const std::string of_material = std::filesystem::path(body.material).stem().string();
   if (const auto told = role_in_name(of_material); solid(told)) return *told;
@@ -86,7 +86,7 @@ void decide_physics(CaseSpec& spec) {
         const material::Material material =
             material::find_material(body.material, material_folders(), body.where);
         const Role role = role_of(body, material);
-        if (!material.mechanical() && role != Role::casting && role != Role::riser) {
+        if (!material.mechanical() && !is_poured(role)) {
           conductors.push_back(b);
           conducts = true;
         }

@@ -218,7 +218,7 @@ void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
     const material::PhaseChange* freezing = a.materials[b].solidification();
     if (freezing == nullptr || a.start[b].high >= freezing->fraction.liquidus()) continue;
     const Role role = role_of(spec.bodies[b], a.materials[b]);
-    if (role != Role::casting && role != Role::riser) continue;  // the case says that it is a chill
+    if (!is_poured(role)) continue;  // the case says that it is a chill
     if (a.start[b].high >= freezing->fraction.solidus()) {
       const bool hottest = std::none_of(a.start.begin(), a.start.end(),
                                         [&](const auto& s) { return s.high > a.start[b].high; });

@@ -182,8 +182,7 @@ void compare_latent_heat(const BodySpec& body, const material::Material& m, Find
 void compare_phase_changes(const BodySpec& body, const material::Material& m, Findings& findings) {
   constexpr double k_much = 1.2e5;  // [J/kg]: above all that changes in the solid
   for (const material::PhaseChange& change : m.phase_changes)
-    if (change.latent_heat > k_much && !change.solidification && body.role && *body.role != Role::casting &&
-        *body.role != Role::riser)
+    if (change.latent_heat > k_much && !change.solidification && body.role && !is_poured(*body.role))
       findings.push_back(
           {false, body.where,
            fmt::format("the {} '{}' is of '{}', which melts from {:.0f} degC on and takes up {:.4g} kJ/kg",

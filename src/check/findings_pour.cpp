@@ -30,9 +30,7 @@ int hottest(const Assembly& a) {
 
 /// Whether another body is part of a mould, by its role or name.
 bool has_mould(const CaseSpec& spec, std::size_t other_than) {
-  const auto of_mould = [](std::optional<Role> role) {
-    return role && *role != Role::casting && *role != Role::riser;
-  };
+  const auto of_mould = [](std::optional<Role> role) { return role && !is_poured(*role); };
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     if (b != other_than && (of_mould(spec.bodies[b].role) || of_mould(role_in_name(spec.bodies[b].name))))
       return true;
@@ -43,9 +41,7 @@ bool has_mould(const CaseSpec& spec, std::size_t other_than) {
 void risers_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const BodySpec& body = spec.bodies[b];
-    if (!body.role || (*body.role != Role::casting && *body.role != Role::riser) ||
-        a.materials[b].solidification() != nullptr)
-      continue;
+    if (!body.role || !is_poured(*body.role) || a.materials[b].solidification() != nullptr) continue;
     findings.push_back({false, body.where,
                         fmt::format("the {} '{}' is of '{}', which does not freeze", name(*body.role),
                                     body.name, body.material),
@@ -63,7 +59,7 @@ void castings_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findin
   const auto hot = static_cast<std::size_t>(std::max(hottest(a), 0));
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const BodySpec& body = spec.bodies[b];
-    const bool told = body.role ? *body.role == Role::casting || *body.role == Role::riser : false;
+    const bool told = body.role && is_poured(*body.role);
     const bool of_sand = hottest(a) >= 0 && b == hot && !body.role && a.start[b].high > k_hot &&
                          a.materials[b].conductivity.value(a.start[b].high) < k_conducts;
     const bool in_a_mould =
@@ -88,7 +84,7 @@ void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   if (!spec.has_heat() || !spec.criteria.follow || hottest(a) < 0) return;
   const auto poured = static_cast<std::size_t>(hottest(a));
   const BodySpec& body = spec.bodies[poured];
-  if (body.role && *body.role != Role::casting && *body.role != Role::riser) {
+  if (body.role && !is_poured(*body.role)) {
     const auto casting = std::find_if(spec.bodies.begin(), spec.bodies.end(),
                                       [](const BodySpec& other) { return other.role == Role::casting; });
     if (casting != spec.bodies.end())

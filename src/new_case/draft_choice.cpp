@@ -181,6 +181,7 @@ void describe(const Draft& draft, const CastingProcess& process, DraftBody& body
   switch (body.role) {
     case Role::casting:
     case Role::riser:
+    case Role::gating:
       body.material = draft.alloy;
       body.start = draft.pouring;
       body.comment =

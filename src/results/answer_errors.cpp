@@ -59,6 +59,13 @@ class ErrorFinder {
   void of_gap(GapAnswer& answer) const;
   void of_distortion(ValueAt& answer) const;
   void of_stress(ValueAt& answer) const;
+  void of_niyama(ValueAt& answer) const {
+    const std::optional<Spot> spot = node_spot(mesh_, answer.where, cast_nodes_);
+    answer.error = of_state(answer.value, 0, k_around_niyama * at(spot, "niyama")[1]);
+  }
+  ErrorBand of_pores(double flow) const {
+    return {.step = shrinkage_ * late_, .mesh = k_pores * shrinkage_ * std::sqrt(flow)};
+  }
   std::optional<ErrorBand> of_criterion(const criteria::CriterionResult& found) const;
 
   /// @param change  of the value in the last step
@@ -175,11 +182,13 @@ void ErrorFinder::find(Answers& answers, const std::vector<criteria::CriterionRe
   cast_nodes_ = nodes_of(mesh_, cast);
   for (std::vector<GapAnswer>* gaps : {&answers.gaps, &answers.overlaps})
     for (GapAnswer& gap : *gaps) of_gap(gap);
+  for (CastAnswer& body : answers.castings) {
+    if (body.pores) body.pores->error = of_pores(flow_[static_cast<std::size_t>(body.cast.body)]);
+    if (body.least_niyama) of_niyama(*body.least_niyama);
+  }
   if (answers.distortion) of_distortion(*answers.distortion);
   if (answers.stress) of_stress(*answers.stress);
-  if (answers.pores)
-    answers.pores->error =
-        ErrorBand{.step = shrinkage_ * late_, .mesh = k_pores * shrinkage_ * std::sqrt(worst_flow_)};
+  if (answers.pores) answers.pores->error = of_pores(worst_flow_);
   for (const criteria::CriterionResult& found : criteria)
     if (found.somewhere)
       if (const std::optional<ErrorBand> error = of_criterion(found))

@@ -60,6 +60,23 @@ std::optional<ValueAt> largest_at(const mesh::Mesh& mesh, const std::vector<char
   return largest.over_processes();
 }
 
+/// The least Niyama value of a body that has frozen anywhere.
+std::optional<ValueAt> least_niyama(const mesh::Mesh& mesh, const std::vector<char>& nodes,
+                                    const FieldSet& fields) {
+  const FieldValues niyama(fields, "niyama");
+  if (niyama.empty()) return {};
+  std::optional<ValueAt> least = largest_at(
+      mesh, nodes, [&](std::size_t i) { return niyama[i] > 0 ? std::optional(-niyama[i]) : std::nullopt; });
+  if (least) least->value = -least->value;
+  return least;
+}
+
+double mass_of(const coupling::Phases& phases, const mesh::Mesh& mesh, int body) {
+  double volume = 0;
+  for (Index i = 0; i < mesh.n_owned_nodes; ++i) volume += phases.heat->storage().volume(i, body);
+  return phases.heat->storage().material(body).density * parallel::global_sum(volume);
+}
+
 CastAnswer cast_answer(const mesh::Mesh& mesh, const coupling::Phases& phases, const coupling::State& state,
                        const CastBody& cast, const FieldSet& fields) {
   CastAnswer answer;
@@ -78,6 +95,8 @@ CastAnswer cast_answer(const mesh::Mesh& mesh, const coupling::Phases& phases, c
     if (time_to_solidify(mesh, fields, {cast})) answer.froze = last_melt();
     return answer;
   }
+  answer.mass = mass_of(phases, mesh, cast.body);
+  answer.least_niyama = least_niyama(mesh, nodes, fields);
   constexpr double k_rounding = 1e-12;
   if (answer.solid_fraction >= 1 - k_rounding) {
     answer.solid_fraction = 1;
@@ -178,9 +197,9 @@ void add_stress(const mesh::Mesh& mesh, const FieldSet& fields, const std::vecto
   }
 }
 
-/// The pores of the cast bodies, where any have opened.
-std::optional<Answers::Pores> pores(const mesh::Mesh& mesh, AnalysisKind kind, const FieldSet& fields,
-                                    const std::vector<char>& bodies) {
+/// The pores of some bodies, where any have opened.
+std::optional<Pores> pores_in(const mesh::Mesh& mesh, AnalysisKind kind, const FieldSet& fields,
+                              const std::vector<char>& bodies) {
   const FieldValues fraction(fields, "pore_fraction");
   if (fraction.empty()) return {};
   Largest densest;
@@ -207,7 +226,7 @@ std::optional<Answers::Pores> pores(const mesh::Mesh& mesh, AnalysisKind kind, c
   volume = parallel::global_sum(volume);
   whole = parallel::global_sum(whole);
   if (!largest || !(largest->value > 0)) return {};
-  return Answers::Pores{.volume = volume, .share = volume / whole, .densest = *largest};
+  return Pores{.volume = volume, .share = volume / whole, .densest = *largest};
 }
 
 }  // namespace
@@ -227,7 +246,16 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
   }
   if (!castings.empty()) a.pools = cut_off_pools(state.criteria);
   if (phases.mechanics == nullptr || !mechanical) return a;
-  if (!castings.empty()) a.pores = pores(mesh, phases.mechanics->kind(), fields, stressed);
+  std::vector<char> parts(mesh.bodies.size(), 0);
+  for (CastAnswer& cast : a.castings) {
+    std::vector<char> own(mesh.bodies.size(), 0);
+    own[static_cast<std::size_t>(cast.cast.body)] = 1;
+    cast.pores = pores_in(mesh, phases.mechanics->kind(), fields, own);
+    if (cast.cast.is_part()) parts[static_cast<std::size_t>(cast.cast.body)] = 1;
+  }
+  const bool any_part = std::ranges::find(parts, 1) != parts.end();
+  if (!castings.empty())
+    a.pores = pores_in(mesh, phases.mechanics->kind(), fields, any_part ? parts : stressed);
   a.gaps = largest_gaps(mesh, phases, fields);
   a.overlaps = deepest_overlaps(mesh, phases, state.heat.temperature);
   if (const FieldValues distortion(fields, "distortion"); !distortion.empty() && !castings.empty()) {
@@ -240,6 +268,18 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
   for (const CastBody& cast : castings)  // the mesh knows the body by its group
     if (mesh.bodies[static_cast<std::size_t>(cast.body)].name == a.stressed_body) a.stressed_body = cast.name;
   return a;
+}
+
+std::optional<double> poured_share_of_parts(const Answers& answers) {
+  double parts = 0, all = 0;
+  bool others = false;
+  for (const CastAnswer& cast : answers.castings) {
+    if (!cast.there) return {};
+    all += cast.mass;
+    if (cast.cast.is_part()) parts += cast.mass;
+    others = others || !cast.cast.is_part();
+  }
+  return others && parts > 0 ? std::optional(parts / all) : std::nullopt;
 }
 
 double solid_fraction(const coupling::Phases& phases, const coupling::State& state,

@@ -24,6 +24,8 @@ struct CastBody {
   int body = 0;  ///< in Mesh::bodies
   std::string name;
   bool feeds = false;  ///< it is a riser: it should be the last to freeze
+  bool gates = false;  ///< it is gating, which is cut off: it need not be sound
+  bool is_part() const { return !feeds && !gates; }
 };
 
 /// The error of an answer, in its unit: it is expected within ± total() of the answer without steps and mesh.
@@ -41,11 +43,22 @@ struct ValueAt {
   std::optional<ErrorBand> error = {};
 };
 
-/// Progress of the freezing of a cast body.
+/// Shrinkage pores in mixed elements (mechanics/pores.hpp).
+struct Pores {
+  double volume = 0;                    ///< of all [m³], in two dimensions per depth or radian
+  double share = 0;                     ///< of the volume of what is looked at
+  ValueAt densest;                      ///< the largest pore fraction
+  std::optional<ErrorBand> error = {};  ///< of the share
+};
+
+/// Progress of the freezing of a cast body, and how sound it is.
 struct CastAnswer {
   CastBody cast;
-  bool there = true;          ///< false: it has left by now
-  double solid_fraction = 0;  ///< by volume
+  bool there = true;                         ///< false: it has left by now
+  double solid_fraction = 0;                 ///< by volume
+  double mass = 0;                           ///< [kg]; in plane strain of a metre of depth
+  std::optional<ValueAt> least_niyama = {};  ///< [K^½ s^½/m]
+  std::optional<Pores> pores = {};           ///< where any have opened
   /// When and where its last melt froze [s since pouring]; also of one that left as a solid.
   std::optional<ValueAt> froze;
   std::optional<ValueAt> hottest;  ///< where it is not solid: temperature of the least solid node [K]
@@ -68,13 +81,7 @@ struct Answers {
     std::optional<double> frozen;  ///< when that one froze [s]
   };
   std::optional<CutOffPools> pools;
-  /// Shrinkage pores of cast bodies in mixed elements (mechanics/pores.hpp); absent where there are none.
-  struct Pores {
-    double volume = 0;                    ///< of all [m³], in two dimensions per depth or radian
-    double share = 0;                     ///< of the volume of the castings
-    std::optional<ErrorBand> error = {};  ///< of the share
-    ValueAt densest;                      ///< the largest pore fraction
-  };
+  /// Of the parts, or where nothing but risers and gating is cast of these; absent where there are none.
   std::optional<Pores> pores;
   std::vector<GapAnswer> gaps;        ///< by contact, those that are open somewhere
   std::vector<GapAnswer> overlaps;    ///< by contact, those whose bodies overlap somewhere
@@ -96,6 +103,10 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
 /// The solid fraction of all castings, by volume; 1 where nothing of it is there. Collective.
 double solid_fraction(const coupling::Phases& phases, const coupling::State& state,
                       const std::vector<CastBody>& castings, const mesh::Mesh& mesh);
+
+/// The yield: the mass of the parts over that of all that is poured; nothing where there is no riser and no
+/// gating, or no part, or a body has left.
+std::optional<double> poured_share_of_parts(const Answers& answers);
 
 /// Lines for people, times in s since pouring.
 /// @param criteria  what the criteria found, for the lines on solidification times, arm spacing and Niyama

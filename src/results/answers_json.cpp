@@ -23,6 +23,13 @@ Json value_json(const ValueAt& value, const std::string& unit) {
   return json;
 }
 
+Json pores_json(const Pores& pores) {
+  Json json = value_json(pores.densest, "1");
+  json.add("volume[m3]", pores.volume).add("share_of_casting", pores.share);
+  add_error(json, pores.error, "1");
+  return json;
+}
+
 }  // namespace
 
 Json json(const Answers& a) {
@@ -30,8 +37,10 @@ Json json(const Answers& a) {
   Json castings;
   for (const CastAnswer& cast : a.castings) {
     Json of_body;
-    of_body.add("riser", cast.cast.feeds).add("there", cast.there);
-    if (cast.there) of_body.add("solid_fraction", cast.solid_fraction);
+    of_body.add("riser", cast.cast.feeds).add("gating", cast.cast.gates).add("there", cast.there);
+    if (cast.there) of_body.add("solid_fraction", cast.solid_fraction).add("mass[kg]", cast.mass);
+    if (cast.least_niyama) of_body.add("least_niyama", value_json(*cast.least_niyama, "K^0.5 s^0.5/m"));
+    if (cast.pores) of_body.add("pores", pores_json(*cast.pores));
     if (cast.froze) of_body.add("last_melt_froze", value_json(*cast.froze, "s"));
     if (cast.hottest) of_body.add("hottest_melt", value_json(*cast.hottest, "K"));
     castings.add(cast.cast.name, std::move(of_body));
@@ -47,12 +56,8 @@ Json json(const Answers& a) {
     }
     json.add("pools_cut_off", std::move(pools));
   }
-  if (a.pores) {
-    Json pores = value_json(a.pores->densest, "1");
-    pores.add("volume[m3]", a.pores->volume).add("share_of_casting", a.pores->share);
-    add_error(pores, a.pores->error, "1");
-    json.add("pores", std::move(pores));
-  }
+  if (const std::optional<double> share = poured_share_of_parts(a)) json.add("yield", *share);
+  if (a.pores) json.add("pores", pores_json(*a.pores));
   Json gaps;
   for (const GapAnswer& gap : a.gaps) gaps.add(gap.contact, value_json(gap.gap, "m"));
   json.add("largest_gaps", std::move(gaps));

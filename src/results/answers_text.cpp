@@ -64,6 +64,9 @@ class Formatter {
   std::string stress(double pascal) const {
     return fmt::format("{:.4g} {}", units::to_display(pascal, "Pa", units_.stress), units_.stress);
   }
+  std::string mass(double kilograms) const {
+    return kilograms < 1 ? fmt::format("{:.3g} g", 1e3 * kilograms) : fmt::format("{:.4g} kg", kilograms);
+  }
   std::string volume(double cubic_metres) const {
     return units_.length == "mm"
                ? fmt::format("{:.4g} cm3", 1e6 * cubic_metres)
@@ -148,7 +151,7 @@ std::string riser_lines(const Answers& answers) {
   bool part_solid = true, any_part = false;
   double part = 0, part_error = 0;
   for (const CastAnswer& a : answers.castings) {
-    if (a.cast.feeds || (!a.there && !a.froze)) continue;
+    if (!a.cast.is_part() || (!a.there && !a.froze)) continue;
     any_part = true;
     part_solid = part_solid && a.froze;
     if (!a.froze) continue;
@@ -197,6 +200,34 @@ constexpr Line k_lines[] = {{"longest local solidification time", "local_solidif
                             {"least dimensionless Niyama", "dimensionless_niyama_min", "", 1},
                             {"largest estimate of porosity", "shrinkage_porosity_max", "%", 100}};
 
+/// What a body is to the foundry.
+std::string_view kind_of(const CastBody& cast) {
+  return cast.feeds ? "riser" : cast.gates ? "gating" : "casting";
+}
+
+/// How sound a body is, where several are cast: mass, least Niyama, pores.
+std::string soundness(const CastAnswer& cast, const Formatter& format) {
+  std::string text = format.mass(cast.mass);
+  if (cast.least_niyama)
+    text += fmt::format("; least Niyama {:.3g} sqrt(K s)/mm {}", 1e-3 * cast.least_niyama->value,
+                        format.place(cast.least_niyama->where));
+  if (cast.pores)
+    text += fmt::format("; pores {}, {}, densest {:.3g} % {}", format.volume(cast.pores->volume),
+                        with_error(cast.pores->share, cast.pores->error, 100, "%"),
+                        100 * cast.pores->densest.value, format.place(cast.pores->densest.where));
+  return text;
+}
+
+/// The least Niyama value of the parts; nothing where the castings do not tell it.
+const ValueAt* least_niyama_of_parts(const Answers& answers) {
+  const ValueAt* least = nullptr;
+  for (const CastAnswer& cast : answers.castings)
+    if (cast.cast.is_part() && cast.least_niyama &&
+        (least == nullptr || cast.least_niyama->value < least->value))
+      least = &*cast.least_niyama;
+  return least;
+}
+
 std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, const Answers& answers,
                            const Formatter& format) {
   std::string text;
@@ -208,8 +239,12 @@ std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, 
     std::optional<ErrorBand> error;
     for (const auto& [name, of_finding] : answers.criteria_errors)
       if (name == wanted.finding) error = of_finding;
-    std::string answer = with_error(f->value, error, wanted.factor, std::string(wanted.unit));
-    if (f->somewhere) answer += " " + format.place(f->where);
+    ValueAt value{f->value, f->where, error};
+    // Where a runner freezes is nobody's concern.
+    if (const ValueAt* of_parts = least_niyama_of_parts(answers); of_parts && wanted.finding == "niyama_min")
+      value = *of_parts;
+    std::string answer = with_error(value.value, value.error, wanted.factor, std::string(wanted.unit));
+    if (f->somewhere) answer += " " + format.place(value.where);
     text += line(wanted.text, answer);
   }
   return text;
@@ -222,9 +257,14 @@ std::string text(const Answers& a, const std::vector<criteria::CriterionResult>&
   const Formatter format(units);
   std::string text = shot_lines(a.shots, format);
   for (const CastAnswer& cast : a.castings)
-    text += line(fmt::format("{} '{}'", cast.cast.feeds ? "riser" : "casting", cast.cast.name),
+    text += line(fmt::format("{} '{}'", kind_of(cast.cast), cast.cast.name),
                  cast_text(cast, a.time - a.poured, format));
   text += riser_lines(a);
+  if (a.castings.size() > 1)
+    for (const CastAnswer& cast : a.castings)
+      if (cast.there) text += line(fmt::format("soundness of '{}'", cast.cast.name), soundness(cast, format));
+  if (const std::optional<double> share = poured_share_of_parts(a))
+    text += line("yield", fmt::format("{:.3g} % of what is poured is part", 100 * *share));
   if (a.pools) text += line("pools of melt cut off", pools_text(*a.pools, format));
   if (!a.castings.empty()) text += criteria_lines(criteria, a, format);
   if (a.pores)

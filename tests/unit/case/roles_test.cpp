@@ -221,5 +221,20 @@ TEST(PhysicsSwitch, MakesACaseOfHeatACoupledOne) {
   EXPECT_TRUE(case_keys().read(document).coupled());
 }
 
+TEST(Roles, SpruesRunnersAndGatesAreGatingWhichIsPoured) {
+  for (const char* name : {"sprue", "runner_2", "ingate", "gating", "pouring_cup", "Einguss"})
+    EXPECT_EQ(role_in_name(name), Role::gating) << name;
+  EXPECT_TRUE(is_poured(Role::gating));
+  EXPECT_EQ(name(Role::gating), "gating");
+}
+
+TEST(Interfaces, OfGatingAreThoseOfTheCasting) {
+  const std::vector<InterfaceCard> cards = interface_cards();
+  const InterfacePartner sand{"green_sand", Role::mould};
+  const InterfaceCard* of_casting = best_card(cards, {"aluminium_alsi7mg", Role::casting}, sand);
+  ASSERT_NE(of_casting, nullptr);
+  EXPECT_EQ(best_card(cards, {"aluminium_alsi7mg", Role::gating}, sand), of_casting);
+}
+
 }  // namespace
 }  // namespace solidus::model

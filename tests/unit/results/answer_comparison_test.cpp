@@ -17,7 +17,7 @@ Answers off_by(double share) {
   a.gaps = {{"wall", {1e-4 * (1 + share), {}}}};
   a.distortion = ValueAt{2e-4 * (1 + share), {}};
   a.stress = ValueAt{5e6 * (1 + share), {}};
-  a.pores = Answers::Pores{.volume = 0, .share = 0.01 * (1 + share), .densest = {}};
+  a.pores = Pores{.volume = 0, .share = 0.01 * (1 + share), .densest = {}};
   a.criteria_errors = {{"niyama_min", {}}};
   return a;
 }
@@ -58,6 +58,29 @@ TEST(ComparedAnswers, AreToldWithTheirError) {
   Answers a = off_by(0);
   a.castings[0].froze->error = ErrorBand{.step = 0.5, .mesh = 1.25};
   EXPECT_THAT(text(a, {}), HasSubstr("froze 100 ± 1.8 s (step 0.5, mesh 1.2) after pouring"));
+}
+
+// A runner is poured as the part is, and nobody asks whether it is sound.
+TEST(Soundness, IsToldBodyByBodyAndOfThePartsAlone) {
+  Answers a;
+  a.castings.push_back({.cast = {0, "part", false, false}, .solid_fraction = 1, .mass = 2});
+  a.castings.push_back({.cast = {1, "top", true, false}, .solid_fraction = 1, .mass = 1.5});
+  a.castings.push_back({.cast = {2, "sprue", false, true}, .solid_fraction = 1, .mass = 0.5});
+  a.castings[0].froze = ValueAt{100, {}};
+  a.castings[1].froze = ValueAt{130, {}};
+  a.castings[2].froze = ValueAt{150, {}};
+  a.castings[0].least_niyama = ValueAt{900, {0.1, 0, 0}};
+  a.castings[2].least_niyama = ValueAt{30, {0.2, 0, 0}};
+  a.castings[2].pores = Pores{.volume = 1e-5, .share = 0.2, .densest = {0.4, {0.3, 0, 0}}};
+  const std::vector<criteria::CriterionResult> found{{"niyama_min", "1", 30, true, {0.2, 0, 0}}};
+  const std::string said = text(a, found);
+  EXPECT_THAT(said, HasSubstr("gating 'sprue'"));
+  EXPECT_THAT(said, HasSubstr("outlived the part by 30 s")) << "the sprue is no part";
+  EXPECT_THAT(said,
+              HasSubstr("soundness of 'part'                 2 kg; least Niyama 0.9 sqrt(K s)/mm at (100"));
+  EXPECT_THAT(said, HasSubstr("pores 10 cm3, 20 %, densest 40 % at (300"));
+  EXPECT_THAT(said, HasSubstr("yield                               50 % of what is poured is part"));
+  EXPECT_THAT(said, HasSubstr("least Niyama                        0.9 sqrt(K s)/mm at (100, 0, 0) mm"));
 }
 
 Answers with_riser(double part, double riser, double error) {

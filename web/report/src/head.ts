@@ -1,7 +1,7 @@
 /** The head of the page: titles, how each run ended, its key figures and warnings. */
 import { byId, h } from "./dom";
 import { duration, place, short, Unit, unitOf, withUnit } from "./quantities";
-import type { Answer, Page, Run } from "./run";
+import type { Answer, CastAnswer, Page, Run } from "./run";
 import type { Workbench } from "./workbench";
 
 type Node_ = Node | null;
@@ -21,6 +21,8 @@ export function final(run: Run, header: string): number | undefined {
   return typeof v === "number" ? v : undefined;
 }
 
+const NIYAMA = "K^0.5 s^0.5/m";
+
 interface Figure {
   label: string;
   text: (run: Run) => string | undefined;
@@ -30,7 +32,7 @@ interface Figure {
 }
 
 /** The error of an answer as people read it. */
-function errorText(answer: Answer | undefined, si: string, format: (v: number) => string): string | undefined {
+export function errorText(answer: Answer | undefined, si: string, format: (v: number) => string): string | undefined {
   const of = (part: string) => answer?.[`error${part}[${si}]`];
   const all = of(""), step = of("_of_step"), mesh = of("_of_mesh");
   if (typeof all !== "number" || typeof step !== "number" || typeof mesh !== "number" || all <= 0) return undefined;
@@ -44,9 +46,24 @@ function rounded(value: number): number {
   return Number(value.toPrecision(2));
 }
 
+/** The castings that are neither risers nor gating; all where there is nothing else. */
+function parts(run: Run): CastAnswer[] {
+  const all = Object.values(run.summary.answers?.castings ?? {}), found = all.filter((c) => !c.riser && !c.gating);
+  return found.length ? found : all;
+}
+
+/** The least Niyama value of the parts. */
+function leastNiyama(run: Run): { value: number; at: number[]; answer: Answer } | undefined {
+  const told = parts(run).map((c) => c.least_niyama).filter((a) => a !== undefined);
+  const value = (a: Answer) => a[`value[${NIYAMA}]`] as number;
+  if (!told.length) return undefined;
+  const answer = told.reduce((least, a) => (value(a) < value(least) ? a : least));
+  return { value: value(answer), at: answer["at[m]"] as number[], answer };
+}
+
 /** The casting, no riser, whose last melt froze last. */
 function lastFrozen(run: Run): Answer | undefined {
-  const all = Object.values(run.summary.answers?.castings ?? {}).map((c) => c.last_melt_froze).filter((a) => a !== undefined);
+  const all = parts(run).map((c) => c.last_melt_froze).filter((a) => a !== undefined);
   return all.reduce((late: Answer | undefined, a) => (late && (late["value[s]"] as number) >= (a["value[s]"] as number) ? late : a), undefined);
 }
 
@@ -79,11 +96,22 @@ function figures(): Figure[] {
     };
   };
   return [
-    { label: "Freezes last", ...of("solidified_at", "max", (v) => duration(v)), error: (r) => errorText(lastFrozen(r), "s", duration) },
+    { label: "Freezes last", text: (r) => {
+      const froze = lastFrozen(r);
+      return froze ? duration(froze["value[s]"] as number) : of("solidified_at", "max", (v) => duration(v)).text(r);
+    }, place: (r) => {
+      const froze = lastFrozen(r);
+      return froze ? { at: froze["at[m]"] as number[], label: duration(froze["value[s]"] as number) } : of("solidified_at", "max", (v) => duration(v)).place!(r);
+    }, error: (r) => errorText(lastFrozen(r), "s", duration) },
     { label: "Longest freezing", ...of("local_solidification_time", "max", (v) => duration(v)),
       error: (r) => errorText(r.summary.answers?.errors_of_criteria?.local_solidification_time_max, "SI", duration) },
-    { label: "Least Niyama", ...of("niyama", "min", (v, u) => withUnit(v, u)),
-      error: (r) => errorText(r.summary.answers?.errors_of_criteria?.niyama_min, "SI", (v) => withUnit(v, criterion(r, "niyama", "min")!.unit)) },
+    { label: "Least Niyama", text: (r) => {
+      const least = leastNiyama(r);
+      return least ? withUnit(least.value, unitOf("niyama", NIYAMA)) : of("niyama", "min", (v, u) => withUnit(v, u)).text(r);
+    }, place: (r) => {
+      const least = leastNiyama(r);
+      return least ? { at: least.at, label: withUnit(least.value, unitOf("niyama", NIYAMA)) } : of("niyama", "min", (v, u) => withUnit(v, u)).place!(r);
+    }, error: (r) => errorText(leastNiyama(r)?.answer, NIYAMA, (v) => withUnit(v, unitOf("niyama", NIYAMA))) },
     { label: "Porosity (estimate)", ...of("shrinkage_porosity", "max", (v, u) => withUnit(v, u)) },
     { label: "Pores, in all", text: (r) => {
       const pores = r.summary.answers?.pores;

@@ -243,6 +243,16 @@ export class Table {
 /** An answer with its error in SI: value[s], error[s], error_of_step[s], error_of_mesh[s]. */
 export type Answer = Record<string, unknown>;
 
+/** What a run says of a body that was cast. */
+export interface CastAnswer {
+  riser?: boolean;
+  gating?: boolean;
+  "mass[kg]"?: number;
+  last_melt_froze?: Answer;
+  least_niyama?: Answer;
+  pores?: Answer;
+}
+
 /** summary.json; every member may be missing. */
 export interface Summary {
   outcome?: string;
@@ -259,7 +269,8 @@ export interface Summary {
   final?: Record<string, number>;
   criteria?: Record<string, number | number[]>;
   answers?: {
-    castings?: Record<string, { last_melt_froze?: Answer }>;
+    castings?: Record<string, CastAnswer>;
+    yield?: number;
     largest_von_mises?: Answer;
     errors_of_criteria?: Record<string, Answer>;
     pores?: Answer & { "value[1]": number; "at[m]": number[]; "volume[m3]": number; share_of_casting: number };

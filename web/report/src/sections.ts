@@ -2,8 +2,8 @@
 import { byId, h, save, svg, table } from "./dom";
 import { chart, Line } from "./charts";
 import { duration, labelOf, short, Unit, unitOf, unitText, withUnit } from "./quantities";
-import { criterion, final, triesText } from "./head";
-import type { Page, Run } from "./run";
+import { criterion, errorText, final, triesText } from "./head";
+import type { Answer, Page, Run } from "./run";
 import type { Workbench } from "./workbench";
 
 type Node_ = Node | null;
@@ -29,6 +29,7 @@ export function buildSections(page: Page, bench: Workbench): [string, string][] 
   };
   if (page.runs.length > 1) add("comparison", "Comparison", [comparison(page)]);
   add("curves", "Curves", curves(page));
+  add("castings", "Castings", page.runs.some((r) => Object.keys(r.summary.answers?.castings ?? {}).length > 1) ? [perRun(page, (r, i) => castings(r, i, bench))] : []);
   add("criteria", "Criteria", page.runs.some((r) => r.summary.criteria) ? [perRun(page, (r, i) => [criteriaTable(r, i, bench)])] : []);
   add("pools", "Pools of melt", page.runs.some((r) => (r.table("pools")?.rows ?? 0) > 0) ? [perRun(page, (r, i) => pools(r, i, bench))] : []);
   add("shots", "Shots", page.runs.some((r) => (r.table("shots")?.rows ?? 0) > 0) ? [shotCharts(page), perRun(page, (r) => shots(r, bench))] : []);
@@ -140,6 +141,27 @@ function comparison(page: Page): Node {
   }
   const difference = page.runs.length > 1 ? "second − first" : "";
   return table(["At the end", ...page.runs.map((r) => r.meta.name), difference], rows);
+}
+
+/** What was cast, body by body: parts, risers, gating. */
+function castings(run: Run, index: number, bench: Workbench): Node_[] {
+  const answers = run.summary.answers, all = Object.entries(answers?.castings ?? {});
+  const cell = (answer: Answer | undefined, si: string, format: (v: number) => string): Node | string => {
+    if (!answer) return "–";
+    const text = format(answer[`value[${si}]`] as number), error = errorText(answer, si, format);
+    return h("span", {}, `${text} `, h("small", {}, error ?? ""), " ", bench.placeButton(answer["at[m]"] as number[], text, index));
+  };
+  const niyama = unitOf("niyama", "K^0.5 s^0.5/m"), share = unitOf("pore_fraction", "1");
+  const part = Math.max(...all.filter(([, c]) => !c.riser && !c.gating).map(([, c]) => (c.last_melt_froze?.["value[s]"] as number) ?? NaN));
+  const rows = all.map(([name, c]) => {
+    const mass = c["mass[kg]"], froze = c.last_melt_froze?.["value[s]"] as number | undefined;
+    const margin = c.riser && froze !== undefined ? froze - part : NaN, error = (c.last_melt_froze?.["error[s]"] as number) ?? 0;
+    const verdict = Number.isNaN(margin) ? "" : Math.abs(margin) < error ? "too close to tell" : margin > 0 ? `outlived the part by ${duration(margin)}` : `froze ${duration(-margin)} before the part`;
+    const pores = c.pores ? `${short((c.pores["volume[m3]"] as number) * 1e6)} cm³, ${withUnit(c.pores.share_of_casting as number, share)}` : "–";
+    return [name, c.riser ? "riser" : c.gating ? "gating" : "part", mass === undefined ? "–" : `${short(mass)} kg`, cell(c.last_melt_froze, "s", duration), cell(c.least_niyama, "K^0.5 s^0.5/m", (v) => withUnit(v, niyama)), pores, verdict];
+  });
+  const told = typeof answers?.yield === "number" ? h("p", { class: "hint" }, `${short(100 * answers.yield)} % of what is poured is part.`) : null;
+  return [table(["Body", "", "Mass", "Frozen after", "Least Niyama", "Pores", "Verdict"], rows), told];
 }
 
 function criteriaTable(run: Run, index: number, bench: Workbench): Node_ {
