@@ -6,8 +6,8 @@
 #include <set>
 
 #include "mesh/gmsh/casting_parts.hpp"
+#include "mesh/gmsh/closed_solids.hpp"
 #include "mesh/gmsh/geometry_groups.hpp"
-#include "mesh/gmsh/open_faces.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -23,7 +23,7 @@ std::string tidy_label(int volume) {
   gmsh::model::getEntityName(3, volume, label);
   while (!label.empty() && label.back() == '/') label.pop_back();
   label = label.substr(label.find_last_of('/') + 1);
-  if (label.starts_with("Open CASCADE") || label == "SOLID" || label == "Solid" ||
+  if (label.starts_with("Open CASCADE") || label == "SOLID" || label == "Solid" || label == "COMPOUND" ||
       label == "the product name" || label == "Rhino Product")
     return "";  // what programs write that know no name
   std::replace_if(
@@ -37,7 +37,7 @@ class PartMaker {
       : source_(source), geometry_(geometry), healing_(healing), unit_(source.unit_in_metres) {}
 
   CastingParts make() {
-    close_shells();
+    close_to_solids(source_);
     if (healing_ > 0) heal();
     name_parts();
     if (geometry_.symmetry) halve();
@@ -49,29 +49,6 @@ class PartMaker {
  private:
   [[noreturn]] void refuse(const std::string& what, const std::string& allowed = {}) const {
     throw UnusableGeometry({source_.path}, what, allowed);
-  }
-
-  /// Shells without a solid are sewn and filled.
-  void close_shells() {
-    if (!all_volumes().empty()) return;
-    gmsh::vectorpair surfaces, made;
-    occ::getEntities(surfaces, 2);
-    if (surfaces.empty()) {
-      gmsh::vectorpair curves;
-      occ::getEntities(curves, 1);
-      refuse("the geometry has " + std::to_string(curves.size()) + " curves, and neither faces nor a solid",
-             "a file with solids");
-    }
-    const double tolerance = 1e-4 * extent_of(surfaces).diagonal();
-    // All at once, which an empty list of shapes means and which replaces them: from 4.9 on Gmsh heals shapes
-    // that are named one by one, and single faces are not sewn to each other.
-    occ::healShapes(made, {}, tolerance, true, true, true, true, true);
-    occ::synchronize();
-    if (all_volumes().empty())
-      refuse("the geometry has no solid, and its faces do not close to one: " + open_faces_text(unit_),
-             "a file with solids: close these openings in the CAD program and join the faces to a solid "
-             "(stitch, "
-             "sew, make solid); here they are joined where they meet within 0.01 % of the extent");
   }
 
   /// Heals each body by a tolerance of its own. Gmsh 4.8 adds the healed body and keeps the old one, which is

@@ -20,7 +20,7 @@ std::string short_label(int dimension, int tag) {
   std::string label;
   gmsh::model::getEntityName(dimension, tag, label);
   label = label.substr(label.find_last_of('/') + 1);
-  return label.starts_with("Open CASCADE") ? "" : label;
+  return label.starts_with("Open CASCADE") || label == "COMPOUND" ? "" : label;
 }
 
 std::vector<int> entities(int dimension) {

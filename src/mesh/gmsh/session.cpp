@@ -19,6 +19,7 @@
 #include "mesh/casting_geometry.hpp"
 #include "mesh/file_format.hpp"
 #include "mesh/gmsh/casting_mesh.hpp"
+#include "mesh/gmsh/closed_solids.hpp"
 #include "mesh/gmsh/curved_faces.hpp"
 #include "mesh/gmsh/geometry_groups.hpp"
 #include "mesh/gmsh/session.hpp"
@@ -317,16 +318,16 @@ int mesh_dimension() {
   return 0;
 }
 
-void name_groups(const std::string& path, const GeometryChoice& geometry, double unit_in_metres,
-                 FileFormat format) {
+void name_groups(const MeshSource& source, FileFormat format) {
   try {
-    make_geometry_groups(path, geometry, unit_in_metres, is_cad(format));
+    if (is_cad(format)) close_to_solids_unless_plane(source);
+    make_geometry_groups(source.path, source.geometry, source.unit_in_metres, is_cad(format));
   } catch (const std::exception&) {
     throw;
   } catch (const std::string& complaint) {
-    throw InputError({path}, "the geometry cannot be read: " + complaint);
+    throw InputError({source.path}, "the geometry cannot be read: " + complaint);
   } catch (...) {  // the CAD kernel's own exceptions
-    throw InputError({path}, "the geometry cannot be read");
+    throw InputError({source.path}, "the geometry cannot be read");
   }
 }
 
@@ -397,7 +398,7 @@ RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const Castin
   if (casting != nullptr) {
     make_casting(source, [&] { make_casting_mesh(source, *casting); });
   } else if (is_geometry(format)) {
-    name_groups(path, source.geometry, source.unit_in_metres, format);
+    name_groups(source, format);
     try {
       tell_outlook(outlook_of(source, format));
     } catch (const std::string&) {  // NOLINT: a geometry that cannot be measured can perhaps be meshed
