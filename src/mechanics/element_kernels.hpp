@@ -21,7 +21,7 @@ std::unique_ptr<BlockKernel> make_kernel_of_shape(const mesh::Mesh& mesh, const 
   std::unique_ptr<BlockKernel> made;
   const auto try_row = [&]<std::size_t i>() {
     constexpr mesh::ShapeRow row = mesh::k_shape_rows[i];
-    if constexpr (row.dimension == displacement_components(kind)) {
+    if constexpr (row.dimension == displacement_components(kind) && row.reference != mesh::Reference::split) {
       if (block.shape != row.shape) return;
       if constexpr (row.reference != mesh::Reference::simplex)
         if (b_bar) {

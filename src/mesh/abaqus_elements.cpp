@@ -51,8 +51,13 @@ std::span<const int> abaqus_node_order(Shape shape) {
   return row_of(shape).abaqus_nodes;
 }
 
+int n_abaqus_faces(Shape shape) {
+  constexpr int k_of_wedges_and_pyramids = 5;
+  return shape == Shape::wedge6 || shape == Shape::pyramid5 ? k_of_wedges_and_pyramids : face_count(shape);
+}
+
 std::optional<int> face_of_abaqus_label(Shape shape, int label) {
-  if (label < 1 || label > face_count(shape)) return std::nullopt;
+  if (label < 1 || label > n_abaqus_faces(shape)) return std::nullopt;
   const Places faces = row_of(shape).abaqus_faces;
   return faces.empty() ? label - 1 : faces[static_cast<std::size_t>(label - 1)];
 }

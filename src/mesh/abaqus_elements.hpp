@@ -17,7 +17,11 @@ std::optional<Shape> shape_of_abaqus_type(std::string_view type);
 /// agree.
 std::span<const int> abaqus_node_order(Shape shape);
 
+/// The number of faces that have a label: of wedges and pyramids 5.
+int n_abaqus_faces(Shape shape);
+
 /// Our number of the face that Abaqus calls S1, S2, … (label 1, 2, …); nothing where there is no such face.
+/// Faces of wedges and pyramids are those of face_of_split_cell() (mesh/split_cells.hpp).
 std::optional<int> face_of_abaqus_label(Shape shape, int label);
 
 }  // namespace solidus::mesh

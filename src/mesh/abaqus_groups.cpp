@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "mesh/abaqus_deck.hpp"
 #include "mesh/abaqus_elements.hpp"
 #include "mesh/abaqus_scope.hpp"
+#include "mesh/split_cells.hpp"
 
 namespace solidus::mesh {
 
@@ -214,16 +216,19 @@ void Groups::add_surface(std::size_t scope, const std::string& key, const Abaqus
                             : std::optional<int>{};
       if (!whole && !face)
         throw InputError(faces.at, "a " + std::string(name(e.shape)) + " has no face '" + faces.label + "'",
-                         "S1 to S" + std::to_string(face_count(e.shape)));
+                         "S1 to S" + std::to_string(n_abaqus_faces(e.shape)));
       if (mesh::dimension(e.shape) - (whole ? 0 : 1) != group.dimension) continue;
       if (whole) {
         add(group, e.shape, nodes_of(at.first, e.nodes), e.number + rise_[at.first]);
         continue;
       }
+      const std::span<const int> of_split = face_of_split_cell(e.shape, *face);
       std::vector<Index> nodes;
-      for (const int a : face_nodes(e.shape, *face))
+      for (const int a : of_split.empty() ? face_nodes(e.shape, *face) : of_split)
         nodes.push_back(first_node_[at.first] + e.nodes[static_cast<std::size_t>(a)]);
-      add(group, face_shape(e.shape), nodes, e.number + rise_[at.first]);
+      Shape shape = face_shape(e.shape);
+      if (!of_split.empty()) shape = of_split.size() == 3 ? Shape::tri3 : Shape::quad4;
+      add(group, shape, nodes, e.number + rise_[at.first]);
     }
   }
   add_group(name_in_mesh(scope, surface.name, [&](const AbaqusScope& s) { return s.surfaces.contains(key); }),

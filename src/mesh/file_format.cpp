@@ -149,7 +149,7 @@ FileFormat file_format(const std::string& path) {
 }
 
 const char* mesh_formats() {
-  return ".msh 2.2 or 4.1, .geo, .step, Abaqus .inp, .vtu, .unv, .bdf, …";
+  return ".msh 2.2 or 4.1, .geo, .step, Abaqus .inp, .vtu, .unv, .med, .bdf, …";
 }
 
 bool is_cad(FileFormat format) {

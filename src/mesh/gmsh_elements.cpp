@@ -11,6 +11,8 @@ namespace {
 /// Gmsh's name of a type that Solidus has: "Hexahedron 20".
 std::string gmsh_name(const ShapeRow& row) {
   if (row.dimension == 0) return "Point";
+  if (row.shape == Shape::wedge6) return "Prism 6";
+  if (row.shape == Shape::pyramid5) return "Pyramid 5";
   const char* family = "Line";
   if (row.dimension == 2) family = row.reference == Reference::simplex ? "Triangle" : "Quadrilateral";
   if (row.dimension == 3) family = row.reference == Reference::simplex ? "Tetrahedron" : "Hexahedron";
@@ -19,9 +21,7 @@ std::string gmsh_name(const ShapeRow& row) {
 
 std::map<int, GmshElement> all_elements() {
   // Those that Solidus does not have, for messages.
-  std::map<int, GmshElement> elements = {{6, {"Prism 6", 3, 6, {}}},
-                                         {7, {"Pyramid 5", 3, 5, {}}},
-                                         {10, {"Quadrilateral 9", 2, 9, {}}},
+  std::map<int, GmshElement> elements = {{10, {"Quadrilateral 9", 2, 9, {}}},
                                          {12, {"Hexahedron 27", 3, 27, {}}},
                                          {13, {"Prism 18", 3, 18, {}}},
                                          {14, {"Pyramid 14", 3, 14, {}}},

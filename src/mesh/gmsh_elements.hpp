@@ -18,6 +18,7 @@ struct GmshElement {
 const GmshElement* gmsh_element(int type);
 
 /// The shapes that a mesh may have, for messages.
-inline constexpr const char* k_shapes_of_meshes = "tri3, tri6, quad4, quad8, tet4, tet10, hex8, hex20";
+inline constexpr const char* k_shapes_of_meshes =
+    "tri3, tri6, quad4, quad8, tet4, tet10, hex8, hex20; wedges and pyramids of first order";
 
 }  // namespace solidus::mesh

@@ -19,10 +19,17 @@ struct ElementCard {
   Shape first, second;  ///< the shape with nodes at corners, and with all of them
 };
 constexpr std::array k_elements{
-    ElementCard{"CTETRA", Shape::tet4, Shape::tet10},  ElementCard{"CHEXA", Shape::hex8, Shape::hex20},
-    ElementCard{"CTRIA3", Shape::tri3, Shape::tri3},   ElementCard{"CTRIAR", Shape::tri3, Shape::tri3},
-    ElementCard{"CTRIA6", Shape::tri6, Shape::tri6},   ElementCard{"CQUAD4", Shape::quad4, Shape::quad4},
-    ElementCard{"CQUADR", Shape::quad4, Shape::quad4}, ElementCard{"CQUAD8", Shape::quad8, Shape::quad8},
+    ElementCard{"CTETRA", Shape::tet4, Shape::tet10},
+    ElementCard{"CHEXA", Shape::hex8, Shape::hex20},
+    ElementCard{"CTRIA3", Shape::tri3, Shape::tri3},
+    ElementCard{"CTRIAR", Shape::tri3, Shape::tri3},
+    ElementCard{"CTRIA6", Shape::tri6, Shape::tri6},
+    ElementCard{"CQUAD4", Shape::quad4, Shape::quad4},
+    ElementCard{"CQUADR", Shape::quad4, Shape::quad4},
+    ElementCard{"CQUAD8", Shape::quad8, Shape::quad8},
+    ElementCard{"CPENTA", Shape::wedge6, Shape::wedge6},
+    ElementCard{"CPYRAM", Shape::pyramid5, Shape::pyramid5},
+    ElementCard{"CPYRA", Shape::pyramid5, Shape::pyramid5},
 };
 
 bool is_any_of(const std::string& name, std::initializer_list<std::string_view> all) {
@@ -110,10 +117,9 @@ void Reader::take(const NastranCard& card) {
   if (systems_.take(card)) return;
   for (const ElementCard& kind : k_elements)
     if (name == kind.name) return take_element(card, kind);
-  if (is_any_of(name, {"CPENTA", "CPYRAM", "CPYRA", "CTRIAX", "CTRIAX6", "CQUADX", "CQUAD", "CPLSTN3",
-                       "CPLSTN4", "CPLSTN6", "CPLSTN8"}))
+  if (is_any_of(name, {"CTRIAX", "CTRIAX6", "CQUADX", "CQUAD", "CPLSTN3", "CPLSTN4", "CPLSTN6", "CPLSTN8"}))
     card.fail("elements of the type '" + name + "' are not supported",
-              "CTETRA, CHEXA, CTRIA3, CTRIA6, CQUAD4 and CQUAD8");
+              "CTETRA, CHEXA, CPENTA, CPYRAM, CTRIA3, CTRIA6, CQUAD4 and CQUAD8");
   if (is_any_of(name, {"CORD3G", "CORD3R", "GMCORD", "SEBULK", "SELOC", "SEMPLN", "GRIDB", "GRIDF", "GRIDS",
                        "EGRID"}))
     card.fail("the entry " + name + " makes or moves nodes in a way that is not read here",
@@ -165,6 +171,10 @@ void Reader::take_element(const NastranCard& card, const ElementCard& kind) {
       e.nodes[a] = card.integer(2 + a);
       ++given;
     }
+  const bool is_split = kind.first == Shape::wedge6 || kind.first == Shape::pyramid5;
+  if (is_split && card.has(2 + all))
+    card.fail(card.name + " " + std::to_string(e.number) + " is of second order",
+              card.name + " with its " + std::to_string(all) + " corner nodes");
   if (given == all)
     e.shape = kind.second;
   else if (given != corners || !card.has(1 + corners))

@@ -123,6 +123,8 @@ Rule gauss_rule(Shape shape, int degree) {
       return cube(row.dimension, n);
     case Reference::simplex:
       return row.dimension == 2 ? triangle(degree) : tetrahedron(degree);
+    case Reference::split:
+      break;
   }
   return {};
 }

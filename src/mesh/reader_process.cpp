@@ -268,11 +268,12 @@ void Reader::ended() {
                      "out, or by a user",
                      "larger elements, or fewer programs beside it");
   if (WIFSIGNALED(*how))
-    throw InputError(
-        {source_.path},
-        std::string("Gmsh crashed while it read or meshed this file (") + strsignal(WTERMSIG(*how)) + ")",
-        "a file that is whole, other mesh options, or more memory than " +
-            std::to_string(std::lround(limits_.memory / 1e6)) + " MB: SOLIDUS_MESH_MEMORY=\"8 GB\"");
+    throw InputError({source_.path},
+                     std::string("the reader crashed while it read or meshed this file (") +
+                         strsignal(WTERMSIG(*how)) + ")",
+                     "a file that is whole, other mesh options, or more memory than " +
+                         std::to_string(std::lround(limits_.memory / 1e6)) +
+                         " MB: SOLIDUS_MESH_MEMORY=\"8 GB\"");
   constexpr int k_cannot_run = 127;  // of the loader, where a library is missing
   if (WEXITSTATUS(*how) == k_cannot_run)
     throw InputError(

@@ -163,6 +163,8 @@ void basis_values(Shape shape, const Point& xi, std::span<double> v) {
       return simplex_values(row.dimension, row.order, row.edges, xi, v);
     case Reference::cube:
       return cube_values(row.dimension, row.order, row.nodes, row.edges, xi, v);
+    case Reference::split:
+      assert(false);
   }
 }
 
@@ -186,6 +188,8 @@ void basis_gradients(Shape shape, const Point& xi, std::span<double> g) {
       return simplex_gradients(row.dimension, row.order, row.edges, xi, g);
     case Reference::cube:
       return cube_gradients(row.dimension, row.order, row.nodes, row.edges, xi, g);
+    case Reference::split:
+      assert(false);
   }
 }
 

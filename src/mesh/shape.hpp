@@ -9,7 +9,23 @@
 
 namespace solidus::mesh {
 
-enum class Shape { point1, line2, line3, tri3, tri6, quad4, quad8, tet4, tet10, hex8, hex20 };
+/// Wedges and pyramids are cells of files alone: mesh/split_cells.hpp makes tetrahedra of them before a mesh
+/// is used, and what follows here of bases, faces and quadrature is of the other shapes.
+enum class Shape {
+  point1,
+  line2,
+  line3,
+  tri3,
+  tri6,
+  quad4,
+  quad8,
+  tet4,
+  tet10,
+  hex8,
+  hex20,
+  wedge6,
+  pyramid5
+};
 
 int node_count(Shape shape);
 int vertex_count(Shape shape);

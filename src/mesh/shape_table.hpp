@@ -13,8 +13,9 @@
 
 namespace solidus::mesh {
 
-/// The reference element, of a dimension: a simplex in [0, 1], a cube in [−1, 1].
-enum class Reference { point, line, simplex, cube };
+/// The reference element, of a dimension: a simplex in [0, 1], a cube in [−1, 1]; or none, for cells that are
+/// split into simplices (mesh/split_cells.hpp).
+enum class Reference { point, line, simplex, cube, split };
 
 using Edges = std::span<const std::pair<int, int>>;
 using Places = std::span<const int>;
@@ -65,7 +66,7 @@ inline constexpr std::array<int, 6> k_hex_abaqus_faces{0, 5, 1, 3, 4, 2};
 
 // In the order of Shape.
 // clang-format off
-inline constexpr std::array<ShapeRow, 11> k_shape_rows{{
+inline constexpr std::array<ShapeRow, 13> k_shape_rows{{
     // shape         name     reference           d  o  n   v  f  face           face_nodes            edges                 deg mixed  gmsh vtk vtk_nodes               abaqus_nodes            abaqus_faces
     {Shape::point1, "point1", Reference::point,   0, 1, 1,  1, 0, Shape::point1, {},                   {},                   5, false, 15, 1,  {},                     {},                     {}},
     {Shape::line2,  "line2",  Reference::line,    1, 1, 2,  2, 2, Shape::point1, detail::k_line_faces, {},                   3, false, 1,  3,  {},                     {},                     {}},
@@ -78,6 +79,8 @@ inline constexpr std::array<ShapeRow, 11> k_shape_rows{{
     {Shape::tet10,  "tet10",  Reference::simplex, 3, 2, 10, 4, 4, Shape::tri6,   detail::k_tet_faces,  detail::k_tet_edges,  2, false, 11, 24, detail::k_tet10_others, detail::k_tet10_others, detail::k_tet_abaqus_faces},
     {Shape::hex8,   "hex8",   Reference::cube,    3, 1, 8,  8, 6, Shape::quad4,  detail::k_hex_faces,  {},                   3, false, 5,  12, {},                     {},                     detail::k_hex_abaqus_faces},
     {Shape::hex20,  "hex20",  Reference::cube,    3, 2, 20, 8, 6, Shape::quad8,  detail::k_hex_faces,  detail::k_hex_edges,  5, false, 17, 25, detail::k_hex20_vtk,    detail::k_hex20_abaqus, detail::k_hex_abaqus_faces},
+    {Shape::wedge6, "wedge6", Reference::split,   3, 1, 6,  6, 0, Shape::point1, {},                   {},                   0, false, 6,  13, {},                     {},                     {}},
+    {Shape::pyramid5, "pyramid5", Reference::split,   3, 1, 5,  5, 0, Shape::point1, {},                   {},                   0, false, 7,  14, {},                     {},                     {}},
 }};
 // clang-format on
 

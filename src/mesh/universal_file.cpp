@@ -37,6 +37,8 @@ std::optional<Shape> shape_of_descriptor(GlobalIndex descriptor) {
       return Shape::tet4;
     case 118:
       return Shape::tet10;
+    case 112:
+      return Shape::wedge6;
     case 115:
       return Shape::hex8;
     case 116:
@@ -292,9 +294,10 @@ void Reader::elements(bool old) {
     const GlobalIndex number = whole(0), descriptor = whole(1);
     const GlobalIndex property = old ? whole(3) : whole(2), n = old ? whole(7) : whole(5);
     const std::optional<Shape> shape = shape_of_descriptor(descriptor);
-    if (!shape && (descriptor == 112 || descriptor == 113 || descriptor == 101 || descriptor == 102))
-      fail(fmt::format("element {} is a wedge (descriptor {})", number, descriptor),
-           "triangles, quads, tetrahedra and hexahedra");
+    if (!shape && (descriptor == 113 || descriptor == 114 || descriptor == 101 || descriptor == 102))
+      fail(fmt::format("element {} is a wedge of second order or a thick shell (descriptor {})", number,
+                       descriptor),
+           "triangles, quads, tetrahedra, hexahedra, and wedges of first order");
     if (n < 1 || n > 100) fail(fmt::format("element {} has {} nodes", number, n));
     if (is_beam(descriptor)) require_line();
     std::vector<GlobalIndex> given;

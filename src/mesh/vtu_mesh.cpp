@@ -12,6 +12,7 @@
 #include <set>
 
 #include "mesh/gmsh_elements.hpp"
+#include "mesh/vtk_cells.hpp"
 #include "mesh/vtu_pieces.hpp"
 #include "system/errors.hpp"
 
@@ -149,6 +150,14 @@ Regions regions_of(const VtuFile& file, const ptree& piece, std::size_t n_cells)
   return regions;
 }
 
+/// The nodes of a cell of the mesh, whole: wedges and pyramids are split when all is read
+/// (mesh/split_cells.hpp).
+std::optional<CellParts> cell_of(int type) {
+  if (type == vtk_cell_type(Shape::wedge6)) return CellParts{Shape::wedge6, {{0, 1, 2, 3, 4, 5}}};
+  if (type == vtk_cell_type(Shape::pyramid5)) return CellParts{Shape::pyramid5, {{0, 1, 2, 3, 4}}};
+  return parts_of(type);
+}
+
 }  // namespace
 
 RawMesh read_vtu_mesh(const std::string& path, double unit_in_metres) {
@@ -169,8 +178,8 @@ RawMesh read_vtu_mesh(const std::string& path, double unit_in_metres) {
   const std::vector<double>& bodies = regions.numbers;
   std::map<std::pair<int, double>, RawGroup> groups;  // by dimension and number
   for (std::size_t c = 0; c < n_cells; ++c) {
-    const std::optional<CellParts> parts = parts_of(cells.types[c]);
-    if (!parts || parts->corners.size() != 1)
+    const std::optional<CellParts> parts = cell_of(cells.types[c]);
+    if (!parts)
       file.fail("the mesh has cells of VTK's type " + std::to_string(cells.types[c]), k_shapes_of_meshes);
     const int dimension = mesh::dimension(parts->shape);
     mesh.dimension = std::max(mesh.dimension, dimension);

@@ -25,8 +25,8 @@ int plain_type(int type, std::size_t n_corners) {
     std::size_t n_corners;
     int plain;
   };
-  constexpr Lagrange k_known[] = {{68, 2, 3}, {68, 3, 21}, {69, 3, 5},   {69, 6, 22},
-                                  {70, 4, 9}, {71, 4, 10}, {71, 10, 24}, {72, 8, 12}};
+  constexpr Lagrange k_known[] = {{68, 2, 3},  {68, 3, 21},  {69, 3, 5},  {69, 6, 22}, {70, 4, 9},
+                                  {71, 4, 10}, {71, 10, 24}, {72, 8, 12}, {73, 6, 13}};
   for (const Lagrange& known : k_known)
     if (known.type == type && known.n_corners == n_corners) return known.plain;
   return type;

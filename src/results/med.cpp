@@ -8,6 +8,7 @@
 #include <map>
 #include <span>
 
+#include "mesh/med_cells.hpp"
 #include "results/field_moments.hpp"
 #include "results/output_error.hpp"
 #include "system/errors.hpp"
@@ -20,30 +21,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_mesh = "solidus";
 
-/// A kind of cells: VTK's number and MED's. MED's node i of a cell is VTK's node order[i]: the bases of MED's
-/// solids go round the other way, seen from their tops (as Gmsh's reader of MED files has it too).
-struct CellKind {
-  int vtk;
-  med_geometry_type med;
-  std::vector<int> order;
-};
-
-const std::vector<CellKind>& cell_kinds() {
-  static const std::vector<CellKind> k_kinds = {
-      {5, MED_TRIA3, {0, 1, 2}},
-      {9, MED_QUAD4, {0, 1, 2, 3}},
-      {22, MED_TRIA6, {0, 1, 2, 3, 4, 5}},
-      {23, MED_QUAD8, {0, 1, 2, 3, 4, 5, 6, 7}},
-      {10, MED_TETRA4, {0, 2, 1, 3}},
-      {24, MED_TETRA10, {0, 2, 1, 3, 6, 5, 4, 7, 9, 8}},
-      {12, MED_HEXA8, {0, 3, 2, 1, 4, 7, 6, 5}},
-      {25, MED_HEXA20, {0, 3, 2, 1, 4, 7, 6, 5, 11, 10, 9, 8, 15, 14, 13, 12, 16, 19, 18, 17}}};
-  return k_kinds;
-}
-
 /// The cells of one kind: their places in the run's files, and their nodes.
 struct CellBlock {
-  const CellKind* kind;
+  const mesh::MedCell* kind;
   std::vector<std::size_t> cells;
   std::vector<med_int> nodes;  ///< counted from 1
 };
@@ -88,9 +68,9 @@ std::vector<CellBlock> cell_blocks(const FieldMoment& moment) {
     const mesh::CellTable table = read_cells(*piece.file, *piece.tree, piece.n_cells, piece.n_points);
     std::size_t begin = 0;
     for (std::size_t c = 0; c < piece.n_cells; ++c) {
-      const auto kind = std::find_if(cell_kinds().begin(), cell_kinds().end(),
-                                     [&](const CellKind& k) { return k.vtk == table.types[c]; });
-      if (kind == cell_kinds().end() || table.offsets[c] - begin != kind->order.size())
+      const auto kind = std::find_if(mesh::med_cells().begin(), mesh::med_cells().end(),
+                                     [&](const mesh::MedCell& k) { return k.vtk == table.types[c]; });
+      if (kind == mesh::med_cells().end() || table.offsets[c] - begin != kind->order.size())
         piece.file->fail(
             fmt::format("the file has a cell of type {} that Solidus does not write", table.types[c]));
       auto block =
@@ -130,7 +110,7 @@ void write_bodies(const Writer& writer, const FieldMoment& moment, const std::ve
 
 void write_mesh(const Writer& writer, const FieldMoment& moment, const std::vector<CellBlock>& blocks) {
   const bool solid = std::any_of(blocks.begin(), blocks.end(),
-                                 [](const CellBlock& block) { return block.kind->med > MED_TETRA4 - 1; });
+                                 [](const CellBlock& block) { return block.kind->dimension == 3; });
   std::string axes, units;
   for (const char* axis : {"x", "y", "z"}) {
     axes += padded(axis, MED_SNAME_SIZE);

@@ -77,7 +77,7 @@ TEST_F(ForeignReader, ThatEndsDiesOrHangsIsNamed) {
   script("kill -KILL $$");
   expect_nothing_read({"part.geo", "was killed"});
   script("kill -SEGV $$");
-  expect_nothing_read({"part.geo", "Gmsh crashed", "Segmentation"});
+  expect_nothing_read({"part.geo", "the reader crashed", "Segmentation"});
   script("exec sleep 60");
   expect_nothing_read({"part.geo", "longer than 10 s"});
   script("exec 4>&-; exec sleep 60");

@@ -9,7 +9,7 @@ namespace {
 [[noreturn]] void refuse(const MeshSource& source) {
   throw UnusableGeometry(
       {source.path}, "this file needs Gmsh, and this program was built without it (SOLIDUS_GMSH=OFF)",
-      "a mesh: .msh (version 2.2 or 4.1), Abaqus .inp, .bdf, .unv or .vtu; or a build with Gmsh");
+      "a mesh: .msh (version 2.2 or 4.1), Abaqus .inp, .bdf, .unv, .med, .vtk or .vtu; or a build with Gmsh");
 }
 
 }  // namespace

@@ -14,8 +14,10 @@
 #include "mesh/gmsh/session.hpp"
 #include "mesh/gmsh_mesh_file.hpp"
 #include "mesh/gmsh_script.hpp"
+#include "mesh/med/read_med.hpp"
 #include "mesh/nastran_input.hpp"
 #include "mesh/raw_mesh.hpp"
+#include "mesh/split_cells.hpp"
 #include "mesh/stl_file.hpp"
 #include "mesh/universal_file.hpp"
 #include "mesh/vtu_mesh.hpp"
@@ -41,6 +43,20 @@ RawMesh mesh_skins(const MeshSource& source, FileFormat format, const CastingGeo
   return mesh_faceted_casting(source, casting, facets_of(mesh, source.unit_in_metres));
 }
 
+/// What the file holds, by the reader of its format; wedges and pyramids are whole.
+RawMesh read_format(const MeshSource& source, FileFormat format, const CastingGeometry* casting) {
+  const std::string& path = source.path;
+  const double unit = source.unit_in_metres;
+  if (format == FileFormat::abaqus) return read_abaqus_input(path, unit);
+  if (format == FileFormat::nastran) return read_nastran(path, unit);
+  if (format == FileFormat::universal) return read_universal_file(path, unit);
+  if (format == FileFormat::vtu) return read_vtu_mesh(path, unit);
+  if (format == FileFormat::med) return read_med_file(path, unit);
+  if (format == FileFormat::gmsh_mesh)
+    if (std::optional<RawMesh> mesh = read_gmsh_mesh_file(path, unit)) return std::move(*mesh);
+  return read_with_gmsh(source, format, casting);
+}
+
 }  // namespace
 
 RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting) {
@@ -62,14 +78,9 @@ RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting)
   }
   if (!source.constants.empty() && format != FileFormat::gmsh_script)
     throw InputError({path}, "the mesh file is no .geo script and has no constants");
-  if (format == FileFormat::abaqus) return read_abaqus_input(path, source.unit_in_metres);
-  if (format == FileFormat::nastran) return read_nastran(path, source.unit_in_metres);
-  if (format == FileFormat::universal) return read_universal_file(path, source.unit_in_metres);
-  if (format == FileFormat::vtu) return read_vtu_mesh(path, source.unit_in_metres);
-  if (format == FileFormat::gmsh_mesh)
-    if (std::optional<RawMesh> mesh = read_gmsh_mesh_file(path, source.unit_in_metres))
-      return std::move(*mesh);
-  return read_with_gmsh(source, format, casting);
+  RawMesh mesh = read_format(source, format, casting);
+  split_cells(mesh, path);
+  return mesh;
 }
 
 }  // namespace solidus::mesh

@@ -158,16 +158,17 @@ TEST(AbaqusInput, ElementTypesAreKnownByTheirShape) {
       {"DC3D8", S::hex8},  {"CPE4H", S::quad4},  {"CAX4RT", S::quad4}, {"CAX8R", S::quad8},
       {"CPS6", S::tri6},   {"DCAX3", S::tri3},   {"DC2D4", S::quad4},  {"S4R", S::quad4},
       {"STRI65", S::tri6}, {"S3", S::tri3},      {"T3D2", S::line2},   {"B32R", S::line3},
-      {"B31", S::line2},   {"M3D4R", S::quad4},  {"T2D3", S::line3}};
+      {"B31", S::line2},   {"M3D4R", S::quad4},  {"C3D6", S::wedge6},  {"C3D5", S::pyramid5},
+      {"T2D3", S::line3}};
   for (const auto& [type, shape] : types) EXPECT_EQ(shape_of_abaqus_type(type), shape) << type;
-  for (const char* type : {"C3D6", "C3D15", "SPRINGA", "MASS", "SAX1", "C3D", ""})
+  for (const char* type : {"C3D15", "C3D13", "SPRINGA", "MASS", "SAX1", "C3D", ""})
     EXPECT_FALSE(shape_of_abaqus_type(type)) << type;
 }
 
 TEST(AbaqusInput, MistakesAreNamedWithTheirLine) {
   const std::string nodes = "*NODE\n1,0,0\n2,1,0\n3,0,1\n";
-  EXPECT_THAT(complaint_of(nodes + "*ELEMENT, TYPE=C3D6\n1,1,2,3\n"),
-              AllOf(HasSubstr("bad.inp:5"), HasSubstr("C3D6")));
+  EXPECT_THAT(complaint_of(nodes + "*ELEMENT, TYPE=C3D15\n1,1,2,3\n"),
+              AllOf(HasSubstr("bad.inp:5"), HasSubstr("C3D15")));
   EXPECT_THAT(complaint_of(nodes + "*ELEMENT, TYPE=CPE3\n1,1,2,9\n"),
               AllOf(HasSubstr(":6"), HasSubstr("node 9")));
   EXPECT_THAT(complaint_of(nodes + "*ELEMENT, TYPE=CPE3\n1,1,2,\n"), HasSubstr("ends after 2"));

@@ -347,7 +347,7 @@ TEST_F(MeshFiles, ElementsThatCannotBeUsedAreNamed) {
   gmsh::model::addDiscreteEntity(3, 1);
   gmsh::model::mesh::addNodes(3, 1, {1, 2, 3, 4, 5, 6},
                               {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1});
-  gmsh::model::mesh::addElementsByType(1, 6, {1}, {1, 2, 3, 4, 5, 6});
+  gmsh::model::mesh::addElementsByType(1, 18, {1}, {1, 2, 3, 4, 5, 6, 1, 2, 3, 4, 5, 6, 1, 2, 3});
   gmsh::write(path("wedge.msh"));
   gmsh::finalize();
   EXPECT_THAT(complaint_of([&] { read_mesh(path("wedge.msh"), 1); }),

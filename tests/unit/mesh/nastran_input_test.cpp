@@ -172,8 +172,8 @@ TEST(NastranInput, WhatIsNotReadIsSaidOrRefused) {
   EXPECT_THAT(
       bulk("SOL 101\nCEND\nTITLE = GRID, 5\nBEGIN BULK\n" + mesh + "RBE2,9,1,123,2,3\nMAT1,1,2.+5\n").notes,
       ElementsAre(AllOf(HasSubstr("RBE2"), HasSubstr("bulk.bdf:10"))));
-  EXPECT_THAT(complaint_of_bulk(mesh + "CPENTA,2,1,1,2,3,4,1,2\n"),
-              AllOf(HasSubstr(":6"), HasSubstr("CPENTA")));
+  EXPECT_THAT(complaint_of_bulk(mesh + "CPENTA,2,1,1,2,3,4,1,2\n,5,6\n"),
+              AllOf(HasSubstr(":6"), HasSubstr("CPENTA 2 is of second order")));
   EXPECT_THAT(complaint_of_bulk(nodes + "=,*(1),=,*(1.)\n"), AllOf(HasSubstr(":5"), HasSubstr("'='")));
   EXPECT_THAT(complaint_of_bulk("BEGIN SUPER=1\n" + mesh), HasSubstr("superelements"));
   EXPECT_THAT(complaint_of_bulk(nodes + "CTETRA,1,7,1,2,3\n"), HasSubstr("has 3 nodes"));

@@ -155,7 +155,7 @@ TEST(UniversalFile, MistakesAreNamedWithTheirLine) {
   EXPECT_THAT(complaint_of_universal(k_two_cubes.substr(0, k_two_cubes.rfind("    -1"))),
               HasSubstr("the file ends inside"));
   const std::string nodes = nodes_as(2411, corners_of_two_cubes());
-  EXPECT_THAT(complaint_of_universal(nodes + dataset(2412, "1 112 1 1 7 6\n1 2 3 4 5 6\n")),
+  EXPECT_THAT(complaint_of_universal(nodes + dataset(2412, "1 113 1 1 7 6\n1 2 3 4 5 6\n")),
               AllOf(HasSubstr(":30"), HasSubstr("wedge")));
   EXPECT_THAT(complaint_of_universal(nodes + dataset(2412, "1 111 1 1 7 4\n1 2 3 99\n")),
               HasSubstr("node 99"));
