@@ -1,20 +1,7 @@
 #include "mesh/vtu_mesh.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <cmath>
-#include <map>
-#include <optional>
-#include <set>
-
-#include "mesh/gmsh_elements.hpp"
-#include "mesh/vtk_cells.hpp"
+#include "mesh/vtk_grid.hpp"
 #include "mesh/vtu_pieces.hpp"
-#include "system/errors.hpp"
 
 namespace solidus::mesh {
 
@@ -35,127 +22,8 @@ const ptree& only_piece(const VtuFile& file) {
   return *piece;
 }
 
-/// Letters and digits alone, in lower case: "Material_Ids" is "materialids".
-std::string plain(const std::string& name) {
-  std::string letters;
-  for (const char c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return letters;
-}
-
-/// Whether a program gives this name to numbers of materials, groups or regions.
-bool names_regions(const std::string& array) {
-  constexpr std::array k_known{"material",
-                               "materials",
-                               "materialid",
-                               "materialids",
-                               "mat",
-                               "matid",
-                               "group",
-                               "groups",
-                               "groupid",
-                               "groupids",
-                               "region",
-                               "regions",
-                               "regionid",
-                               "regionids",
-                               "zone",
-                               "zoneid",
-                               "domain",
-                               "domainid",
-                               "subdomain",
-                               "subdomains",
-                               "subdomainid",
-                               "elementblock",
-                               "elementblockids",
-                               "blockid",
-                               "blockids",
-                               "partid",
-                               "partids",
-                               "part",
-                               "parts",
-                               "objectid",
-                               "entityid",
-                               "entityids",
-                               "cellentityids",
-                               "celltags",
-                               "cellmarkers",
-                               "celltag",
-                               "meshtags",
-                               "physical",
-                               "gmshphysical",
-                               "attribute",
-                               "attributes",
-                               "medfamily",
-                               "familyid",
-                               "propertyid",
-                               "pid"};
-  return std::ranges::find(k_known, plain(array)) != k_known.end();
-}
-
-/// The different numbers of an array, where all are whole ones; at most a hundred, else nothing.
-std::optional<std::set<double>> few_whole_numbers(const std::vector<double>& numbers) {
-  constexpr std::size_t k_most = 100;
-  std::set<double> different;
-  for (const double number : numbers) {
-    if (number != std::round(number)) return std::nullopt;
-    different.insert(number);
-    if (different.size() > k_most) return std::nullopt;
-  }
-  return different;
-}
-
 bool has_one_component(const ptree& array) {
   return array.get<int>("<xmlattr>.NumberOfComponents", 1) == 1;
-}
-
-struct Regions {
-  std::vector<double> numbers;     ///< that tells the body of each cell; empty where no data tell it
-  std::vector<std::string> notes;  ///< on the data that were chosen or not
-};
-
-/// The first of the known names decides.
-Regions regions_of(const VtuFile& file, const ptree& piece, std::size_t n_cells) {
-  Regions regions;
-  std::vector<std::string> names = {"body", "gmsh:physical", "CellEntityIds"};
-  const std::size_t n_certain = names.size();
-  for (const std::string& name : array_names(piece, "CellData"))
-    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-  std::string others;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const ptree* array = find_array(piece, "CellData", names[k]);
-    if (array == nullptr || !has_one_component(*array)) continue;
-    const bool certain = k < n_certain;
-    if (names[k].starts_with("vtk") || (!regions.numbers.empty() && certain)) continue;
-    std::vector<double> numbers = file.numbers(*array, n_cells);
-    const auto different = few_whole_numbers(numbers);
-    if (certain) {
-      for (const double number : numbers)
-        if (number != std::round(number)) file.fail("the cell data `" + names[k] + "` are no whole numbers");
-      regions.numbers = std::move(numbers);
-    } else if (different && different->size() > 1) {
-      if (!regions.numbers.empty() || !names_regions(names[k])) {
-        others += (others.empty() ? "`" : ", `") + names[k] + "`";
-        continue;
-      }
-      regions.numbers = std::move(numbers);
-      regions.notes.push_back(fmt::format("the cell data `{}` tell bodies apart, by the numbers {:g}",
-                                          names[k], fmt::join(*different, ", ")));
-    }
-  }
-  if (!others.empty() && regions.numbers.empty())
-    regions.notes.push_back("no cell data tell bodies apart, all is one body; perhaps " + others +
-                            " should, under the name `body`");
-  return regions;
-}
-
-/// The nodes of a cell of the mesh, whole: wedges and pyramids are split when all is read
-/// (mesh/split_cells.hpp).
-std::optional<CellParts> cell_of(int type) {
-  if (type == vtk_cell_type(Shape::wedge6)) return CellParts{Shape::wedge6, {{0, 1, 2, 3, 4, 5}}};
-  if (type == vtk_cell_type(Shape::pyramid5)) return CellParts{Shape::pyramid5, {{0, 1, 2, 3, 4}}};
-  return parts_of(type);
 }
 
 }  // namespace
@@ -164,50 +32,13 @@ RawMesh read_vtu_mesh(const std::string& path, double unit_in_metres) {
   const VtuFile file(path);
   const ptree& piece = only_piece(file);
   const auto [n_points, n_cells] = piece_size(file, piece);
-  RawMesh mesh;
-  mesh.dimension = 0;
-  const std::vector<double> x = file.numbers(points_array(file, piece), 3 * n_points);
-  for (std::size_t i = 0; i < n_points; ++i) {
-    mesh.x.push_back(
-        {unit_in_metres * x[3 * i], unit_in_metres * x[3 * i + 1], unit_in_metres * x[3 * i + 2]});
-    mesh.input_node.push_back(static_cast<GlobalIndex>(i) + 1);
-  }
-
-  const CellTable cells = read_cells(file, piece, n_cells, n_points);
-  Regions regions = regions_of(file, piece, n_cells);
-  const std::vector<double>& bodies = regions.numbers;
-  std::map<std::pair<int, double>, RawGroup> groups;  // by dimension and number
-  for (std::size_t c = 0; c < n_cells; ++c) {
-    const std::optional<CellParts> parts = cell_of(cells.types[c]);
-    if (!parts)
-      file.fail("the mesh has cells of VTK's type " + std::to_string(cells.types[c]), k_shapes_of_meshes);
-    const int dimension = mesh::dimension(parts->shape);
-    mesh.dimension = std::max(mesh.dimension, dimension);
-    RawGroup& group = groups[{dimension, bodies.empty() ? 0.0 : bodies[c]}];
-    group.dimension = dimension;
-    auto block = std::find_if(group.blocks.begin(), group.blocks.end(),
-                              [&](const RawBlock& b) { return b.shape == parts->shape; });
-    if (block == group.blocks.end())
-      block = group.blocks.insert(group.blocks.end(), RawBlock{parts->shape, {}, {}});
-    const std::size_t begin = c == 0 ? 0 : cells.offsets[c - 1];
-    if (cells.offsets[c] - begin != parts->corners[0].size())
-      file.fail("the file is damaged: cell " + std::to_string(c) +
-                " has another number of corners than its type");
-    for (const int corner : parts->corners[0])
-      block->nodes.push_back(cells.corners[begin + static_cast<std::size_t>(corner)]);
-    block->input_element.push_back(static_cast<GlobalIndex>(c) + 1);
-  }
-  if (mesh.dimension < 2)
-    file.fail("the mesh has no triangles, quads, tetrahedra or hexahedra: empty or not a mesh");
-  int n_bodies = 0, n_surfaces = 0;
-  for (auto& [key, group] : groups) {
-    if (key.first == mesh.dimension)
-      mesh.groups.emplace("body_" + std::to_string(++n_bodies), std::move(group));
-    else if (key.first == mesh.dimension - 1)
-      mesh.groups.emplace("surface_" + std::to_string(++n_surfaces), std::move(group));
-  }
-  mesh.notes = std::move(regions.notes);
-  return mesh;
+  VtkGrid grid;
+  grid.points = file.numbers(points_array(file, piece), 3 * n_points);
+  grid.cells = read_cells(file, piece, n_cells, n_points);
+  for (const std::string& name : array_names(piece, "CellData"))
+    if (const ptree* array = find_array(piece, "CellData", name); has_one_component(*array))
+      grid.data.push_back({name, file.numbers(*array, n_cells)});
+  return mesh_of_grid(path, grid, unit_in_metres);
 }
 
 }  // namespace solidus::mesh

@@ -106,6 +106,31 @@ const ptree& points_array(const VtuFile& file, const ptree& piece) {
   return *points;
 }
 
+CellTable cell_table(std::span<const double> types, std::span<const double> offsets,
+                     std::span<const double> corners, std::size_t n_points, const FailVtk& fail) {
+  double end = 0;
+  for (const double offset : offsets) {
+    if (!(offset >= end && offset <= static_cast<double>(corners.size())))
+      fail("the file is damaged: its offsets make no sense");
+    end = offset;
+  }
+  for (const double type : types)
+    if (!(type >= 0 && type <= 255)) fail(fmt::format("cells of VTK's type {:g} are not read", type));
+  CellTable table;
+  table.types.assign(types.begin(), types.end());
+  table.offsets.assign(offsets.begin(), offsets.end());
+  for (std::size_t c = 0; c < table.types.size(); ++c)
+    table.types[c] = plain_type(table.types[c], table.offsets[c] - (c == 0 ? 0 : table.offsets[c - 1]));
+  table.corners.reserve(corners.size());
+  for (std::size_t c = 0, at = 0; c < table.types.size(); ++c)
+    for (; at < table.offsets[c]; ++at) {
+      if (!(corners[at] >= 0 && corners[at] < static_cast<double>(n_points)))
+        fail(fmt::format("the file is damaged: cell {} has a corner that is no point", c));
+      table.corners.push_back(static_cast<Index>(corners[at]));
+    }
+  return table;
+}
+
 CellTable read_cells(const VtuFile& file, const ptree& piece, std::size_t n_cells, std::size_t n_points) {
   const ptree* arrays[3] = {};
   const char* const names[3] = {"offsets", "types", "connectivity"};
@@ -115,27 +140,10 @@ CellTable read_cells(const VtuFile& file, const ptree& piece, std::size_t n_cell
   }
   const std::vector<double> offsets = file.numbers(*arrays[0], n_cells);
   const std::vector<double> types = file.numbers(*arrays[1], n_cells);
-  double end = 0;
-  for (const double offset : offsets) {
-    if (!(offset >= end && offset <= 1e10)) file.fail("the file is damaged: its offsets make no sense");
-    end = offset;
-  }
+  const double end = offsets.empty() ? 0 : offsets.back();
+  if (!(end >= 0 && end <= 1e10)) file.fail("the file is damaged: its offsets make no sense");
   const std::vector<double> corners = file.numbers(*arrays[2], static_cast<std::size_t>(end));
-  for (const double type : types)
-    if (!(type >= 0 && type <= 255)) file.fail(fmt::format("cells of VTK's type {:g} are not read", type));
-  CellTable table;
-  table.types.assign(types.begin(), types.end());
-  table.offsets.assign(offsets.begin(), offsets.end());
-  for (std::size_t c = 0; c < n_cells; ++c)
-    table.types[c] = plain_type(table.types[c], table.offsets[c] - (c == 0 ? 0 : table.offsets[c - 1]));
-  table.corners.reserve(corners.size());
-  for (std::size_t c = 0, at = 0; c < n_cells; ++c)
-    for (; at < table.offsets[c]; ++at) {
-      if (!(corners[at] >= 0 && corners[at] < static_cast<double>(n_points)))
-        file.fail(fmt::format("the file is damaged: cell {} has a corner that is no point", c));
-      table.corners.push_back(static_cast<Index>(corners[at]));
-    }
-  return table;
+  return cell_table(types, offsets, corners, n_points, [&](const std::string& what) { file.fail(what); });
 }
 
 PieceSize piece_size(const VtuFile& file, const ptree& piece) {

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,6 +54,11 @@ struct CellTable {
   std::vector<std::size_t> offsets;  ///< the end of each cell in `corners`
   std::vector<Index> corners;        ///< numbers of points, each below n_points
 };
+/// Told what is wrong with a file; throws.
+using FailVtk = std::function<void(const std::string& what)>;
+/// The table of numbers as a file has them: the type of each cell, its end in `corners`, and points.
+CellTable cell_table(std::span<const double> types, std::span<const double> offsets,
+                     std::span<const double> corners, std::size_t n_points, const FailVtk& fail);
 /// Throws InputError where the table is missing or damaged.
 CellTable read_cells(const VtuFile& file, const boost::property_tree::ptree& piece, std::size_t n_cells,
                      std::size_t n_points);

@@ -1,10 +1,11 @@
-/// Any bytes as a mesh that Solidus reads itself: .msh, .inp, .bdf, .unv or .vtu, which the first byte
+/// Any bytes as a mesh that Solidus reads itself: .msh, .inp, .bdf, .unv, .vtk or .vtu, which the first byte
 /// chooses.
 #include "input.hpp"
 #include "mesh/abaqus_input.hpp"
 #include "mesh/gmsh_mesh_file.hpp"
 #include "mesh/nastran_input.hpp"
 #include "mesh/universal_file.hpp"
+#include "mesh/vtk_legacy.hpp"
 #include "mesh/vtu_mesh.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -18,6 +19,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       return fuzz::answer([&] { mesh::read_nastran(file, 0.001); });
     case 'u':
       return fuzz::answer([&] { mesh::read_universal_file(file, 0.001); });
+    case 'l':
+      return fuzz::answer([&] { mesh::read_legacy_vtk(file, 0.001); });
     case 'v':
       return fuzz::answer([&] { mesh::read_vtu_mesh(file, 0.001); });
     default:

@@ -20,6 +20,7 @@
 #include "mesh/split_cells.hpp"
 #include "mesh/stl_file.hpp"
 #include "mesh/universal_file.hpp"
+#include "mesh/vtk_legacy.hpp"
 #include "mesh/vtu_mesh.hpp"
 #include "system/errors.hpp"
 
@@ -52,6 +53,8 @@ RawMesh read_format(const MeshSource& source, FileFormat format, const CastingGe
   if (format == FileFormat::universal) return read_universal_file(path, unit);
   if (format == FileFormat::vtu) return read_vtu_mesh(path, unit);
   if (format == FileFormat::med) return read_med_file(path, unit);
+  if (format == FileFormat::vtk)
+    if (std::optional<RawMesh> mesh = read_legacy_vtk(path, unit)) return std::move(*mesh);
   if (format == FileFormat::gmsh_mesh)
     if (std::optional<RawMesh> mesh = read_gmsh_mesh_file(path, unit)) return std::move(*mesh);
   return read_with_gmsh(source, format, casting);
