@@ -71,7 +71,9 @@ ExitCode import_material(const MaterialImportArguments& arguments) {
       material::import_card(read_column_table(arguments.file), options, base ? &*base : nullptr);
   const std::string text = to_toml(card.document);
   if (arguments.output.empty()) {
-    print(text);
+    std::string said;
+    for (const std::string& remark : card.remarks) said += "# " + remark + "\n";
+    print(said + text);
     return k_done;
   }
   write_text(arguments.output, text);

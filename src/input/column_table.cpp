@@ -34,24 +34,13 @@ std::size_t opening_bracket(const std::string& text) {
   return std::string::npos;
 }
 
-/// "Temperature [C]" and "Temperature (C)" are a name and a unit; so is "Temperature, C".
 Column column_of(std::string header) {
   Column column{std::move(header), {}, {}, {}, {}};
-  const std::string& text = column.header;
-  const auto open = opening_bracket(text);
-  const auto comma = text.rfind(", ");
-  if (open != std::string::npos && open > 0) {
-    column.name = trimmed(std::string_view(text).substr(0, open));
-    column.unit = trimmed(std::string_view(text).substr(open + 1, text.size() - open - 2));
-  } else if (comma != std::string::npos && comma > 0) {
-    column.name = trimmed(std::string_view(text).substr(0, comma));
-    column.unit = trimmed(std::string_view(text).substr(comma + 2));
-  } else {
-    column.name = trimmed(text);
-  }
+  HeaderText parts = split_header(column.header);
+  column.name = std::move(parts.name);
+  column.unit = std::move(parts.unit);
   return column;
 }
-
 /// The number that the whole cell is.
 std::optional<double> number(std::string cell, bool decimal_comma) {
   if (decimal_comma && cell.find('.') == std::string::npos) std::replace(cell.begin(), cell.end(), ',', '.');
@@ -216,6 +205,22 @@ ColumnTable parse_json_table(const std::string& text, const std::string& name) {
 }
 
 }  // namespace
+
+HeaderText split_header(const std::string& text) {
+  HeaderText parts;
+  const auto open = opening_bracket(text);
+  const auto comma = text.rfind(", ");
+  if (open != std::string::npos && open > 0) {
+    parts.name = trimmed(std::string_view(text).substr(0, open));
+    parts.unit = trimmed(std::string_view(text).substr(open + 1, text.size() - open - 2));
+  } else if (comma != std::string::npos && comma > 0) {
+    parts.name = trimmed(std::string_view(text).substr(0, comma));
+    parts.unit = trimmed(std::string_view(text).substr(comma + 2));
+  } else {
+    parts.name = trimmed(text);
+  }
+  return parts;
+}
 
 std::vector<std::string> ColumnTable::headers() const {
   std::vector<std::string> names;

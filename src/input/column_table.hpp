@@ -24,6 +24,12 @@ struct ColumnTable {
   SourceLocation place(const Column& column, std::size_t row) const { return {file, column.lines[row], 0}; }
 };
 
+/// "Temperature [C]" and "Temperature (C)" are a name and a unit; so is "Temperature, C".
+struct HeaderText {
+  std::string name, unit;
+};
+HeaderText split_header(const std::string& header);
+
 /// Reads a file; JSON is told by its first character. Lines before the header of a CSV and comments (#) are
 /// skipped. Throws InputError with the line for rows of unequal length and where no table is found.
 ColumnTable read_column_table(const std::filesystem::path& file);

@@ -10,6 +10,8 @@
 
 #include "input/keys.hpp"
 #include "input/units.hpp"
+#include "material/column_headers.hpp"
+#include "material/unit_spelling.hpp"
 
 namespace solidus::material {
 namespace {
@@ -37,25 +39,33 @@ const std::array<Quantity, 10>& quantities() {
        "1",
        false,
        {"liquidfraction", "fractionliquid", "fl", "liquid", "massfractionofliquid", "molefractionofliquid",
-        "amountofliquid", "massfractionliquid", "molefractionliquid"}},
+        "amountofliquid", "fractionofliquid", "massfractionliquid", "molefractionliquid"}},
       {"enthalpy",
        "J/kg",
        true,
-       {"enthalpy", "h", "specificenthalpy", "heat", "heatpergram", "heatpermole", "totalenthalpy",
-        "enthalpypergram", "enthalpypermole"}},
-      {"specific_heat", "J/kg/K", true, {"specificheat", "specificheatcapacity", "cp", "heatcapacity"}},
-      {"density", "kg/m3", true, {"density", "rho"}},
+       {"enthalpy", "h", "specificenthalpy", "heat", "totalheat", "enthalpyofsystem", "specificheatcontent",
+        "heatpergram", "heatpermole", "totalenthalpy", "enthalpypergram", "enthalpypermole"}},
+      {"specific_heat",
+       "J/kg/K",
+       true,
+       {"specificheat", "specificheatcapacity", "cp", "heatcapacity", "apparentheatcapacity",
+        "apparentspecificheat", "apparentheatcapacitypergram", "heatcapacitypergram",
+        "effectivespecificheat"}},
+      {"density", "kg/m3", true, {"density", "rho", "massdensity"}},
       {"conductivity", "W/m/K", true, {"conductivity", "thermalconductivity", "k", "lambda"}},
       {"young_modulus",
        "Pa",
        true,
-       {"youngmodulus", "youngsmodulus", "young'smodulus", "elasticmodulus", "e"}},
+       {"youngmodulus", "youngsmodulus", "modulusofelasticity", "young'smodulus", "elasticmodulus", "e"}},
       {"poisson_ratio", "1", false, {"poissonratio", "poissonsratio", "poisson'sratio", "nu"}},
       {"expansion",
        "1/K",
        true,
        {"expansion", "thermalexpansion", "thermalexpansioncoefficient", "linearexpansion",
-        "averageexpansioncoefficient", "meanlinearexpansioncoefficient", "linearthermalexpansion"}},
+        "averageexpansioncoefficient", "averageexpansioncoeff.", "averageexpansioncoeff",
+        "expansioncoefficient", "coefficientofthermalexpansion", "cte", "alpha",
+        "meancoefficientofthermalexpansion", "thermalexpansioncoeff.", "meanlinearexpansioncoefficient",
+        "linearthermalexpansion"}},
   }};
   return all;
 }
@@ -66,39 +76,6 @@ std::string plain(const std::string& text) {
     if (c != ' ' && c != '_' && c != '-')
       result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return result;
-}
-
-void replace_all(std::string& text, const std::string& what, const std::string& with) {
-  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
-    text.replace(at, what.size(), with);
-}
-
-/// The unit as this program reads it: "W/(m K)" is "W/m/K", "C" is "degC", "wt.%" is "percent".
-std::string readable_unit(std::string unit) {
-  const std::string small = plain(unit);
-  if (small == "c" || small == "°c" || small == "celsius" || small == "degc") return "degC";
-  if (small == "kelvin") return "K";
-  if (unit.find('%') != std::string::npos) return "percent";
-  if (small == "10^6/k" || small == "10^6/°c" || small == "1e6/k" || small == "10^6/c") return "1e-6 1/K";
-  if (small == "10^6k^1" || small == "1e6k1") return "1e-6 1/K";
-  if (const auto open = unit.find("/("); open != std::string::npos) {
-    std::string below = unit.substr(open + 2, unit.find(')', open) - open - 2);
-    for (char& c : below)
-      if (c == ' ' || c == '*' || c == '.' || c == '-') c = '/';
-    unit = unit.substr(0, open + 1) + below;
-  }
-  for (const char* one : {"m3", "cm3", "m2"}) {
-    std::string power = one;
-    power.insert(power.size() - 1, "^");
-    replace_all(unit, power, one);
-    power.insert(power.size() - 1, "*");
-  }
-  replace_all(unit, "**", "");
-  replace_all(unit, "g/cc", "g/cm3");
-  replace_all(unit, "/C", "/K");
-  replace_all(unit, "mK", "m/K");
-  replace_all(unit, "-", "/");
-  return unit;
 }
 
 /// y = scale x + offset from the column's unit to the quantity's.
@@ -115,31 +92,16 @@ units::Conversion conversion_of(const Quantity& quantity, const Column& column, 
                                  expected == "K" ? "C" : expected, quantity.name, column.header,
                                  expected == "K" ? "C" : expected));
   }
-  std::string unit = readable_unit(column.unit);
-  double factor = 1;
-  if (unit.starts_with("1e-6 ")) {
-    factor = 1e-6;
-    unit.erase(0, 5);
-  }
-  if (unit.find("/mol") != std::string::npos) {
-    if (!options.molar_mass)
-      throw InputError(where, fmt::format("the column '{}' is for each mole", column.header),
-                       "--molar-mass \"27.1 g/mol\", or a table for each gram");
-    replace_all(unit, "/mol", "");
-    const std::string per_mole = expected == "J/kg" ? "J" : expected == "J/kg/K" ? "J/K" : "";
-    if (!per_mole.empty()) {
-      try {
-        units::Conversion conversion = units::conversion(unit, per_mole, units::Temperature::difference);
-        conversion.scale /= *options.molar_mass;
-        return conversion;
-      } catch (const std::invalid_argument& error) {
-        throw InputError(where, fmt::format("the column '{}': {}", column.header, error.what()));
-      }
-    }
-  }
+  std::string unit = column.unit;
+  const bool per_mole = take_mole(unit);
+  if (per_mole && !options.molar_mass)
+    throw InputError(where, fmt::format("the column '{}' is for each mole", column.header),
+                     "--molar-mass \"27.1 g/mol\", or a table for each gram");
+  const std::string of_mole = expected == "J/kg" ? "J" : expected == "J/kg/K" ? "J/K" : "";
   try {
-    units::Conversion conversion = units::conversion(unit, expected, units::Temperature::absolute);
-    conversion.scale *= factor;
+    if (!per_mole || of_mole.empty()) return conversion_of_spelling(unit, expected);
+    units::Conversion conversion = conversion_of_spelling(unit, of_mole);
+    conversion.scale /= *options.molar_mass;
     return conversion;
   } catch (const std::invalid_argument& error) {
     throw InputError(where, fmt::format("the column '{}': {}", column.header, error.what()));
@@ -165,10 +127,16 @@ const Column* find_column(const ColumnTable& table, const Quantity& quantity, co
     if (!unit.empty()) renamed.unit = unit;
     return &renamed;
   }
-  for (const Column& column : table.columns)
-    if (std::find(quantity.headers.begin(), quantity.headers.end(), plain(column.name)) !=
+  for (const Column& column : table.columns) {
+    const HeaderParts parts = parts_of_header(column);
+    if (std::find(quantity.headers.begin(), quantity.headers.end(), plain(parts.name)) ==
         quantity.headers.end())
-      return &column;
+      continue;
+    renamed = column;
+    renamed.name = parts.name;
+    renamed.unit = parts.unit;
+    return &renamed;
+  }
   return nullptr;
 }
 
@@ -298,6 +266,11 @@ ImportColumns import_columns(const ColumnTable& table, const ImportOptions& opti
     Column renamed;
     if (const Column* column = find_column(table, quantity, options, renamed))
       read_column(quantity, *column, table, options, result);
+  }
+  for (const Column& column : table.columns) {
+    const bool taken = std::ranges::any_of(
+        result.headers, [&](const auto& header) { return header.second == column.header; });
+    if (!taken) result.unused.push_back(column.header);
   }
   const auto need = [&](const char* name, bool there) {
     if (!there)

@@ -14,6 +14,7 @@ struct ImportColumns {
   std::vector<double> temperature;  ///< [K], rising; two rows at one temperature: isothermal
   std::map<std::string, std::vector<double>> values;  ///< of the other quantities, in SI
   std::map<std::string, std::string> headers;         ///< of the columns that were taken
+  std::vector<std::string> unused;                    ///< headers of the others
   std::vector<int> lines;                             ///< of the rows
 
   bool has(const std::string& quantity) const { return values.contains(quantity); }

@@ -25,6 +25,12 @@ Section<LiquidusSystem::Slope> slope_keys() {
       .difference()
       .range(-100, 0)
       .doc("Of the temperature, for each weight per cent.");
+  s.key("partition", &S::partition)
+      .range(0, 1)
+      .initially(0.0)
+      .doc(
+          "Partition coefficient k between the primary solid and the melt beside two solids, for Scheil's "
+          "equation; 0: that of the solute.");
   s.place(&S::where);
   return s;
 }

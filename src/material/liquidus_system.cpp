@@ -117,12 +117,17 @@ class Freezing {
     return rule_ == SolidificationRule::scheil ? part.percent * std::pow(f, k - 1)
                                                : part.percent / (f + k * (1 - f));
   }
+  double partition_in_valley(const Part& part) const {
+    for (const auto& other : valley_->other)
+      if (other.name == part.solute->name && other.partition > 0) return other.partition;
+    return part.solute->partition;
+  }
   /// Returns the concentration of a solute in the melt along the valley, where the share w of the metal that
   /// freezes is the primary solid and the second phase takes up no solute.
   double concentration_in_valley(const Part& part, double f) const {
     const double k = part.solute->partition, w = valley_->solvent_share;
     if (rule_ == SolidificationRule::scheil)
-      return concentration(part, start_) * std::pow(f / start_, k * w - 1);
+      return concentration(part, start_) * std::pow(f / start_, partition_in_valley(part) * w - 1);
     return part.percent / (f + k * (1 - start_ + w * (start_ - f)));
   }
   /// The valley that the melt meets first, and where.

@@ -28,7 +28,8 @@ struct LiquidusSystem {
   };
   struct Slope {
     std::string name;
-    double slope = 0;  ///< n [K per weight per cent]
+    double slope = 0;      ///< n [K per weight per cent]
+    double partition = 0;  ///< k between the primary solid and the melt in the valley; 0: as elsewhere
     SourceLocation where;
   };
   struct Eutectic {

@@ -9,8 +9,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "material/library.hpp"
+#include "material/unit_spelling.hpp"
 
 namespace solidus::material {
 namespace {
@@ -239,6 +241,131 @@ TEST(CardImport, NamesWhatACardStillNeeds) {
   other.replace(other.find("Enthalpy [J/g]"), 14, "HMR");
   options.columns = {{"enthalpy", "HMR:J/g"}};
   EXPECT_NO_THROW(imported(other, options));
+}
+
+/// A table as JMatPro or Thermo-Calc would print it: 430 kJ/kg between 557 and 614 degC, 1 J/g/K beside.
+std::string table(const std::string& headers, const std::function<std::string(double, double)>& row) {
+  std::string text = headers + "\n";
+  for (double t = 700; t >= 25; t -= t > 614 ? 2 : t > 557 ? 1 : 19)
+    text += row(t, std::clamp((t - 557) / 57, 0.0, 1.0)) + "\n";
+  return text;
+}
+
+double heat_of_freezing(const Material& m) {
+  double heat = 0;
+  for (const PhaseChange& change : m.phase_changes) heat += change.latent_heat;
+  return heat;
+}
+
+TEST(CardImport, HeadersOfJmatproAreKnown) {
+  const std::string text = table(
+      "T (C);Phases vol%-LIQUID-1.0(C/s);Density (g/(cm)^3)-TOTAL-1.0(C/s);Average expansion coeff. (10e-6 "
+      "1/K)-  "
+      "-1.0(C/s);Thermal conductivity (W/(m*K))-TOTAL-1.0(C/s);Young's modulus "
+      "(GPa)-TOTAL-1.0(C/s);Poisson's "
+      "ratio-TOTAL-1.0(C/s);Enthalpy (J/g)-TOTAL-1.0(C/s);Phases vol%-FCC_A1-1.0(C/s)",
+      [](double t, double liquid) {
+        return fmt::format("{};{};{};{};{};{};0.33;{};{}", t, 100 * liquid, 2.7 - 2e-4 * t,
+                           21 + 0.0045 * (t - 25), 150, 70 - 0.05 * t, t + 430 * liquid, 100 - 100 * liquid);
+      });
+  const ImportedCard card = imported(text, like_a356());
+  const Material m = card_of(card);
+  EXPECT_NEAR(heat_of_freezing(m), 430e3, 430);
+  EXPECT_NEAR(m.density, 2695, 1);
+  EXPECT_NEAR(m.conductivity.value(400), 150, 1e-9);
+  EXPECT_THAT(card.remarks,
+              ::testing::Contains(AllOf(HasSubstr("columns that are not used"), HasSubstr("FCC_A1"),
+                                        ::testing::Not(HasSubstr("Density")))));
+}
+
+TEST(CardImport, HeadersOfThermoCalcAreKnown) {
+  const std::string text = table(
+      "Temperature [C];Mass fraction of all solid phases;Enthalpy per gram of system [J/g];Density of system "
+      "[g/cm3];Thermal conductivity of system [W/(m*K)];Viscosity [Pa*s]",
+      [](double t, double liquid) {
+        return fmt::format("{};{};{};{};{};1", t, 1 - liquid, t + 430 * liquid, 2.7 - 2e-4 * t, 150);
+      });
+  const ImportedCard card = imported(text, like_a356());
+  EXPECT_NEAR(heat_of_freezing(card_of(card)), 430e3, 430);
+  EXPECT_NEAR(card_of(card).density, 2695, 1);
+  EXPECT_THAT(card.remarks, ::testing::Contains(HasSubstr("not used: 'Viscosity [Pa*s]'")));
+}
+
+TEST(CardImport, ASpecificHeatThatHoldsTheHeatOfFreezingIsTakenOnce) {
+  const std::string text = table("T [C];fs;Apparent heat capacity [J/(g*K)]", [](double t, double liquid) {
+    const bool freezes = liquid > 0 && liquid < 1;
+    return fmt::format("{};{};{}", t, 1 - liquid, 1 + (freezes ? 430.0 / 56 : 0.0));
+  });
+  const ImportedCard card = imported(text, like_a356());
+  EXPECT_NEAR(heat_of_freezing(card_of(card)), 430e3, 0.01 * 430e3);
+  EXPECT_THAT(card.remarks, ::testing::Contains(HasSubstr("holds the heat of freezing, 430 kJ/kg")));
+  ImportOptions given = like_a356();
+  given.latent_heat = 400e3;
+  const Material m = card_of(imported(text, given));
+  EXPECT_NEAR(heat_of_freezing(m), 400e3, 1e-6);
+  EXPECT_NEAR(m.specific_heat.value(590 + 273.15), 1000, 1e-6);
+}
+
+TEST(CardImport, APlainSpecificHeatKeepsTheLatentHeatOfTheOtherCard) {
+  const std::string text = table("T [C];fs;cp [J/gK]", [](double t, double liquid) {
+    return fmt::format("{};{};{}", t, 1 - liquid, 0.9 + 0.2 * liquid);
+  });
+  const Material base = find_material("aluminium_alsi7mg", k_library);
+  EXPECT_NEAR(heat_of_freezing(card_of(imported(text, like_a356()))), base.solidification()->latent_heat,
+              1e-6);
+}
+
+TEST(UnitSpelling, DataSheetsAreRead) {
+  const auto in_si = [](const char* unit, const char* expected) {
+    return conversion_of_spelling(unit, expected).scale;
+  };
+  for (const char* unit : {"W/(m*K)", "W/mK", "W/m-K", "W/m K", "W/m.K", "W/m/K", "W m^-1 K^-1", "W m-1 K-1",
+                           "W/(m K)", "W/(m.K)", "W/(m·K)", "W/(m °C)", "W/m°C", "W/m·K", "W/(m C)", "W/m⋅K",
+                           "W/mC", "W·m⁻¹·K⁻¹", "W/m/degC"})
+    EXPECT_DOUBLE_EQ(in_si(unit, "W/m/K"), 1) << unit;
+  EXPECT_DOUBLE_EQ(in_si("W/cmK", "W/m/K"), 100);
+  EXPECT_DOUBLE_EQ(in_si("mW/mK", "W/m/K"), 1e-3);
+  EXPECT_NEAR(in_si("Btu/hr-ft-F", "W/m/K"), 1.730735, 1e-5);
+  for (const char* unit :
+       {"g/(cm)^3", "g/cm^3", "g/cm3", "g/cm**3", "g cm^-3", "g/cc", "kg/dm3", "t/m3", "g/cm³"})
+    EXPECT_NEAR(in_si(unit, "kg/m3"), 1000, 1e-9) << unit;
+  for (const char* unit : {"kg/m^3", "kg m-3", "kg/m³", "kg·m⁻³"})
+    EXPECT_DOUBLE_EQ(in_si(unit, "kg/m3"), 1) << unit;
+  EXPECT_NEAR(in_si("lbm/in^3", "kg/m3"), 27679.9047, 1e-3);
+  EXPECT_NEAR(in_si("lb/in3", "kg/m3"), 27679.9047, 1e-3);
+  for (const char* unit :
+       {"10^6/K", "10^-6/K", "10e-6 1/K", "10e-6/K", "1e-6/K", "1/K x 10^6", "10-6/K", "10-6/C", "10^-6 1/K",
+        "ppm/K", "um/m.K", "µm/(m K)", "10^-6 K^-1", "10⁻⁶/K", "x10^-6 1/K", "um/m/K", "um/m-°C", "10^-6/°C"})
+    EXPECT_NEAR(in_si(unit, "1/K"), 1e-6, 1e-18) << unit;
+  EXPECT_NEAR(in_si("1/K", "1/K"), 1, 1e-15);
+  EXPECT_NEAR(in_si("10-6 in/in-F", "1/K"), 1.8e-6, 1e-18);
+  for (const char* unit : {"J/g", "kJ/kg", "J g-1", "J/(g)", "MJ/t", "J.g-1"})
+    EXPECT_NEAR(in_si(unit, "J/kg"), 1000, 1e-9) << unit;
+  EXPECT_NEAR(in_si("J/(g*K)", "J/kg/K"), 1000, 1e-9);
+  EXPECT_NEAR(in_si("kJ/kg-K", "J/kg/K"), 1000, 1e-9);
+  EXPECT_NEAR(in_si("J/gK", "J/kg/K"), 1000, 1e-9);
+  EXPECT_NEAR(in_si("Btu/lb-F", "J/kg/K"), 4186.8, 0.1);
+  EXPECT_NEAR(in_si("msi", "Pa"), 6.894757293e9, 10);
+  EXPECT_NEAR(in_si("ksi", "Pa"), 6.894757293e6, 0.01);
+  EXPECT_NEAR(in_si("N/mm2", "Pa"), 1e6, 1e-6);
+  EXPECT_NEAR(in_si("N/mm²", "Pa"), 1e6, 1e-6);
+  EXPECT_DOUBLE_EQ(in_si("wt.%", "1"), 0.01);
+  EXPECT_NEAR(conversion_of_spelling("F", "K")(32), 273.15, 1e-9);
+  EXPECT_NEAR(conversion_of_spelling("°F", "K")(212), 373.15, 1e-9);
+  EXPECT_NEAR(conversion_of_spelling("R", "K")(491.67), 273.15, 1e-9);
+  EXPECT_NEAR(conversion_of_spelling("°C", "K")(20), 293.15, 1e-9);
+  std::string mole = "J/(mol K)";
+  EXPECT_TRUE(take_mole(mole));
+  EXPECT_NEAR(in_si(mole.c_str(), "J/K"), 1, 1e-15);
+}
+
+TEST(UnitSpelling, OthersAreToldWithAnExample) {
+  for (const char* unit : {"W/m2", "furlongs", "kg", "J/s"}) try {
+      conversion_of_spelling(unit, "W/m/K");
+      ADD_FAILURE() << unit;
+    } catch (const std::invalid_argument& e) {
+      EXPECT_THAT(std::string(e.what()), AllOf(HasSubstr(unit), HasSubstr("45 W/m/K")));
+    }
 }
 
 }  // namespace
