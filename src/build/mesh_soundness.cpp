@@ -88,11 +88,13 @@ void make_sound(const CaseSpec& spec, mesh::RawMesh& mesh) {
       skin = mesh::faces_on_skin(mesh, body.mesh_group());
     }
     if (const mesh::HangingNodes hanging = mesh::hanging_nodes(mesh, skin, in_contact); hanging.n > 0)
-      logging::warn(
-          "{} nodes hang in faces of the body '{}' without being their corners, one of them at {}: the mesh "
-          "is not "
-          "joined there, no heat and no force goes across",
-          hanging.n, body.name, in_mm(hanging.where));
+      throw InputError(
+          body.where,
+          fmt::format(
+              "{} nodes hang in faces of the body '{}' without being their corners, one of them at {}: "
+              "the mesh is not joined there, no heat and no force would go across",
+              hanging.n, body.name, in_mm(hanging.where)),
+          "a mesh whose elements share their faces; or two bodies, and a [[contact]] between their surfaces");
     if (const std::size_t pieces = mesh::n_pieces(mesh, body.mesh_group()); pieces > 1)
       logging::info("the body '{}' is in {} pieces that share no nodes", body.name, pieces);
     skins.push_back(std::move(skin));
