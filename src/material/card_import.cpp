@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "material/heat_in_capacity.hpp"
 #include "material/import_columns.hpp"
 
 namespace solidus::material {
@@ -246,53 +247,6 @@ Points expansion_of(const ImportColumns& c, const Range& range) {
   return points;
 }
 
-/// The heat of freezing that a specific heat holds: its integral over the freezing range above a line between
-/// the rows beside the range [J/kg]; 0 where it is as much as an alloy without it may have.
-double heat_in_capacity(const ImportColumns& c, const Range& range) {
-  const auto& t = c.temperature;
-  const auto& heat = c.of("specific_heat");
-  const std::size_t last = t.size() - 1;
-  if (range.solidus == 0 && range.liquidus == last) return 0;
-  const double below = heat[range.solidus > 0 ? range.solidus - 1 : range.liquidus + 1],
-               above = heat[range.liquidus < last ? range.liquidus + 1 : range.solidus - 1];
-  double all = 0;
-  for (std::size_t i = range.solidus; i < range.liquidus; ++i)
-    all += 0.5 * (heat[i] + heat[i + 1]) * (t[i + 1] - t[i]);
-  const double plain = 0.5 * (below + above) * (t[range.liquidus] - t[range.solidus]);
-  constexpr double k_share = 0.5, k_least = 1e4;  // [J/kg]: mush differs from its phases by less
-  return all - plain > std::max(k_share * plain, k_least) ? all - plain : 0;
-}
-
-/// The enthalpy that a specific heat with the heat of freezing integrates to. At the ends of the freezing
-/// range, where it may jump, the side without melt or solid goes on as the row before it has it.
-void integrate_capacity(ImportColumns& c, const Range& range) {
-  const auto& t = c.temperature;
-  const auto& heat = c.of("specific_heat");
-  std::vector<double> enthalpy(t.size(), 0);
-  for (std::size_t i = 0; i + 1 < t.size(); ++i) {
-    double cold = heat[i], hot = heat[i + 1];
-    constexpr double k_jump = 1.5;
-    if (i + 1 == range.solidus && hot > k_jump * cold) hot = cold;
-    if (i == range.liquidus && cold > k_jump * hot) cold = hot;
-    enthalpy[i + 1] = enthalpy[i] + 0.5 * (cold + hot) * (t[i + 1] - t[i]);
-  }
-  c.values["enthalpy"] = std::move(enthalpy);
-  c.headers["enthalpy"] = c.headers["specific_heat"];
-}
-
-/// A specific heat without the heat of freezing: a line over the freezing range.
-void take_heat_out(ImportColumns& c, const Range& range) {
-  const auto& t = c.temperature;
-  std::vector<double>& heat = c.values["specific_heat"];
-  const std::size_t last = t.size() - 1;
-  const double below = heat[range.solidus > 0 ? range.solidus - 1 : range.liquidus + 1],
-               above = heat[range.liquidus < last ? range.liquidus + 1 : range.solidus - 1];
-  for (std::size_t i = range.solidus; i <= range.liquidus; ++i) {
-    const double width = t[range.liquidus] - t[range.solidus];
-    heat[i] = std::lerp(below, above, width > 0 ? (t[i] - t[range.solidus]) / width : 0.5);
-  }
-}
-
 class Importer {
  public:
   Importer(ImportColumns columns, const ImportOptions& options, const Material* base)
@@ -300,7 +254,11 @@ class Importer {
 
   ImportedCard card() {
     note_columns();
-    if (!c_.has("enthalpy") && c_.has("specific_heat")) take_heat_once();
+    if (!c_.has("enthalpy") && c_.has("specific_heat"))
+      if (const std::string said =
+              take_heat_once(c_, range_.solidus, range_.liquidus, options_.latent_heat.has_value());
+          !said.empty())
+        card_.remarks.push_back(said);
     Value& document = card_.document;
     document.set("title", Value(options_.title.empty() ? "Imported from " + file_name() : options_.title));
     if (!options_.like.empty()) document.set("like", Value(options_.like));
@@ -333,24 +291,6 @@ class Importer {
     if (!unused.empty())
       card_.remarks.push_back("columns that are not used: " + unused +
                               "; --column QUANTITY=HEADER names one");
-  }
-
-  void take_heat_once() {
-    const double held = heat_in_capacity(c_, range_);
-    if (held == 0) return;
-    if (options_.latent_heat) {
-      take_heat_out(c_, range_);
-      card_.remarks.push_back(fmt::format(
-          "the specific heat holds a heat of freezing of {:.4g} kJ/kg by its integral against its "
-          "neighbours, which is taken out: --latent-heat is in its place",
-          1e-3 * held));
-      return;
-    }
-    integrate_capacity(c_, range_);
-    card_.remarks.push_back(
-        fmt::format("the specific heat holds the heat of freezing, {:.4g} kJ/kg by its integral against its "
-                    "neighbours: the heat of freezing is taken from it, once",
-                    1e-3 * held));
   }
 
   std::string file_name() const { return std::filesystem::path(c_.file).filename().string(); }

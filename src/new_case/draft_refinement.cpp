@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -191,7 +192,8 @@ class Refinement {
   /// @return whether sizes and walls may stay
   bool adapt(const CheckedRun& checked) {
     double time = 0, reach = 0;
-    estimate_.nodes = estimate_.metal_nodes = 0;
+    estimate_.nodes = estimate_.metal_nodes = estimate_.longest_edge = 0;
+    estimate_.shortest_edge = std::numeric_limits<double>::max();
     // The estimate errs long for a riser in a sleeve, and for a casting that others enclose.
     constexpr double k_outlives = 2;
     const double of_castings = longest_freezing(checked);
@@ -207,8 +209,11 @@ class Refinement {
     for (const results::BodyOverview& body : checked.overview.bodies) {
       estimate_.nodes += static_cast<double>(body.nodes);
       for (const DraftBody& draft : draft_.bodies)
-        if (draft.name == body.name && is_poured(draft.role))
+        if (draft.name == body.name && is_poured(draft.role)) {
           estimate_.metal_nodes += static_cast<double>(body.nodes);
+          estimate_.shortest_edge = std::min(estimate_.shortest_edge, body.shortest_edge);
+          estimate_.longest_edge = std::max(estimate_.longest_edge, body.longest_edge);
+        }
     }
     // The estimate is of one dimension: the run ends when all is solid, well before this where it is right.
     constexpr double k_latest = 6, k_usual = 1.8, k_margin_of_shots = 2.5;

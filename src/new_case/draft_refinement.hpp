@@ -13,7 +13,8 @@ namespace solidus::model {
 /// The last draft as it was built.
 struct DraftEstimate {
   double nodes = 0, metal_nodes = 0;
-  double freezing = 0;        ///< [s]
+  double shortest_edge = 0, longest_edge = 0;  ///< of the elements of what is poured [m]
+  double freezing = 0;                         ///< [s]
   double least_quality = 1;   ///< of elements where no way of meshing gave sound ones, else 1
   std::string worst_element;  ///< its place (mesh/worst_tetrahedron.hpp)
   std::string overlap;        ///< MeshingOutlook::overlap of the part; empty where no bodies overlap

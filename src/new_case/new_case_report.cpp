@@ -146,11 +146,11 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
     out += fmt::format("\n  {:<10}  walls of {:.3g} mm{}", draft.mould->name,
                        1e3 * *std::ranges::max_element(draft.mould->walls),
                        draft.mould->walls[5] == 0 ? ", open at the top, where the riser ends" : "");
-  out += fmt::format(
-      "\n  mesh        {:.0f} nodes, {:.0f} of them in metal; {}", estimate.nodes, estimate.metal_nodes,
-      draft.meshed
-          ? std::string("elements as the file has them")
-          : fmt::format("elements of {:.3g} to {:.3g} mm there", 1e3 * draft.smallest, 1e3 * draft.size));
+  out += fmt::format("\n  mesh        {:.0f} nodes, {:.0f} of them in metal; {}", estimate.nodes,
+                     estimate.metal_nodes,
+                     draft.meshed ? std::string("elements as the file has them")
+                                  : fmt::format("edges of {:.3g} to {:.3g} mm there",
+                                                1e3 * estimate.shortest_edge, 1e3 * estimate.longest_edge));
   if (estimate.freezing > 0)
     out += fmt::format(
         "\n  freezes     in about {:g} s by an estimate of one dimension; {}", two_digits(estimate.freezing),

@@ -171,6 +171,17 @@ class UnsoundMeshes(ProgramTest):
         self.assertEqual(code, 0, said)
         self.assertIn("1 pairs of faces inside of the body 'casting' coincide, one of them at (10, 5, 5) mm", said)
 
+    def test_nodes_that_hang_in_a_face_are_refused(self):
+        whole = self.mesh(faces=(((9, 15, 16, 12), 1), ((15, 10, 11, 16), 1)))
+        for node, place in ((13, "10 5 0"), (14, "10 5 10"), (15, "20 5 0"), (16, "20 5 10")):
+            whole = re.sub(f"(?m)^{node} 10 [0-9]+ [0-9]+$", f"{node} {place}", whole)
+        one = next(line for line in whole.splitlines() if line.endswith(" 5 6 7 8 9 10 11 12"))
+        number = one.split()[0]
+        halves = f"{number} 5 2 1 1 5 13 14 8 9 15 16 12\n99 5 2 1 1 13 6 7 14 15 10 11 16"
+        code, said = self.check(whole.replace(one, halves).replace("$Elements\n4\n", "$Elements\n5\n"))
+        self.assertEqual(code, 1, said)
+        self.assertIn("2 nodes hang in faces of the body 'casting' without being their corners", said)
+
     def test_elements_and_faces_that_are_there_twice_count_once(self):
         _, said = self.check(self.mesh(hexahedra=2))
         self.assertIn("1 elements of the body 'casting' are in the mesh twice", said)

@@ -30,7 +30,7 @@ class DevelopersPages(unittest.TestCase):
             else:
                 self.assertIn(line, file.read_text(encoding="utf-8").splitlines())
                 removed += 1
-        self.assertEqual(removed, 3)
+        self.assertEqual(removed, 2)
 
 
 if __name__ == "__main__":

@@ -37,6 +37,8 @@ struct Report {
     part.thickness = {10e-3, 10e-3, 20e-3};
     estimate.nodes = 9000;
     estimate.metal_nodes = 2100;
+    estimate.shortest_edge = 2.1e-3;
+    estimate.longest_edge = 8.4e-3;
     estimate.freezing = 104;
   }
   std::string text() const { return report_text(draft, part, estimate, options); }
@@ -47,7 +49,7 @@ TEST(NewCaseReport, OfASoundDraftSaysWhatWasMeasuredAndNotesNothing) {
   EXPECT_THAT(text, HasSubstr("part.step: aluminium_alsi7mg at 695 degC, process sand"));
   EXPECT_THAT(text,
               HasSubstr("walls       10 mm (a tenth is thinner) to 10 mm (a tenth is thicker), V/A 5 mm"));
-  EXPECT_THAT(text, HasSubstr("9000 nodes, 2100 of them in metal; elements of 5 to 6 mm there"));
+  EXPECT_THAT(text, HasSubstr("9000 nodes, 2100 of them in metal; edges of 2.1 to 8.4 mm there"));
   EXPECT_THAT(
       text, HasSubstr("in about 100 s by an estimate of one dimension; the run ends when it has, at 600 s"));
   EXPECT_THAT(text, Not(HasSubstr("note")));
