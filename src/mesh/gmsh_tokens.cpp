@@ -14,8 +14,8 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Gmsh hands texts to the C library as formats for numbers: what else than a number of moderate width a '%'
-/// asks for. Empty if nothing.
+/// What else than a number of moderate width a '%' in a text asks for, which scripts use as formats of
+/// numbers. Empty if nothing.
 std::string unusual_format(std::string_view text) {
   for (std::size_t percent = text.find('%'); percent != std::string_view::npos;
        percent = text.find('%', percent + 1)) {
@@ -45,7 +45,7 @@ class Scanner {
   }
 
  private:
-  static constexpr std::size_t k_longest_string = 1000;  ///< Gmsh cuts at 1023 and reads the rest as code
+  static constexpr std::size_t k_longest_string = 1000;  ///< within what Gmsh takes for one text
 
   char here(std::size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
   SourceLocation place(std::size_t at) const {
@@ -132,7 +132,7 @@ class Scanner {
       refuse("the text in quotes would print with the format '" + bad + "'", "%g, %e, %f or %%");
     for (const std::string_view marks : {"/*", "*/", "//", "EndIf", "Else", "EndFor", "Return"})
       if (content.find(marks) != std::string_view::npos)
-        refuse("a text in quotes holds '" + std::string(marks) + "', which Gmsh takes for code when it skips",
+        refuse("a text in quotes holds '" + std::string(marks) + "', a mark of comments and blocks",
                "another text");
     add(GmshToken::Kind::string, begin, at_);
     ++at_;

@@ -1,4 +1,4 @@
-/// The tokens of a Gmsh script, as Gmsh's own scanner finds them (Gmsh 4.8, Parser/Gmsh.l).
+/// The tokens of a Gmsh script, as Gmsh's own scanner finds them (Gmsh 4.8).
 #pragma once
 
 #include <string>
@@ -20,9 +20,7 @@ struct GmshToken {
 
 /// Splits a script into tokens; the last one is of the kind `end`.
 ///
-/// Where Gmsh skips a branch, a loop or a macro it looks for the closing word also inside strings, and it
-/// comes back to a macro or a loop at the start of a line, even within a comment. Text that would then be
-/// taken for something else is refused: InputError.
+/// A text or a comment whose end Gmsh need not see at the same place is refused: InputError.
 /// @param text  is kept by the caller as long as the tokens
 std::vector<GmshToken> gmsh_tokens(std::string_view text, const std::string& path);
 

@@ -139,11 +139,11 @@ int restrict_copy(int socket, double bytes_of_file) {
 
 }  // namespace
 
-Hdf5Reader::Hdf5Reader(std::filesystem::path path) : path_(std::move(path)) {
+Hdf5Reader::Hdf5Reader(std::filesystem::path path, double patience) : path_(std::move(path)) {
   std::error_code error;
   const auto size = static_cast<double>(std::filesystem::file_size(path_, error));
   const double bytes = error ? 0.0 : size;
-  seconds_ = 15 + 1e-6 * bytes;
+  seconds_ = patience + 1e-6 * bytes;
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     fail(std::string("cannot be read: ") + std::strerror(errno));

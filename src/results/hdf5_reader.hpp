@@ -15,10 +15,11 @@
 namespace solidus::results {
 
 /// Everything throws OutputError with the path, as Hdf5File does, and where the copy ends or does not answer
-/// within 15 s and a second per megabyte of the file.
+/// within `patience` and a second per megabyte of the file.
 class Hdf5Reader {
  public:
-  explicit Hdf5Reader(std::filesystem::path path);
+  /// @param patience  for each answer [s]
+  explicit Hdf5Reader(std::filesystem::path path, double patience = 15);
   ~Hdf5Reader();
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;

@@ -33,13 +33,14 @@ TEST_F(ForeignFiles, TheSquareThatTheyAreMadeFromRunsOnOneAndTwoProcesses) {
 }
 
 TEST_F(ForeignFiles, NoVerbRunsACommandOfAMesh) {
-  const std::string attack = std::string(k_square) + "SystemCall \"touch victim\";\n";
-  write("part.geo", attack);
-  write("part.msh", attack);
-  write("part.txt", attack);
+  write("part.geo", std::string(k_square) + "SystemCall \"touch victim\";\n");
+  write("part.msh", k_square);
+  write("part.txt", k_square);
   for (const char* line :
-       {"solidus check case.toml", "solidus run case.toml -o out", "solidus mesh-info part.geo",
-        "solidus mesh-info part.msh", "solidus mesh-info part.txt"})
+       {"solidus check case.toml", "solidus run case.toml -o out", "solidus mesh-info part.geo"})
+    expect_refused(line, {"part.geo:5:1", "'SystemCall'"});
+  // A script under another name is no script.
+  for (const char* line : {"solidus mesh-info part.msh", "solidus mesh-info part.txt"})
     expect_refused(line, {"part."});
   EXPECT_FALSE(has("victim"));
   EXPECT_EQ(shell("solidus mesh-info part.geo --trust-geo").code, 0);
@@ -52,36 +53,12 @@ TEST_F(ForeignFiles, AScriptThatEndsTheReaderEndsInAMessage) {
   expect_refused("solidus check case.toml --trust-geo", {"part.geo", "ended the program that read it"});
 }
 
-TEST_F(ForeignFiles, ACrashOfGmshIsAnErrorOfTheFile) {
-  write("part.geo", std::string(k_square) + "Mesh.Algorithm = 8;\n");
-  const Outcome outcome = shell("solidus check case.toml");  // crashes Gmsh 4.8; later ones may do without
-#ifdef SOLIDUS_ADDRESS_SANITIZER  // whose report ends the reader before the signal does
-  const std::string reason = "ended the program that read it";
-#else
-  const std::string reason = "the reader crashed while it read or meshed this file (Segmentation";
-#endif
-  if (outcome.code != 0) expect_refused("solidus check case.toml", {"part.geo", reason});
+#ifndef SOLIDUS_ADDRESS_SANITIZER  // with which no memory is limited
+TEST_F(ForeignFiles, MemoryOfTheReaderIsLimited) {
+  expect_refused("export SOLIDUS_MESH_MEMORY='1 MB'; solidus check case.toml", {"part.geo", "1 MB"});
+  EXPECT_EQ(shell("export SOLIDUS_MESH_MEMORY='1 GB'; solidus check case.toml").code, 0);
 }
-
-TEST_F(ForeignFiles, MemoryAndTimeOfAReaderAreLimited) {
-  write("part.geo", std::string(k_square) + "a() = LinSpace[0, 1, 1e9];\n");
-  // With AddressSanitizer, whose shadow no limit of memory leaves room for, the limit of time ends the
-  // reader.
-  expect_refused("export SOLIDUS_MESH_MEMORY='400 MB' SOLIDUS_MESH_TIME='60 s'; solidus check case.toml",
-                 {"part.geo"});
-  write("part.geo", std::string(k_square) + "For i In {1:1e9}\n  a = i;\nEndFor\n");
-  expect_refused("export SOLIDUS_MESH_TIME='2 s'; solidus check case.toml", {"part.geo", "longer than 2 s"});
-  // A reader that takes long reports that it is running, and its limit of time.
-  const Outcome slow = shell("export SOLIDUS_MESH_TIME='7 s'; solidus check case.toml");
-  EXPECT_EQ(slow.code, 1);
-  EXPECT_THAT(slow.said, AllOf(HasSubstr("is being read or meshed for 5 s"), HasSubstr("up to 7 s"),
-                               HasSubstr("longer than 7 s")));
-#ifndef SOLIDUS_ADDRESS_SANITIZER  // does not start with so little address space
-  write("part.msh",
-        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 400000000 1 400000000\n2 1 0 400000000\n1\n");
-  expect_refused("ulimit -v 4000000; solidus mesh-info part.msh", {"part.msh"});
 #endif
-}
 
 TEST_F(ForeignFiles, AUnitThatContradictsTheFileIsRefusedBeforeTheMeshIsMade) {
   for (const char* unit : {"m", "cm"})
@@ -109,7 +86,7 @@ TEST_F(ForeignFiles, WhatNeverEndsOrIsFarTooMuchIsRefused) {
   expect_refused("solidus mesh-info pipe", {"pipe"});
 
   std::string deep = "a";
-  for (int i = 0; i < 20000; ++i) deep += ".a";
+  for (int i = 0; i < 32; ++i) deep += ".a";  // one part more than are allowed
   write("deep.toml", "title = \"x\"\n" + deep + " = 1\n");
   expect_refused("solidus check deep.toml", {"deep.toml:2", "too many parts"});
   expect_refused("solidus check case.toml --set \"$(tail -n 1 deep.toml | tr -d ' ')\"", {"too many parts"});

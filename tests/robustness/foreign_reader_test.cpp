@@ -14,6 +14,7 @@
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using namespace solidus::tests;
 
@@ -62,6 +63,19 @@ TEST_F(ForeignReader, ThatIsMissingOrCannotBeStartedIsNamed) {
   expect_nothing_read({"part.geo", "cannot run", "ldd"});
 }
 
+// The restriction by the system is what holds, whatever a script says (SECURITY.md): it is there while a mesh
+// is handed back, for a script that is not trusted. A pipe that nobody empties keeps the reader alive.
+TEST_F(ForeignReader, IsRestrictedByTheSystemUnlessTheScriptIsTrusted) {
+  write("part.geo", std::string(k_square) + "Mesh.MeshSizeMax = 0.2;\n");
+  script("exec 5< <(exec '" SOLIDUS_BINARY_DIR
+         "/solidus-reader' 4>&1 >/dev/null); reader=$!\n"
+         "head -c 1 <&5 > first; grep Seccomp: /proc/$reader/status > filter; cat first - <&5 >&4");
+  EXPECT_EQ(shell("'./a copy/solidus' mesh-info part.geo").code, 0);
+  EXPECT_EQ(shell("cat filter").said, "Seccomp:\t2\n");
+  EXPECT_EQ(shell("'./a copy/solidus' mesh-info part.geo --trust-geo").code, 0);
+  EXPECT_EQ(shell("cat filter").said, "Seccomp:\t0\n");
+}
+
 TEST_F(ForeignReader, OfAnotherBuildIsRefused) {
   std::string reader = whole_reader();
   const std::string version = SOLIDUS_VERSION;
@@ -78,6 +92,8 @@ TEST_F(ForeignReader, ThatEndsDiesOrHangsIsNamed) {
   expect_nothing_read({"part.geo", "was killed"});
   script("kill -SEGV $$");
   expect_nothing_read({"part.geo", "the reader crashed", "Segmentation"});
+  script("kill -ABRT $$");
+  expect_nothing_read({"part.geo", "the reader crashed", "Aborted"});
   script("exec sleep 60");
   expect_nothing_read({"part.geo", "longer than 10 s"});
   script("exec 4>&-; exec sleep 60");
@@ -85,6 +101,14 @@ TEST_F(ForeignReader, ThatEndsDiesOrHangsIsNamed) {
   script("'" SOLIDUS_BINARY_DIR
          "/solidus-reader' 4>&1 >&4 | head -c 60 >&4; kill -KILL $$");  // in mid-answer
   expect_nothing_read({"part.geo", "was killed"});
+}
+
+TEST_F(ForeignReader, ThatTakesLongIsReportedWithItsLimit) {
+  script("exec sleep 60");
+  const Outcome slow = shell("export SOLIDUS_MESH_TIME='7 s'; './a copy/solidus' check case.toml");
+  EXPECT_EQ(slow.code, 1);
+  EXPECT_THAT(slow.said, AllOf(HasSubstr("is being read or meshed for 5 s"), HasSubstr("up to 7 s"),
+                               HasSubstr("longer than 7 s")));
 }
 
 TEST_F(ForeignReader, ThatAnswersNonsenseIsNamed) {

