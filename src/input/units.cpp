@@ -1,5 +1,6 @@
 #include "input/units.hpp"
 
+#include <fmt/format.h>
 #include <udunits2.h>
 
 #include <algorithm>
@@ -108,6 +109,26 @@ bool is_blank(std::string_view text) {
   return text.find_first_not_of(" \t") == std::string_view::npos;
 }
 
+/// Data sheets write W/mK and W/m2 K for W/(m K) and W/(m2 K). UDUNITS reads the one as watt per millikelvin,
+/// the other as a product with kelvin. Returns the unit with brackets where that has the dimension of the
+/// expected one, as a sentence for a message, else nothing.
+std::string advice_on_brackets(std::string_view unit, std::string_view expected_unit) {
+  const std::size_t slash = unit.find('/');
+  if (slash == std::string_view::npos) return {};
+  std::string_view divisor = unit.substr(slash + 1);
+  if (divisor.find_first_of("/()") != std::string_view::npos) return {};
+  for (const std::string_view kelvin : {"K", "degC", "\u00b0C"}) {
+    if (!divisor.ends_with(kelvin)) continue;
+    std::string_view rest = divisor.substr(0, divisor.size() - kelvin.size());
+    rest = rest.substr(0, rest.find_last_not_of(" .*") + 1);
+    const std::string meant =
+        fmt::format("{}/({} {})", unit.substr(0, slash), rest, kelvin == "K" ? kelvin : "degC");
+    if (!rest.empty() && compatible(meant, expected_unit))
+      return fmt::format("; what stands behind the slash needs brackets: \"{}\"", meant);
+  }
+  return {};
+}
+
 }  // namespace
 
 Quantity split_quantity(std::string_view text) {
@@ -137,13 +158,14 @@ Conversion conversion(std::string_view unit, std::string_view expected_unit, Tem
   const ut_unit* from = database.find(unit);
   if (from == nullptr)
     throw std::invalid_argument("'" + std::string(unit) + "' is not a known unit; " +
-                                expectation(expected_unit));
+                                expectation(expected_unit) + advice_on_brackets(unit, expected_unit));
   // The ratio tells the dimension; ut_are_convertible() would also take a time for a frequency.
   const Unit ratio(ut_divide(from, to));
   if (!ratio || !ut_is_dimensionless(ratio.get()) || !ut_are_convertible(from, to)) {
     const std::string found =
         is_blank(unit) ? "a number without unit" : "the unit '" + std::string(unit) + "'";
-    throw std::invalid_argument(found + " does not fit; " + expectation(expected_unit));
+    throw std::invalid_argument(found + " does not fit; " + expectation(expected_unit) +
+                                advice_on_brackets(unit, expected_unit));
   }
   const std::unique_ptr<cv_converter, FreeConverter> converter(
       ut_get_converter(const_cast<ut_unit*>(from), const_cast<ut_unit*>(to)));

@@ -8,7 +8,9 @@
 namespace solidus {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// The message of the std::invalid_argument that `f` throws; empty when it does not.
 template <class F>
@@ -94,6 +96,24 @@ TEST(Units, AnotherDimensionIsRefusedWithTheExpectedOneAndAnExample) {
   EXPECT_THAT(complaint([] { units::parse_quantity("0.3 mm", "1"); }),
               HasSubstr("a number without dimension"));
   EXPECT_THAT(complaint([] { units::parse_quantity("5 Hz", "s"); }), HasSubstr("expected a time"));
+}
+
+// Data sheets write them so; UDUNITS reads watt per millikelvin and products with kelvin.
+TEST(Units, ADivisorWithoutBracketsIsRefusedWithTheUnitThatIsMeant) {
+  const auto advice = [](const std::string& unit, const std::string& expected) {
+    return complaint([=] { units::parse_quantity("40 " + unit, expected); });
+  };
+  for (const char* unit : {"W/mK", "W/m K", "W/m.K"})
+    EXPECT_THAT(advice(unit, "W/m/K"), AllOf(HasSubstr("'" + std::string(unit) + "' does not fit"),
+                                             HasSubstr("needs brackets: \"W/(m K)\"")));
+  for (const char* unit : {"W/m2K", "W/m2 K", "W/m2*K"})
+    EXPECT_THAT(advice(unit, "W/m2/K"), HasSubstr("\"W/(m2 K)\""));
+  EXPECT_THAT(advice("J/kgK", "J/kg/K"), HasSubstr("\"J/(kg K)\""));
+  EXPECT_THAT(advice("W/m °C", "W/m/K"), HasSubstr("\"W/(m degC)\""));
+  EXPECT_DOUBLE_EQ(units::parse_quantity("40 W/(m K)", "W/m/K"), 40);
+  EXPECT_DOUBLE_EQ(units::parse_quantity("40 W/(m degC)", "W/m/K"), 40);
+  for (const char* other : {"W/mK", "K", "/K"})
+    EXPECT_THAT(advice(other, "W/m2/K"), Not(HasSubstr("brackets")));
 }
 
 TEST(Units, WhatIsNoQuantityIsRefusedWithItsText) {
