@@ -136,11 +136,12 @@ std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, Sta
   Gaps used = start;
   for (std::size_t i = 0; i < used.size() && i < old.steady_gaps.size(); ++i)
     if (old.steady_gaps[i] != 0) used[i] = expected[i];
-  StepEffort effort = heat_at_rest(old, warm, time, dt, used, false);
+  mechanics::StructuralLead lead;
+  StepEffort effort = heat_at_rest(old, warm, time, dt, used, false, lead);
   if (stop && stop(warm, effort.fields.flows)) return {};
   StepEffort deformed;
   mechanics::StepDeformation deformation =
-      mechanical_phase(old, warm, trial, time, dt, extrapolated(old, dt), deformed);
+      mechanical_phase(old, warm, trial, time, dt, extrapolated(old, dt), deformed, &lead);
   TurnWatch watch;
   while (true) {
     Gaps right = middle(start, gaps());
@@ -155,17 +156,17 @@ std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, Sta
     const PhaseEffort heat = effort.heat, mechanics = deformed.mechanics;
     restore_contacts(phases_, old);
     deformation.clear();  // its storage serves again
-    effort = heat_at_rest(old, warm, time, dt, right, true);
+    effort = heat_at_rest(old, warm, time, dt, right, true, lead);
     const Start before{trial.mechanics.displacement, trial.mechanics.pressure};
     deformed = {};
-    deformation = mechanical_phase(old, warm, trial, time, dt, before, deformed);
+    deformation = mechanical_phase(old, warm, trial, time, dt, before, deformed, &lead);
     add_effort(heat, effort.heat);
     add_effort(mechanics, deformed.mechanics);
     deformed.coupling_iterations = turns;
     used = std::move(right);
   }
   const contact::InterfaceSums conducted = effort.energy.interface;
-  thermal_phase(old, warm, trial, deformation, {.time = time, .dt = dt, .adiabatic = true}, deformed);
+  thermal_phase(old, warm, trial, deformation, {.time = time, .dt = dt, .adiabatic = true}, deformed, &lead);
   book_interface(deformed.energy, phases_.structural != nullptr);
   deformed.stability = stability_audit(phases_, warm, trial, deformation, deformed);
   effort += deformed;
@@ -223,11 +224,12 @@ bool SequentialSplit::misplaces_much(const contact::GapHeat& all, double dt,
 }
 
 StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double time, double dt,
-                                         const Gaps& through, bool again) {
+                                         const Gaps& through, bool again,
+                                         mechanics::StructuralLead& lead) {
   StepEffort effort;
   if (phases_.structural != nullptr) phases_.structural->release();
   const mechanics::StepDeformation held = phases_.mechanics->held_deformation(
-      old.mechanics, old.heat.temperature, plateau_share(phases_, old.heat));
+      old.mechanics, old.heat.temperature, plateau_share(phases_, old.heat), true);
   find_interface_temperatures(phases_, old, time - dt);
   for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
   for (std::size_t i = 0; i < through.size(); ++i) phases_.contacts[i]->conduct_through(through[i]);
@@ -235,6 +237,7 @@ StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double t
       phases_, old, warm, held,
       {.time = time, .dt = dt, .iterate = again ? &warm.heat : nullptr, .stepping = phases_.heat->stepping()},
       effort);
+  lead = mechanics::expected_expansion(held, warm.heat.temperature);
   book_interface(effort.energy, phases_.structural != nullptr);
   effort.stability = stability_audit(phases_, old, warm, held, effort);
   return effort;
@@ -242,7 +245,7 @@ StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double t
 
 void SequentialSplit::thermal_phase(const State& old, const State& warm, State& trial,
                                     mechanics::StepDeformation& deformation, const heat::ThermalPass& pass,
-                                    StepEffort& effort) {
+                                    StepEffort& effort, const mechanics::StructuralLead* lead) {
   if (options_.flow == ThermalFlow::kept || phases_.mechanics == nullptr) {
     thermal_pass(phases_, warm, trial, deformation, pass, effort);
     return;
@@ -250,7 +253,11 @@ void SequentialSplit::thermal_phase(const State& old, const State& warm, State& 
   const std::vector<double> share = plateau_share(phases_, warm.heat);
   thermal_pass_with_flow(
       phases_, warm, trial, deformation, pass, old.mechanics,
-      {.time = pass.time, .dt = pass.dt, .temperature = warm.heat.temperature, .plateau_share = share},
+      {.time = pass.time,
+       .dt = pass.dt,
+       .temperature = warm.heat.temperature,
+       .plateau_share = share,
+       .lead = lead},
       effort);
 }
 
@@ -262,7 +269,8 @@ SequentialSplit::Start SequentialSplit::extrapolated(const State& old, double dt
 // From the temperature of t_n (4.40, 4.46), or from the one that conduction has left.
 mechanics::StepDeformation SequentialSplit::mechanical_phase(const State& old, const State& warm,
                                                              State& trial, double time, double dt,
-                                                             const Start& start, StepEffort& effort) {
+                                                             const Start& start, StepEffort& effort,
+                                                             const mechanics::StructuralLead* lead) {
   ContactWork contact(phases_);
   const std::vector<double>& temperature =
       phases_.heat != nullptr ? warm.heat.temperature : phases_.temperature;
@@ -272,6 +280,7 @@ mechanics::StepDeformation SequentialSplit::mechanical_phase(const State& old, c
                                                         .dt = dt,
                                                         .temperature = temperature,
                                                         .plateau_share = share,
+                                                        .lead = lead,
                                                         .guess = start.displacement,
                                                         .guessed_pressure = start.pressure},
                                                        effort);

@@ -67,8 +67,9 @@ class SequentialSplit : public CouplingScheme {
   /// Heat at the configuration of t_n.
   /// @param through  the gaps; empty: those of t_n
   /// @param again    Newton's iteration starts from `warm`
+  /// @param lead     set: what deformation is expected to take up
   StepEffort heat_at_rest(const State& old, State& warm, double time, double dt, const Gaps& through,
-                          bool again);
+                          bool again, mechanics::StructuralLead& lead);
   /// The heat that passed through the gaps `used` at the temperatures found, [contact].
   std::vector<contact::GapHeat> gap_heat(const Gaps& used, const Gaps& right, const State& warm) const;
   /// Whether that is to be mended: more than the tolerance allows, and not little beside all heat of the
@@ -82,12 +83,13 @@ class SequentialSplit : public CouplingScheme {
   static Start extrapolated(const State& old, double dt);
   /// Equilibrium at t_{n+1}, and the works of contact. Returns the deformation.
   mechanics::StepDeformation mechanical_phase(const State& old, const State& warm, State& trial, double time,
-                                              double dt, const Start& start, StepEffort& effort);
+                                              double dt, const Start& start, StepEffort& effort,
+                                              const mechanics::StructuralLead* lead = nullptr);
   /// Heat at the deformation found, from `warm`, with the flow of the mechanical phase or a new one, which
   /// replaces it.
   void thermal_phase(const State& old, const State& warm, State& trial,
                      mechanics::StepDeformation& deformation, const heat::ThermalPass& pass,
-                     StepEffort& effort);
+                     StepEffort& effort, const mechanics::StructuralLead* lead = nullptr);
 
   Phases phases_;
   SequentialOptions options_;

@@ -41,6 +41,9 @@ struct StepStart {
   /// The melt whose viscosity the program chooses; null, or a modulus of zero: the material has its
   /// viscosity.
   const material::MeltModulus* melt = nullptr;
+  /// MechanicalPass::lead of the block, [batch][point]; null: none.
+  const PackVector<StructuralDensities>* lead = nullptr;
+  bool expands = false;  ///< held_deformation() stores what free expansion would take up
 
   double melt_modulus() const { return melt != nullptr ? melt->modulus : 0.0; }
   /// η of such a melt or mush in the step [Pa s].

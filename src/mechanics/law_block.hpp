@@ -158,7 +158,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
       for (int q = 0; q < geometry_.n_points; ++q)
         this->hold_point(batch, q, at_point(batch, q).strain(displacement));
     }
-    return this->deformation_found();
+    return this->deformation_held(start);
   }
 
   LawFailure failure(std::span<const double> u) const override {

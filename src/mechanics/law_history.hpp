@@ -148,6 +148,7 @@ class LawHistory : public BlockKernel {
     if (start.melt_modulus() > 0) set_melt_viscosity(start.melt_viscosity(phase.solid_fraction), properties);
     const auto& p = elastic_part(law_, properties);
     points_->set_temperature(batch, q, old_theta, theta, p.thermal_strain);
+    if (start.lead != nullptr) points_->begin_with(batch, q, (*start.lead)[index(batch, q)]);
     if constexpr (HoldsEntropy<Properties>) {
       const State held = state_of(*start.held_history, batch, q);
       properties.entropy = law_.entropy(properties, held_strain, held);
@@ -158,6 +159,7 @@ class LawHistory : public BlockKernel {
         properties.entropy +=
             points_->entropy_ahead(batch, q, deformation(held_strain, held, base.solid > Lane(0.0)), base);
       }
+      if (start.lead != nullptr) properties.entropy += (*start.lead)[index(batch, q)].entropy;
     }
     properties_.set(index(batch, q), properties);
     return p.bulk;

@@ -30,6 +30,7 @@
 #include "mechanics/mechanical_state.hpp"
 #include "mechanics/phase_fields.hpp"
 #include "mechanics/simplices.hpp"
+#include "mechanics/structural_lead.hpp"
 #include "mesh/mesh.hpp"
 #include "numbers/types.hpp"
 #include "system/errors.hpp"
@@ -126,6 +127,8 @@ struct MechanicalPass {
   std::span<const double> plateau_share{};
   /// Θ of the iterate: held in its place, or the one at which the entropy is held.
   std::span<const double> iterate_temperature{};
+  /// Energy and entropy with which points begin besides those of the state at `temperature`; null: none.
+  const StructuralLead* lead = nullptr;
   /// Displacement and history of the iterate: Newton's start, and whose entropy is held.
   const MechanicalState* iterate = nullptr;
   /// Times the stabilisation of contact that its tangents hold (contact::ContactPair::stabilise).
@@ -204,8 +207,10 @@ class MechanicalPhase {
                           StepDeformation& deformation);
 
   /// The deformation of bodies that stay as they are in `state`, for a thermal phase of its own.
+  /// @param expands  they store the heat that free expansion would take up
+  ///                 (StructuralPoints::expect_expansion)
   StepDeformation held_deformation(const MechanicalState& state, std::span<const double> temperature,
-                                   std::span<const double> plateau_share = {});
+                                   std::span<const double> plateau_share = {}, bool expands = false);
 
   // The pieces of solve(), for an iteration that has further unknowns (coupling/simultaneous.hpp).
   /// Loads, state at t_n and properties at the temperature of the pass; `old` must live until conclude().

@@ -11,7 +11,7 @@ namespace solidus::mechanics {
 
 StepDeformation MechanicalPhase::held_deformation(const MechanicalState& state,
                                                   std::span<const double> temperature,
-                                                  std::span<const double> plateau_share) {
+                                                  std::span<const double> plateau_share, bool expands) {
   StepDeformation deformation;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     deformation.push_back(
@@ -26,7 +26,8 @@ StepDeformation MechanicalPhase::held_deformation(const MechanicalState& state,
                                       .dt = 1,
                                       .effective = 1,
                                       .phases = nodal_phases_.evaluate(b, {temperature, plateau_share}, {}),
-                                      .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]}));
+                                      .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)],
+                                      .expands = expands}));
   residual_is_known_ = false;
   return deformation;
 }

@@ -85,7 +85,8 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
          .stress_share = remembers ? inertia_->motion().work_share : 1,
          .at_work = pass.at_work != nullptr ? &pass.at_work->stress[b] : nullptr,
          .phases = nodal_phases_.evaluate(b, fraction_place(pass), fractions_before(old, pass)),
-         .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
+         .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)],
+         .lead = pass.lead != nullptr && !(*pass.lead)[b].empty() ? &(*pass.lead)[b] : nullptr});
   if (pressure_) pressure_->begin();
   residual_is_known_ = false;
   round_off_ = k_round_off_strain * std::sqrt(parallel::global_sum(stiffness));

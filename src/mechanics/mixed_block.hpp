@@ -211,7 +211,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Sym<Lane> gradient = at_point(batch).strain(gather(start.held_displacement, batch));
       this->hold_point(batch, 0, strain(gradient, volume_[at(batch)]));
     }
-    return this->deformation_found();
+    return this->deformation_held(start);
   }
 
   LawFailure failure(std::span<const double> u) const override {

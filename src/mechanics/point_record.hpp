@@ -120,6 +120,11 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
   std::shared_ptr<const StructuralPoints> deformation_found() const {
     return points_->kept() ? points_ : nullptr;
   }
+  /// The same of a deformation that has been held.
+  std::shared_ptr<const StructuralPoints> deformation_held(const StepStart& start) {
+    if (start.expands) points_->expect_expansion();
+    return deformation_found();
+  }
   void hand_out_deformation(const BlockEnd& end) const {
     if (end.deformation != nullptr) *end.deformation = deformation_found();
   }

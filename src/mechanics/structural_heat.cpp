@@ -81,6 +81,13 @@ StructuralChange mechanical_change(const StepDeformation& deformation) {
   return {parallel::global_sum(total.energy), parallel::global_sum(total.entropy)};
 }
 
+StructuralLead expected_expansion(const StepDeformation& held, std::span<const double> temperature) {
+  StructuralLead lead;
+  for (const auto& points : held)
+    lead.push_back(points ? points->expected(temperature) : PackVector<StructuralDensities>{});
+  return lead;
+}
+
 double excess_work(const StepDeformation& deformation) {
   double total = 0;
   for (const auto& points : deformation)

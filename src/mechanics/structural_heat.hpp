@@ -95,6 +95,10 @@ class StructuralHeat : public linear::Contribution {
   std::vector<std::optional<linear::LaneSlots>> slots_;  ///< of the blocks that need them; empty: none yet
 };
 
+/// What a held deformation expects to take up as it expands, at the temperature to which heat has brought it
+/// (MechanicalPhase::held_deformation).
+StructuralLead expected_expansion(const StepDeformation& held, std::span<const double> temperature);
+
 /// The change over a step, with the temperature at its end [local node]; over all processes. Collective.
 StructuralChange structural_change(const StepDeformation& deformation, std::span<const double> temperature);
 /// The change up to the end of the mechanical pass, where points have temperatures of their own

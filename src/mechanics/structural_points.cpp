@@ -75,16 +75,18 @@ StructuralPoints::State StructuralPoints::state(Lane line_temperature, Lane stra
 void StructuralPoints::set_old(Index batch, int point, const Deformation& deformation,
                                const StructuralBase& base) {
   Point& p = at(batch, point);
+  const StructuralDensities ahead =
+      ahead_.empty() ? StructuralDensities{Lane(0.0), Lane(0.0)} : ahead_[index(batch, point)];
   const State opened = state(p, deformation, p.temperature);
   if (!carries_energy()) {
-    p.old_entropy = opened.entropy;
-    p.old_energy = opened.internal_energy;
+    p.old_entropy = opened.entropy + ahead.entropy;
+    p.old_energy = opened.internal_energy + ahead.energy;
     p.transformed = Lane(0.0);
     return;
   }
   const State old = state(base.line_temperature, base.strain_offset, deformation, p.temperature);
-  p.old_entropy = old.entropy;
-  p.old_energy = old.internal_energy;
+  p.old_entropy = old.entropy + ahead.entropy;
+  p.old_energy = old.internal_energy + ahead.energy;
   const Lane entropy = opened.entropy - old.entropy;
   const Lane capacity = Lane(material_.density) * material_.specific_heat.value(p.temperature);
   const LaneMask stores = capacity > Lane(0.0);
@@ -128,6 +130,55 @@ void StructuralPoints::hold_deformation(Index batch, int point, const Deformatio
   set_old(batch, point, deformation, base);
 }
 
+void StructuralPoints::expect_expansion() {
+  if (!kept()) return;
+  expansion_.resize(n_points_);
+  for (std::size_t i = 0; i < n_points_; ++i) {
+    const Point& at = points_[i];
+    const auto line = material::along_lines(material_, at.line_temperature, at.temperature, at.strain_offset);
+    const Jet<Lane>&k = line.elastic.bulk, &expansion = line.elastic.thermal_strain;
+    const Lane slope = k.d * (at.now.strain_trace - expansion.v) - k.v * expansion.d;  // ∂p/∂Θ
+    const Lane capacity = Lane(material_.density) * material_.specific_heat.value(at.temperature) +
+                          state(at, at.now, at.temperature).capacity;
+    const Lane most = Lane(k_most_expansion) * max(capacity, Lane(0.0));
+    const LaneMask holds = k.v > Lane(0.0);
+    const Lane free = at.temperature * slope * slope / select(holds, k.v, Lane(1.0));
+    expansion_[i] = select(holds, min(free, most), Lane(0.0));
+  }
+}
+
+StructuralDensities StructuralPoints::expected(std::size_t point, Lane temperature) const {
+  constexpr double k_least_ratio = 1e-6;  // iterates may be below 0 K
+  const Lane from = points_[point].temperature, ratio = max(temperature / from, Lane(k_least_ratio));
+  return {expansion_[point] * log(ratio), expansion_[point] * (temperature - from)};
+}
+
+PackVector<StructuralDensities> StructuralPoints::expected(std::span<const double> temperature) const {
+  PackVector<StructuralDensities> result(expansion_.size());
+  for (Index batch = 0; !expansion_.empty() && batch < geometry_.n_batches; ++batch)
+    for (int q = 0; q < geometry_.n_points; ++q)
+      result[index(batch, q)] =
+          expected(index(batch, q), temperature_at(geometry_, batch, q, temperature));
+  return result;
+}
+
+void StructuralPoints::begin_with(Index batch, int point, const StructuralDensities& ahead) {
+  if (!kept()) return;
+  ahead_.resize(n_points_, {Lane(0.0), Lane(0.0)});
+  ahead_[index(batch, point)] = ahead;
+}
+
+StructuralPoints::State StructuralPoints::state_now(std::size_t point, Lane temperature) const {
+  const Point& at = points_[point];
+  State now = state(at, at.now, temperature);
+  if (expansion_.empty()) return now;
+  const StructuralDensities more = expected(point, temperature);
+  now.entropy += more.entropy;
+  now.internal_energy += more.energy;
+  now.capacity += expansion_[point];
+  return now;
+}
+
 StructuralPoints::Stage StructuralPoints::stage(const linear::RungeKuttaStage& stage,
                                                 std::span<const double> temperature) const {
   Stage result{stage, {}};
@@ -139,7 +190,7 @@ StructuralPoints::Stage StructuralPoints::stage(const linear::RungeKuttaStage& s
       const std::size_t i = index(batch, q);
       const Point& at = points_[i];
       const Lane theta = temperature_at(geometry_, batch, q, temperature);
-      const State now = state(at, at.now, theta);
+      const State now = state_now(i, theta);
       const Lane entropy = at.old_entropy + at.dissipated / theta, energy = at.old_energy + at.work;
       result.carried[i] = {entropy + carried * (now.entropy - entropy),
                            energy + carried * (now.internal_energy - energy)};
@@ -186,7 +237,7 @@ StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, const Stage
     return {capacity * warmed + h.value - dissipated,
             capacity * (Lane(1.0) + warmed / temperature) + h.slope};
   }
-  const State now = state(at, at.now, temperature);
+  const State now = state_now(point, temperature);
   switch (form) {
     case StructuralForm::energy:
       return {now.internal_energy - start.energy, now.capacity};
@@ -289,7 +340,7 @@ StructuralChange StructuralPoints::change(std::span<const double> temperature) c
       const Point& at = points_[index(batch, q)];
       const Lane theta = temperature_at(geometry_, batch, q, temperature),
                  weight = geometry_.weight_at(batch, q);
-      const State now = state(at, at.now, theta);
+      const State now = state_now(index(batch, q), theta);
       transformed += weight * at.transformed;
       energy += weight * (now.internal_energy - at.old_energy);
       const Lane of_point = weight * (now.entropy - at.old_entropy);

@@ -6,6 +6,7 @@
 
 #include "material/elasticity.hpp"
 #include "mechanics/structural_heat.hpp"
+#include "mechanics/structural_lead.hpp"
 #include "mesh/block_geometry.hpp"
 
 namespace solidus::mechanics {
@@ -28,11 +29,11 @@ struct StructuralBase {
   Lane solid;             ///< one where the point was solid, else zero
 };
 
-/// Densities of entropy and energy of deformation and hardening.
-struct StructuralDensities {
-  Lane entropy;  ///< S [J/(m³ K)]
-  Lane energy;   ///< E [J/m³]
-};
+
+/// The largest share of the capacity at fixed strain that free expansion is expected to take up besides. Up to
+/// one the functional of stability falls whatever the deformation is (docs/theory/coupling_stability.md, 3); the
+/// rest is the room for steps that are not small.
+inline constexpr double k_most_expansion = 0.5;
 
 class StructuralPoints {
  public:
@@ -80,6 +81,8 @@ class StructuralPoints {
   void set_dt(double dt) {
     dt_ = dt;
     of_mechanics_.clear();
+    expansion_.clear();
+    ahead_.clear();
   }
   /// The time step of the mechanical pass [s].
   double dt() const { return dt_; }
@@ -102,6 +105,17 @@ class StructuralPoints {
   void set_old(Index batch, int point, const Deformation& old, const StructuralBase& base);
   /// Fills all of a point whose deformation is held, with the base of its state, if kept.
   void hold_deformation(Index batch, int point, const Deformation& deformation, const StructuralBase& base);
+  /// From here on a held deformation stores besides what it would take up if it expanded at constant mean stress,
+  ///
+  ///   P (Θ − Θ_n) [J/m³]  and  P ln(Θ/Θ_n) [J/(m³ K)],   P = C_p − C_v = Θ (∂p/∂Θ)²/k,
+  ///
+  /// p the mean stress at fixed strain and P of Θ_n, at most k_most_expansion of the capacity at fixed strain.
+  void expect_expansion();
+  /// What that comes to at a nodal temperature, [batch][point]; empty where it is not expected.
+  PackVector<StructuralDensities> expected(std::span<const double> temperature) const;
+  /// The step of this pass begins with that much energy and entropy besides those of its deformation and
+  /// temperature: what conduction before it has moved ahead of the deformation.
+  void begin_with(Index batch, int point, const StructuralDensities& ahead);
   /// S with the base `old` less S with that of the step, at the temperature of the pass [J/(m³ K)].
   Lane entropy_ahead(Index batch, int point, const Deformation& deformation, const StructuralBase& old) const;
   /// The base of the step; of a point that has been solved for.
@@ -139,7 +153,8 @@ class StructuralPoints {
   /// The structural energy of the deformation at the nodal temperature, over the counted elements [J].
   double energy(std::span<const double> temperature) const;
   std::size_t bytes() const {
-    return points_.capacity() * sizeof(Point) + of_mechanics_.capacity() * sizeof(Deformation);
+    return points_.capacity() * sizeof(Point) + of_mechanics_.capacity() * sizeof(Deformation) +
+           expansion_.capacity() * sizeof(Lane) + ahead_.capacity() * sizeof(StructuralDensities);
   }
 
  private:
@@ -154,6 +169,9 @@ class StructuralPoints {
   State state(const Point& at, const Deformation& deformation, Lane temperature) const;
   State state(Lane line_temperature, Lane strain_offset, const Deformation& deformation,
               Lane temperature) const;
+  /// The same of Point::now, with what expansion is expected to take up.
+  State state_now(std::size_t point, Lane temperature) const;
+  StructuralDensities expected(std::size_t point, Lane temperature) const;
   /// The deformation at the end of the mechanical phase.
   const Deformation& of_mechanics(std::size_t i) const {
     return of_mechanics_.empty() ? points_[i].now : of_mechanics_[i];
@@ -171,6 +189,8 @@ class StructuralPoints {
   PackVector<Point> points_;
   /// Point::now of the mechanical phase, where the thermal phase maps the flow anew; else empty.
   PackVector<Deformation> of_mechanics_;
+  PackVector<Lane> expansion_;               ///< P of expect_expansion(); empty: none is expected
+  PackVector<StructuralDensities> ahead_;  ///< of begin_with(); empty: none
   PackVector<Lane> correction_;  ///< share of a node less that of the points, [batch][node]; empty: none
   double dt_ = 0;
 };
