@@ -12,11 +12,17 @@
 namespace solidus::model {
 
 /// The case as schemes see it.
-/// @param melts  something that deforms does
-coupling::SchemeContext scheme_context(const CaseSpec& spec, bool melts);
+/// @param keeps_strain  Phases::keeps_strain
+coupling::SchemeContext scheme_context(const CaseSpec& spec, bool keeps_strain);
 /// Whether displacements and stresses of a step belong to the temperatures at its start: a sequential split
 /// that does mechanics first, without inertia.
-bool lags_a_step(const CaseSpec& spec, bool melts);
+bool lags_a_step(const CaseSpec& spec, bool keeps_strain);
+/// Whether the case could ask for the printed thermal phase of friction (thermal_return_mapping) with the
+/// scheme and the order of phases that it has.
+/// @param keeps_strain  Phases::keeps_strain
+bool may_map_slip_again(const CaseSpec& spec, bool keeps_strain);
+/// Whether surfaces slip in a step after its heat has been conducted: a split with heat first.
+bool slips_after_heat(const CaseSpec& spec, bool keeps_strain);
 
 /// @param phases must outlive the scheme
 std::unique_ptr<coupling::CouplingScheme> coupling_scheme(const CaseSpec& spec,

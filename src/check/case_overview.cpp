@@ -182,13 +182,13 @@ results::Overview overview(const CaseSpec& spec, const Assembly& a, const CaseMe
   if (spec.has_mechanics() && spec.analysis.gravity != 0) o.gravity = gravity(spec.analysis);
   for (const Pour& pour : m.pours) o.pours.push_back(pour_overview(spec, a, pour, m.bodies[pour.body]));
   o.effort = {m.effort.steps, m.effort.steps_known, m.effort.seconds, m.effort.bytes};
-  if (lags_a_step(spec, a.phases.coherency != nullptr)) {
+  if (lags_a_step(spec, a.phases.keeps_strain())) {
     o.lag = spec.time.adaptive ? 0.0 : spec.time.step.value_or(0);
     o.end = spec.time.end.value_or(0);
   }
   if (spec.exchanges_heat())
     o.heat_lag =
-        heat_lag(spec, coupling_estimates(spec, a.materials, a.mesh, a.start), a.phases.coherency != nullptr);
+        heat_lag(spec, coupling_estimates(spec, a.materials, a.mesh, a.start), a.phases.keeps_strain());
   return o;
 }
 

@@ -8,6 +8,7 @@
 #include "build/dynamics_input.hpp"
 #include "build/heat_input.hpp"
 #include "build/scheme_input.hpp"
+#include "mechanics/structural_points.hpp"
 #include "parallel/parallel.hpp"
 #include "system/log.hpp"
 
@@ -69,12 +70,20 @@ std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
   return estimates;
 }
 
-double heat_lag(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates, bool melts) {
+/// The steps by which conduction is ahead of deformation of δ_K = m where free expansion, δ_K = p, is
+/// expected: (m − p)/(1 + p).
+double late(const CouplingEstimate& e) {
+  const double expected = std::min(e.at_worst.bound, mechanics::k_most_expansion);
+  return std::abs(e.decisive() - expected) / (1 + expected);
+}
+
+double heat_lag(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates, bool keeps_strain) {
   const coupling::SchemeTraits traits = spec.coupling.scheme->traits();
   if (!spec.exchanges_heat() || spec.dynamics || estimates.empty() || traits.iterates) return 0;
-  if (traits.mapping == mechanics::Mapping::simultaneous || lags_a_step(spec, melts)) return 0;
+  if (traits.mapping == mechanics::Mapping::simultaneous || lags_a_step(spec, keeps_strain)) return 0;
   double strongest = 0;
-  for (const CouplingEstimate& e : estimates) strongest = std::max(strongest, e.decisive());
+  for (const CouplingEstimate& e : estimates)
+    strongest = std::max(strongest, traits.second_order ? e.decisive() : late(e));
   const bool end_of_step =
       !traits.second_order && heat_options(spec).stepping == heat::ThermalStepping::backward_euler;
   return end_of_step ? strongest : 0.5 * strongest;

@@ -32,11 +32,11 @@ std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
                                                  const std::vector<InitialTemperatureRange>& start);
 
 /// The steps by which temperatures lag behind a steady change of them because the scheme conducts heat before
-/// deformation has taken up its share: δ_K in a sequential split with heat first by backward Euler, half of
-/// it by two stages and in the double pass, zero in schemes that solve both together
-/// (docs/theory/coupling_stability.md, 9).
-/// @param melts  SchemeContext::melts
-double heat_lag(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates, bool melts);
+/// deformation has taken up its share: in a sequential split with heat first by backward Euler what δ_K
+/// differs from the share of free expansion, which such a split expects, half of that by two stages, half of
+/// δ_K in the double pass, zero in schemes that solve both together (docs/theory/coupling_stability.md, 9).
+/// @param keeps_strain  Phases::keeps_strain
+double heat_lag(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates, bool keeps_strain);
 
 /// "casting: delta = 0.0400 at 319.85 degC, ...".
 std::string text(const CouplingEstimate& estimate);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "contact/interface_thermodynamics.hpp"
 #include "contact/rotation.hpp"
 #include "contact/wall_distance.hpp"
 #include "parallel/parallel.hpp"
@@ -51,7 +52,30 @@ void measure_left(const ContactView& pair, const ContactKinematics& kinematics, 
   sums.left_gap = parallel::global_max(gap);
 }
 
+/// C_co (Θ_c − Θ_0) and what hardening stores at that temperature, over the points of this process [J].
+double interface_energy_here(const ContactView& pair) {
+  const ContactKinematics& kinematics =
+      pair.geometry.at(pair.end.time, pair.end.displacement, ContactKinematics::Points::own);
+  double energy = 0;
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    const ContactKinematics::Particle particle = kinematics.particle(p);
+    const ContactPointState& state = pair.end.state.points[at(p)];
+    if (!particle.counted || !(state.temperature > 0)) continue;
+    energy +=
+        particle.weight *
+        (pair.law.friction ? interface_energy(*pair.law.friction, state.temperature, state.internal_variable)
+                           : interface_energy(pair.spec.interface_heat_capacity, state.temperature));
+  }
+  return energy;
+}
+
 }  // namespace
+
+double stored_energy(const ContactView& pair) {
+  const ContactSums s = sums(pair, {});
+  if (!pair.has_temperature()) return s.energy + s.work - s.dissipation;
+  return s.energy + parallel::global_sum(interface_energy_here(pair));
+}
 
 ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
   const ContactKinematics& kinematics =

@@ -83,6 +83,10 @@ double work(const ContactView& pair, double share);
 /// a partner at one end of the step only, Δg_N and ΔG are those of the motion of both bodies there.
 /// Collective.
 double rigid_work(const ContactView& pair, double share);
+/// The energy of a pair, a function of the state of its points alone [J]: of the springs, and of the
+/// interface (interface_energy) where it has a temperature; where it has none, what friction's hardening
+/// stores. Collective.
+double stored_energy(const ContactView& pair);
 /// Averages at nodes at the end of the step; without temperatures, conductances at room temperature. Local.
 ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double> temperature);
 

@@ -149,6 +149,10 @@ void ContactPair::begin_heat(double dt, bool adiabatic) {
   if (heat_) heat_->begin_phase(dt, adiabatic);
 }
 
+std::vector<double> ContactPair::conducted_temperatures(std::span<const double> temperature) const {
+  return has_temperature() ? heat_->term().interface_temperatures(temperature) : std::vector<double>{};
+}
+
 void ContactPair::hold_deformation() {
   if (!has_temperature()) return;
   step_.from = end_.state.points;

@@ -120,6 +120,9 @@ class ContactPair {
   /// Begins a thermal phase over `dt`, which need not be the time step of the mechanical pass; an adiabatic
   /// phase has no fluxes. commit_heat() ends it. Without this call the heat is that of the mechanical pass.
   void begin_heat(double dt, bool adiabatic);
+  /// Θ_c of the points if what their slip has heated flowed to the bodies in its step, at temperatures of the
+  /// bodies [local node] [K]; empty where the interface has none. Between thermal phases. Local.
+  std::vector<double> conducted_temperatures(std::span<const double> temperature) const;
   /// Holds the present deformation: the heat of friction of the last update() is dropped, so that a thermal
   /// phase that follows has none.
   void hold_deformation();

@@ -133,6 +133,31 @@ void rest_contacts(const Phases& phases, const State& old, double time, double d
       phases.contacts[i]->hold(state_of(old.contacts, i), time, dt, old.heat.temperature);
 }
 
+bool interfaces_begin(const Phases& phases, const State& state) {
+  bool begin = false;
+  for (std::size_t i = 0; i < phases.contacts.size(); ++i) {
+    if (!phases.contacts[i]->has_temperature()) continue;
+    const auto known = [](const contact::ContactPointState& point) { return point.temperature > 0; };
+    begin |= state.contacts.empty() ||
+             (!state.contacts[i].points.empty() && std::ranges::none_of(state.contacts[i].points, known));
+  }
+  return parallel::any_process(begin);
+}
+
+void find_interface_temperatures(const Phases& phases, const State& state, double time) {
+  const std::vector<double> coherency = coherency_of(phases, state.heat);
+  for (std::size_t i = 0; i < phases.contacts.size(); ++i) {
+    contact::ContactPair& pair = *phases.contacts[i];
+    if (!pair.has_temperature()) continue;
+    pair.begin(state_of(state.contacts, i), {.time = time,
+                                             .dt = 0,
+                                             .displacement = state.mechanics.displacement,
+                                             .temperature = state.heat.temperature,
+                                             .solidity = solidity_of(phases, coherency)});
+    pair.update(state.mechanics.displacement);
+  }
+}
+
 std::vector<contact::ContactState> contact_states(const Phases& phases) {
   std::vector<contact::ContactState> states;
   for (const contact::ContactPair* pair : phases.contacts) states.push_back(pair->state());

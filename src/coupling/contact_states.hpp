@@ -25,6 +25,12 @@ void begin_contacts(const Phases& phases, const std::vector<contact::ContactStat
                     const std::vector<contact::ContactState>& iterate = {}, bool further = false);
 /// A step of heat alone sets out: pairs that store heat, between bodies that do not deform.
 void rest_contacts(const Phases& phases, const State& old, double time, double dt);
+/// Whether there are interfaces of which it is not known yet how warm they are: at the start, and where
+/// bodies are new. Collective.
+bool interfaces_begin(const Phases& phases, const State& state);
+/// Gives interfaces whose temperature is not known yet in a state, before the first step or where bodies are
+/// new, the one at rest between the bodies; pairs stand at the state then. Local.
+void find_interface_temperatures(const Phases& phases, const State& state, double time);
 /// Returns the states of the pairs at their last update.
 std::vector<contact::ContactState> contact_states(const Phases& phases);
 /// Points that are not open, over all processes. Collective.

@@ -58,7 +58,9 @@ struct EnergyAudit {
            heat_in;
   }
   /// The same of a run, of which energies at its two ends alone are known.
-  double state_defect() const { return internal + numerical - work - heat_in; }
+  double state_defect() const {
+    return internal - bodies.energy + kinetic + numerical + friction - frictional_heat - work - heat_in;
+  }
   /// The same of two steps in a row.
   EnergyAudit& operator+=(const EnergyAudit& next);
   /// Adds the energies of the first of two stages whose second one begins with the share `carried` of the

@@ -46,7 +46,8 @@ struct SchemeContext {
   bool inertia = false;
   bool rubs = false;            ///< there is friction
   bool slides_in_heat = false;  ///< the thermal phase returns the traction of friction too (5.40-5.51)
-  bool melts = false;           ///< something that deforms does; not known before materials are read
+  /// Something that deforms melts or yields (Phases::keeps_strain); not known before materials are read.
+  bool keeps_strain = false;
   mechanics::TimeIntegration integration = mechanics::TimeIntegration::backward_euler;  ///< of flow
 
   /// Structural heat that counts from a mechanical phase at the temperature of the step's start.

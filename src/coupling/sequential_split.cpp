@@ -48,22 +48,6 @@ void add_effort(const PhaseEffort& before, PhaseEffort& effort) {
   effort.hardest = std::max(effort.hardest, before.hardest);
 }
 
-/// The interfaces that have a temperature begin with the one at rest between the bodies at t_n: in the first
-/// step it is not known before a mechanical phase, and heat comes first.
-void find_interface_temperatures(const Phases& phases, const State& old, double time) {
-  if (!old.contacts.empty()) return;
-  const std::vector<double> coherency = coherency_of(phases, old.heat);
-  for (contact::ContactPair* pair : phases.contacts) {
-    if (!pair->has_temperature()) continue;
-    pair->begin({}, {.time = time,
-                     .dt = 0,
-                     .displacement = old.mechanics.displacement,
-                     .temperature = old.heat.temperature,
-                     .solidity = solidity_of(phases, coherency)});
-    pair->update(old.mechanics.displacement);
-  }
-}
-
 }  // namespace
 
 SequentialSplit::SequentialSplit(Phases phases, mechanics::Mapping mapping, const SequentialOptions& options)
@@ -224,13 +208,12 @@ bool SequentialSplit::misplaces_much(const contact::GapHeat& all, double dt,
 }
 
 StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double time, double dt,
-                                         const Gaps& through, bool again,
-                                         mechanics::StructuralLead& lead) {
+                                         const Gaps& through, bool again, mechanics::StructuralLead& lead) {
   StepEffort effort;
   if (phases_.structural != nullptr) phases_.structural->release();
   const mechanics::StepDeformation held = phases_.mechanics->held_deformation(
       old.mechanics, old.heat.temperature, plateau_share(phases_, old.heat), true);
-  find_interface_temperatures(phases_, old, time - dt);
+  if (interfaces_begin(phases_, old)) find_interface_temperatures(phases_, old, time - dt);
   for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
   for (std::size_t i = 0; i < through.size(); ++i) phases_.contacts[i]->conduct_through(through[i]);
   thermal_pass(
@@ -251,14 +234,13 @@ void SequentialSplit::thermal_phase(const State& old, const State& warm, State& 
     return;
   }
   const std::vector<double> share = plateau_share(phases_, warm.heat);
-  thermal_pass_with_flow(
-      phases_, warm, trial, deformation, pass, old.mechanics,
-      {.time = pass.time,
-       .dt = pass.dt,
-       .temperature = warm.heat.temperature,
-       .plateau_share = share,
-       .lead = lead},
-      effort);
+  thermal_pass_with_flow(phases_, warm, trial, deformation, pass, old.mechanics,
+                         {.time = pass.time,
+                          .dt = pass.dt,
+                          .temperature = warm.heat.temperature,
+                          .plateau_share = share,
+                          .lead = lead},
+                         effort);
 }
 
 SequentialSplit::Start SequentialSplit::extrapolated(const State& old, double dt) {

@@ -11,10 +11,14 @@ struct BodyHeat {
   double ejected = 0;  ///< with bodies that leave
   /// Into the bodies that stay, by the search for their periodic state (shot_map.hpp).
   double corrected = 0;
+  /// Change of the internal energy by all that, and by contacts that begin or end (internal_energy.hpp); zero
+  /// where it is not followed.
+  double energy = 0;
   BodyHeat& operator+=(const BodyHeat& next) {
     poured += next.poured;
     ejected += next.ejected;
     corrected += next.corrected;
+    energy += next.energy;
     return *this;
   }
 };

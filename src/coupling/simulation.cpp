@@ -126,9 +126,13 @@ void Simulation::enter_stage(Progress& p, const std::optional<RestartData>& from
   p.record.stage = stage.name;
   p.record.stage_of_case = stage.of_case;
   p.record.cycle = stage.cycle;
-  if (staged) begin_bodies(p, anew, from && from->stage.number == p.stage_start.number);
+  const bool changed_before = from && from->stage.number == p.stage_start.number;
+  const bool energy_changes = staged && anew && !changed_before && p.stage > 0 && internal_energy_;
+  const double energy = energy_changes ? internal_energy_(p.committed) : 0.0;
+  if (staged) begin_bodies(p, anew, changed_before);
   p.solid_fraction = p.solid_fraction_of(p.committed);
   scheme_->synchronise(p.committed);
+  if (energy_changes) p.carried.energy += internal_energy_(p.committed) - energy;
   scheme_->forget();  // as after a checkpoint of this state
 }
 

@@ -83,6 +83,10 @@ class Simulation {
   /// It returns the heat of these bodies, which is that of the run's start where the first stage begins.
   using StageBegins = std::function<BodyHeat(std::size_t stage, const StageStart&, State* begins)>;
   void at_stage(StageBegins begins) { stage_begins_ = std::move(begins); }
+  /// Books how the internal energy of the committed state changes with bodies that come and leave
+  /// (BodyHeat::energy). Collective.
+  using InternalEnergy = std::function<double(const State&)>;
+  void follow_internal_energy(InternalEnergy energy) { internal_energy_ = std::move(energy); }
   /// Finds the physical state behind a step that could not be taken, for Stop. Called once, where the run
   /// ends for it, before observers are told. Collective.
   /// @param last  the last committed state
@@ -165,6 +169,7 @@ class Simulation {
   const heat::ThermalPhase* loads_ = nullptr;
   std::function<bool()> stop_asked_;
   StageBegins stage_begins_;
+  InternalEnergy internal_energy_;
   Diagnose diagnose_;
   const ShotMap* shot_map_ = nullptr;
 };

@@ -157,8 +157,7 @@ PackVector<StructuralDensities> StructuralPoints::expected(std::span<const doubl
   PackVector<StructuralDensities> result(expansion_.size());
   for (Index batch = 0; !expansion_.empty() && batch < geometry_.n_batches; ++batch)
     for (int q = 0; q < geometry_.n_points; ++q)
-      result[index(batch, q)] =
-          expected(index(batch, q), temperature_at(geometry_, batch, q, temperature));
+      result[index(batch, q)] = expected(index(batch, q), temperature_at(geometry_, batch, q, temperature));
   return result;
 }
 
@@ -407,7 +406,21 @@ double StructuralPoints::excess_work() const {
       const Point& at = points_[index(batch, q)];
       const State now = state(at, of_mechanics(index(batch, q)), at.pass_temperature);
       const Lane middle = Lane(0.5) * (at.temperature + at.pass_temperature);
-      excess += geometry_.weight_at(batch, q) * (at.work - (now.internal_energy - at.old_energy) +
+      // A body at fixed strain whose entropy changes by as much as expansion was expected to take has another
+      // energy than what was moved ahead, also at the temperature that an isothermal pass holds; that
+      // difference is none of the work of stresses.
+      Lane ahead(0.0);
+      if (!ahead_.empty()) {
+        const StructuralDensities& moved = ahead_[index(batch, q)];
+        const Lane capacity = Lane(material_.density) * material_.specific_heat.value(at.temperature) +
+                              state(at, at.now, at.temperature).capacity;
+        const LaneMask stores =
+            (capacity > Lane(0.0)) & (abs(at.pass_temperature - at.temperature) > Lane(0.0));
+        const Lane half =
+            select(stores, Lane(0.5) * moved.entropy / select(stores, capacity, Lane(1.0)), Lane(0.0));
+        ahead = at.temperature * (Lane(1.0) + half) * moved.entropy - moved.energy;
+      }
+      excess += geometry_.weight_at(batch, q) * (at.work - (now.internal_energy - at.old_energy) + ahead +
                                                  middle * (now.entropy - at.old_entropy) - at.dissipated);
     }
     total += sum(excess * geometry_.counted[static_cast<std::size_t>(batch)]);

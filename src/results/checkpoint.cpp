@@ -28,7 +28,7 @@ namespace {
 
 /// Characters that stand for a pair in State::steady_gaps.
 constexpr char k_steady = 's', k_unsteady = '-';
-constexpr const char* k_format = "Solidus checkpoint 22";
+constexpr const char* k_format = "Solidus checkpoint 23";
 constexpr const char* k_known = "known";
 /// Above absolute zero, and no hotter than a case may ask for [K].
 constexpr AllowedValues k_temperatures{std::numeric_limits<double>::min(), 1e6};
@@ -61,7 +61,8 @@ void each_number(C& c, const Visit& visit) {
   auto& s = k.shots;
   all(c.state.shot, c.state.poured, s.shots, s.change, s.lowest, s.highest);
   all(s.at_pour.mean, s.at_pour.lowest, s.at_pour.highest);
-  for (auto* heat : {&s.heat, &k.pending, &e.bodies}) all(heat->poured, heat->ejected, heat->corrected);
+  for (auto* heat : {&s.heat, &k.pending, &e.bodies})
+    all(heat->poured, heat->ejected, heat->corrected, heat->energy);
 }
 
 std::vector<double> numbers_of(const auto& c) {

@@ -20,9 +20,8 @@ bool dynamic(const coupling::Phases& phases) {
   return phases.mechanics != nullptr && phases.mechanics->dynamic();
 }
 
-/// A body that leaves takes its energy with it.
 bool follows_internal_energy(const coupling::Phases& phases, const RecorderOptions& options) {
-  return !options.stages && coupling::has_internal_energy(phases);
+  return coupling::has_internal_energy(phases, options.stages);
 }
 
 /// @param taken  columns that probes give

@@ -10,7 +10,9 @@ namespace solidus::model {
 
 namespace {
 
-constexpr double k_worth_a_word = 0.1;  ///< beyond the range [K]
+/// Beyond the range [K], and what deformation may cool or warm besides: metals at their yield stress change
+/// by some tenths of a kelvin (2.127b).
+constexpr double k_worth_a_word = 0.1, k_of_deformation = 1;
 
 const char* remedy(const CaseSpec& spec) {
   if (spec.heat.integration == heat::HeatIntegration::open)
@@ -45,7 +47,7 @@ void BoundsWatch::step(const coupling::StepRecord&, const coupling::State& state
     worst.look(n, std::max(range_.lowest - temperature[n], temperature[n] - range_.highest));
   }
   const double beyond = parallel::global_max(worst.size);
-  if (!(beyond > k_worth_a_word)) return;
+  if (!(beyond > (spec_.exchanges_heat() ? k_of_deformation : k_worth_a_word))) return;
   warned_ = true;
   logging::warn("t = {:g} s: {}, {:.3g} K beyond all initial and boundary temperatures; {}", state.time,
                 worst.text(phase_.mesh(), temperature, {}), beyond, remedy(spec_));

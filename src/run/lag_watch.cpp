@@ -45,14 +45,20 @@ void LagWatch::end(const coupling::State&) {
   last = parallel::global_max(last);
   all = parallel::global_max(all);
   if (!(last > k_least * all)) return;
-  logging::info(
+  const std::string text = fmt::format(
       "displacements and stresses belong to the temperatures one step before (coupling.order = "
       "\"mechanics_first\"): in the last step, {:g} s, displacements changed by {:.2g} % of all their change",
       dt_, 100 * last / all);
+  if (keeps_strain_)
+    say(last / all,
+        text + "; what melts or yields keeps the strain of those temperatures, which heat_first does not");
+  else
+    logging::info("{}", text);
 }
 
-FrictionLagWatch::FrictionLagWatch(const std::vector<contact::ContactPair*>& contacts)
-    : contacts_(contacts), pairs_(contacts.size()) {
+FrictionLagWatch::FrictionLagWatch(const std::vector<contact::ContactPair*>& contacts, bool maps_again,
+                                   bool after_heat)
+    : contacts_(contacts), pairs_(contacts.size()), maps_again_(maps_again), after_heat_(after_heat) {
   for (std::size_t i = 0; i < contacts.size(); ++i)
     if (const auto& friction = contacts[i]->spec().friction)
       pairs_[i].coefficient.emplace(friction->coefficient);
@@ -72,12 +78,17 @@ void FrictionLagWatch::step(const coupling::StepRecord&, const coupling::State& 
     const auto& points = state.contacts[i].points;
     if (!pair.coefficient) continue;
     pair.work.resize(points.size(), 0.0);
+    std::vector<double> conducted;
+    if (after_heat_) conducted = contacts_[i]->conducted_temperatures(state.heat.temperature);
     for (std::size_t p = 0; p < points.size(); ++p) {
       const contact::ContactPointState& point = points[p];
       const double work = point.work - std::exchange(pair.work[p], point.work);
       if (point.status != contact::PointStatus::slips || !(point.temperature > 0) || !(work > 0)) continue;
-      const double limit = pair.coefficient->value(point.internal_variable, point.temperature).value *
-                           contact::rubbing_pressure(point.pressure, point.molten);
+      const double limit =
+          pair.coefficient
+              ->value(point.internal_variable, p < conducted.size() ? conducted[p] : point.temperature)
+              .value *
+          contact::rubbing_pressure(point.pressure, point.molten);
       if (!(limit > 0)) continue;
       pair.late += work * std::abs(contact::norm(point.traction) / limit - 1);
       pair.all += work;
@@ -94,9 +105,9 @@ void FrictionLagWatch::report() const {
         fmt::format(
             "contact '{}': friction slips with the coefficient of the temperature before each step; "
             "its tractions are {:.3g} % off that of their own time, on average over its work; less in "
-            "shorter steps, not at all with thermal_return_mapping in [contact.friction] or with "
-            "coupling.scheme = {}",
+            "shorter steps, not at all with {}coupling.scheme = {}",
             contacts_[i]->spec().name, 100 * late / all,
+            maps_again_ ? "thermal_return_mapping in [contact.friction] or with " : "",
             coupling::names_of_schemes([](const coupling::SchemeTraits& t) {
               return t.iterates || t.mapping == mechanics::Mapping::simultaneous;
             })));

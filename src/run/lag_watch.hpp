@@ -12,9 +12,12 @@
 namespace solidus::model {
 
 /// Reports at the end of a run whose displacements and stresses lag by a step (lags_a_step) how large the lag
-/// is: the change of displacements in the last step as a part of all their change.
+/// is: the change of displacements in the last step as a part of all their change. A warning where it is much
+/// and something melts or yields, which keeps the strain of an earlier temperature.
 class LagWatch : public coupling::Observer {
  public:
+  /// @param keeps_strain  Phases::keeps_strain
+  explicit LagWatch(bool keeps_strain) : keeps_strain_(keeps_strain) {}
   void begin(const coupling::State& state) override;
   void step(const coupling::StepRecord& record, const coupling::State& state) override;
   void stopped(const coupling::Stop&, const coupling::State& state) override { end(state); }
@@ -23,6 +26,7 @@ class LagWatch : public coupling::Observer {
  private:
   std::vector<double> first_, before_, now_;  ///< displacements at the start and at the last two times [m]
   double dt_ = 0;
+  bool keeps_strain_;
 };
 
 /// Reports at the end of a run how far tractions of sliding surfaces are from the coefficient of friction at
@@ -31,11 +35,15 @@ class LagWatch : public coupling::Observer {
 ///   ∑ |‖T‖/(μ(ζ_c, Θ_c) t_N) − 1| ΔW / ∑ ΔW   over all points that slip and all steps,
 ///
 /// ΔW the work of friction per area in the step. A split slips with the coefficient of the temperature that
-/// its mechanical phase starts from (docs/theory/friction.md).
+/// its mechanical phase starts from (docs/theory/friction.md). With heat first the interface keeps the heat
+/// of its friction until the next step conducts; Θ_c is then the one at which that heat would flow to the
+/// bodies.
 class FrictionLagWatch : public coupling::Observer {
  public:
-  /// @param contacts  kept by reference
-  explicit FrictionLagWatch(const std::vector<contact::ContactPair*>& contacts);
+  /// @param contacts    kept by reference
+  /// @param maps_again  the scheme can find slip anew in its thermal phase (thermal_return_mapping)
+  /// @param after_heat  heat is conducted before surfaces slip
+  FrictionLagWatch(const std::vector<contact::ContactPair*>& contacts, bool maps_again, bool after_heat);
   void begin(const coupling::State& state) override;
   void step(const coupling::StepRecord& record, const coupling::State& state) override;
   void stopped(const coupling::Stop&, const coupling::State&) override { report(); }
@@ -51,6 +59,7 @@ class FrictionLagWatch : public coupling::Observer {
   };
   const std::vector<contact::ContactPair*>& contacts_;
   std::vector<Pair> pairs_;  ///< [contact]
+  bool maps_again_, after_heat_;
 };
 
 /// Reports at the end of a run in the energy form how much of the heat of deformation there is because the

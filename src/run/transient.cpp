@@ -10,6 +10,7 @@
 #include "case/case_materials.hpp"
 #include "case/stage_input.hpp"
 #include "check/coupling_estimate.hpp"
+#include "coupling/internal_energy.hpp"
 #include "run/advice.hpp"
 #include "run/diagnose.hpp"
 #include "run/recording.hpp"
@@ -71,7 +72,9 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
       stability_(spec, a.coldest_start()),
       first_law_(spec, a.heat.get()),
       walls_(a.phases.contacts),
-      friction_lag_(a.phases.contacts),
+      lag_(a.phases.keeps_strain()),
+      friction_lag_(a.phases.contacts, may_map_slip_again(spec, a.phases.keeps_strain()),
+                    slips_after_heat(spec, a.phases.keeps_strain())),
       gaps_(a.phases.contacts) {
   simulation_.add(range_);
   if (a.heat) simulation_.add(bounds_.emplace(spec, *a.heat));
@@ -79,7 +82,7 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
     simulation_.add(walls_);
     simulation_.add(melts_.emplace(spec, a));
   }
-  if (lags_a_step(spec, a.phases.coherency != nullptr)) simulation_.add(lag_);
+  if (lags_a_step(spec, a.phases.keeps_strain())) simulation_.add(lag_);
   simulation_.add(friction_lag_);
   if (heats_by_end_stresses(spec)) simulation_.add(stress_work_);
   simulation_.add(gaps_);
@@ -98,6 +101,9 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
   simulation_.at_stage([this](std::size_t stage, const coupling::StageStart& start, coupling::State* begins) {
     return apply(spec_, stage, start.displacement, begins, a_);
   });
+  if (coupling::has_internal_energy(a.phases, true))
+    simulation_.follow_internal_energy(
+        [this](const coupling::State& state) { return coupling::internal_energy(a_.phases, state); });
   shots_ = shot_map(spec, a);
   if (shots_) simulation_.follow_shots(*shots_);
 }

@@ -360,8 +360,9 @@ field = "temperature"
 group = "block"
 )";
 
-// What heat first lags where deformation takes up much of the heat is said with its number: half of δ_K steps
-// with the two stages of the default, δ_K with backward Euler.
+// What heat first lags where deformation takes up much of the heat is said with its number: what δ_K exceeds
+// the expansion that is expected, (δ_K − ½)/1.5 steps with backward Euler, half of it with the two stages of
+// the default.
 TEST(Defaults, ASplitSaysByHowManyStepsTemperaturesLagWhereTheCouplingIsStrong) {
   const CaseFolder folder("defaults_strong");
   folder.write("strong.toml", R"(
@@ -381,14 +382,17 @@ expansion_reference = "400 degC"
   const auto& exact = together.history.at("T[degC]");
   const double step = exact.back() - exact[exact.size() - 2];
   using ::testing::Contains, ::testing::HasSubstr, ::testing::Not;
-  for (const auto& [stepping, steps] :
-       {std::pair{"sdirk2", 0.5 * strength}, std::pair{"backward_euler", strength}}) {
+  const double late = (strength - 0.5) / 1.5;
+  for (const auto& [stepping, steps] : {std::pair{"sdirk2", 0.5 * late}, std::pair{"backward_euler", late}}) {
     logging::clear_warnings();
     const CaseRun split = folder.run(stepping, k_strong, {std::string("heat.stepping=\"") + stepping + "\""});
     ASSERT_TRUE(split.finished) << split.reason;
     EXPECT_NEAR((exact.back() - split.history.at("T[degC]").back()) / step, steps, 0.15 * steps) << stepping;
-    EXPECT_THAT(logging::warnings(), Contains(HasSubstr(fmt::format("lag by {:.2g} steps", steps))))
-        << stepping;
+    const auto says = Contains(HasSubstr(fmt::format("lag by {:.2g} steps", steps)));
+    if (steps / 20 > 0.03)
+      EXPECT_THAT(logging::warnings(), says) << stepping;
+    else
+      EXPECT_THAT(logging::warnings(), Not(says)) << stepping;
   }
   logging::clear_warnings();
   folder.run("weak", k_strong, {"time.step=\"0.2 s\""});

@@ -145,6 +145,44 @@ TEST(Lag, OfFrictionThatFollowsTheTemperatureIsSaidByTheRunWithItsNumber) {
   }
 }
 
+// Blocks that rub make an interface hot which stores heat. With heat first the flash of the step's own heat
+// is not the temperature that the coefficient should have had; and printed slip in the thermal phase is not
+// to be had there.
+TEST(Lag, OfFrictionWithHeatFirstIsThatOfTheHeatThatFlowsAndAdvisesWhatHelps) {
+  const CaseFolder folder("lag_flash");
+  folder.write("steel.toml", steel(1e-9));
+  std::string text = rubbing_blocks();
+  text =
+      text.substr(0, text.find("[[thermal_condition]]")) +
+      condition("mechanical", "upper_y_max", "kind = \"pressure\"\npressure = \"10 MPa\"") +
+      condition("mechanical", "lower_y_min", "kind = \"displacement\"\nux = \"0 mm\"\nuy = \"0 mm\"") +
+      "[[mechanical_condition]]\nname = \"drawn\"\ngroup = \"upper_y_max\"\nkind = \"displacement\"\nux = " +
+      ramp("mm", 0, 5, 0.1) + "\n";
+  text.insert(text.find("[contact.friction]"), "[contact.interface]\nheat_capacity = \"500 J/m2/K\"\n");
+  const std::vector<std::string> brief = {"time.end=\"0.1 s\"", "time.step=\"0.01 s\"",
+                                          "contact.interface.heat.conductance=\"5000 W/m2/K\""};
+  const auto with = [&](const std::string& setting) {
+    std::vector<std::string> all = brief;
+    all.push_back(setting);
+    return all;
+  };
+  const std::string column = "interface_friction_dissipation[J]";
+  const CaseRun exact = folder.run("agrees", text, with("coupling.scheme=simultaneous"));
+  ASSERT_TRUE(exact.finished) << exact.reason;
+  const Printed printed;
+  const CaseRun split = folder.run("heat_first", text, with("coupling.order=heat_first"));
+  ASSERT_TRUE(split.finished) << split.reason;
+  const double off = 100 * (split.history.at(column).back() / exact.history.at(column).back() - 1);
+  RecordProperty("said", fmt::format("{} % for {:.3g} %", printed.number_after("its tractions are "), off));
+  EXPECT_NEAR(printed.number_after("its tractions are "), off, 0.4 * off);
+  EXPECT_THAT(printed.lines, Not(Contains(HasSubstr("thermal_return_mapping"))));
+  const CaseRun mapped =
+      folder.run("mapped", text, with("contact.interface.friction.thermal_return_mapping=true"));
+  ASSERT_TRUE(mapped.finished) << mapped.reason;
+  EXPECT_NEAR(mapped.history.at(column).back(), exact.history.at(column).back(),
+              0.1 * (split.history.at(column).back() - exact.history.at(column).back()));
+}
+
 /// A block that is sheared by Γ without heat that comes or goes; its metal hardens linearly.
 std::string sheared_block(int steps) {
   return fmt::format(R"(title = "Shear"

@@ -53,7 +53,7 @@ TEST(HeatFirst, ShrinksWithTheTemperaturesThatItEndsWith) {
                  there = edge(block(PhaseOrder::mechanics_first), n);
     out << k_end / n << ',' << 1e3 * reference << ',' << 1e3 * here << ',' << 1e3 * there << '\n';
     EXPECT_LT(std::abs(here - reference), 0.05 * std::abs(there - reference)) << n;
-    EXPECT_NEAR(here, reference, 6e-3 * std::abs(reference)) << n;
+    EXPECT_NEAR(here, reference, 2e-3 * std::abs(reference)) << n;
   }
 }
 

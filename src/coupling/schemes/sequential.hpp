@@ -15,12 +15,13 @@ struct SequentialScheme {
 
   static constexpr double k_gap_tolerance = 0.02;
 
-  /// As the case says, or heat first unless friction between bodies that do not melt, inertia or a printed
-  /// form of structural heat forbids it.
+  /// As the case says, or heat first unless friction between bodies that neither melt nor yield or with its
+  /// printed thermal phase, inertia or a printed form of structural heat forbids it.
   PhaseOrder order_in(const SchemeContext& c) const {
     if (order) return *order;
-    return (c.rubs && !c.melts) || c.as_printed || c.printed_form() || c.inertia ? PhaseOrder::mechanics_first
-                                                                                 : PhaseOrder::heat_first;
+    return (c.rubs && !c.keeps_strain) || c.slides_in_heat || c.as_printed || c.printed_form() || c.inertia
+               ? PhaseOrder::mechanics_first
+               : PhaseOrder::heat_first;
   }
   SequentialOptions options_in(const SchemeContext& c) const {
     return {.order = order_in(c), .flow = flow, .gap_tolerance = gap_tolerance.value_or(k_gap_tolerance)};
@@ -35,6 +36,11 @@ struct SequentialScheme {
     if (gap_tolerance && order_in(c) == PhaseOrder::mechanics_first)
       return Objection{"gap_tolerance belongs to steps that conduct heat before they solve deformation",
                        "order = \"heat_first\", or no gap_tolerance"};
+    if (c.slides_in_heat && order_in(c) == PhaseOrder::heat_first)
+      return Objection{
+          "thermal_return_mapping with heat first: slip would be found anew where no heat flows, at the "
+          "temperature of an interface that keeps the heat of its friction",
+          "order = \"mechanics_first\", thermal_return_mapping = false, or a scheme whose fields agree"};
     return std::nullopt;
   }
 
@@ -44,8 +50,10 @@ struct SequentialScheme {
     s.choice(
          "order", static_cast<std::optional<PhaseOrder> Scheme::*>(&SequentialScheme::order),
          {{"automatic", std::nullopt,
-           "heat_first; mechanics_first with friction where nothing melts, whose heat is then conducted in "
-           "the step that makes it, with inertia and with printed forms of structural heat"},
+           "heat_first; mechanics_first with friction where nothing melts or yields, whose heat is then "
+           "conducted in "
+           "the step that makes it, with thermal_return_mapping, with inertia and with printed forms of "
+           "structural heat"},
           {"heat_first", PhaseOrder::heat_first,
            "displacements and stresses belong to the temperatures of the step's end; what deformation and "
            "friction warm is conducted in the next step"},
