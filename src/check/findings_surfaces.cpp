@@ -7,8 +7,10 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "build/body_input.hpp"
+#include "check/boundary_faces.hpp"
 #include "check/findings.hpp"
 #include "input/units.hpp"
 #include "parallel/parallel.hpp"
@@ -68,6 +70,37 @@ void beside_held_temperatures(const CaseSpec& spec, Findings& findings) {
            fmt::format("'{}' holds the temperature of '{}', on which '{}' {}", held.name, held.group,
                        other.name, twice ? "holds another one" : "acts too, without effect"),
            "one condition for a surface"});
+    }
+  }
+}
+
+/// Two films on one face add up, as one of a channel and one of the whole outside around it. One of less than
+/// a fifth of the other changes little. Films of one surface: findings_interface.cpp. Collective.
+void films_in_one_place(const CaseSpec& spec, const mesh::Mesh& mesh, Findings& findings) {
+  std::vector<const ThermalConditionSpec*> films;
+  for (const ThermalConditionSpec& c : spec.thermal_conditions)
+    if (c.kind == Heat::film && is_number(c.coefficient) && is_number(c.factor)) films.push_back(&c);
+  const auto strength = [](const ThermalConditionSpec& c) {
+    return c.coefficient.table.value(0) * c.factor.table.value(0);
+  };
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    const auto faces = face_keys(mesh, {films[i]->group});
+    const double all = parallel::global_sum(static_cast<double>(faces.size()));
+    for (std::size_t k = 0; k < i; ++k) {
+      const double one = strength(*films[i]), other = strength(*films[k]);
+      constexpr double k_little = 0.2;
+      if (films[i]->group == films[k]->group || !share_a_stage(films[i]->stages, films[k]->stages) ||
+          std::min(one, other) < k_little * std::max(one, other))
+        continue;
+      const auto others = face_keys(mesh, {films[k]->group});
+      const double shared = parallel::global_sum(static_cast<double>(
+          std::ranges::count_if(faces, [&](const auto& face) { return others.contains(face); })));
+      if (!(shared > 0)) continue;
+      findings.push_back(
+          {false, films[i]->where,
+           fmt::format("the films '{}' and '{}' both act on {:.0f} of the {:.0f} faces of '{}': they add up",
+                       films[k]->name, films[i]->name, shared, all, films[i]->group),
+           "one film for each face"});
     }
   }
 }
@@ -205,6 +238,7 @@ void find_on_surfaces(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   if (spec.has_heat()) {
     heat_beside_contacts(spec, findings);
     beside_held_temperatures(spec, findings);
+    films_in_one_place(spec, a.mesh, findings);
     held_bodies(spec, findings);
   }
   if (!spec.has_mechanics()) return;

@@ -82,6 +82,19 @@ TEST_F(FindingsTest, ConditionsOnPartsOfASurfaceInContactAreNamed) {
                          "contact 'interface'")));
 }
 
+// A film of the whole skin beside one of a side of it; a weak one changes little beside a strong one.
+TEST_F(FindingsTest, TwoFilmsOnOneFaceAreNamed) {
+  const std::string groups = "\n[[mesh.group]]\nname = \"skin\"\nowner = \"lower\"\n";
+  const auto with_film = [&](const char* coefficient) {
+    return said_of(with_heat(k_casting, std::string("group = \"skin\"\nkind = \"film\"\ncoefficient = \"") +
+                                            coefficient + " W/m2/K\"\nambient = \"20 degC\"") +
+                   groups);
+  };
+  EXPECT_THAT(with_film("20"),
+              Contains(HasSubstr("the films 'air' and 'added' both act on 8 of the 24 faces")));
+  EXPECT_THAT(with_film("0.1"), ::testing::Not(Contains(HasSubstr("both act on"))));
+}
+
 TEST_F(FindingsTest, ConditionsThatTakeEachOthersPlaceAreNamed) {
   const std::string held = "kind = \"temperature\"\ntemperature = \"50 degC\"\ngroup = ";
   EXPECT_THAT(said_of(with_heat(k_casting, held + "\"lower_y_min\"")),
