@@ -9,6 +9,9 @@ import math
 import re
 
 
+MOST = 50.0  # a factor beyond it, or below its reciprocal, is cut: the tail of a distribution that no data have
+
+
 @dataclass
 class Parameter:
     """One thing that may be off: a factor or a shift at one or several places of the case."""
@@ -34,7 +37,7 @@ class Parameter:
         if self.kind == "shift":
             return f"{value + u * self.amount:.9g} K"
         factor = self.amount ** u if self.kind == "factor" else 1.0 + u * self.amount
-        return f"{value * factor:.9g}"
+        return f"{value * min(max(factor, 1 / MOST), MOST):.9g}"
 
     def slug(self):
         """For the name of a folder."""

@@ -19,6 +19,7 @@ class Parameters(unittest.TestCase):
     def test_ends_of_a_range_in_its_own_measure(self):
         self.assertEqual(parameter("x").changes(-1), ["vary.x=0.9"])
         self.assertEqual(parameter("x", 2.0, "factor").changes(-1), ["vary.x=0.5"])
+        self.assertEqual(parameter("x", 0.9).changes(-1.5), ["vary.x=0.02"])
         self.assertEqual(parameter("x", 5.0, "shift").changes(0.5), ["vary.x=2.5 K"])
         entry = {"label": "conductivity of sand", "group": "mould", "mechanical": False, "spread": "10 %", "origin": "stated",
                  "source": "", "relative": 0.1, "places": [{"key": "a", "value": 2.0}, {"key": "b", "value": 1.0}]}
