@@ -48,11 +48,11 @@ class Runner:
         self._processes, self._lock, self._stopped = set(), threading.Lock(), False
 
     def run(self, folder, words):
-        """The record of a run: {arguments, code, reason, seconds}; nothing where it was interrupted."""
+        """The record of a run: {case, arguments, code, reason, seconds}; nothing where it was interrupted."""
         record_file = folder / RECORD
         if self._restart and record_file.exists():
             record = json.loads(record_file.read_text())
-            if record.get("arguments") == words:
+            if record.get("arguments") == words and record.get("case", str(self._case)) == str(self._case):
                 return record
         folder.mkdir(parents=True, exist_ok=True)
         record_file.unlink(missing_ok=True)
@@ -76,7 +76,7 @@ class Runner:
                 self._processes.discard(process)
         if self._stopped:
             return None
-        record = {"arguments": words, "code": code, "seconds": round(time.monotonic() - start, 3),
+        record = {"case": str(self._case), "arguments": words, "code": code, "seconds": round(time.monotonic() - start, 3),
                   "reason": reason or ("" if code == 0 else _reason(log, code))}
         record_file.write_text(json.dumps(record, indent=2) + "\n")
         return record

@@ -177,6 +177,15 @@ def whole(text, name, least):
     return int(text)
 
 
+def usual_folder(case):
+    """results/CASE/uncertain, with the name of a variant or of a file that is not case.toml behind it."""
+    path, _, variant = case.rpartition(":") if not Path(case).exists() else (case, "", "")
+    place = Path(path).resolve()
+    folder, stem = (place, "case") if place.is_dir() else (place.parent, place.stem)
+    of = [name for name in (stem if stem != "case" else "", variant) if name]
+    return Path("results") / folder.name / "_".join(["uncertain", *of])
+
+
 def case_words(options):
     """What goes to every run as it was given."""
     return [*set_words(options.set), *(["--heat-only"] if options.heat_only else []),
@@ -217,9 +226,7 @@ def run(options):
     print("".join(f"{one}\n" for one in said), end="")
     if options.dry_run:
         return 0
-    case = Path(options.case.rsplit(":", 1)[0]).resolve()
-    name = case.name if case.is_dir() else case.parent.name
-    folder = Path(options.output) if options.output else options.results_root / "results" / name / "uncertain"
+    folder = Path(options.output) if options.output else options.results_root / usual_folder(options.case)
     start, sweep = time.monotonic(), Sweep(options, words, folder, jobs)
     count = f"{samples} runs" if samples else f"at most {most} runs" if not options.one_sided else \
         f"{1 + len(parameters)} runs"

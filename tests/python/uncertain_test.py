@@ -1,11 +1,13 @@
 """From runs to spreads: parts of an answer, what is run at its other end, what is moved together."""
 
 import math
+from pathlib import Path
 import unittest
 
 import numpy as np
 
 from solidus_plots.answers import answers, bands
+from solidus_plots.uncertain import usual_folder
 from solidus_plots.uncertain_parameters import Parameter, merged, parameter_of
 from solidus_plots.uncertain_result import evaluate, line, rounded, worth_the_other_side
 from solidus_plots.uncertain_samples import points, summarised
@@ -43,6 +45,15 @@ class Parameters(unittest.TestCase):
         everything = next(one for one in kept if "all moulds" in one.label)
         self.assertEqual(everything.changes(1), ["vary.conductivity of sand=1.2", "vary.heat capacity per volume of sand=1.1",
                                                  "vary.conductivity of chill=1.02", "vary.heat capacity per volume of chill=1.02"])
+
+
+class Folders(unittest.TestCase):
+    def test_cases_and_variants_have_folders_of_their_own(self):
+        cases = Path(__file__).resolve().parents[2] / "cases"
+        for case, folder in ((cases / "bracket", "bracket/uncertain"), (cases / "bracket/case.toml", "bracket/uncertain"),
+                             (cases / "bracket/plate.toml", "bracket/uncertain_plate"),
+                             (f"{cases / 'thick_cylinder'}:split", "thick_cylinder/uncertain_split")):
+            self.assertEqual(usual_folder(str(case)), Path("results") / folder)
 
 
 class Results(unittest.TestCase):
