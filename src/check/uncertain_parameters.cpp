@@ -83,7 +83,8 @@ class ParameterList {
 
 /// What a body is to the case.
 struct BodyUse {
-  bool cast = false, deforms = false, weighs = false;
+  bool cast = false, deforms = false;
+  bool weighs = false;  ///< its weight or inertia loads it
 };
 
 class Collector {
@@ -122,7 +123,7 @@ class Collector {
     BodyUse use;
     use.cast = m_.is_poured(b);
     use.deforms = spec_.has_mechanics() && !only_conducts(body);
-    use.weighs = use.deforms && spec_.analysis.gravity > 0;
+    use.weighs = use.deforms && (spec_.analysis.gravity > 0 || spec_.dynamics);
     std::map<std::string_view, Known> spreads;
     for (const material::VariedProperty& row : material::varied_properties())
       if (row.has(a_.materials[b]) && uses(row.key, use))
