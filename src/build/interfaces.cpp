@@ -165,7 +165,7 @@ std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh&
     for (const auto& [pair, number] : wanted)
       if (pair == f.bodies) section = number;
     found.push_back(
-        {section, f.bodies.first, f.bodies.second, f.surface_a, f.surface_b, f.distance, f.facets});
+        {section, f.bodies.first, f.bodies.second, f.surface_a, f.surface_b, f.distance});
     // Faces that touch are apart by the rounding of their coordinates.
     const auto gap_in_mm = [&](double gap) { return gap < 1e-6 * f.distance ? 0.0 : 1e3 * gap; };
     logging::info(
@@ -207,7 +207,7 @@ void add_contacts(const std::vector<FoundInterface>& found, CaseSpec& spec) {
     contact.stabilisation = usual.stabilisation;
     contact.gauss_degree = usual.gauss_degree;
     contact.penetration_tolerance = usual.penetration_tolerance;
-    contact.touching = section.touching.value_or(f.facets);
+    contact.touching = section.touching;
     contact.search_distance = 2 * f.distance;
     contact.wet = section.wet;
     contact.friction = section.friction;

@@ -17,7 +17,6 @@ struct FoundInterface {
   int a = 0, b = 0;         ///< bodies
   std::string surface_a, surface_b;
   double distance = 0;  ///< that was looked within [m]
-  double facets = 0;    ///< gap that facets of curved faces may leave [m]
 };
 
 /// Looks for the faces of all [[interface]] sections, gives bodies that share nodes their own, and makes the

@@ -170,7 +170,7 @@ std::vector<FoundInterface> everywhere(const std::vector<FoundInterface>& found)
     packer.put(std::vector<GlobalIndex>{static_cast<GlobalIndex>(f.section), f.a, f.b});
     packer.put(f.surface_a);
     packer.put(f.surface_b);
-    packer.put(std::vector<double>{f.distance, f.facets});
+    packer.put(std::vector<double>{f.distance});
   }
   std::vector<char> buffer = std::move(packer).buffer();
   processes::broadcast(buffer);
@@ -183,9 +183,7 @@ std::vector<FoundInterface> everywhere(const std::vector<FoundInterface>& found)
     f.b = static_cast<int>(numbers[2]);
     f.surface_a = unpacker.string();
     f.surface_b = unpacker.string();
-    const auto lengths = unpacker.vector<double>();
-    f.distance = lengths[0];
-    f.facets = lengths[1];
+    f.distance = unpacker.vector<double>()[0];
   }
   return all;
 }

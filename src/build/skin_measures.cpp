@@ -76,7 +76,7 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
   if (mesh.surfaces.count(m.master) != 0)
     m.master_face_size = contact::ContactSurface(mesh, m.master).mean_face_size();
   m.shared_nodes = shared_nodes(mesh, m.slave, m.master);
-  double low = std::numeric_limits<double>::max(), high = -low;
+  double low = std::numeric_limits<double>::max(), high = -low, low_start = low, high_start = high;
   const contact::ContactKinematics& kinematics = pair.geometry().kinematics();
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     if (!kinematics.particle(p).counted) continue;
@@ -92,11 +92,18 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
     }
     low = std::min(low, -motion.penetration);
     high = std::max(high, -motion.penetration);
+    const double start = -motion.penetration - pair.geometry().initial_offset(p, motion.penetration);
+    m.mean_start += motion.weight * std::max(0.0, start);
+    low_start = std::min(low_start, start);
+    high_start = std::max(high_start, start);
   }
   for (double* area : {&m.paired, &m.below, &m.above, &m.beside}) *area = parallel::global_sum(*area);
   m.mean_gap = m.paired > 0 ? parallel::global_sum(m.mean_gap) / m.paired : 0.0;
   m.least_gap = parallel::global_min(low);
   m.largest_gap = parallel::global_max(high);
+  m.mean_start = m.paired > 0 ? parallel::global_sum(m.mean_start) / m.paired : 0.0;
+  m.least_start = parallel::global_min(low_start);
+  m.largest_start = parallel::global_max(high_start);
   return m;
 }
 

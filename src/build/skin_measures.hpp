@@ -19,6 +19,8 @@ struct ContactMeasures {
   double area = 0, paired = 0;            ///< of the slave: all of it, and the part with a partner [m²]
   double least_gap = 0, largest_gap = 0;  ///< over points with a partner, negative: overlap [m]
   double mean_gap = 0;                    ///< of the gaps above zero, over points with a partner [m]
+  /// The same as a run begins with: facets and gaps that count as touching are taken out [m].
+  double least_start = 0, largest_start = 0, mean_start = 0;
   double face_size = 0;                   ///< mean of the slave's faces [m]
   double master_face_size = 0;            ///< of the master's; zero: a rigid tool [m]
   /// Parts of the paired area where the master lies below the slave, as gravity acts, above it or beside it;

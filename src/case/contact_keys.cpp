@@ -86,8 +86,7 @@ Section<BodyInterfaceSpec> body_interface_keys() {
   s.quantity("touching", &I::touching, "m")
       .at_least(0)
       .doc(
-          "Initial gaps and penetrations up to this size count as touching; without it what facets of curved "
-          "faces leave: `distance`, and at most a quarter of the mean edge.");
+          "As of a [[contact]].");
   s.key("law", &I::law)
       .initially("")
       .doc(
@@ -194,7 +193,10 @@ Section<ContactSpec> contact_keys() {
       .doc("How far partners are looked for; without it a tenth of the slave's extent.");
   s.quantity("touching", &C::touching, "m")
       .at_least(0)
-      .doc("Initial gaps and penetrations up to this size count as touching; without it rounding only.");
+      .doc(
+          "Initial gaps and penetrations up to this size count as touching, others stay as the mesh has them; "
+          "without it the gap is that between the curved surfaces that facets stand for, and what is left of "
+          "it by rounding and scatter, up to a quarter of the height of the facets, counts as touching.");
   s.key("wet", &C::wet)
       .initially(true)
       .doc(

@@ -58,6 +58,8 @@ std::string celsius(const Function& f) {
   return values(f, "degC", 1, -k_zero_celsius);
 }
 
+constexpr double k_touches = 1e-8;  // [m]
+
 /// The name of a card of the library, with the range that its conductance has in practice.
 std::string card_text(const std::string& law) {
   for (const InterfaceCard& card : interface_cards())
@@ -69,8 +71,7 @@ std::string law_text(const ContactSpec& contact, const ContactMeasures& m, doubl
   if (!contact.heat) return "no heat";
   const contact::HeatTransferLaw law(*contact.heat);
   const double pressure = contact.wet ? contact.atmosphere : 0.0;
-  // Gaps that count as touching are none to begin with.
-  const double start = m.largest_gap > contact.touching.value_or(0) ? m.largest_gap : 0.0;
+  const double start = m.largest_start;
   const double closed = law.at(0, pressure, temperature).value, gap = std::max(start, 1e-4);
   std::string text = fmt::format("{:.4g} W/m2/K closed", closed);
   const double open = law.at(-gap, 0, temperature).value;
@@ -99,7 +100,7 @@ results::SkinOverview contact_overview(const CaseSpec& spec, const Assembly& a, 
   if (m.paired > 0) {
     skin.least_gap = m.least_gap;
     skin.largest_gap = m.largest_gap;
-    skin.touching = contact.touching.value_or(0);
+    skin.touches = std::max(std::abs(m.least_start), std::abs(m.largest_start)) < k_touches;
   }
   double hot = 0, cold = 1e300;
   for (const InitialTemperatureRange& r : a.start) hot = std::max(hot, r.high), cold = std::min(cold, r.low);
@@ -182,13 +183,13 @@ results::Overview overview(const CaseSpec& spec, const Assembly& a, const CaseMe
   if (spec.has_mechanics() && spec.analysis.gravity != 0) o.gravity = gravity(spec.analysis);
   for (const Pour& pour : m.pours) o.pours.push_back(pour_overview(spec, a, pour, m.bodies[pour.body]));
   o.effort = {m.effort.steps, m.effort.steps_known, m.effort.seconds, m.effort.bytes};
-  if (lags_a_step(spec, a.phases.keeps_strain())) {
+  const bool keeps = a.phases.keeps_strain();
+  if (lags_a_step(spec, keeps)) {
     o.lag = spec.time.adaptive ? 0.0 : spec.time.step.value_or(0);
     o.end = spec.time.end.value_or(0);
   }
   if (spec.exchanges_heat())
-    o.heat_lag =
-        heat_lag(spec, coupling_estimates(spec, a.materials, a.mesh, a.start), a.phases.keeps_strain());
+    o.heat_lag = heat_lag(spec, coupling_estimates(spec, a.materials, a.mesh, a.start), keeps);
   return o;
 }
 

@@ -29,9 +29,8 @@ void overlaps(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   constexpr double k_of_face = 0.15;
   for (std::size_t c = 0; c < m.contacts.size(); ++c) {
     const ContactMeasures& contact = m.contacts[c];
-    const double depth = -contact.least_gap;
-    if (contact.paired > 0 && depth > k_of_face * contact.face_size &&
-        depth > spec.contacts[c].touching.value_or(0.0))
+    const double depth = -contact.least_start;
+    if (contact.paired > 0 && depth > k_of_face * contact.face_size)
       findings.push_back({false, spec.contacts[c].where,
                           fmt::format("{} and {} of the contact '{}' overlap by up to {:.3g} mm at the start",
                                       name_of(spec, contact.slave_body), name_of(spec, contact.master_body),
@@ -45,12 +44,12 @@ void far_apart(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) 
     const ContactMeasures& contact = m.contacts[c];
     if (!(contact.paired > 0) || contact.slave_body < 0 || !spec.contacts[c].heat) continue;
     const BodyMeasures& body = m.bodies[static_cast<std::size_t>(contact.slave_body)];
-    const double size = std::cbrt(body.volume), allowed = spec.contacts[c].touching.value_or(0.0);
-    if (contact.least_gap > 2e-3 && contact.least_gap > 0.02 * size && contact.least_gap > allowed)
+    const double size = std::cbrt(body.volume);
+    if (contact.least_start > 2e-3 && contact.least_start > 0.02 * size)
       findings.push_back(
           {false, spec.contacts[c].where,
            fmt::format("the surfaces '{}' and '{}' of the contact '{}' are {:.3g} mm apart or more",
-                       contact.slave, contact.master, spec.contacts[c].name, 1e3 * contact.least_gap),
+                       contact.slave, contact.master, spec.contacts[c].name, 1e3 * contact.least_start),
            "surfaces that touch, or a gap below a millimetre; is it the right pair?"});
   }
 }

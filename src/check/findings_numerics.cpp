@@ -53,22 +53,12 @@ void search_distances(const CaseSpec& spec, const CaseMeasures& m, Findings& fin
   }
 }
 
-/// Whether [[interface]] chose which gaps of a contact count as closed, for the facets of curved faces.
-bool is_by_itself(const CaseSpec& spec, const ContactSpec& contact) {
-  return std::ranges::any_of(spec.interfaces, [&](const BodyInterfaceSpec& section) {
-    return !section.touching && section.where.text() == contact.where.text();
-  });
-}
-
-/// Gaps that count as closed. What [[interface]] chose by itself is nothing where faces touch as drawn.
+/// Gaps that the data take as closed.
 void touching_gaps(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   constexpr double k_much = 0.2;  // of the shortest side of the slave's body
-  constexpr double k_rounding = 1e-6;
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
     const ContactSpec& contact = spec.contacts[c];
     if (m.contacts[c].slave_body < 0 || !contact.touching) continue;
-    if (is_by_itself(spec, contact) && m.contacts[c].largest_gap <= k_rounding * m.contacts[c].face_size)
-      continue;
     const BodyMeasures& body = m.bodies[static_cast<std::size_t>(m.contacts[c].slave_body)];
     double size = std::numeric_limits<double>::max();
     for (std::size_t d = 0; d < 3; ++d)
@@ -78,6 +68,28 @@ void touching_gaps(const CaseSpec& spec, const CaseMeasures& m, Findings& findin
                           fmt::format("the contact '{}' takes gaps of up to {:g} mm as closed", contact.name,
                                       1e3 * *contact.touching),
                           "tenths of a millimetre between faceted surfaces"});
+  }
+}
+
+/// Whether [[interface]] made a contact and nothing says which gaps count as closed.
+bool is_by_itself(const CaseSpec& spec, const ContactSpec& contact) {
+  return std::ranges::any_of(spec.interfaces, [&](const BodyInterfaceSpec& section) {
+    return !section.touching && section.where.text() == contact.where.text();
+  });
+}
+
+/// Bodies that were found to face each other and do not touch, by more than facets of curved faces explain.
+void gaps_of_interfaces(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_least = 1e-7;  // [m]
+  for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
+    const ContactMeasures& measures = m.contacts[c];
+    if (!is_by_itself(spec, spec.contacts[c]) || !(measures.largest_start > k_least)) continue;
+    findings.push_back(
+        {false, spec.contacts[c].where,
+         fmt::format("the interface '{}' begins with gaps of up to {:.2g} mm, {:.2g} mm in the mean, that "
+                     "facets of curved faces do not explain",
+                     spec.contacts[c].name, 1e3 * measures.largest_start, 1e3 * measures.mean_start),
+         fmt::format("gaps that are meant, or touching = \"{:.2g} mm\"", 1.2e3 * measures.largest_start)});
   }
 }
 
@@ -123,6 +135,7 @@ void find_in_numerics(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   iterations(spec, findings);
   search_distances(spec, m, findings);
   touching_gaps(spec, m, findings);
+  gaps_of_interfaces(spec, m, findings);
   if (!spec.has_mechanics()) return;
   atmospheres(spec, findings);
   coarse_slaves(spec, a, m, findings);

@@ -21,6 +21,7 @@
 #include <span>
 
 #include "contact/contact_state.hpp"
+#include "contact/facet_heights.hpp"
 #include "contact/rotation.hpp"
 
 namespace solidus::contact {
@@ -85,6 +86,9 @@ class ContactKinematics {
     std::span<const double> share;  ///< their shape functions
   };
   virtual Particle particle(Index point) const = 0;
+  /// What facets of curved surfaces do to the gap of a point, between it and its partner as last placed; of a
+  /// point that stands for a part of the slave the mean.
+  virtual FacetGap facets(Index /*point*/) const { return {}; }
   /// Part of the slave surface that has a partner in the reference configuration, 0 to 1. Collective at
   /// construction, not here.
   virtual double coverage() const = 0;

@@ -1,5 +1,7 @@
 #include "contact/face.hpp"
 
+#include <cmath>
+#include <limits>
 #include <algorithm>
 
 #include "mesh/quadrature.hpp"
@@ -80,6 +82,14 @@ double Face::measure() const {
 
 double Face::size() const {
   return dimension() == 1 ? measure() : std::sqrt(measure());
+}
+
+double Face::rounding() const {
+  constexpr double k_places = 16 * std::numeric_limits<double>::epsilon();
+  double largest = 0;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(n_nodes); ++a)
+    for (const double component : x[a]) largest = std::max(largest, std::abs(component));
+  return k_places * largest / distance(x[0], x[1]);
 }
 
 std::array<Point, 2> Face::box() const {

@@ -21,6 +21,7 @@ class FixedKinematics final : public ContactKinematics {
 
   Index n_points() const override { return points_.n_points(); }
   Particle particle(Index point) const override;
+  FacetGap facets(Index point) const override { return points_.facets[static_cast<std::size_t>(point)]; }
   double coverage() const override { return points_.paired_measure / points_.slave_measure; }
   bool partners_change() const override { return false; }
   using ContactKinematics::place;

@@ -17,6 +17,9 @@ namespace solidus::contact {
 
 namespace {
 
+constexpr double k_rounding = 1e-6;  ///< of coordinates, of the mean size of the slave's faces
+constexpr double k_scatter = 0.25;   ///< of the heights of facets, which follow from those around them
+
 std::size_t index_of(Index i) {
   return static_cast<std::size_t>(i);
 }
@@ -106,11 +109,23 @@ ContactGeometry::ContactGeometry(const mesh::Mesh& mesh, AnalysisKind kind, cons
     : mesh_(mesh),
       components_(displacement_components(kind)),
       face_size_(surfaces.slave.mean_face_size()),
-      touching_(spec.touching.value_or(1e-6 * face_size_)),
+      touching_(spec.touching.value_or(k_rounding * face_size_)),
+      facets_close_(!spec.touching),
       surface_nodes_(owned_nodes(mesh, surfaces)) {
   make_kinematics(kind, spec, surfaces);
   configuration_ = std::make_unique<CurrentConfiguration>(*kinematics_);
   graph_ = std::make_unique<ContactGraph>(*kinematics_);
+  if (!facets_close_) return;
+  double bound = 0;
+  for (Index p = 0; p < n_points(); ++p) bound = std::max(bound, kinematics_->facets(p).bound);
+  touching_ += 2 * bound;
+}
+
+double ContactGeometry::initial_offset(Index point, double penetration) const {
+  if (!facets_close_) return std::abs(penetration) <= touching_ ? -penetration : 0.0;
+  const FacetGap facets = kinematics_->facets(point);
+  const double allowed = k_rounding * face_size_ + k_scatter * facets.bound;
+  return std::abs(penetration + facets.height) <= allowed ? -penetration : facets.height;
 }
 
 void ContactGeometry::make_kinematics(AnalysisKind kind, const ContactParameters& spec,
@@ -166,6 +181,25 @@ std::vector<SurfaceCurvature> ContactGeometry::curvatures(AnalysisKind kind,
     of_point[index_of(p)] =
         of_face[static_cast<std::size_t>(kinematics_->particle(p).number / k_points_of_a_face)];
   return of_point;
+}
+
+std::vector<SurfaceCurvature> ContactGeometry::master_curvatures(AnalysisKind kind,
+                                                                 const PairSurfaces& surfaces) const {
+  if (!surfaces.master) return {};
+  const std::vector<SurfaceCurvature> of_face =
+      surface_curvatures(*surfaces.master, kind, MeshMasterOptions{}.feature_angle);
+  if (std::ranges::all_of(of_face, [](const auto& c) { return c.first == 0 && c.second == 0; })) return {};
+  std::vector<SurfaceCurvature> at_node(mesh_.x.size());
+  std::vector<double> faces(mesh_.x.size(), 0.0);
+  for (Index f = 0; f < surfaces.master->n_faces(); ++f)
+    for (const Index node : surfaces.master->nodes(f)) {
+      at_node[index_of(node)].first += of_face[index_of(f)].first;
+      at_node[index_of(node)].second += of_face[index_of(f)].second;
+      faces[index_of(node)] += 1;
+    }
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (faces[i] > 0) at_node[i] = {at_node[i].first / faces[i], at_node[i].second / faces[i]};
+  return at_node;
 }
 
 }  // namespace solidus::contact

@@ -64,10 +64,17 @@ class ContactGeometry {
   const std::vector<Index>& surface_nodes() const { return surface_nodes_; }
   /// Mean size of the slave's faces [m].
   double face_size() const { return face_size_; }
-  /// Gaps and penetrations at the start up to this size are none [m].
+  /// No offset of an initial gap to zero is larger than this [m].
   double touching() const { return touching_; }
+  /// What is added to the initial penetration of a point as the mesh has it [m]: to zero where it counts as
+  /// touching, else to the gap between the surfaces that the facets stand for (facet_heights.hpp). Where the
+  /// data say what counts as touching, facets are taken as they are.
+  double initial_offset(Index point, double penetration) const;
   /// The curvature of the slave's face at every point; empty where the surface is plane.
   std::vector<SurfaceCurvature> curvatures(AnalysisKind kind, const ContactSurface& slave) const;
+  /// Means of the curvatures of the master's faces around its nodes, [local node]; empty where it is plane
+  /// or has no nodes.
+  std::vector<SurfaceCurvature> master_curvatures(AnalysisKind kind, const PairSurfaces& surfaces) const;
 
  private:
   void make_kinematics(AnalysisKind kind, const ContactParameters& spec, const PairSurfaces& surfaces);
@@ -75,6 +82,7 @@ class ContactGeometry {
   const mesh::Mesh& mesh_;
   int components_;
   double face_size_, touching_;
+  bool facets_close_ = false;  ///< the data do not say what counts as touching
   std::unique_ptr<ContactKinematics> kinematics_;
   std::unique_ptr<CurrentConfiguration> configuration_;
   std::unique_ptr<ContactGraph> graph_;

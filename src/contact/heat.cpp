@@ -34,7 +34,7 @@ ContactHeat::ContactHeat(const ContactGeometry& geometry, AnalysisKind kind, con
       point_law_(law),
       law_(*spec.heat),
       term_(geometry.mesh(), partners, geometry.graph(), law_, is_nodal(spec, surfaces)) {
-  term_.set_curvature(geometry.curvatures(kind, surfaces.slave));
+  term_.set_curvature(geometry.curvatures(kind, surfaces.slave), geometry.master_curvatures(kind, surfaces));
 }
 
 void ContactHeat::clear(std::size_t n_points) {

@@ -48,6 +48,8 @@ void HeatTerm::place(std::vector<HeatPoint> points) {
   points_ = std::move(points);
   share_out();
   fixed_.resize(law_.of_temperature() ? 0 : points_.size());
+  radiation_.resize(law_.radiation_factor() > 0 ? points_.size() : 0);
+  for (std::size_t p = 0; p < radiation_.size(); ++p) radiation_[p] = radiation(static_cast<Index>(p));
   for (std::size_t p = 0; p < fixed_.size(); ++p)
     fixed_[p] = conductance(static_cast<Index>(p), k_room_temperature).value;
 }
@@ -101,6 +103,33 @@ Conductance HeatTerm::conductance(Index point, double penetration, double pressu
   Conductance h = law_.at(-curvature.plane_gap(width), pressure, temperature);
   h.by_penetration *= curvature.plane_gap_slope(width);
   return h;
+}
+
+SurfaceCurvature HeatTerm::master_curvature(Index point) const {
+  SurfaceCurvature mean;
+  if (master_curvature_.empty()) return mean;
+  const std::span<const Index> nodes = partners_.nodes_of(point);
+  const std::span<const double> share = partners_.share_of(point);
+  for (std::size_t b = static_cast<std::size_t>(partners_.n_slave[at(point)]); b < nodes.size(); ++b) {
+    mean.first -= share[b] * master_curvature_[at(nodes[b])].first;
+    mean.second -= share[b] * master_curvature_[at(nodes[b])].second;
+  }
+  return mean;
+}
+
+HeatTerm::Radiation HeatTerm::radiation(Index point) const {
+  const double gap = -points_[at(point)].penetration;
+  if (!(gap > 0) || partners_.partnered[at(point)] == 0 || (curvature_.empty() && master_curvature_.empty()))
+    return {law_.radiation_factor(), 0};
+  const SurfaceCurvature slave = curvature_.empty() ? SurfaceCurvature{} : curvature_[at(point)],
+                         master = master_curvature(point);
+  const bool meshed = static_cast<std::size_t>(partners_.n_slave[at(point)]) < partners_.nodes_of(point).size();
+  const double of_slave = slave.area(gap), of_master = meshed ? master.area(gap) : 1 / of_slave;
+  const double ratio = std::sqrt(of_slave / of_master);
+  const double slope = meshed ? 0.5 * ratio *
+                                    (slave.area_slope(gap) / of_slave - master.area_slope(gap) / of_master)
+                              : slave.area_slope(gap);
+  return {law_.radiation_factor(ratio), law_.radiation_by_area(ratio) * slope};
 }
 
 void HeatTerm::begin_phase(const HeatSpan& span) {
@@ -173,7 +202,7 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
   const bool meshed = s.n_slave < s.nodes.size();
   s.master_takes_heat = meshed || tool_temperature_;
   const bool flows = !phase_ || !phase_->span.adiabatic;
-  if (s.master_takes_heat && flows) s.radiation = law_.radiation_factor();
+  if (s.master_takes_heat && flows && !radiation_.empty()) s.radiation = radiation_[at(point)].factor;
   for (std::size_t a = 0; a < s.nodes.size(); ++a) {
     const double t = temperature[at(s.nodes[a])];
     const bool slave = a < s.n_slave;

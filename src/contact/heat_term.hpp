@@ -70,7 +70,9 @@ struct InterfaceHeat {
 ///   consistent form  r_a += w B_a [h Σ_b B_b Θ_b + e Σ_b B_b Θ_b⁴]              B: N of the slave, −N of the
 ///                                                                               master
 ///
-/// e = σ_r F. Both are sums of exchanges between pairs of nodes, so heat is conserved to rounding. In the
+/// e = σ_r F(a), a the master's area over the slave's across the gap: a_s of the slave's curvature and 1/a_m
+/// of the master's, which are one of concentric faces, in geometric mean, so that the heat does not hang on
+/// which side is the slave. Both are sums of exchanges between pairs of nodes, so heat is conserved to rounding. In the
 /// nodal form the pairs are one of the slave and one of the master, with h N_i N_j >= 0 for linear shapes:
 /// with it a matrix of non-negative type stays one (6.3.1). Quadratic shapes have functions below zero, by
 /// which heat would pass from cold to hot: they take the consistent form, whose entropy production
@@ -101,8 +103,12 @@ class HeatTerm : public linear::Contribution {
   /// @param nodal  the nodal form; for linear faces only
   HeatTerm(const mesh::Mesh& mesh, const PartnerList& partners, ContactGraph& graph,
            const HeatTransferLaw& law, bool nodal);
-  /// The slave's curvature at every point, [point]; empty: faces are plane. Before place().
-  void set_curvature(std::vector<SurfaceCurvature> curvature) { curvature_ = std::move(curvature); }
+  /// Curvatures of the slave at every point, [point], and of the master at its nodes, [local node]; empty:
+  /// faces are plane. Before place().
+  void set_curvature(std::vector<SurfaceCurvature> slave, std::vector<SurfaceCurvature> master) {
+    curvature_ = std::move(slave);
+    master_curvature_ = std::move(master);
+  }
   /// Freezes the configuration, [point]; the partners are those of the list now.
   void place(std::vector<HeatPoint> points);
   const std::vector<HeatPoint>& points() const { return points_; }
@@ -216,6 +222,14 @@ class HeatTerm : public linear::Contribution {
   /// h at the plane gap that resists as that of the point does, and its slope in the gap itself.
   Conductance conductance(Index point, double temperature) const;
   Conductance conductance(Index point, double penetration, double pressure, double temperature) const;
+  /// e at a point, and its slope in the width of the gap.
+  struct Radiation {
+    double factor = 0;  ///< [W/(m² K⁴)]
+    double by_gap = 0;  ///< [W/(m³ K⁴)]
+  };
+  Radiation radiation(Index point) const;
+  /// The mean of the curvatures of the master's nodes that a point meets.
+  SurfaceCurvature master_curvature(Index point) const;
 
   Index n_owned_;
   int dimension_;
@@ -226,7 +240,9 @@ class HeatTerm : public linear::Contribution {
   bool active_ = true;
   mutable int version_ = 0;  ///< of the graph it has
   std::vector<HeatPoint> points_;
-  std::vector<SurfaceCurvature> curvature_;  ///< of the slave, [point]; empty: none
+  std::vector<SurfaceCurvature> curvature_;         ///< of the slave, [point]; empty: none
+  std::vector<SurfaceCurvature> master_curvature_;  ///< of the master, [local node]; empty: none
+  std::vector<Radiation> radiation_;                ///< [point]; empty: none
   std::vector<char> limited_nodes_;          ///< by limit_exchange(), [local node]; empty: none
   std::vector<double> positive_;             ///< B of limited points, as PartnerList::share; empty: none
   std::optional<double> tool_temperature_;

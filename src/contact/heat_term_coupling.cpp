@@ -29,6 +29,8 @@ void HeatTerm::add_gap_slope(const AtPoint& s, std::span<const double> temperatu
   const double w = partners_.weight[at(s.point)];
   const Conductance h = conductance(s.point, 0.5 * (s.slave + s.master));
   const double slope = w * (h.by_pressure * point.pressure_slope + h.by_penetration);
+  // By the penetration, which is minus the gap.
+  if (s.radiation > 0) add_exchange(s, temperature, 0, -w * radiation_[at(s.point)].by_gap, heat);
   if (slope != 0) {
     add_exchange(s, temperature, slope, 0, heat);
     if (s.has_temperature) {

@@ -47,7 +47,20 @@ HeatTransferLaw::HeatTransferLaw(HeatTransferSpec spec) : spec_(std::move(spec))
   const double e1 = spec_.slave_emissivity, e2 = spec_.master_emissivity;
   if (!(e1 >= 0 && e1 <= 1 && e2 >= 0 && e2 <= 1))
     throw InputError(spec_.where, "an emissivity is not between 0 and 1", "0 to 1");
-  if (e1 > 0 && e2 > 0) radiation_factor_ = k_stefan_boltzmann / (1 / e1 + 1 / e2 - 1);
+}
+
+double HeatTransferLaw::radiation_factor(double area_ratio) const {
+  const double slave = spec_.slave_emissivity, master = spec_.master_emissivity, share = 1 / area_ratio;
+  if (!(slave > 0 && master > 0)) return 0;
+  return k_stefan_boltzmann / (1 / slave - 1 + std::max(1.0, share) + share * (1 / master - 1));
+}
+
+double HeatTransferLaw::radiation_by_area(double area_ratio) const {
+  const double factor = radiation_factor(area_ratio);
+  if (!(factor > 0)) return 0;
+  const double smaller = area_ratio < 1 ? 1 : area_ratio > 1 ? 0 : 0.5;  // the master has the smaller area
+  return factor * factor / k_stefan_boltzmann * (smaller + 1 / spec_.master_emissivity - 1) /
+         (area_ratio * area_ratio);
 }
 
 void HeatTransferLaw::prepare_laws() {

@@ -6,9 +6,13 @@
 ///   open (g_N < 0)     h = h_o(g, Θ_g), g = −g_N                                              (3.50, 7.9)
 ///
 /// g_N [m] penetration, g [m] width of the gap, t_N [Pa] contact pressure, Θ_g [K] mean of the two surfaces'
-/// temperatures; h_c and h_o are laws in files of their own (laws/contact_law.hpp, laws/gap_law.hpp). F =
-/// 1/(1/ε_1 + 1/ε_2 − 1) of two large grey parallel surfaces that face each other (view factor 1: the gap is
-/// small against them), σ_r the Stefan–Boltzmann constant.
+/// temperatures; h_c and h_o are laws in files of their own (laws/contact_law.hpp, laws/gap_law.hpp). σ_r is
+/// the Stefan–Boltzmann constant. With a = A_m/A_s, the master's area over the slave's that it faces,
+///
+///   F = 1/[(1/ε_s − 1) + max(1, 1/a) + (1/ε_m − 1)/a]
+///
+/// of two grey diffuse surfaces of which the smaller one sees the other alone: 1/(1/ε_s + 1/ε_m − 1) of
+/// parallel planes, and exact for concentric cylinders and spheres, whichever of the two is the slave.
 ///
 /// Beside a closed law the gap conducts h_o(0), or, where the surfaces are rough and the law of the gap holds
 /// for the gas between them too, h_o(Y(t_N)), Y the distance of their mean planes. Such a gap begins where
@@ -27,7 +31,8 @@
 /// 1/h = 1/h_1 + 1/h_2 (OneSided): h_1 = h/s and h_2 = h/(1 − s), s the share of the resistance that lies on
 /// the slave's side, a half unless the data say otherwise.
 ///
-/// Source: monograph 3.45–3.50, table 7.9.
+/// Source: monograph 3.45–3.50, table 7.9; the network of surface and space resistances of grey enclosures
+/// (e.g. R. Siegel, J. R. Howell, Thermal Radiation Heat Transfer).
 #pragma once
 
 #include <memory>
@@ -100,8 +105,11 @@ class HeatTransferLaw {
   double slave_share(bool master_takes_heat = true) const {
     return master_takes_heat ? 1 - spec_.slave_resistance : 1.0;
   }
-  /// σ_r F [W/(m² K⁴)], zero without radiation.
-  double radiation_factor() const { return radiation_factor_; }
+  /// σ_r F per area of the slave [W/(m² K⁴)], zero without radiation.
+  /// @param area_ratio  a
+  double radiation_factor(double area_ratio = 1) const;
+  /// dσ_r F/da [W/(m² K⁴)]; at a = 1 the mean of both sides.
+  double radiation_by_area(double area_ratio) const;
 
  private:
   LawConductance open(double gap, double temperature) const;
@@ -118,7 +126,6 @@ class HeatTransferLaw {
   double transition_gap_ = 1e-6, transition_pressure_ = 1e5;  ///< g_t, p_t
   std::vector<double> temperatures_;                          ///< of the laws; any one without [K]
   bool of_temperature_ = false;
-  double radiation_factor_ = 0;
 };
 
 }  // namespace solidus::contact

@@ -41,7 +41,7 @@ ContactState ContactHistory::initial() const {
     point.anchored = true;
     point.anchor = motion.anchor;
     point.master_normal = motion.master_normal;
-    if (std::abs(motion.penetration) <= geometry_.touching()) point.offset = -motion.penetration;
+    point.offset = geometry_.initial_offset(p, motion.penetration);
     point.penetration = motion.penetration + point.offset;
     if (point.penetration < 0) continue;
     point.status = law_.friction ? PointStatus::sticks : PointStatus::slips;

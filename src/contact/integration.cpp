@@ -33,7 +33,9 @@ class Builder {
         master_(master),
         options_(options),
         everything_(options.rule == IntegrationRule::mortar),
-        search_(reference_faces(master)) {}
+        search_(reference_faces(master)),
+        slave_heights_(slave),
+        master_heights_(master) {}
 
   ContactPoints build() {
     for (Index f = 0; f < slave_.n_faces(); ++f) add_slave_face(f);
@@ -104,12 +106,15 @@ class Builder {
     points_.nodes.insert(points_.nodes.end(), s.begin(), s.end());
     points_.nodes.insert(points_.nodes.end(), m.begin(), m.end());
     const Face& partner = search_.face(master_face);
-    std::array<double, k_max_face_nodes> values;
+    std::array<double, k_max_face_nodes> values, master_values;
     for (const PairedPoint& point : found) {
       mesh::basis_values(face.shape, point.slave_xi, values);
       points_.shape.insert(points_.shape.end(), values.begin(), values.begin() + p.n_slave);
-      mesh::basis_values(partner.shape, point.master_xi, values);
-      for (std::size_t b = 0; b < m.size(); ++b) points_.shape.push_back(-values[b]);
+      mesh::basis_values(partner.shape, point.master_xi, master_values);
+      for (std::size_t b = 0; b < m.size(); ++b) points_.shape.push_back(-master_values[b]);
+      points_.facets.push_back(facet_gap(slave_heights_, slave_face, std::span(values).first(s.size()),
+                                         &master_heights_, master_face,
+                                         std::span(master_values).first(m.size())));
       const Point x = face.at(point.slave_xi), n = face.normal(point.slave_xi);
       // The other rules' measures hold the circumference already.
       const bool placed = options_.rule == IntegrationRule::gauss || options_.rule == IntegrationRule::nodal;
@@ -131,6 +136,7 @@ class Builder {
   IntegrationOptions options_;
   bool everything_;  ///< the points that this process does not need itself, too
   FaceSearch search_;
+  FacetHeights slave_heights_, master_heights_;
   ContactPoints points_;
   std::vector<PairedPoint> found_;
 };
@@ -154,7 +160,8 @@ std::vector<Index> faces_within(const Face& slave, const FaceSearch& master, dou
 std::size_t ContactPoints::bytes() const {
   return pairings.capacity() * sizeof(Pairing) + nodes.capacity() * sizeof(Index) +
          (shape.capacity() + weight.capacity() + initial_penetration.capacity()) * sizeof(double) +
-         (normal.capacity() + position.capacity()) * sizeof(Point) + number.capacity() * sizeof(GlobalIndex);
+         (normal.capacity() + position.capacity()) * sizeof(Point) + facets.capacity() * sizeof(FacetGap) +
+         number.capacity() * sizeof(GlobalIndex);
 }
 
 ContactPoints integrate(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,

@@ -13,6 +13,7 @@
 
 #include <vector>
 
+#include "contact/facet_heights.hpp"
 #include "contact/surface.hpp"
 #include "mesh/mesh.hpp"
 #include "numbers/types.hpp"
@@ -59,6 +60,7 @@ struct ContactPoints {
   std::vector<Point> normal;    ///< n, from the slave to the master
   std::vector<Point> position;  ///< on the slave, reference configuration [m]
   std::vector<double> initial_penetration;  ///< g_N at u = 0 [m]
+  std::vector<FacetGap> facets;             ///< what facets of curved surfaces do to g_N
   std::vector<GlobalIndex> number;  ///< of all processes alike: slave face × k_points_of_a_face + place
 
   double slave_measure = 0;   ///< whole slave surface, axisymmetric with 2πr [m²]; over all processes

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact/face.hpp"
+#include "contact/facet_heights.hpp"
 #include "contact/rotation.hpp"
 #include "numbers/types.hpp"
 
@@ -70,6 +71,8 @@ class Master {
   /// Returns the displacement of the particle at a partner by a prescribed motion from one time to another
   /// [m].
   virtual Point way(const Partner&, double /*from*/, double /*to*/) const { return {}; }
+  /// Heights of its facets; null: it has none.
+  virtual const FacetHeights* heights() const { return nullptr; }
   /// The most nodes that a frame has.
   virtual std::size_t max_nodes() const = 0;
   /// True when the reference normal turns on a face: then carried tractions have rates.

@@ -60,6 +60,7 @@ MeshMaster::MeshMaster(int components, const ContactSurface& surface, const Mesh
       reference_(reference_faces(surface)),
       faces_(reference_),
       topology_(surface_),
+      heights_(surface),
       search_(faces_, 0.25 * mean_diagonal(faces_)) {
   if (options.smoothing) {
     reference_normals_.emplace(surface, options.feature_angle);
@@ -201,6 +202,7 @@ Partner MeshMaster::flat(const SurfacePoint& closest, const Point& x) const {
 // Newton's method for x = y(ξ) − g ν(ξ) on one face.
 Partner MeshMaster::smooth_on(Index f, const Point& start, const Point& x, double tolerance) const {
   const Face& here = face(f);
+  const double allowed = std::max(1e-13, here.rounding());
   Point xi = start;
   double g = 0;
   for (int i = 0; i < k_max_iterations; ++i) {
@@ -218,7 +220,7 @@ Partner MeshMaster::smooth_on(Index f, const Point& start, const Point& x, doubl
     xi = {xi[0] + step * d1, xi[1] + step * d2, 0};
     g += step * dot(r, cross(a, b)) / det;
     if (outside_by(here.shape, xi) > 2) return {};
-    if (length > 1e-13 && i + 1 < k_max_iterations) continue;
+    if (length > allowed && i + 1 < k_max_iterations) continue;
     if (length > 1e-9 || outside_by(here.shape, xi) > tolerance) return {};
     Partner p;
     p.face = f;

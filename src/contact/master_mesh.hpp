@@ -47,6 +47,7 @@ class MeshMaster : public Master {
   }
   Index n_faces() const override { return surface_.n_faces(); }
   void frame(const Partner& partner, bool rates, MasterFrame& frame) const override;
+  const FacetHeights* heights() const override { return &heights_; }
   std::size_t max_nodes() const override { return max_nodes_; }
   bool reference_turns() const override;
   bool symmetric() const override { return !normals_; }
@@ -75,6 +76,7 @@ class MeshMaster : public Master {
   MeshMasterOptions options_;
   std::vector<Face> reference_, faces_;
   MasterTopology topology_;
+  FacetHeights heights_;
   std::optional<AveragedNormals> normals_, reference_normals_;
   SlidingSearch search_;
   std::size_t max_nodes_ = 0;

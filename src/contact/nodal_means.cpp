@@ -15,6 +15,7 @@ struct Mean {
   GlobalIndex number = 0;
   Index face = 0, partner = 0;  ///< the first ones that are met
   double weight = 0, penetration = 0;
+  FacetGap facets;
   Point normal{}, position{};
   bool linear = true;  ///< all faces around the node
   struct Share {
@@ -68,6 +69,8 @@ ContactPoints means_around_nodes(const mesh::Mesh& mesh, const ContactSurface& s
         }
         mean.weight += w;
         mean.penetration += w * pieces.initial_penetration[i];
+        mean.facets.height += w * pieces.facets[i].height;
+        mean.facets.bound += w * pieces.facets[i].bound;
         mean.normal = add_scaled(mean.normal, w, pieces.normal[i]);
         mean.position = add_scaled(mean.position, w, pieces.position[i]);
         mean.linear = mean.linear && mesh::order(slave.shape(pairing.slave_face)) == 1;
@@ -113,6 +116,7 @@ ContactPoints means_around_nodes(const mesh::Mesh& mesh, const ContactSurface& s
     points.normal.push_back(scale(1 / norm(mean.normal), mean.normal));
     points.position.push_back(scale(1 / mean.weight, mean.position));
     points.initial_penetration.push_back(mean.penetration / mean.weight);
+    points.facets.push_back({mean.facets.height / mean.weight, mean.facets.bound / mean.weight});
     points.pairings.push_back(pairing);
   }
   return points;

@@ -66,9 +66,8 @@ struct ContactParameters {
   /// Distance up to which partners are searched for along the normal [m]; absent: a tenth of the slave's
   /// extent.
   std::optional<double> search_distance;
-  /// Initial gaps and penetrations up to this size are taken as touching, g_N = 0 [m]; absent: 1e-6 of the
-  /// mean size of the slave's faces, which is rounding. Larger values close the gaps that faceted curved
-  /// surfaces leave between them.
+  /// Initial gaps and penetrations up to this size are taken as touching, g_N = 0 [m]; absent:
+  /// rounding and what the facets of curved surfaces leave between them (ContactGeometry::initial_offset).
   std::optional<double> touching;
   std::optional<HeatTransferSpec> heat;  ///< absent: no heat passes
   /// Heat between nodes of the two sides only (a graph Laplacian): keeps the thermal matrix of non-negative

@@ -32,6 +32,7 @@ double half_square(const Face& face, const Point& xi, const Point& p) {
 // direction. Steps are limited to the size of the reference shape. Returns true when the gradient vanished.
 bool minimise(const Face& face, const Point& p, Point& xi) {
   const bool line = face.dimension() == 1;
+  const double allowed = std::max(k_xi_tolerance, face.rounding());
   double value = half_square(face, xi, p);
   for (int i = 0; i < k_max_iterations; ++i) {
     const auto [t1, t2] = face.tangents(xi);
@@ -45,7 +46,7 @@ bool minimise(const Face& face, const Point& p, Point& xi) {
     const bool convex = h11 > 0 && h11 * h22 - h12 * h12 > 0;
     if (!(convex && solve(h11, h22, h12, g1, g2, s)) && !solve(m11, m22, m12, g1, g2, s)) return false;
     const double length = std::max(std::abs(s.d1), std::abs(s.d2));
-    if (length < k_xi_tolerance) return true;
+    if (length < allowed) return true;
     double alpha = length > 1 ? 1 / length : 1;
     // Near the minimum the values no longer tell rounding from descent: accept the step there.
     const double slack = 1e-14 * (value + 1e-300);
@@ -162,6 +163,7 @@ Projection project_along_extended(const Face& face, const Point& p, const Point&
     tangent_basis(d, e1, e2);
   }
   Projection result;
+  const double allowed = std::max(k_xi_tolerance, face.rounding());
   Point xi = reference_centre(face.shape);
   for (int i = 0; i < k_max_iterations; ++i) {
     const Point r = subtract(face.at(xi), p);
@@ -176,7 +178,7 @@ Projection project_along_extended(const Face& face, const Point& p, const Point&
     const double length = std::max(std::abs(d1), std::abs(d2));
     xi = {xi[0] + d1, xi[1] + d2, 0};
     if (!(length < 1e6)) return result;
-    if (length < k_xi_tolerance || (i > 0 && length < 1e-11 * (1 + std::abs(xi[0]) + std::abs(xi[1])))) {
+    if (length < allowed || (i > 0 && length < 1e-11 * (1 + std::abs(xi[0]) + std::abs(xi[1])))) {
       result.found = true;
       break;
     }

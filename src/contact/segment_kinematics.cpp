@@ -137,6 +137,19 @@ void SegmentKinematics::place(std::span<const double> displacement, Points) {
   }
 }
 
+FacetGap SegmentKinematics::facets(Index point) const {
+  FacetGap mean;
+  if (covered_[at(point)] == 0) return mean;
+  for (Index s = first_place_[at(point)]; s < first_place_[at(point) + 1]; ++s) {
+    if (places_.partner(s).face < 0) continue;
+    const FacetGap here = places_.facets(s);
+    const double alpha = places_.particle(s).weight / covered_[at(point)];
+    mean.height += alpha * here.height;
+    mean.bound += alpha * here.bound;
+  }
+  return mean;
+}
+
 bool SegmentKinematics::concerns(Index point) const {
   for (Index s = first_place_[at(point)]; s < first_place_[at(point) + 1]; ++s)
     if (places_.concerns(s)) return true;

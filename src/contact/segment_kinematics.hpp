@@ -42,6 +42,7 @@ class SegmentKinematics final : public ContactKinematics {
   /// With the weight of the part that was covered when the cell was last placed, of a cell without a partner
   /// the whole.
   Particle particle(Index point) const override;
+  FacetGap facets(Index point) const override;
   double coverage() const override { return coverage_; }
   bool symmetric() const override { return places_.symmetric(); }
   void set_time(double time) override { places_.set_time(time); }

@@ -14,6 +14,7 @@ constexpr double k_least_piece = 1e-10;
 // ξ on the slave face whose normal line passes through p: the closest point of the extended curve. False when
 // it lies nowhere near the face.
 bool parameter_of(const Face& slave, const Point& p, double& xi) {
+  const double allowed = std::max(1e-13, slave.rounding());
   xi = 0;
   for (int i = 0; i < 50; ++i) {
     const Point x{xi, 0, 0};
@@ -24,7 +25,7 @@ bool parameter_of(const Face& slave, const Point& p, double& xi) {
     const double step = -gradient / hessian;
     xi += std::clamp(step, -1.0, 1.0);
     if (std::abs(xi) > 50) return false;
-    if (std::abs(step) < 1e-13) return true;
+    if (std::abs(step) < allowed) return true;
   }
   return false;
 }

@@ -49,6 +49,7 @@ class SlidingKinematics : public ContactKinematics {
 
   Index n_points() const override { return static_cast<Index>(weight_.size()); }
   Particle particle(Index point) const override;
+  FacetGap facets(Index point) const override;
   double coverage() const override { return coverage_; }
   bool symmetric() const override { return master_->symmetric(); }
   void set_time(double time) override { time_ = time; }
@@ -100,6 +101,7 @@ class SlidingKinematics : public ContactKinematics {
   std::size_t components_;
   ContactSurface slave_;
   std::unique_ptr<Master> master_;
+  FacetHeights heights_;  ///< of the slave
   SlidingOptions options_;
   double time_ = 0, coverage_ = 0;
 

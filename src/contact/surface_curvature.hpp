@@ -25,6 +25,8 @@ struct SurfaceCurvature {
   double area(double distance) const;
   /// g' [m]; a gap that is closed or penetrated stays as it is.
   double plane_gap(double gap) const;
+  /// da/ds [1/m].
+  double area_slope(double distance) const;
   /// dg'/dg = 1/a(g).
   double plane_gap_slope(double gap) const { return gap > 0 ? 1 / area(gap) : 1; }
 
@@ -32,9 +34,25 @@ struct SurfaceCurvature {
   static constexpr double k_least_area = 0.05;
 };
 
-/// The curvatures of every face in the reference configuration, from the normals at the centres of the faces
-/// that share a node with it and stand at less than `feature_angle` to it [rad]. Zero where they are those of
-/// a plane.
+/// The symmetric S of n(x + d) − n(x) ≈ S d in the tangent plane at the centre of a face [1/m].
+struct ShapeOperator {
+  Point along{}, across{};          ///< unit vectors of the tangent plane
+  double s11 = 0, s12 = 0, s22 = 0;  ///< components of S in them
+  /// How far the turn towards every single neighbour agrees with S, 0 to 1: below one at the end of a curved
+  /// part, where some neighbours stand in a plane with the face.
+  double agreement = 1;
+
+  /// dᵀ S d.
+  double turn_along(const Point& d) const;
+};
+
+/// S of every face in the reference configuration by least squares over the faces that share a node with it
+/// and stand at less than `feature_angle` to it [rad]: from the normals at their centres, of triangles from a
+/// quadric through their nodes.
+std::vector<ShapeOperator> shape_operators(const ContactSurface& surface, double feature_angle);
+
+/// The curvatures of every face in the reference configuration, of its shape operator. Zero where they are
+/// those of a plane.
 std::vector<SurfaceCurvature> surface_curvatures(const ContactSurface& surface, AnalysisKind kind,
                                                  double feature_angle);
 

@@ -165,9 +165,8 @@ std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& b
   for (const FacingWish& wish : wishes) {
     const std::array<int, 2> pair = {wish.bodies.first, wish.bodies.second};
     constexpr double k_share_of_edge = 0.25;
-    const double facets =
-        k_share_of_edge * std::min(mean_edge(skins[at(pair[0])]), mean_edge(skins[at(pair[1])]));
-    const double distance = wish.distance > 0 ? wish.distance : facets;
+    const double edge = std::min(mean_edge(skins[at(pair[0])]), mean_edge(skins[at(pair[1])]));
+    const double distance = wish.distance > 0 ? wish.distance : k_share_of_edge * edge;
     std::array<Side, 2> sides;
     for (std::size_t s = 0; s < 2; ++s) {
       const std::vector<SkinFace>& own = skins[at(pair[s])];
@@ -194,7 +193,7 @@ std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& b
     }
     if (sides[0].faces.empty() || sides[1].faces.empty()) continue;
     Facing facing{wish.bodies, names[at(pair[0])] + "_to_" + names[at(pair[1])],
-                  names[at(pair[1])] + "_to_" + names[at(pair[0])], distance, std::min(facets, distance)};
+                  names[at(pair[1])] + "_to_" + names[at(pair[0])], distance};
     facing.area_a = sides[0].area;
     facing.area_b = sides[1].area;
     facing.covered_a = sides[0].covered;

@@ -40,7 +40,6 @@ struct Facing {
   BodyPair bodies;
   std::string surface_a, surface_b;      ///< the groups A_to_B and B_to_A
   double distance = 0;                   ///< that was looked within [m]
-  double facets = 0;                     ///< gap that facets of curved faces may leave [m]
   double area_a = 0, area_b = 0;         ///< of the faces of the groups [m²]
   double covered_a = 0, covered_b = 0;   ///< the part of it that has a partner [m²]
   double mean_gap = 0, largest_gap = 0;  ///< of the first side [m]

@@ -106,7 +106,7 @@ std::string skin_table(const Overview& o) {
     if (s.least_gap && s.largest_gap) {
       const double largest = std::max(std::abs(*s.least_gap), std::abs(*s.largest_gap));
       gap = largest < 1e-8 ? "touches" : "gap " + range(1e3 * *s.least_gap, 1e3 * *s.largest_gap, "mm");
-      if (largest >= 1e-8 && largest <= s.touching) gap += ", counts as touching";
+      if (largest >= 1e-8 && s.touches) gap += ", counts as touching";
     }
     const bool part = s.paired < 0.999 * s.area;
     rows.push_back({s.name, s.surface + (s.body.empty() ? "" : " (" + s.body + ")"), s.faces,

@@ -36,7 +36,7 @@ struct SkinOverview {
   double area = 0;                               ///< of the skin [m²]
   double paired = 0;                             ///< the part with a partner; without contact all of it [m²]
   std::optional<double> least_gap, largest_gap;  ///< of a contact at the start, negative: overlap [m]
-  double touching = 0;                           ///< gaps and overlaps up to this size count as none [m]
+  bool touches = false;                          ///< gaps and overlaps count as none
   std::string law;                               ///< "1000 W/m2/K, in the gap 420 to 600 W/m2/K"
 };
 

@@ -317,5 +317,28 @@ TEST(HeatTransfer, RadiatesBetweenParallelGreySurfaces) {
   EXPECT_EQ(HeatTransferLaw(monograph_spec()).radiation_factor(), 0);
 }
 
+TEST(Radiation, BetweenUnlikeAreasIsThatOfConcentricSurfacesFromBothSides) {
+  HeatTransferSpec from_one = monograph_spec(), from_two = monograph_spec();
+  from_one.slave_emissivity = from_two.master_emissivity = 0.8;
+  from_one.master_emissivity = from_two.slave_emissivity = 0.3;
+  const HeatTransferLaw one(from_one), two(from_two);
+  for (const double ratio : {0.3, 0.9, 1.0, 1.7, 4.0}) {
+    // Per area of the inner surface, the smaller one.
+    const double inner = std::min(1.0, ratio), share = inner / std::max(1.0, ratio),
+                 closed_form = ratio >= 1 ? 1 / (1 / 0.8 + share * (1 / 0.3 - 1))
+                                          : 1 / (1 / 0.3 + share * (1 / 0.8 - 1));
+    EXPECT_NEAR(one.radiation_factor(ratio), inner * closed_form * k_stefan_boltzmann,
+                1e-12 * k_stefan_boltzmann)
+        << ratio;
+    EXPECT_NEAR(one.radiation_factor(ratio), ratio * two.radiation_factor(1 / ratio),
+                1e-12 * k_stefan_boltzmann)
+        << ratio;
+    if (ratio == 1) continue;  // where it has a bend
+    const double d = 1e-6,
+                 slope = (one.radiation_factor(ratio + d) - one.radiation_factor(ratio - d)) / (2 * d);
+    EXPECT_NEAR(one.radiation_by_area(ratio), slope, 1e-6 * k_stefan_boltzmann) << ratio;
+  }
+}
+
 }  // namespace
 }  // namespace solidus::contact

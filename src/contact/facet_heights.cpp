@@ -1,0 +1,48 @@
+#include "contact/facet_heights.hpp"
+
+#include <cmath>
+
+#include "contact/master_mesh.hpp"
+#include "contact/surface_curvature.hpp"
+
+namespace solidus::contact {
+
+FacetHeights::FacetHeights(const ContactSurface& surface) {
+  const std::vector<ShapeOperator> shapes = shape_operators(surface, MeshMasterOptions{}.feature_angle);
+  for (Index f = 0; f < surface.n_faces(); ++f) {
+    first_.push_back(pair_.size());
+    largest_.push_back(0);
+    const Face face = surface.reference_face(f);
+    if (mesh::order(face.shape) > 1) continue;
+    const ShapeOperator& shape = shapes[static_cast<std::size_t>(f)];
+    const auto n = static_cast<std::size_t>(face.n_nodes);
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = a + 1; b < n; ++b) {
+        pair_.push_back(0.5 * shape.agreement * shape.turn_along(subtract(face.x[b], face.x[a])));
+        largest_.back() += std::abs(pair_.back());
+      }
+    // At the centre, where all shape functions are 1/n.
+    largest_.back() /= static_cast<double>(n * n);
+  }
+}
+
+double FacetHeights::at(Index face, std::span<const double> shape) const {
+  const auto f = static_cast<std::size_t>(face);
+  if (!(largest_[f] > 0)) return 0;
+  double height = 0;
+  const double* pair = pair_.data() + first_[f];
+  for (std::size_t a = 0; a < shape.size(); ++a)
+    for (std::size_t b = a + 1; b < shape.size(); ++b) height += shape[a] * shape[b] * *pair++;
+  return height;
+}
+
+FacetGap facet_gap(const FacetHeights& slave, Index slave_face, std::span<const double> slave_shape,
+                   const FacetHeights* master, Index master_face, std::span<const double> master_shape) {
+  FacetGap gap{slave.at(slave_face, slave_shape), slave.largest(slave_face)};
+  if (master == nullptr || master_face < 0) return gap;
+  gap.height += master->at(master_face, master_shape);
+  gap.bound += master->largest(master_face);
+  return gap;
+}
+
+}  // namespace solidus::contact
