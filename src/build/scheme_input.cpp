@@ -1,11 +1,71 @@
 #include "build/scheme_input.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
+#include "case/roles.hpp"
 #include "coupling/guarded_scheme.hpp"
 
 namespace solidus::model {
+
+namespace {
+
+constexpr double k_unbounded = std::numeric_limits<double>::infinity();
+
+/// Temperatures of a run [K].
+struct Range {
+  double low = k_unbounded, high = 0;
+  void see(double least, double most) {
+    low = std::min(low, least);
+    high = std::max(high, most);
+  }
+  /// Those that a condition has; without a bound where a formula or a file says them.
+  void see(const Function& f) {
+    if (f.place != nullptr)
+      see(0, k_unbounded);
+    else
+      see(f.table.min_value(), f.table.max_value());
+  }
+};
+
+bool heats(const Function& f) {
+  return f.place != nullptr || f.of == Argument::temperature || f.table.max_value() > 0;
+}
+
+/// Temperatures that bodies, surroundings and tools have in the run; without an upper bound where heat comes
+/// in without one. The heat of friction is not counted.
+Range temperatures(const CaseSpec& spec, std::span<const InitialTemperatureRange> start) {
+  using Kind = ThermalConditionSpec::Kind;
+  Range all;
+  for (const InitialTemperatureRange& range : start) all.see(range.low, range.high);
+  for (const RigidSurfaceSpec& tool : spec.rigid_surfaces)
+    if (tool.temperature) all.see(*tool.temperature);
+  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
+    if ((c.kind == Kind::flux && heats(c.flux)) || (c.kind == Kind::source && heats(c.power)) ||
+        c.kind == Kind::exothermic)
+      all.see(all.low, k_unbounded);
+    if (c.kind == Kind::temperature) all.see(c.temperature);
+    if (c.kind == Kind::film || c.kind == Kind::radiation) all.see(c.ambient);
+  }
+  return all;
+}
+
+}  // namespace
+
+bool keeps_strain(const CaseSpec& spec, const std::vector<material::Material>& materials,
+                  std::span<const InitialTemperatureRange> start) {
+  constexpr double k_same = 1;  // [K]
+  const Range all = temperatures(spec, start);
+  for (std::size_t b = 0; b < materials.size(); ++b) {
+    if (!materials[b].mechanical() || only_conducts(spec.bodies[b])) continue;
+    const material::PhaseChange* freezing = materials[b].solidification();
+    if (freezing != nullptr && all.high >= freezing->fraction.solidus()) return true;
+    const bool yields = materials[b].flow.has_value() || external_law(materials[b]) != nullptr;
+    if (yields && all.high - all.low > k_same) return true;
+  }
+  return false;
+}
 
 coupling::SchemeContext scheme_context(const CaseSpec& spec, bool keeps_strain) {
   coupling::SchemeContext c;
@@ -43,10 +103,9 @@ bool slips_after_heat(const CaseSpec& spec, bool keeps_strain) {
 }
 
 std::unique_ptr<coupling::CouplingScheme> coupling_scheme(const CaseSpec& spec,
-                                                          const coupling::Phases& phases) {
-  auto scheme = spec.coupled()
-                    ? spec.coupling.scheme->make(phases, scheme_context(spec, phases.keeps_strain()))
-                    : coupling::single_phase(phases);
+                                                          const coupling::Phases& phases, bool keeps_strain) {
+  auto scheme = spec.coupled() ? spec.coupling.scheme->make(phases, scheme_context(spec, keeps_strain))
+                               : coupling::single_phase(phases);
   return std::make_unique<coupling::GuardedScheme>(std::move(scheme), phases);
 }
 

@@ -183,7 +183,7 @@ results::Overview overview(const CaseSpec& spec, const Assembly& a, const CaseMe
   if (spec.has_mechanics() && spec.analysis.gravity != 0) o.gravity = gravity(spec.analysis);
   for (const Pour& pour : m.pours) o.pours.push_back(pour_overview(spec, a, pour, m.bodies[pour.body]));
   o.effort = {m.effort.steps, m.effort.steps_known, m.effort.seconds, m.effort.bytes};
-  const bool keeps = a.phases.keeps_strain();
+  const bool keeps = keeps_strain(spec, a.materials, a.start);
   if (lags_a_step(spec, keeps)) {
     o.lag = spec.time.adaptive ? 0.0 : spec.time.step.value_or(0);
     o.end = spec.time.end.value_or(0);

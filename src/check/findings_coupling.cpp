@@ -14,7 +14,7 @@ void find_in_coupling(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   constexpr double k_late = 0.03;  // of what changes evenly over the run
   if (!spec.exchanges_heat() || !(m.effort.steps > 0)) return;
   const std::vector<CouplingEstimate> estimates = coupling_estimates(spec, a.materials, a.mesh, a.start);
-  const double steps = heat_lag(spec, estimates, a.phases.keeps_strain());
+  const double steps = heat_lag(spec, estimates, keeps_strain(spec, a.materials, a.start));
   const double share = steps / m.effort.steps;
   if (share < k_late) return;
   const CouplingEstimate& strongest = *std::max_element(

@@ -25,10 +25,6 @@ struct Phases {
   std::vector<double> temperature;               ///< [K], [local node]: of a mechanical phase alone
   std::optional<double> ambient_temperature;     ///< Θ_a of 2.24 [K]; absent: 𝓛 is not followed
 
-  /// Whether something that deforms melts or yields: such a body keeps the strain that it gets at the
-  /// temperature of a step, also when that was not its own.
-  bool keeps_strain() const { return coherency != nullptr || (mechanics != nullptr && mechanics->plastic()); }
-
   /// Heat and deformation exchange energy and Θ_a is known: then 𝓛 is a column.
   bool audits_stability() const { return heat && structural && ambient_temperature; }
 };

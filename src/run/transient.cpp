@@ -51,7 +51,7 @@ coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
     estimate.emplace(std::move(norm), &a.phases,
                      spec.dynamics ? Displacement::motion : Displacement::distortion);
   }
-  return coupling::Simulation(coupling_scheme(spec, a.phases), std::move(times), std::move(estimate));
+  return coupling::Simulation(coupling_scheme(spec, a.phases, keeps_strain(spec, a.materials, a.start)), std::move(times), std::move(estimate));
 }
 
 /// The work of the stresses of the ends of steps becomes heat in the energy form. The other forms lose what
@@ -72,9 +72,9 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
       stability_(spec, a.coldest_start()),
       first_law_(spec, a.heat.get()),
       walls_(a.phases.contacts),
-      lag_(a.phases.keeps_strain()),
-      friction_lag_(a.phases.contacts, may_map_slip_again(spec, a.phases.keeps_strain()),
-                    slips_after_heat(spec, a.phases.keeps_strain())),
+      lag_(keeps_strain(spec, a.materials, a.start)),
+      friction_lag_(a.phases.contacts, may_map_slip_again(spec, keeps_strain(spec, a.materials, a.start)),
+                    slips_after_heat(spec, keeps_strain(spec, a.materials, a.start))),
       gaps_(a.phases.contacts) {
   simulation_.add(range_);
   if (a.heat) simulation_.add(bounds_.emplace(spec, *a.heat));
@@ -82,7 +82,7 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
     simulation_.add(walls_);
     simulation_.add(melts_.emplace(spec, a));
   }
-  if (lags_a_step(spec, a.phases.keeps_strain())) simulation_.add(lag_);
+  if (lags_a_step(spec, keeps_strain(spec, a.materials, a.start))) simulation_.add(lag_);
   simulation_.add(friction_lag_);
   if (heats_by_end_stresses(spec)) simulation_.add(stress_work_);
   simulation_.add(gaps_);

@@ -142,7 +142,8 @@ Skin pour(const std::string& name, bool solid, const std::string& material,
   a.materials = model::load_materials(c.spec);
   a.mesh = model::load_mesh(c.spec);
   model::build(c.spec, a);
-  const auto scheme = model::coupling_scheme(c.spec, a.phases);
+  const auto scheme =
+      model::coupling_scheme(c.spec, a.phases, model::melts_in_run(c.spec, a.materials, a.start));
   scheme->synchronise(a.initial);
   const contact::ContactPair& wall = *a.contacts[0];
   const double height = solid ? 0.024 : 0.03,

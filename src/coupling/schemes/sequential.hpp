@@ -50,10 +50,9 @@ struct SequentialScheme {
     s.choice(
          "order", static_cast<std::optional<PhaseOrder> Scheme::*>(&SequentialScheme::order),
          {{"automatic", std::nullopt,
-           "heat_first; mechanics_first with friction where nothing melts or yields, whose heat is then "
-           "conducted in "
-           "the step that makes it, with thermal_return_mapping, with inertia and with printed forms of "
-           "structural heat"},
+           "heat_first; mechanics_first with friction where nothing gets hot enough to melt and nothing yields "
+           "while temperatures differ, whose heat is then conducted in the step that makes it, with "
+           "thermal_return_mapping, with inertia and with printed forms of structural heat"},
           {"heat_first", PhaseOrder::heat_first,
            "displacements and stresses belong to the temperatures of the step's end; what deformation and "
            "friction warm is conducted in the next step"},
