@@ -143,9 +143,10 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 /// Reports which bodies leave and come when a stage begins, with how much heat, and the conditions that end
-/// with them.
+/// with them. What comes later than the first stage does not leave when that begins.
 void announce_bodies(const CaseSpec& spec, const StageRun& stage, const StageRun* before,
                      const coupling::BodyHeat& heat, const std::vector<std::string>& idle) {
+  if (before == nullptr) return;
   std::vector<std::string> leaving, coming;
   for (const BodySpec& body : spec.bodies) {
     const bool there = holds(body.stages, &stage), was = holds(body.stages, before);

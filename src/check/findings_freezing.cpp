@@ -108,10 +108,13 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
                         "a later time.end; is its unit right?"});
   else if (const auto [there, leaves] = time_there(spec, a, pour.body);
            there < (leaves ? k_liquid : k_early) * time)
-    findings.push_back({false, spec.bodies[pour.body].where,
-                        fmt::format("'{}' leaves {} after its pour, but takes some {} to freeze", name,
-                                    duration(there), duration(time)),
-                        "longer stages before it leaves"});
+    findings.push_back(
+        {false, spec.bodies[pour.body].where,
+         leaves ? fmt::format("'{}' leaves {} after its pour, but takes some {} to freeze", name,
+                              duration(there), duration(time))
+                : fmt::format("the run ends {} after the pour of '{}', but it takes some {} to freeze",
+                              duration(there), name, duration(time)),
+         leaves ? "longer stages before it leaves" : "longer stages after its pour"});
   if (const double step = fixed_step(spec, a); k_fine * step > time && step < 0.99 * *spec.time.end)
     findings.push_back(
         {false, spec.time.where,

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "build/body_input.hpp"
@@ -27,6 +28,7 @@ struct CooledSkin {
   std::vector<mesh::Point> points;   ///< on it
   std::string surface;               ///< of the mesh; empty: faces that bodies share
   std::optional<std::size_t> other;  ///< the body on the other side
+  double low = 0, high = 0;          ///< temperatures of that body when the metal comes [K]
   std::function<double(double, double, double)> conductance;  ///< to it: MouldSide::conductance
   bool may_open = false;
   std::function<double(double, double)> heat;  ///< without: into the body [W/m²], OpenSide::heat
@@ -103,9 +105,8 @@ std::function<double(double, double, double)> conductance_of(const ContactSpec& 
   const auto law = std::make_shared<contact::HeatTransferLaw>(*contact.heat);
   const bool mechanical = a.mechanics != nullptr;
   const double pressure = mechanical && contact.wet ? contact.atmosphere : 0.0;
-  const double touching = contact.touching.value_or(1e-6 * m.face_size);
   const bool wet = mechanical && contact.wet;
-  const double start = wet || m.mean_gap <= touching ? 0.0 : m.mean_gap;
+  const double start = wet ? 0.0 : m.mean_start;
   return [law, pressure, start](double gap, double metal, double mould) {
     const double h = law->at(-(start + gap), pressure, (metal + mould) / 2).value;
     return h + law->radiation_factor() * (metal * metal + mould * mould) * (metal + mould);
@@ -130,6 +131,8 @@ std::vector<CooledSkin> contacts_of(std::size_t body, const CaseSpec& spec, cons
     const auto conductance = conductance_of(contact, a, sides);
     if (other >= 0) {
       skin.other = static_cast<std::size_t>(other);
+      skin.low = a.start[*skin.other].low;
+      skin.high = a.start[*skin.other].high;
       skin.conductance = conductance;
       skin.may_open = spec.has_mechanics() && !only_conducts(spec.bodies[body]);
     } else if (const RigidSurfaceSpec* tool = spec.rigid_surface(sides.master);
@@ -164,6 +167,8 @@ std::vector<CooledSkin> shared_faces_of(std::size_t body, const Assembly& a, con
     CooledSkin skin;
     skin.area = area;
     skin.other = other;
+    skin.low = a.start[other].low;
+    skin.high = a.start[other].high;
     skin.conductance = [](double, double, double) { return k_no_resistance; };
     const std::vector<char> here = nodes_of(a.mesh, body), there = nodes_of(a.mesh, other);
     std::vector<mesh::Point> points;
@@ -202,11 +207,8 @@ double depth_below(const mesh::Mesh& mesh, std::size_t body, const std::vector<m
 }
 
 /// Largest heat flux into a skin at the start or later in the run, at the temperature of the pour [W/m²].
-double cooling_of(const CooledSkin& skin, double start, const Assembly& a, double end) {
-  if (skin.other) {
-    const double there = a.start[*skin.other].low;
-    return skin.conductance(0, start, there) * (start - there);
-  }
+double cooling_of(const CooledSkin& skin, double start, double end) {
+  if (skin.other) return skin.conductance(0, start, skin.low) * (start - skin.low);
   double most = -std::numeric_limits<double>::max();
   for (const double share : {0.0, 0.01, 0.1, 0.3, 1.0}) most = std::max(most, -skin.heat(start, share * end));
   return most;
@@ -222,7 +224,7 @@ bool comes_in_molten(const Assembly& a, std::size_t body) {
 /// a half space, √(k ρ c / (π t)) per kelvin, behind the conductance between both.
 std::function<double(double, double)> heat_from_behind(const CooledSkin& skin, const Assembly& a) {
   const material::Material& m = a.materials[*skin.other];
-  const double cold = a.start[*skin.other].low;
+  const double cold = skin.low;
   const double effusivity = std::sqrt(m.conductivity.value(cold) * m.density * m.specific_heat.value(cold));
   return [conductance = skin.conductance, cold, effusivity](double temperature, double time) {
     constexpr double k_pi = 3.14159265358979;
@@ -271,6 +273,12 @@ const StageRun* stage_of_pour(const CaseSpec& spec, const Assembly& a, std::size
   return stage != a.stages.end() ? &*stage : nullptr;
 }
 
+/// When a body comes in [s].
+double time_of_pour(const CaseSpec& spec, const Assembly& a, std::size_t body) {
+  const StageRun* const stage = stage_of_pour(spec, a, body);
+  return stage != nullptr ? stage->start : 0.0;
+}
+
 /// A pour and what its estimate was made of.
 struct EstimatedPour {
   Pour pour;
@@ -281,8 +289,10 @@ struct EstimatedPour {
 
 /// Finds the parts of the skin that count as cooled, and the problem in one dimension, without the metal that
 /// is poured with the body: the skin that its mould cools is the A of V/A.
+/// @param earlier  estimates of what was poured before: a casting that is solid by now takes heat as a mould
+///                 does, from its solidus on, which it has reached at least
 void estimate_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
-                    EstimatedPour& estimated) {
+                    std::span<const EstimatedPour> earlier, EstimatedPour& estimated) {
   Pour& pour = estimated.pour;
   const std::size_t body = pour.body;
   const StageRun* const stage = stage_of_pour(spec, a, body);
@@ -290,9 +300,20 @@ void estimate_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
   std::vector<CooledSkin> skins = contacts_of(body, spec, stage, a, m);
   for (CooledSkin& skin : shared_faces_of(body, a, m)) skins.push_back(std::move(skin));
   for (CooledSkin& skin : conditions_on(body, spec, stage, m)) skins.push_back(std::move(skin));
-  std::erase_if(skins, [&](const CooledSkin& s) { return s.other && comes_in_molten(a, *s.other); });
+  const auto solid_by_now = [&](std::size_t other) {
+    return std::ranges::any_of(earlier, [&](const EstimatedPour& one) {
+      return one.pour.body == other && one.pour.freezing.time &&
+             time_of_pour(spec, a, other) + *one.pour.freezing.time <= time_of_pour(spec, a, body);
+    });
+  };
+  std::erase_if(skins, [&](const CooledSkin& s) {
+    return s.other && comes_in_molten(a, *s.other) && !solid_by_now(*s.other);
+  });
+  for (CooledSkin& skin : skins)
+    if (skin.other && comes_in_molten(a, *skin.other))
+      skin.low = skin.high = a.materials[*skin.other].solidification()->fraction.solidus();
   double most = 0;
-  for (CooledSkin& skin : skins) most = std::max(most, skin.cooling = cooling_of(skin, start, a, end));
+  for (CooledSkin& skin : skins) most = std::max(most, skin.cooling = cooling_of(skin, start, end));
   if (!(most > 0)) {
     pour.no_estimate = "nothing cools it";
     return;
@@ -329,8 +350,8 @@ void estimate_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
     if (skin.other) {
       const std::size_t other = *skin.other;
       const double part = skin.area / facing[other];
-      coldest = std::min(coldest, a.start[other].low);
-      problem.moulds.push_back({share, &a.materials[other], (a.start[other].low + a.start[other].high) / 2,
+      coldest = std::min(coldest, skin.low);
+      problem.moulds.push_back({share, &a.materials[other], (skin.low + skin.high) / 2,
                                 part * m.bodies[other].volume / m.bodies[body].volume, skin.conductance,
                                 skin.may_open, outer_heat(other, pour.cooled_area, part, spec, stage, a, m)});
     } else {
@@ -389,9 +410,12 @@ void exchange_heat(const CaseMeasures& m, const Assembly& a, std::vector<Estimat
 
 std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
   std::vector<EstimatedPour> all;
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    if (!comes_in_molten(a, b)) continue;
-    EstimatedPour& estimated = all.emplace_back();
+  std::vector<std::size_t> bodies;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+    if (comes_in_molten(a, b)) bodies.push_back(b);
+  std::ranges::stable_sort(bodies, {}, [&](std::size_t b) { return time_of_pour(spec, a, b); });
+  for (const std::size_t b : bodies) {
+    EstimatedPour estimated;
     Pour& pour = estimated.pour;
     pour.body = b;
     const bool heated =
@@ -402,8 +426,10 @@ std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasu
     else if (spec.time.steady)
       pour.no_estimate = "the analysis is steady";
     else
-      estimate_alone(spec, a, m, estimated);
+      estimate_alone(spec, a, m, all, estimated);
+    all.push_back(std::move(estimated));
   }
+  std::ranges::sort(all, {}, [](const EstimatedPour& one) { return one.pour.body; });
   exchange_heat(m, a, all);
   std::vector<Pour> list;
   for (EstimatedPour& estimated : all) list.push_back(std::move(estimated.pour));

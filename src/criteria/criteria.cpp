@@ -19,6 +19,16 @@ CriteriaState Criteria::initial(const CriterionInput& start) const {
   return state;
 }
 
+CriteriaState Criteria::restart(const CriteriaState& before, const CriterionInput& start) const {
+  assert(before.records.size() == list_.size());
+  const NodalFractions phases = phases_of(start);
+  const CriterionInput whole = phases.of(start);
+  CriteriaState state;
+  for (std::size_t i = 0; i < list_.size(); ++i)
+    state.records.push_back(list_[i]->restart(before.records[i], whole));
+  return state;
+}
+
 void Criteria::step(const CriterionInput& old, const CriterionInput& next, CriteriaState& state) {
   assert(state.records.size() == list_.size());
   const double start = processes::wall_time();

@@ -18,6 +18,8 @@ class Criteria {
   bool empty() const { return list_.empty(); }
 
   CriteriaState initial(const CriterionInput& start) const;
+  /// The same where other castings come while some stay (Criterion::restart).
+  CriteriaState restart(const CriteriaState& before, const CriterionInput& start) const;
   /// Advances all criteria over a step, as Criterion::step does. `state` is that of t_n and becomes that of
   /// t_{n+1}. Collective.
   void step(const CriterionInput& old, const CriterionInput& next, CriteriaState& state);

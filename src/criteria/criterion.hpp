@@ -46,6 +46,11 @@ class Criterion {
   virtual ~Criterion() = default;
   /// The record at the start of a run. Collective.
   virtual CriterionRecord initial(const CriterionInput& start) const = 0;
+  /// The record where other castings come while some stay: as at the start, with what is to be kept of the
+  /// record before. Collective.
+  virtual CriterionRecord restart(const CriterionRecord& /*before*/, const CriterionInput& start) const {
+    return initial(start);
+  }
   /// A step from `old` to `next` was committed: brings the record from t_n to t_{n+1}. Phases that the
   /// criterion knows have just reached `next`. Collective. Neither throws nor depends on anything but its
   /// arguments: a run that is continued goes the same way.

@@ -51,7 +51,17 @@ class Freezing : public Criterion {
            FreezingOptions options = {});
 
   CriterionRecord initial(const CriterionInput& start) const override;
+  /// Keeps of bodies that are solid when others are poured where and when their last melt froze.
+  CriterionRecord restart(const CriterionRecord& before, const CriterionInput& start) const override;
   void step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) override;
+  /// Where and when the last melt of a body froze.
+  struct LastMelt {
+    int body = -1;
+    double time = 0;      ///< since the body was poured [s]
+    mesh::Point where{};  ///< [m]
+  };
+  /// Of the bodies that were solid before the last pour.
+  static std::vector<LastMelt> frozen_before(const CriteriaState& state);
   /// solidified_at (−1: not in this run), local_solidification_time [s], cooling_rate [K/s], thermal_gradient
   /// [K/m], front_speed [m/s], secondary_arm_spacing [m], niyama [K^½ s^½/m, as a number without a unit],
   /// dimensionless_niyama, shrinkage_porosity; zero where the node has not frozen, or where the material does
@@ -94,6 +104,8 @@ class Freezing : public Criterion {
   int body_of(Index node, const std::vector<char>& chosen) const;
   std::vector<double> front_speeds(std::span<const double> history) const;
   static constexpr std::size_t k_fields = 9;
+  static constexpr const char* k_name = "freezing";
+  static constexpr int k_row = 5;  ///< of a LastMelt in the table "frozen"
   /// All fields of a node, in their order.
   /// @param speed  of the front there
   std::array<double, k_fields> values_of(const FreezingNode& who, std::span<const double> history,

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "contact/contact_report.hpp"
+#include "criteria/freezing.hpp"
 #include "criteria/gather.hpp"
 #include "criteria/pools.hpp"
 #include "heat/nodal_enthalpy.hpp"
@@ -98,9 +99,15 @@ CastAnswer cast_answer(const mesh::Mesh& mesh, const coupling::Phases& phases, c
   answer.mass = mass_of(phases, mesh, cast.body);
   answer.least_niyama = least_niyama(mesh, nodes, fields);
   constexpr double k_rounding = 1e-12;
+  const auto before_the_last_pour = [&]() -> std::optional<ValueAt> {
+    for (const criteria::Freezing::LastMelt& last : criteria::Freezing::frozen_before(state.criteria))
+      if (last.body == cast.body) return ValueAt{last.time, last.where};
+    return std::nullopt;
+  };
   if (answer.solid_fraction >= 1 - k_rounding) {
     answer.solid_fraction = 1;
     answer.froze = last_melt();
+    if (!answer.froze) answer.froze = before_the_last_pour();
     return answer;
   }
   const FieldValues solid(fields, "solid_fraction"), temperature(fields, "temperature");
