@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "case/roles.hpp"
+#include "material/external_law.hpp"
 #include "coupling/guarded_scheme.hpp"
 
 namespace solidus::model {
@@ -61,7 +62,7 @@ bool keeps_strain(const CaseSpec& spec, const std::vector<material::Material>& m
     if (!materials[b].mechanical() || only_conducts(spec.bodies[b])) continue;
     const material::PhaseChange* freezing = materials[b].solidification();
     if (freezing != nullptr && all.high >= freezing->fraction.solidus()) return true;
-    const bool yields = materials[b].flow.has_value() || external_law(materials[b]) != nullptr;
+    const bool yields = materials[b].flow.has_value() || material::external_law(materials[b]) != nullptr;
     if (yields && all.high - all.low > k_same) return true;
   }
   return false;

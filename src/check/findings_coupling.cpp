@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "build/scheme_input.hpp"
 #include "check/coupling_estimate.hpp"
 #include "check/findings.hpp"
 #include "coupling/scheme_names.hpp"

@@ -6,6 +6,7 @@ namespace solidus::coupling {
 
 MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double time, double dt,
                                        const TooLong& too_long) {
+  if (tells_) return told(old, trial, time, dt);
   if (control_ == ErrorControl::doubling || (control_ == ErrorControl::predictor && !rates_.known()))
     return doubled(old, trial, time, dt);
   if (control_ == ErrorControl::none) {
@@ -23,6 +24,37 @@ MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double ti
   const heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
   taken.error.displacement = estimate_->displacement_predictor(old, trial, dt, rates_);
   if (!conducted) taken.error.temperature = estimate_->temperature_predictor(old, trial, dt, rates_, flows);
+  next_rates_ = estimate_->rates_of(old, trial, dt, flows);
+  next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);
+  return taken;
+}
+
+MeasuredStep::Taken MeasuredStep::told(const State& old, State& trial, double time, double dt) {
+  const bool first = !rates_.known();
+  State halves = old;
+  bool halved = false;
+  if (first && tells_first_) {
+    try {
+      halves.time = time - dt / 2;
+      State middle = halves;
+      scheme_.advance(old, middle, middle.time, dt / 2);
+      scheme_.advance(middle, halves, time, dt / 2);
+      halved = true;
+    } catch (const StepRejected&) {
+      // The error of the step stays untold.
+    }
+    scheme_.synchronise(old);
+  }
+  Taken taken{scheme_.advance(old, trial, time, dt), {}};
+  const heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
+  if (!first) {
+    taken.error.temperature = estimate_->temperature_predictor(old, trial, dt, rates_, flows);
+    taken.error.displacement = estimate_->displacement_predictor(old, trial, dt, rates_);
+  } else if (halved) {
+    taken.error = estimate_->doubling(old, trial, halves, rates_, flows);
+    taken.error.temperature *= 2;  // of the whole, which commits twice what its halves do
+    taken.error.displacement *= 2;
+  }
   next_rates_ = estimate_->rates_of(old, trial, dt, flows);
   next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);
   return taken;

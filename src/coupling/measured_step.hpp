@@ -20,6 +20,13 @@ class MeasuredStep {
   MeasuredStep(CouplingScheme& scheme, ErrorControl control, ErrorEstimate estimate, Rates rates)
       : scheme_(scheme), control_(control), estimate_(std::move(estimate)), rates_(std::move(rates)) {}
 
+  /// Errors are told and change nothing, as of fixed steps: a first step, which no rate predicts, is measured
+  /// by its halves where it is cheap, else not at all, and is taken as a whole.
+  void only_tell(bool first_too) {
+    tells_ = true;
+    tells_first_ = first_too;
+  }
+
   struct Taken {
     /// Sums both halves where the step was doubled. It is empty where the error of its heat ended the step
     /// before deformation was solved, and is all that `error` has.
@@ -44,9 +51,11 @@ class MeasuredStep {
 
  private:
   Taken doubled(const State& old, State& trial, double time, double dt);
+  Taken told(const State& old, State& trial, double time, double dt);
 
   CouplingScheme& scheme_;
   ErrorControl control_ = ErrorControl::none;
+  bool tells_ = false, tells_first_ = false;
   std::optional<ErrorEstimate> estimate_;
   Rates rates_, next_rates_;
 };

@@ -88,10 +88,10 @@ void Simulation::save(Progress& p, const ControlState& control) {
 }
 
 void Simulation::measure_steps(Progress& p, const StepOptions& step, Rates rates) {
-  if (measures_error(step))
-    p.step.emplace(*scheme_, step.limits.control, *estimate_, std::move(rates));
-  else
-    p.step.emplace(*scheme_);
+  const bool tells = !step.adaptive && estimate_ && step.limits.control != ErrorControl::none;
+  if (!measures_error(step) && !tells) return void(p.step.emplace(*scheme_));
+  p.step.emplace(*scheme_, step.limits.control, *estimate_, std::move(rates));
+  if (tells) p.step->only_tell(p.committed.mechanics.displacement.empty());
 }
 
 void Simulation::enter_stage(Progress& p, const std::optional<RestartData>& from) {
@@ -161,7 +161,9 @@ void Simulation::begin_bodies(Progress& p, bool anew, bool changed_before) {
   if (!stage.pours) return;
   p.committed.poured = p.committed.time;
   if (criteria_ == nullptr) return;
-  p.committed.criteria = criteria_->initial({0, p.committed.heat, p.committed.mechanics});
+  const criteria::CriterionInput start{0, p.committed.heat, p.committed.mechanics};
+  p.committed.criteria = stage.begins_shot || p.stage == 0 ? criteria_->initial(start)
+                                                           : criteria_->restart(p.committed.criteria, start);
 }
 
 bool Simulation::solid(const Progress& p) const {

@@ -5,6 +5,7 @@
 /// Times count from pouring, in a run with shots from that of the last shot.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -88,7 +89,10 @@ struct Answers {
   std::optional<ValueAt> distortion;  ///< of cast bodies, the largest [m]
   std::optional<ValueAt> stress;      ///< von Mises, the largest: of cast bodies, else of all [Pa]
   std::string stressed_body;
-  std::vector<ShotRow> shots;           ///< those that are over; known to the process that writes
+  std::vector<ShotRow> shots;  ///< those that are over; known to the process that writes
+  /// Of a run with fixed steps: the largest error of temperature that a step is estimated to have made [K],
+  /// and the time of its end [s].
+  std::optional<std::array<double, 2>> step_error;
   std::optional<double> energy_defect;  ///< relative, as relative_energy_defect of the summary
   /// Errors of findings of criteria, by their names.
   std::vector<std::pair<std::string, ErrorBand>> criteria_errors;

@@ -74,6 +74,9 @@ Json json(const Answers& a) {
   }
   if (!a.criteria_errors.empty()) json.add("errors_of_criteria", std::move(of_criteria));
   if (!a.shots.empty()) json.add("shots", results::json(a.shots));
+  if (a.step_error)
+    json.add("largest_step_error",
+             Json().add("temperature[K]", (*a.step_error)[0]).add("time[s]", (*a.step_error)[1]));
   if (a.energy_defect) json.add("relative_energy_defect", *a.energy_defect);
   return json;
 }

@@ -289,6 +289,10 @@ std::string text(const Answers& a, const std::vector<criteria::CriterionResult>&
   if (a.stress)
     text += line("largest von Mises stress", fmt::format("{} in '{}' {}", format.stress(*a.stress),
                                                          a.stressed_body, format.place(a.stress->where)));
+  if (a.step_error)
+    text += line("largest error of a fixed step",
+                 fmt::format("some {} in the step to {:.4g} s (temperature_error in steps.csv)",
+                             format.change((*a.step_error)[0]), (*a.step_error)[1]));
   if (a.energy_defect)
     text += line("energy", fmt::format("{} {:.1e} of the heat exchanged",
                                        std::abs(*a.energy_defect) < k_closed ? "closed to" : "not closed by",

@@ -203,6 +203,7 @@ void Recorder::step(const coupling::StepRecord& taken, const coupling::State& st
   add_history_row(state);
   add_pools(state);
   if (record.output) write_fields(state);
+  if (record.temperature_error > largest_error_[0]) largest_error_ = {record.temperature_error, record.time};
   if (progress_) progress_->step(record);
   seconds_heat_ += record.heat.seconds;
   seconds_mechanics_ += record.mechanics.seconds;
@@ -296,6 +297,7 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
     if (phases_.criteria != nullptr) s.criteria = phases_.criteria->findings(state.criteria);
     add_errors(mesh_, phases_, state, fields_.bodies(), last_step_, *s.answers, s.criteria);
     if (shots_) s.answers->shots = shots_->rows();
+    if (options_.fixed_steps && largest_error_[0] > 0) s.answers->step_error = largest_error_;
     if (!criteria_probed_) fields_.release_criteria();
     if (phases_.heat != nullptr) s.answers->energy_defect = globals_.relative_defect();
   }

@@ -1,6 +1,7 @@
 /// The observer that fills a run's folder: fields, history, steps, progress and the summary.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -32,11 +33,12 @@ struct RecorderOptions {
   bool vtkhdf = false;               ///< gather them in fields.vtkhdf when the run ends or stops
   std::ostream* progress = nullptr;  ///< process 0; null: none
   ProgressOptions progress_options;
-  bool melting = true;   ///< a material can melt
-  bool stages = false;   ///< the run has stages
-  bool shots = false;    ///< some of them are shots
-  bool steady = false;   ///< one state without a time: fields of it alone
-  bool profile = false;  ///< print where the wall time went
+  bool melting = true;       ///< a material can melt
+  bool stages = false;       ///< the run has stages
+  bool shots = false;        ///< some of them are shots
+  bool fixed_steps = false;  ///< steps do not follow their errors, which the answers then tell
+  bool steady = false;       ///< one state without a time: fields of it alone
+  bool profile = false;      ///< print where the wall time went
   /// The bodies that are poured, whose solid fraction is shown; empty: of all that can melt.
   std::vector<CastBody> castings;
   DisplayUnits units;                       ///< of the printed answers
@@ -103,6 +105,7 @@ class Recorder : public coupling::Observer {
   int stage_ = 0, cycle_ = 0;  ///< of the last row, as in StepRecord
   int shot_ = 0;               ///< as in State
   double since_pouring_ = 0;   ///< [s]
+  std::array<double, 2> largest_error_{};  ///< Answers::step_error
   double seconds_heat_ = 0, seconds_mechanics_ = 0, seconds_output_ = 0, began_ = 0;
 };
 

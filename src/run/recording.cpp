@@ -48,6 +48,7 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.stages = !spec.stages.empty();
   r.shots = has_shots(a);
   r.steady = spec.time.steady;
+  r.fixed_steps = !spec.time.adaptive && !spec.time.steady;
   r.progress = options.progress;
   r.profile = options.profile;
   r.castings = cast_bodies(spec, a.materials, a.start);

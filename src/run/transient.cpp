@@ -38,7 +38,7 @@ coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
     return time_events(spec, &run, run.start, run.end, first_step(*run.stage, spec.time));
   };
   std::optional<coupling::ErrorEstimate> estimate;
-  if (spec.time.adaptive) {
+  if (!spec.time.steady) {
     coupling::BodyNorm norm(a.mesh, spec.analysis.kind);
     const double error = displacement_error(spec.time, sections_of(spec, a.mesh));
     const auto limit = [&](coupling::StepLimits& limits) {
