@@ -31,7 +31,8 @@ std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const me
           criteria::PoolOptions{
               .limit = spec.criteria.feeding_limit, .feeders = spec.criteria.feeders, .bodies = followed}));
     } catch (const InputError& error) {
-      throw InputError(spec.criteria.where, error.what(), "groups of the mesh: `solidus mesh` lists them");
+      throw InputError(spec.criteria.where, error.what(),
+                       "groups of the mesh: `solidus mesh-info` lists them");
     }
   }
   if (phases.mechanics != nullptr)

@@ -29,7 +29,10 @@ Section<ProbeSpec> probe_keys() {
   s.key("component", &P::component)
       .initially("")
       .when("kind", k_sampling)
-      .doc("Component of a vector or tensor: \"x\", \"r\", \"xx\", ...; axisymmetric: r, z or x, y.");
+      .doc(
+          "Component of a vector or tensor: \"x\", \"r\", \"xx\", ...; axisymmetric: r (radial) and z "
+          "(axial), rr, zz (axial), "
+          "tt (hoop) and rz.");
   s.quantity("point", &P::point, "m").when("kind", {"point"}).doc("Coordinates of the point.");
   s.key("body", &P::body).when("kind", {"point"}).doc("The body that is meant, where a point lies on two.");
   s.key("group", &P::group)

@@ -44,6 +44,7 @@ Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   find_in_burning(spec, a, m, found);
   find_in_probes(spec, a, m, found);
   find_in_coupling(spec, a, m, found);
+  find_in_steady(spec, m, found);
   find_in_effort(spec, m, found);
   return found;
 }

@@ -96,6 +96,8 @@ void find_in_burning(const CaseSpec& spec, const Assembly& a, const CaseMeasures
 void find_in_probes(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Schemes whose temperatures lag where deformation takes up much of the heat. Collective.
 void find_in_coupling(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Bodies of a steady analysis in which nothing has a temperature of its own.
+void find_in_steady(const CaseSpec& spec, const CaseMeasures& m, Findings& findings);
 /// Runs that do not fit into the machine or the year, and outputs without number.
 void find_in_effort(const CaseSpec& spec, const CaseMeasures& m, Findings& findings);
 

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "input/gone_keys.hpp"
 #include "input/place_spec.hpp"
 
 namespace solidus {
@@ -159,6 +160,11 @@ Table points_of(const Value& table, const Key& key, Argument of) {
 }
 
 Function read_function_table(const Value& table, const Key& key) {
+  if (key.place == Key::Place::none && is_place(table))
+    throw InputError(table.where,
+                     fmt::format("'{}' is a formula or a file, which this key does not take", key.name),
+                     "a number or a table of points; what changes from place to place in parts, each with a "
+                     "number or a table of its own: groups of faces ([[mesh.group]]), or bodies");
   if (key.place != Key::Place::none && is_place(table)) {
     Function result;
     result.place = read_place(table, key, key.place == Key::Place::position_and_time);
@@ -398,6 +404,10 @@ Value SectionInfo::completed(const Value& table, const std::string& path) const 
                      "expected a section with keys");
   std::vector<std::string> names;
   for (const Key& key : keys) names.push_back(key.name);
+  for (const auto& entry : table.entries())
+    if (const auto missing = missing_key(name, entry.key); missing && !find(entry.key))
+      throw InputError(entry.where, fmt::format("the key '{}' of {} {}", entry.key, section, missing->state),
+                       std::string(missing->instead));
   for (const auto& entry : table.entries())
     if (!find(entry.key))
       throw InputError(entry.where, fmt::format("unknown key '{}' in {}", entry.key, section),

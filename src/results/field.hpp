@@ -32,6 +32,8 @@ struct Field {
   /// The values that one of Mesh::bodies has at its nodes, where bodies that share them differ; empty: they
   /// do not. Collective, as `compute` is then.
   std::function<std::vector<double>(int body)> compute_of = {};
+  /// Tensors have the components rr, zz, hoop and rz, where others have xx, yy, zz and xy.
+  bool cylindrical = false;
 
   /// Returns the values; computed ones are put into `storage`. They are computed at every call, so a caller
   /// that needs them several times stores them. Of fields with compute_of collective.
@@ -41,6 +43,8 @@ struct Field {
 
 class FieldSet {
  public:
+  /// Fields that are added later are of an axisymmetric analysis, whose tensors have cylindrical components.
+  void set_cylindrical(bool on) { cylindrical_ = on; }
   /// Throws std::invalid_argument for a second field of the same name.
   void add(Field field);
   /// Null when there is no such field.
@@ -57,6 +61,7 @@ class FieldSet {
 
  private:
   std::vector<Field> fields_;
+  bool cylindrical_ = false;
   const linear::ActiveSet* active_ = nullptr;
 };
 

@@ -94,6 +94,7 @@ bool with_friction(const coupling::Phases& phases) {
 StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases, AnalysisKind kind)
     : mesh_(mesh), phases_(phases), kind_(kind), ghosts_(mesh) {
   find_side_areas(kind);
+  bodies_.set_cylindrical(kind == AnalysisKind::axisymmetric);
   if (phases.heat != nullptr) {
     add("temperature", "K", 1, mesh::FieldPlace::node);
     add("solid_fraction", "1", 1, mesh::FieldPlace::node);

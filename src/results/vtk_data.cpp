@@ -41,10 +41,13 @@ std::string array_attributes(const ArrayHead& head, std::string_view type) {
   std::string out = fmt::format(R"(type="{}" Name="{}")", type, xml_text(head.name));
   if (head.components == 1) return out;
   out += fmt::format(R"( NumberOfComponents="{}")", head.components);
-  static constexpr std::array<std::string_view, 6> k_tensor = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+  using Names = std::array<std::string_view, 6>;
+  static constexpr Names k_cartesian = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"},
+                         k_cylindrical = {"RR", "ZZ", "TT", "RZ", "ZT", "RT"};
+  const Names& names = head.cylindrical ? k_cylindrical : k_cartesian;
   if (head.components == 6)
-    for (std::size_t i = 0; i < k_tensor.size(); ++i)
-      out += fmt::format(R"( ComponentName{}="{}")", i, k_tensor[i]);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      out += fmt::format(R"( ComponentName{}="{}")", i, names[i]);
   return out;
 }
 

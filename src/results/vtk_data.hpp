@@ -41,6 +41,7 @@ struct ArrayHead {
   std::string name;
   int components = 1;
   std::string unit = {};
+  bool cylindrical = false;  ///< as Field::cylindrical
 };
 
 /// The names of the components of a symmetric tensor (VTK's order and ours are the same), else nothing; and

@@ -58,7 +58,7 @@ int file_components(const Field& field) {
 }
 
 ArrayHead head_of(const Field& field) {
-  return {field.name, file_components(field), field.unit};
+  return {field.name, file_components(field), field.unit, field.cylindrical};
 }
 
 std::string near(const Mesh& mesh, Index node) {

@@ -141,6 +141,10 @@ std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec&
       {fmt::format("more iterations: heat.max_iterations (now {}), or heat.tolerance",
                    spec.heat.max_iterations),
        "films, radiation, sources or conductivities that change steeply with temperature at that place"});
+  if (spec.time.steady)
+    advice.emplace_back(
+        "what holds a temperature, a film, radiation or a temperature on a surface: fluxes and sources alone "
+        "have a steady state only in balance");
   if (spec.heat.integration == heat::HeatIntegration::open)
     advice.emplace_back("the closed rule, heat.integration = \"closed\", converges for any step");
   return advice;
