@@ -141,7 +141,7 @@ TEST(CurvedFit, ConductsAsTheCylinderThatItsFacetsStandFor) {
   EXPECT_NEAR(fitted("fit_6_8", 6, 8, k_contact), right, 2);
   EXPECT_NEAR(fitted("fit_8_6", 8, 6, k_contact), right, 2);
   EXPECT_NEAR(fitted("fit_6_8_interface", 6, 8, k_interface), right, 2);
-  EXPECT_NEAR(fitted("fit_24_31", 24, 31, k_contact), right, 0.2);
+  EXPECT_NEAR(fitted("fit_24_31", 24, 31, k_contact), right, 0.5);
 }
 
 TEST(CurvedFit, FindsItsPartnersFarFromTheOrigin) {

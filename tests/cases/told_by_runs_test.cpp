@@ -331,8 +331,8 @@ TEST(FrictionOfColdMetal, WarmsItAlikeWhetherItsCardCouldMeltOrNot) {
                     freezing = k_alloy.substr(k_alloy.find("[[phase_change]]"));
   k_here.write("solid.toml", head + k_elastic);
   k_here.write("fusible.toml", head + k_elastic + freezing);
-  const auto solid = k_here.run("solid", sliding("solid.toml")),
-             fusible = k_here.run("fusible", sliding("fusible.toml"));
+  const auto solid = k_here.run("cold_solid", sliding("solid.toml")),
+             fusible = k_here.run("cold_fusible", sliding("fusible.toml"));
   ASSERT_TRUE(solid.finished && fusible.finished) << solid.reason << fusible.reason;
   const std::vector<double>&of_solid = solid.history.at("T[degC]"),
         &of_fusible = fusible.history.at("T[degC]");
