@@ -19,7 +19,7 @@ std::span<const double> Field::read(std::vector<double>& storage, int body) cons
 void FieldSet::add(Field field) {
   if (find(field.name) != nullptr) throw std::invalid_argument("two fields named '" + field.name + "'");
   fields_.push_back(std::move(field));
-  fields_.back().cylindrical = cylindrical_;
+  fields_.back().cylindrical = fields_.back().cylindrical || cylindrical_;  // a selection of a set keeps it
 }
 
 const Field* FieldSet::find(std::string_view name) const {
