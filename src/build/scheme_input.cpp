@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "case/roles.hpp"
-#include "material/external_law.hpp"
 #include "coupling/guarded_scheme.hpp"
+#include "material/external_law.hpp"
 
 namespace solidus::model {
 

@@ -15,10 +15,10 @@
 
 namespace solidus::model {
 
-/// Whether a body that deforms keeps strain of a temperature that was not its own: it can be molten in the run
-/// (it starts above its solidus, or something that it exchanges heat with is as hot, or a flux or a source
-/// heats without a bound), or it yields while temperatures differ by more than a kelvin. The heat of friction
-/// alone is not counted.
+/// Whether a body that deforms keeps strain of a temperature that was not its own: it can be molten in the
+/// run (it starts above its solidus, or something that it exchanges heat with is as hot, or a flux or a
+/// source heats without a bound), or it yields while temperatures differ by more than a kelvin. The heat of
+/// friction alone is not counted.
 /// @param start  of every body
 bool keeps_strain(const CaseSpec& spec, const std::vector<material::Material>& materials,
                   std::span<const InitialTemperatureRange> start);

@@ -51,7 +51,8 @@ coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
     estimate.emplace(std::move(norm), &a.phases,
                      spec.dynamics ? Displacement::motion : Displacement::distortion);
   }
-  return coupling::Simulation(coupling_scheme(spec, a.phases, keeps_strain(spec, a.materials, a.start)), std::move(times), std::move(estimate));
+  return coupling::Simulation(coupling_scheme(spec, a.phases, keeps_strain(spec, a.materials, a.start)),
+                              std::move(times), std::move(estimate));
 }
 
 /// The work of the stresses of the ends of steps becomes heat in the energy form. The other forms lose what

@@ -143,7 +143,7 @@ Skin pour(const std::string& name, bool solid, const std::string& material,
   a.mesh = model::load_mesh(c.spec);
   model::build(c.spec, a);
   const auto scheme =
-      model::coupling_scheme(c.spec, a.phases, model::melts_in_run(c.spec, a.materials, a.start));
+      model::coupling_scheme(c.spec, a.phases, model::keeps_strain(c.spec, a.materials, a.start));
   scheme->synchronise(a.initial);
   const contact::ContactPair& wall = *a.contacts[0];
   const double height = solid ? 0.024 : 0.03,
