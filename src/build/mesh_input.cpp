@@ -195,6 +195,12 @@ mesh::RawMesh raw_mesh(CaseSpec spec) {
   return make_raw_mesh(spec, found);
 }
 
+void require_sound_mesh(const CaseSpec& spec) {
+  results::on_first_process([&] {
+    if (spec.mesh.unsound) throw InputError(*spec.mesh.unsound);
+  });
+}
+
 mesh::Mesh load_mesh(CaseSpec& spec) {
   mesh::RawMesh raw;
   if (!spec.interfaces.empty()) {
@@ -221,6 +227,7 @@ mesh::Mesh load_mesh(CaseSpec& spec) {
   for (const ContactSpec& contact : spec.contacts)
     for (const std::string& surface : contact.sides())
       if (spec.rigid_surface(surface) == nullptr) replicated.push_back(surface);
+  spec.mesh.unsound = raw.unsound;
   return mesh::distribute(std::move(raw), bodies, replicated, work);
 }
 

@@ -14,5 +14,8 @@ mesh::RawMesh raw_mesh(CaseSpec spec);
 /// goes wrong on process 0 is thrown on all. The contacts that interfaces make are added to those of the
 /// case.
 mesh::Mesh load_mesh(CaseSpec& spec);
+/// Throws InputError where the mesh that was loaded is not sound, after the findings of a case have told what
+/// else is wrong. Collective.
+void require_sound_mesh(const CaseSpec& spec);
 
 }  // namespace solidus::model

@@ -87,8 +87,9 @@ void make_sound(const CaseSpec& spec, mesh::RawMesh& mesh) {
       mesh::replace_nodes(mesh, crack.replaced);
       skin = mesh::faces_on_skin(mesh, body.mesh_group());
     }
-    if (const mesh::HangingNodes hanging = mesh::hanging_nodes(mesh, skin, in_contact); hanging.n > 0)
-      throw InputError(
+    const mesh::HangingNodes hanging = mesh::hanging_nodes(mesh, skin, in_contact);
+    if (hanging.n > 0 && !mesh.unsound)
+      mesh.unsound.emplace(
           body.where,
           fmt::format(
               "{} nodes hang in faces of the body '{}' without being their corners, one of them at {}: "

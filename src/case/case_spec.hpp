@@ -18,6 +18,7 @@
 #include "linear/linear_solver.hpp"
 #include "mechanics/mechanical_phase.hpp"
 #include "numbers/types.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::model {
 
@@ -140,6 +141,8 @@ struct MeshSpec {
   /// Run a .geo script without checks. This is never a key of a case file: the user who runs a case decides
   /// whether to trust its scripts, not its author.
   bool trust_script = false;
+  /// Known to process 0 once the mesh is loaded (mesh::RawMesh::unsound). This is never a key of a case file.
+  std::optional<InputError> unsound;
   std::string element;  ///< of the built-in shapes: "tri3", ...
   std::optional<CylinderInMouldSpec> cylinder_in_mould;
   std::optional<BlockSpec> block;

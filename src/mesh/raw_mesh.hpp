@@ -8,6 +8,7 @@
 
 #include "mesh/geometry_choice.hpp"
 #include "mesh/mesh.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 
@@ -27,7 +28,11 @@ struct RawMesh {
   std::map<std::string, RawGroup> groups;  ///< named groups of every dimension, as in the input
   /// What was left out or taken for something while the file was read, for the user: a sentence each.
   std::vector<std::string> notes = {};
-  /// Of all solids of a CAD file, by its surfaces and not by the mesh's facets [m]; absent: it is no CAD file.
+  /// Why nothing is to be computed on this mesh, where it is not sound; told after what else a case has
+  /// wrong.
+  std::optional<InputError> unsound = {};
+  /// Of all solids of a CAD file, by its surfaces and not by the mesh's facets [m]; absent: it is no CAD
+  /// file.
   std::optional<Point> centre_of_volume = {};
 };
 

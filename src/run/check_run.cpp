@@ -16,6 +16,7 @@ CheckedRun check_run(Case c) {
   build(c.spec, a);
   const CaseMeasures measures = measure(c.spec, a);
   report(findings(c.spec, a, measures));
+  require_sound_mesh(c.spec);
   results::check_output(a.mesh, a.phases, recorder_options(c, {}, a));
   for (std::size_t i = 0; i < a.stages.size(); ++i)
     if (a.stages[i].cycle <= 1) apply(c.spec, i, {}, nullptr, a);

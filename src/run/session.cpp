@@ -127,6 +127,7 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
   part.emplace("findings");
   const CaseMeasures measures = measure(c.spec, a);
   report(findings(c.spec, a, measures));
+  require_sound_mesh(c.spec);
   part.emplace("set-up");
   if (a.phases.audits_stability())
     announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh, a.start));

@@ -197,6 +197,7 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
   Assembly a;
   a.materials = load_materials(spec);
   a.mesh = load_mesh(spec);
+  require_sound_mesh(spec);
   build(spec, a);
   if (options.temperature_history) return export_history(spec, a, options);
   results::Checkpoint from =
