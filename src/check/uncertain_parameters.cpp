@@ -206,7 +206,8 @@ class Collector {
   /// Whether a gap may be open, and conducts less than contact then.
   bool opens(std::size_t c) const {
     const ContactSpec& contact = spec_.contacts[c];
-    const bool apart = m_.contacts[c].largest_gap > contact.touching.value_or(0);
+    constexpr double k_rounding = 1e-9;  // [m], of coordinates
+    const bool apart = m_.contacts[c].largest_gap > contact.touching.value_or(k_rounding);
     if (!spec_.has_mechanics() && !apart) return false;
     constexpr double k_gap = 1e-4, k_warm = 600, k_same = 0.01;  // [m], [K]
     const contact::HeatTransferLaw law(*contact.heat);

@@ -86,7 +86,7 @@ class Guide(ProgramTest):
                 skip = False
             elif word in ("-o", "--output"):
                 skip = True
-            elif word not in ("--restart", "--no-progress", "--profile", "--watch", "--report"):
+            elif word not in ("--restart", "--no-progress", "--profile", "--watch", "--report", "--sure"):
                 kept.append(word)
         return kept
 

@@ -88,7 +88,7 @@ bool nested_deeper(std::string_view json, int most) {
   return depth > most;
 }
 
-/// The text of summary.json, where it is one.
+/// The text of summary.json, or of another file of JSON, where it is one.
 std::string checked_summary(const fs::path& file) {
   const std::string text = read_text_file(file, {file.string(), 0, 0});
   constexpr int k_deepest = 64;  // the parser calls itself for each
@@ -297,6 +297,9 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
   else
     own.emplace_back(
         "There is no summary.json: the run goes on, or it was killed. The page shows how far it came.");
+  // The run at the values as they are of `solidus uncertain`, whose ranks lie beside its folder.
+  if (const fs::path ranks = whole.parent_path() / "uncertain.json"; whole.filename() == "best" && fs::exists(ranks))
+    out.add("uncertain_text", checked_summary(ranks));
   out.add("materials", run.materials);
   Json tables;
   for (const char* name : {"history", "steps", "pools", "shots"}) {

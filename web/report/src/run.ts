@@ -41,6 +41,7 @@ interface RunMeta {
   physics: string;
   case_text: string;
   summary_text?: string;
+  uncertain_text?: string;
   materials: { body: string; material: string; card?: Card; missing?: string }[];
   tables: Record<string, TableMeta>;
   mesh?: { dimension: number; bodies: BodyMeta[] };
@@ -243,6 +244,21 @@ export class Table {
 /** An answer with its error in SI: value[s], error[s], error_of_step[s], error_of_mesh[s]. */
 export type Answer = Record<string, unknown>;
 
+/** uncertain.json of `solidus uncertain`: what the spreads of the data make of the answers. */
+export interface Uncertain {
+  coverage?: number;
+  remarks?: string[];
+  answers?: {
+    name: string;
+    unit: string;
+    value: number;
+    plus_minus: number;
+    step_and_mesh?: number | null;
+    jumps?: boolean;
+    parts: { label: string; up: number | null; down: number | null; plus_minus: number }[];
+  }[];
+}
+
 /** What a run says of a body that was cast. */
 export interface CastAnswer {
   riser?: boolean;
@@ -291,6 +307,7 @@ export class Run {
   readonly fields: Field[] = [];
   readonly displacement: Values[][];
   readonly summary: Summary;
+  readonly uncertain?: Uncertain;
   private tables = new Map<string, Table>();
 
   constructor(readonly meta: RunMeta) {
@@ -313,6 +330,7 @@ export class Run {
         );
     }
     this.displacement = metas.filter((f) => f.name === "displacement").map(columns);
+    if (meta.uncertain_text) this.uncertain = JSON.parse(meta.uncertain_text) as Uncertain;
     this.summary = meta.summary_text ? (JSON.parse(meta.summary_text) as Summary) : {};
     for (const [name, table] of Object.entries(meta.tables)) this.tables.set(name, new Table(table));
   }

@@ -30,6 +30,7 @@ export function buildSections(page: Page, bench: Workbench): [string, string][] 
   if (page.runs.length > 1) add("comparison", "Comparison", [comparison(page)]);
   add("curves", "Curves", curves(page));
   add("castings", "Castings", page.runs.some((r) => Object.keys(r.summary.answers?.castings ?? {}).length > 1) ? [perRun(page, (r, i) => castings(r, i, bench))] : []);
+  add("uncertain", "What the data add", page.runs.some((r) => r.uncertain?.answers?.length) ? [perRun(page, (r) => uncertain(r))] : []);
   add("criteria", "Criteria", page.runs.some((r) => r.summary.criteria) ? [perRun(page, (r, i) => [criteriaTable(r, i, bench)])] : []);
   add("pools", "Pools of melt", page.runs.some((r) => (r.table("pools")?.rows ?? 0) > 0) ? [perRun(page, (r, i) => pools(r, i, bench))] : []);
   add("shots", "Shots", page.runs.some((r) => (r.table("shots")?.rows ?? 0) > 0) ? [shotCharts(page), perRun(page, (r) => shots(r, bench))] : []);
@@ -162,6 +163,34 @@ function castings(run: Run, index: number, bench: Workbench): Node_[] {
   });
   const told = typeof answers?.yield === "number" ? h("p", { class: "hint" }, `${short(100 * answers.yield)} % of what is poured is part.`) : null;
   return [table(["Body", "", "Mass", "Frozen after", "Least Niyama", "Pores", "Verdict"], rows), told];
+}
+
+/** A tornado for each answer: from what it falls to what it rises where each datum goes to its ends. */
+function uncertain(run: Run): Node_[] {
+  const all = run.uncertain;
+  if (!all?.answers?.length) return [h("p", { class: "hint" }, "This run belongs to no `solidus uncertain`.")];
+  const most = 8, wide = 420, row = 22;
+  const boxes = all.answers.map((answer) => {
+    const parts = answer.parts.slice(0, most);
+    const ends = parts.map((p) => [p.down ?? 2 * answer.value - (p.up ?? answer.value), p.up ?? answer.value]);
+    const band = answer.step_and_mesh ?? 0;
+    const low = Math.min(answer.value - band, ...ends.flat()), high = Math.max(answer.value + band, ...ends.flat()), span = high - low || 1;
+    const x = (v: number) => ((v - low) / span) * wide;
+    const bars = parts.map((p, i) => {
+      const [a, b] = ends[i];
+      return svg("g", {}, svg("rect", { x: x(Math.min(a, b)), y: i * row + 4, width: Math.max(1, Math.abs(x(b) - x(a))), height: row - 8, class: "tornado" }),
+        svg("title", {}, `${p.label}: ${short(a)} to ${short(b)} ${answer.unit}`));
+    });
+    if (band > 0) bars.push(svg("rect", { x: x(answer.value - band), y: parts.length * row + 4, width: Math.max(1, x(answer.value + band) - x(answer.value - band)), height: row - 8, class: "tornado-band" }));
+    const n = bars.length, names = [...parts.map((p) => `${p.label} ± ${short(p.plus_minus)}`), ...(band > 0 ? [`step and mesh ± ${short(band)}`] : [])];
+    const labels = names.map((name, i) => svg("text", { x: wide + 10, y: i * row + row / 2 + 4, class: "tornado-text" }, name));
+    const picture = svg("svg", { viewBox: `0 0 ${wide + 400} ${n * row + 4}`, class: "tornado-picture", role: "img", "aria-label": `What moves ${answer.name}` },
+      ...bars, svg("line", { x1: x(answer.value), x2: x(answer.value), y1: 0, y2: n * row, class: "tornado-middle" }), ...labels);
+    return h("div", { class: "tornado-box" }, h("h3", {}, `${answer.name}: ${short(answer.value)} ± ${short(answer.plus_minus)} ${answer.unit}`), picture,
+      answer.jumps ? h("p", { class: "hint" }, "About as much by whatever is moved: steps and mesh more than data.") : null);
+  });
+  return [h("p", { class: "hint" }, `± holds ${short(100 * (all.coverage ?? 0.95))} %. Bars: from one end of a datum to the other; the line is the answer as computed.`), ...boxes,
+    ...(all.remarks ?? []).map((r) => h("p", { class: "hint" }, r))];
 }
 
 function criteriaTable(run: Run, index: number, bench: Workbench): Node_ {
