@@ -58,7 +58,8 @@ std::vector<char> skin_nodes(const mesh::Mesh& mesh, int body) {
 // four fifths (hexahedra) of its deflection, and its stress is even through the thickness.
 void find_in_bending(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   constexpr double k_slender = 10, k_most = 0.5;
-  if (!a.mechanics) return;
+  // A strip of a disc or of a tube is one element high, and nothing bends there.
+  if (!a.mechanics || spec.analysis.kind == AnalysisKind::axisymmetric) return;
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
     const auto body = static_cast<int>(b);
     const bool told = std::ranges::any_of(

@@ -12,6 +12,7 @@ FacetHeights::FacetHeights(const ContactSurface& surface) {
   for (Index f = 0; f < surface.n_faces(); ++f) {
     first_.push_back(pair_.size());
     largest_.push_back(0);
+    outward_.push_back(0);
     const Face face = surface.reference_face(f);
     if (mesh::order(face.shape) > 1) continue;
     const ShapeOperator& shape = shapes[static_cast<std::size_t>(f)];
@@ -20,6 +21,7 @@ FacetHeights::FacetHeights(const ContactSurface& surface) {
       for (std::size_t b = a + 1; b < n; ++b) {
         pair_.push_back(0.5 * shape.agreement * shape.turn_along(subtract(face.x[b], face.x[a])));
         largest_.back() += std::abs(pair_.back());
+        outward_.back() += pair_.back();
       }
     // At the centre, where all shape functions are 1/n.
     largest_.back() /= static_cast<double>(n * n);
@@ -42,6 +44,7 @@ FacetGap facet_gap(const FacetHeights& slave, Index slave_face, std::span<const 
   if (master == nullptr || master_face < 0) return gap;
   gap.height += master->at(master_face, master_shape);
   gap.bound += master->largest(master_face);
+  gap.fits = slave.outward(slave_face) * master->outward(master_face) < 0 ? 1 : 0;
   return gap;
 }
 

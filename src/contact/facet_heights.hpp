@@ -5,9 +5,9 @@
 ///
 ///   t = ½ Σ_{a<b} N_a N_b (x_b − x_a)ᵀ S (x_b − x_a)
 ///
-/// which of a chord of the length h is κ h²/8 in its middle. A gap between two such surfaces is smaller by both
-/// heights than that between the facets, and facets of one curved fit, which leave gaps and overlaps, touch.
-/// Faces with quadratic shape functions follow the surface and have no height.
+/// which of a chord of the length h is κ h²/8 in its middle. A gap between two such surfaces is smaller by
+/// both heights than that between the facets, and facets of one curved fit, which leave gaps and overlaps,
+/// touch. Faces with quadratic shape functions follow the surface and have no height.
 #pragma once
 
 #include <span>
@@ -21,6 +21,8 @@ namespace solidus::contact {
 struct FacetGap {
   double height = 0;  ///< both heights at the point, which the gap between the facets is too large by
   double bound = 0;   ///< largest heights on both faces, without sign
+  /// Share of the place where one face is curved outward and the other inward, as in a fit.
+  double fits = 0;
 };
 
 class FacetHeights {
@@ -31,11 +33,14 @@ class FacetHeights {
   double at(Index face, std::span<const double> shape) const;
   /// The largest t of the face without sign [m].
   double largest(Index face) const { return largest_[static_cast<std::size_t>(face)]; }
+  /// Above zero where the face is convex, below where it is concave.
+  double outward(Index face) const { return outward_[static_cast<std::size_t>(face)]; }
 
  private:
   std::vector<std::size_t> first_;  ///< of every face in pair_
   std::vector<double> pair_;        ///< ½ (x_b − x_a)ᵀ S (x_b − x_a), a < b [m]
   std::vector<double> largest_;     ///< [face]
+  std::vector<double> outward_;     ///< [face]: the sum of its pairs, above zero where it is convex [m]
 };
 
 /// Half of the facets' share of a gap for each side at one place.

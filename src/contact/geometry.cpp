@@ -18,6 +18,7 @@ namespace solidus::contact {
 namespace {
 
 constexpr double k_rounding = 1e-6;  ///< of coordinates, of the mean size of the slave's faces
+constexpr double k_mostly = 0.5;     ///< of a point is a fit (FacetGap::fits)
 constexpr double k_scatter = 0.25;   ///< of the heights of facets, which follow from those around them
 
 std::size_t index_of(Index i) {
@@ -110,22 +111,25 @@ ContactGeometry::ContactGeometry(const mesh::Mesh& mesh, AnalysisKind kind, cons
       components_(displacement_components(kind)),
       face_size_(surfaces.slave.mean_face_size()),
       touching_(spec.touching.value_or(k_rounding * face_size_)),
-      facets_close_(!spec.touching),
+      facets_close_(!spec.touching && spec.formulation == Formulation::small_sliding),
       surface_nodes_(owned_nodes(mesh, surfaces)) {
   make_kinematics(kind, spec, surfaces);
   configuration_ = std::make_unique<CurrentConfiguration>(*kinematics_);
   graph_ = std::make_unique<ContactGraph>(*kinematics_);
   if (!facets_close_) return;
   double bound = 0;
-  for (Index p = 0; p < n_points(); ++p) bound = std::max(bound, kinematics_->facets(p).bound);
+  for (Index p = 0; p < n_points(); ++p)
+    if (const FacetGap facets = kinematics_->facets(p); facets.fits > k_mostly)
+      bound = std::max(bound, facets.bound);
   touching_ += 2 * bound;
 }
 
 double ContactGeometry::initial_offset(Index point, double penetration) const {
   if (!facets_close_) return std::abs(penetration) <= touching_ ? -penetration : 0.0;
   const FacetGap facets = kinematics_->facets(point);
-  const double allowed = k_rounding * face_size_ + k_scatter * facets.bound;
-  return std::abs(penetration + facets.height) <= allowed ? -penetration : facets.height;
+  const double scatter = facets.fits > k_mostly ? k_scatter * facets.bound : 0;
+  const double height = facets.fits > k_mostly ? facets.height : 0;
+  return std::abs(penetration + height) <= k_rounding * face_size_ + scatter ? -penetration : height;
 }
 
 void ContactGeometry::make_kinematics(AnalysisKind kind, const ContactParameters& spec,

@@ -67,8 +67,9 @@ class ContactGeometry {
   /// No offset of an initial gap to zero is larger than this [m].
   double touching() const { return touching_; }
   /// What is added to the initial penetration of a point as the mesh has it [m]: to zero where it counts as
-  /// touching, else to the gap between the surfaces that the facets stand for (facet_heights.hpp). Where the
-  /// data say what counts as touching, facets are taken as they are.
+  /// touching, else in a curved fit to the gap between the surfaces that the facets stand for
+  /// (facet_heights.hpp). Where the data say what counts as touching, in large sliding, and between surfaces
+  /// that are no fit, facets are taken as they are.
   double initial_offset(Index point, double penetration) const;
   /// The curvature of the slave's face at every point; empty where the surface is plane.
   std::vector<SurfaceCurvature> curvatures(AnalysisKind kind, const ContactSurface& slave) const;

@@ -146,6 +146,7 @@ FacetGap SegmentKinematics::facets(Index point) const {
     const double alpha = places_.particle(s).weight / covered_[at(point)];
     mean.height += alpha * here.height;
     mean.bound += alpha * here.bound;
+    mean.fits += alpha * here.fits;
   }
   return mean;
 }

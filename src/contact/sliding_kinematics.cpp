@@ -58,22 +58,6 @@ SlidingKinematics::SlidingKinematics(const mesh::Mesh& mesh, AnalysisKind kind, 
   coverage_ = paired / all;
 }
 
-FacetGap SlidingKinematics::facets(Index point) const {
-  const auto p = static_cast<std::size_t>(point);
-  const Partner& partner = partner_[p];
-  if (partner.face < 0) return {};
-  const auto n_slave = slave_.nodes(face_[p]).size();
-  std::array<double, k_max_face_nodes> values{};
-  std::size_t n_master = 0;
-  if (master_->heights() != nullptr) {
-    master_->frame(partner, false, frame_);
-    n_master = static_cast<std::size_t>(frame_.n_face_nodes);
-    std::copy_n(frame_.share.begin(), n_master, values.begin());
-  }
-  return facet_gap(heights_, face_[p], std::span(shape_[p]).first(n_slave), master_->heights(), partner.face,
-                   std::span(values).first(n_master));
-}
-
 void SlidingKinematics::add_points(AnalysisKind kind, const SlidingOptions& options) {
   for (Index f = 0; f < slave_.n_faces(); ++f) {
     const Face face = slave_.reference_face(f);

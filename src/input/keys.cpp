@@ -161,10 +161,9 @@ Table points_of(const Value& table, const Key& key, Argument of) {
 
 Function read_function_table(const Value& table, const Key& key) {
   if (key.place == Key::Place::none && is_place(table))
-    throw InputError(table.where,
-                     fmt::format("'{}' is a formula or a file, which this key does not take", key.name),
-                     "a number or a table of points; what changes from place to place in parts, each with a "
-                     "number or a table of its own: groups of faces ([[mesh.group]]), or bodies");
+    throw InputError(
+        table.where, fmt::format("'{}' is a formula or a file, which this key does not take", key.name),
+        "a number or a table of points; for parts of their own groups of faces ([[mesh.group]])");
   if (key.place != Key::Place::none && is_place(table)) {
     Function result;
     result.place = read_place(table, key, key.place == Key::Place::position_and_time);
@@ -402,17 +401,16 @@ Value SectionInfo::completed(const Value& table, const std::string& path) const 
   if (!table.is_table())
     throw InputError(table.where, fmt::format("{} is {}", section, table.describe()),
                      "expected a section with keys");
-  std::vector<std::string> names;
-  for (const Key& key : keys) names.push_back(key.name);
-  for (const auto& entry : table.entries())
-    if (const auto missing = missing_key(name, entry.key); missing && !find(entry.key))
+  for (const auto& entry : table.entries()) {
+    if (find(entry.key)) continue;
+    if (const auto missing = missing_key(name, entry.key))
       throw InputError(entry.where, fmt::format("the key '{}' of {} {}", entry.key, section, missing->state),
                        std::string(missing->instead));
-  for (const auto& entry : table.entries())
-    if (!find(entry.key))
-      throw InputError(entry.where, fmt::format("unknown key '{}' in {}", entry.key, section),
-                       one_of(names, entry.key));
-
+    std::vector<std::string> names;
+    for (const Key& key : keys) names.push_back(key.name);
+    throw InputError(entry.where, fmt::format("unknown key '{}' in {}", entry.key, section),
+                     one_of(names, entry.key));
+  }
   Value result;
   result.where = table.where;
   result.written_inline = table.written_inline;
