@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "case/nearby_case.hpp"
@@ -38,13 +39,26 @@ struct Wanted {
   NearbyCase how;
 };
 
+/// The number of elements of all that is cast, which the answers are of: a mould often has more of them,
+/// which sizes change less. Of all bodies where nothing is cast.
+double elements_of_castings(const results::Summary& summary) {
+  double sum = 0;
+  const std::vector<results::CastAnswer>& castings = summary.answers->castings;
+  for (const auto& body : summary.mesh.elements_of_body)
+    if (castings.empty() || std::ranges::any_of(castings, [&](const results::CastAnswer& cast) {
+          return cast.cast.name == body.first;
+        }))
+      sum += static_cast<double>(body.second);
+  return sum;
+}
+
 /// How much finer a run was than one beside it.
 double ratio(results::ErrorPart part, AnalysisKind kind, const results::Summary& run,
              const results::Summary& beside) {
   if (part == results::ErrorPart::step)
     return static_cast<double>(run.steps) / static_cast<double>(beside.steps);
-  const double nodes = static_cast<double>(run.mesh.nodes) / static_cast<double>(beside.mesh.nodes);
-  return std::pow(nodes, 1.0 / (kind == AnalysisKind::solid ? 3.0 : 2.0));
+  const double elements = elements_of_castings(run) / elements_of_castings(beside);
+  return std::pow(elements, 1.0 / (kind == AnalysisKind::solid ? 3.0 : 2.0));
 }
 
 /// The summary of a run beside, or why there is none.

@@ -43,8 +43,8 @@ class Sure(ProgramTest):
     def test_compares_with_longer_steps_and_larger_elements(self):
         folder = self.casting()
         told = self.done("run", "case", "--sure", "--no-progress", "-o", "out", cwd=folder)
-        self.assertRegex(told, r"--sure: compared with longer steps, a factor of [12]\.\d+")
-        self.assertRegex(told, r"--sure: compared with larger elements, a factor of [12]\.\d+")
+        self.assertRegex(told, r"--sure: compared with longer steps, a factor of [12](\.\d+)?")
+        self.assertRegex(told, r"--sure: compared with larger elements, a factor of [12](\.\d+)?")
         # Printed twice, as estimated and as compared.
         printed = re.findall(r"its last melt froze [\d.]+ ± [\d.]+ s \(step ([\d.]+), mesh ([\d.]+)\)", told)
         self.assertEqual(len(printed), 2)
@@ -55,7 +55,7 @@ class Sure(ProgramTest):
         self.assertTrue(froze["step_compared"] and froze["mesh_compared"])
         # Richardson for errors of first order, and a quarter more; never less than half of the estimate.
         of_step = 1.25 * abs(froze["value[s]"] - longer["value[s]"]) / (run["steps"] / steps["steps"] - 1)
-        edges = (run["mesh"]["nodes"] / mesh["mesh"]["nodes"]) ** 0.5
+        edges = (run["mesh"]["bodies"]["part"] / mesh["mesh"]["bodies"]["part"]) ** 0.5
         of_mesh = 1.25 * abs(froze["value[s]"] - larger["value[s]"]) / (edges - 1)
         self.assertAlmostEqual(froze["error_of_step[s]"], max(of_step, estimate_of_step / 2), delta=0.01 * estimate_of_step)
         self.assertAlmostEqual(froze["error_of_mesh[s]"], max(of_mesh, estimate_of_mesh / 2), delta=0.05 * estimate_of_mesh)
