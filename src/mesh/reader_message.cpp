@@ -29,6 +29,15 @@ T take_number(const TakeBytes& take) {
   return value;
 }
 
+/// A byte that the other end wrote need not be one that a bool can hold.
+template <>
+bool take_number<bool>(const TakeBytes& take) {
+  static_assert(sizeof(bool) == sizeof(std::uint8_t));
+  const auto byte = take_number<std::uint8_t>(take);
+  if (byte > 1) throw MessageError("neither yes nor no");
+  return byte == 1;
+}
+
 template <class T>
 void put_list(const std::vector<T>& list, const PutBytes& put) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -256,7 +265,11 @@ RawMesh take_mesh(const TakeBytes& take, double most_bytes) {
   const auto n_notes = take_number<std::size_t>(take);
   if (n_notes > k_most_notes) throw MessageError("more notes than a mesh has");
   for (std::size_t i = 0; i < n_notes; ++i) mesh.notes.push_back(take_text(take));
-  if (take_number<bool>(take)) mesh.centre_of_volume = take_number<Point>(take);
+  if (take_number<bool>(take)) {
+    mesh.centre_of_volume = take_number<Point>(take);
+    for (const double x : *mesh.centre_of_volume)
+      if (!std::isfinite(x)) throw MessageError("a centre that is no place");
+  }
   return mesh;
 }
 
