@@ -167,7 +167,7 @@ ExitCode parse_and_run(int argc, char** argv) {
                      "Show the report while the run goes on, at an address of this machine alone");
   run_verb->add_flag("--sure", arguments.sure,
                      "Run it twice more, with longer steps and with larger elements, for the errors of the "
-                     "answers; about half of the time again");
+                     "answers; half to one and a half times its time again");
   CLI::App* check_verb = program.add_subcommand("check", "Check a case: everything but solving");
   add_case_arguments(*check_verb, arguments);
   CLI::App* resolve_verb =

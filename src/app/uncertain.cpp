@@ -1,4 +1,4 @@
-/// What of a case is uncertain, and by how much, as JSON for `solidus uncertain`.
+/// Lists the uncertain parameters of a case with their spreads, as JSON for `solidus uncertain`.
 #include <array>
 
 #include "app/verbs.hpp"

@@ -81,7 +81,7 @@ class ParameterList {
   std::map<std::string, std::size_t> index_;
 };
 
-/// What a body is to the case.
+/// Parts that a body plays in the case.
 struct BodyUse {
   bool cast = false, deforms = false;
   bool weighs = false;  ///< its weight or inertia loads it
@@ -273,7 +273,7 @@ class Collector {
       add("temperature", "temperature", known(by_case.temperature, {}, {}), now.temperature);
   }
 
-  /// What a condition is strong by, the data of it, and its usual spread.
+  /// The strength of a condition: its name, its data and its usual spread.
   static std::tuple<std::string, const Function*, Spread> strength_of(const ThermalConditionSpec& c) {
     using Kind = ThermalConditionSpec::Kind;
     constexpr double k_film = 1.5, k_emissivity = 0.2, k_power = 0.1;

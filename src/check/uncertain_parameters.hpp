@@ -22,7 +22,7 @@ struct UncertainParameter {
     estimate,  ///< the same, marked as an estimate
     usual      ///< none is given: one that is usual for such data
   };
-  /// What may be varied together where there are too many parameters.
+  /// Parameters of one group may be varied together where there are too many of them.
   enum class Group { casting, mould, interface, start, surroundings };
 
   std::string label;     ///< "conductivity of green_sand"

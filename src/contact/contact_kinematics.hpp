@@ -86,8 +86,8 @@ class ContactKinematics {
     std::span<const double> share;  ///< their shape functions
   };
   virtual Particle particle(Index point) const = 0;
-  /// What facets of curved surfaces do to the gap of a point, between it and its partner as last placed; of a
-  /// point that stands for a part of the slave the mean.
+  /// The effect of facets of curved surfaces on the gap of a point, between it and its partner as last
+  /// placed; of a point that stands for a part of the slave the mean.
   virtual FacetGap facets(Index /*point*/) const { return {}; }
   /// Part of the slave surface that has a partner in the reference configuration, 0 to 1. Collective at
   /// construction, not here.

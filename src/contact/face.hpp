@@ -34,8 +34,8 @@ struct Face {
   double measure() const;
   /// A length that tells the face's size: its length or the square root of its area [m].
   double size() const;
-  /// What rounding of its coordinates moves a place by, in reference coordinates: of a face far from the
-  /// origin more than the last places of ξ.
+  /// The distance by which rounding of its coordinates moves a place, in reference coordinates: of a face far
+  /// from the origin more than the last places of ξ.
   double rounding() const;
   /// The corners of its bounding box; of curved faces a bound that holds for moderate curvature.
   std::array<Point, 2> box() const;

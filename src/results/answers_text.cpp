@@ -134,8 +134,8 @@ double error_of(const std::optional<ValueAt>& value) {
   return value && value->error ? value->error->total() : 0;
 }
 
-/// The verdict on a riser that froze so much later than the part [s]. Times of both that are wrong together
-/// leave their difference right, so that the larger of both errors is that of the difference.
+/// The verdict on a riser that froze so much later than the part [s]. The times of both come of one mesh and
+/// one run and are wrong in the same sense: the larger of both errors is taken for that of their difference.
 std::string margin_text(double later, double error) {
   const std::string band = error > 0 ? fmt::format(" ± {:.2g}", error) : "";
   if (std::abs(later) < error)
