@@ -6,6 +6,8 @@
 /// derivatives h_ε, h_Θ, σ_Θ of coupled_points.hpp at ε̂, h_v = ⅓ tr h_ε and e_v,Θ = e^θ_Θ − p̄ k_Θ/k²
 ///
 ///   K_uΘ = ∫ Bᵀ dev σ_Θ N dV     K_Θu = ∫ M (dev h_ε)ᵀ B dV
+/// and −ψ ζ/Δt e^θ_Θ beside σ_Θ where melt flows (compaction.hpp);
+///
 ///   K_pΘ = −∫ N e_v,Θ N dV       K_Θp = ∫ M h_v/k N dV         K_ΘΘ += ∫ M (h_Θ + h_v e_v,Θ) N dV
 ///
 /// The rows of the volume are those of r_p, times the unit of the pressure (nodal_pressure.hpp).
@@ -39,7 +41,9 @@ class CoupledMixedBlock final : public CoupledPoints<MixedBlock<material::Viscop
       const Lane w = this->weight(batch), swelling = Lane(1.0 / 3.0) * trace(d.heat_strain),
                  expansion = p.thermal_strain.d - pressure * p.bulk.d / (p.bulk.v * p.bulk.v);
       Vectors pull{}, heating{};
-      b.add_force(w * dev(d.stress), pull);
+      Sym<Lane> stress = dev(d.stress);
+      for (int k = 0; k < 3; ++k) stress[k] -= this->compaction().by_expansion(batch) * p.thermal_strain.d;
+      b.add_force(w * stress, pull);
       b.add_force(w * dev(d.heat_strain), heating);
       add(batch, pull, heating, Lane(at.pressure_unit) * expansion,
           Lane(at.pressure_unit) * w * swelling / p.bulk.v, w * (d.heat_temperature + swelling * expansion),

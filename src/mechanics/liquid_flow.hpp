@@ -7,8 +7,8 @@
 ///   r_p = ∫ N (div u − e_v − θ) − ∇N·q dV − S p = 0,   q = q_n + Δt K/μ (∇p + ρ g_0),
 ///
 /// f_S in K of t_n, q constant in an element. p is the pressure of the melt between the dendrites (positive
-/// in tension). Their network, and melt alone, resist compaction with a bulk viscosity ζ, which is taken to
-/// be the shear viscosity η (material/melt.hpp): the mean stress is p + ζ div u̇, and ζ div u̇ enters r_u. No
+/// in tension). Their network, and melt alone, resist compaction: the mean stress is p + σ_ζ
+/// (mechanics/compaction.hpp), and σ_ζ enters r_u. No
 /// melt passes the surface of the body: the sum of r_p over its nodes, its volume, has no q. At rest ∇p = −ρ
 /// g_0 and nothing flows. The term has the form of algebraic sub-scales with τ = Δt K/μ: symmetric, and its
 /// work (∇p + ρ g_0)·Δq ≥ 0 is lost. The law of the metal and its heat stay with the element: what flows is a

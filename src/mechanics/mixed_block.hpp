@@ -1,6 +1,7 @@
 /// The mixed kernel of linear triangles and tetrahedra (mixed_kernel.hpp): any law, eight elements at a time.
 #pragma once
 
+#include "mechanics/compaction.hpp"
 #include "mechanics/element_matrix.hpp"
 #include "mechanics/mixed_parts.hpp"
 #include "mechanics/point_block.hpp"
@@ -15,7 +16,8 @@ inline constexpr int k_max_volumes = 30;
 /// Largest volumetric strain of one step of that iteration: beyond it no law holds.
 inline constexpr double k_largest_volume_step = 0.05;
 /// Behind the law's state at a point: e_v, the pore fraction, in axisymmetry p_a − p̄ of its nodes, and where
-/// melt flows between dendrites its q and the mean stress of compaction (liquid_flow.hpp).
+/// melt flows between dendrites its q (liquid_flow.hpp), the mean stress of compaction and e^θ
+/// (compaction.hpp).
 template <int n_nodes, AnalysisKind kind>
 inline constexpr int k_mixed_extra = kind == AnalysisKind::axisymmetric ? 2 + n_nodes : 2;
 
@@ -41,16 +43,14 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
              Stabilisation stabilisation)
       : Base(mesh, block, material),
         Nodes(mesh, block, Base::geometry_, material, stabilisation),
+        compaction_(material, this->flow_.flows(), n_batches()),
         pores_(material, n_batches()) {
     const auto n = static_cast<std::size_t>(n_batches());
     volume_.resize(n, Lane(0.0));
     old_volume_.resize(n, Lane(0.0));
     old_divergence_.resize(n, Lane(0.0));
     if constexpr (adiabatic) tangent_.resize(n);
-    if (this->flow_.flows()) {
-      n_kept_ += dim + 1;
-      compaction_.resize(n, Lane(0.0));
-    }
+    if (this->flow_.flows()) n_kept_ += dim + 2;
   }
 
   double prepare(const StepStart& start) override {
@@ -69,7 +69,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       if (this->flow_.flows()) {
         const Lane fraction = this->phase_at(start, batch, 0).solid_fraction;
         this->flow_.begin_step(batch, fraction, start.dt, kept_flow(*start.old_history, batch));
-        compaction_[i] = start.compaction_stiffness(fraction);
+        compaction_.begin_step(batch, network(start, batch, fraction));
       }
       Lane stiffness = bulk;
       if constexpr (adiabatic) {
@@ -98,7 +98,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const MixedPoint point = answer(batch, gradient, mean_pressure);
       Vectors f{};
       Sym<Lane> effective = dev(point.response.stress);
-      const Lane compacting = compaction_stress(batch, trace(gradient));
+      const Lane compacting = compaction_.stress(batch, trace(gradient));
       for (int k = 0; k < 3; ++k) effective[k] += compacting;
       b.add_force(weight(batch) * effective, f);
       this->add_pressure_force(b, batch, p, f);
@@ -130,7 +130,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       Matrix symmetric;
       std::optional<Matrix> skew;
       if (!this->law_.symmetric()) skew.emplace();
-      add_isotropic(b, w * compaction(batch), w * response.twice_shear, symmetric);
+      add_isotropic(b, w * compaction_.stiffness(batch), w * response.twice_shear, symmetric);
       if constexpr (RankOneTangent<Response>) this->add_flow(b, batch, 0, response, w, symmetric, skew);
       if constexpr (adiabatic) {
         VolumeTangent& t = tangent_[at(batch)];
@@ -244,10 +244,8 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
 
   std::size_t bytes() const override {
     return Base::bytes() + this->bytes_of_nodes() +
-           (volume_.capacity() + old_volume_.capacity() + old_divergence_.capacity() +
-            compaction_.capacity()) *
-               sizeof(Lane) +
-           tangent_.capacity() * sizeof(VolumeTangent) + pores_.bytes();
+           (volume_.capacity() + old_volume_.capacity() + old_divergence_.capacity()) * sizeof(Lane) +
+           tangent_.capacity() * sizeof(VolumeTangent) + pores_.bytes() + compaction_.bytes();
   }
 
   void add_augmentation(double factor, std::span<const double> stiffness,
@@ -317,6 +315,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     for (int i = 0; i < 3; ++i) e[i] += excess;
     return e;
   }
+  const Compaction& compaction() const { return compaction_; }
   Lane kept_volume(const BlockHistory& history, Index batch) const {
     return history.values[at(batch) * n_kept_ + n_state_];
   }
@@ -341,11 +340,14 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   }
 
  private:
-  /// ζ/Δt of melt and mush [Pa] (liquid_flow.hpp).
-  Lane compaction(Index batch) const { return compaction_.empty() ? Lane(0.0) : compaction_[at(batch)]; }
-  /// Its mean stress ζ div u̇ [Pa], beside the pressure of the melt.
-  Lane compaction_stress(Index batch, const Lane& divergence) const {
-    return compaction(batch) * (divergence - old_divergence_[at(batch)]);
+  Network network(const StepStart& start, Index batch, const Lane& fraction) const {
+    const std::span<const double> freezing = start.phases.freezing;
+    return {.solid_fraction = fraction,
+            .stiffness = start.compaction_stiffness(fraction),
+            .divergence = old_divergence_[at(batch)],
+            .old_thermal_strain = start.old_history->values[flow_place(batch) + dim + 1],
+            .thermal_strain = elastic_part(this->law_, this->properties_[at(batch)]).thermal_strain,
+            .freezing = freezing.empty() ? Lane(0.0) : within_nodes(this->geometry_, batch, 0, freezing)};
   }
   std::size_t flow_place(Index batch) const {
     return at(batch) * n_kept_ + n_state_ + k_mixed_extra<n_nodes, kind>;
@@ -399,7 +401,8 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   Lane compaction_at_work(Index batch, const Lane& divergence, const BlockEnd& end) const {
     if (!this->flow_.flows()) return Lane(0.0);
     const std::size_t place = flow_place(batch) + dim;
-    Lane stress = end.history.values[place] = compaction_stress(batch, divergence);
+    Lane stress = end.history.values[place] = compaction_.stress(batch, divergence);
+    end.history.values[place + 1] = compaction_.thermal_strain(batch);
     if (this->old_stress_ != nullptr)
       stress = Lane(this->stress_share_) * stress +
                Lane(1.0 - this->stress_share_) * this->old_history_->values[place];
@@ -437,7 +440,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   PackVector<Lane> volume_;          ///< e_v of the last update, [batch]
   PackVector<Lane> old_volume_;      ///< e_v at t_n, [batch]
   PackVector<Lane> old_divergence_;  ///< div u at t_n, [batch]
-  PackVector<Lane> compaction_;      ///< [batch]; empty where no melt flows
+  Compaction compaction_;
   Pores pores_;
   PackVector<VolumeTangent> tangent_;  ///< of the last add_tangent(), adiabatic laws only
 };

@@ -51,6 +51,7 @@ NodalPhases::NodalPhases(const mesh::Mesh& mesh, const std::vector<material::Mat
     block.nodes.erase(std::unique(block.nodes.begin(), block.nodes.end()), block.nodes.end());
     block.nodes.shrink_to_fit();
     solid_fraction_.resize(n_nodes_, 1.0);
+    freezing_.resize(n_nodes_, 0.0);
     if (!block.strains) continue;
     straining_.resize(n_nodes_, 0.0);
     for (const Index node : block.nodes)
@@ -93,21 +94,26 @@ PhaseFields NodalPhases::evaluate(std::size_t block, const FractionPlace& at,
     const double share = share_at(at, i);
     if (freezing != nullptr) {
       const double now = freezing->fraction.value(at.temperature[i], share);
-      solid_fraction_[i] = before.empty() ? now : 0.5 * (now + before[place(i, of)]);
+      const double old = before.empty() ? now : before[place(i, of)];
+      solid_fraction_[i] = before.empty() ? now : 0.5 * (now + old);
+      freezing_[i] = freezing->volume_change * (now - old);
     }
     if (of.strains)
       straining_[i] = straining(*of.material, at.temperature[i], share) - of.initial_straining[n];
   }
   PhaseFields fields;
-  if (freezing != nullptr) fields.solid_fraction = solid_fraction_;
+  if (freezing != nullptr) {
+    fields.solid_fraction = solid_fraction_;
+    fields.freezing = freezing_;
+  }
   if (of.strains) fields.straining = straining_;
   return fields;
 }
 
 std::size_t NodalPhases::bytes() const {
-  std::size_t total =
-      (solid_fraction_.capacity() + straining_.capacity() + initial_solid_fraction_.capacity()) *
-      sizeof(double);
+  std::size_t total = (solid_fraction_.capacity() + straining_.capacity() + freezing_.capacity() +
+                       initial_solid_fraction_.capacity()) *
+                      sizeof(double);
   for (const OfBlock& block : blocks_)
     total += block.nodes.capacity() * sizeof(Index) + block.initial_straining.capacity() * sizeof(double);
   return total;

@@ -28,6 +28,7 @@ namespace solidus::mechanics {
 struct PhaseFields {
   std::span<const double> solid_fraction;  ///< f_S,i of the step; empty: the material does not melt, f_S = 1
   std::span<const double> straining;       ///< e^pc_i − e^pc_i(Θ_0); empty: zero
+  std::span<const double> freezing;        ///< (ΔV/V) Δf_S,i of freezing in the step; empty: zero
 };
 
 /// Temperatures at which fractions are taken, [local node].
@@ -73,9 +74,9 @@ class NodalPhases {
 
   std::size_t n_nodes_;
   BodyFields fields_;
-  std::vector<OfBlock> blocks_;                     ///< [block of the mesh]
-  std::vector<double> initial_solid_fraction_;      ///< at Θ_0, [local node][field]; empty: nothing melts
-  std::vector<double> solid_fraction_, straining_;  ///< work, [local node]
+  std::vector<OfBlock> blocks_;                 ///< [block of the mesh]
+  std::vector<double> initial_solid_fraction_;  ///< at Θ_0, [local node][field]; empty: nothing melts
+  std::vector<double> solid_fraction_, straining_, freezing_;  ///< work, [local node]
 };
 
 }  // namespace solidus::mechanics

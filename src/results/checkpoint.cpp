@@ -28,7 +28,7 @@ namespace {
 
 /// Characters that stand for a pair in State::steady_gaps.
 constexpr char k_steady = 's', k_unsteady = '-';
-constexpr const char* k_format = "Solidus checkpoint 23";
+constexpr const char* k_format = "Solidus checkpoint 24";
 constexpr const char* k_known = "known";
 /// Above absolute zero, and no hotter than a case may ask for [K].
 constexpr AllowedValues k_temperatures{std::numeric_limits<double>::min(), 1e6};
