@@ -41,8 +41,8 @@ Section<Casting> casting_keys() {
       .range(0, 1)
       .doc(
           "Solid fraction from which the solid is a coherent network: strain before it is strain of the "
-          "melt, "
-          "strain after it is strain of the casting.");
+          "melt, strain after it is strain of the casting, and from it to one the network takes part in the "
+          "contraction of its metal by a share that rises from zero to one.");
   s.quantity("pore_tension", &Casting::pore_tension, "Pa")
       .initially("100 Pa")
       .positive()
