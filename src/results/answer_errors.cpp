@@ -16,14 +16,16 @@ namespace {
 /// Of a quantity that integrates the flow of heat, in units of η². Meshes of solids have few elements across
 /// a wall, so that η² is large there and says less.
 double of_flow(const mesh::Mesh& mesh) {
-  return mesh.dimension == 3 ? 0.15 : 0.7;
+  return mesh.dimension == 3 ? 0.15 : 0.65;
 }
 /// Of the step in which the last melt of a body froze.
 constexpr double k_within = 0.5;
 /// Of the difference of an extreme to what is around it.
 constexpr double k_around_gap = 0.2, k_around_distortion = 0.5, k_around_stress = 1, k_around_niyama = 0.5;
 /// Of the volume that freezing takes away, in units of η.
-constexpr double k_pores = 0.03;
+constexpr double k_pores = 0.01;
+/// Of that volume and the share of the time in which the last of it freezes.
+constexpr double k_last_pores = 0.5;
 
 constexpr std::string_view k_kept[] = {"displacement", "gap", "von_mises"};
 
@@ -64,7 +66,7 @@ class ErrorFinder {
     answer.error = of_state(answer.value, 0, k_around_niyama * at(spot, "niyama")[1]);
   }
   ErrorBand of_pores(double flow) const {
-    return {.step = shrinkage_ * late_, .mesh = k_pores * shrinkage_ * std::sqrt(flow)};
+    return {.step = k_last_pores * shrinkage_ * late_, .mesh = k_pores * shrinkage_ * std::sqrt(flow)};
   }
   std::optional<ErrorBand> of_criterion(const criteria::CriterionResult& found) const;
 

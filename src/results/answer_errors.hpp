@@ -10,10 +10,10 @@
 ///   gap g                its change in the last step, g Δt/2t  k η² g, 1/5 of the difference to around
 ///   distortion d         its change in the last step, d Δt/2t  k η² d, 1/2 of the difference to around
 ///   von Mises stress σ   its change in the last step, σ Δt/2t  k η² σ, the difference to around
-///   pores                |ΔV/V| Δt/2t                          0.03 |ΔV/V| η
+///   pores                |ΔV/V| Δt/4t                          0.01 |ΔV/V| η
 ///   least Niyama N       N Δt/2t                               k η² N, 1/2 of the difference to around
 ///
-/// with k = 0.7 in two dimensions and 0.15 in three, where meshes have few elements across a wall and η² is
+/// with k = 0.65 in two dimensions and 0.15 in three, where meshes have few elements across a wall and η² is
 /// large.
 /// The difference to around is that of an extreme to the mean of its neighbours in the mesh. The factors are
 /// those with which the sums cover the difference to a run with half the element and an eighth of the step in
