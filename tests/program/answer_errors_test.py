@@ -12,11 +12,11 @@ from summary_test import CASE, GEOMETRY
 
 
 class StatedErrors(ProgramTest):
-    # Two of the castings of the nightly run.
+    # Two of the castings of the nightly run. No pore opens in the first.
     def test_cover_the_errors_of_castings(self):
-        for name in ("nodular_iron_sand", "alsi10mg_die"):
+        for name, answers in (("nodular_iron_sand", 4), ("alsi10mg_die", 5)):
             found = list(castings.stated(PROGRAM, self.folder, name))
-            self.assertEqual(len(found), 5, name)
+            self.assertEqual(len(found), answers, name)
             for answer, value, stated, error in found:
                 with self.subTest(casting=name, answer=answer, value=value):
                     self.assertGreaterEqual(stated, error)
