@@ -76,7 +76,11 @@ void find_in_bending(const CaseSpec& spec, const Assembly& a, const CaseMeasures
                "they bend too stiffly, tetrahedra to a third and hexahedra to four fifths of what they "
                "should",
                100 * share, spec.bodies[b].name),
-           "elements of second order (mesh.order = 2), or four through a wall that bends"});
+           a.materials[b].solidification() != nullptr
+               ? "two or more elements through a wall that bends; those of second order neither open pores "
+                 "nor "
+                 "feed"
+               : "elements of second order (mesh.order = 2), or four through a wall that bends"});
   }
 }
 

@@ -103,7 +103,9 @@ void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& find
     const std::string& name = spec.bodies[pour.body].name;
     const double modulus = body.volume / pour.cooled_area;
     const std::string usual = fmt::format(
-        "four elements through a wall, or two of second order: {}",
+        "four elements through a wall{}: {}",
+        // Of second order they know no pores, and shrinkage strains them.
+        spec.has_mechanics() ? "" : ", or two of second order",
         spec.mesh.sizes.empty() ? "mesh.element_size" : "smaller `size` and `smallest` of [[mesh.size]]");
     if (pour.spanned > 0.5)
       findings.push_back(

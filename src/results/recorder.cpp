@@ -290,7 +290,7 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
   if (progress_) progress_->end(outcome, options_.profile ? profile::text() : "");
   Summary& s = options_.summary;
   if (mechanical && phases_.mechanics != nullptr)
-    tell_stress_jumps(mesh_, phases_.mechanics->kind(), fields_.bodies());
+    tell_stress_jumps(mesh_, phases_.mechanics->kind(), fields_.bodies(), options_.castings);
   if (!options_.steady) {
     fields_.update_criteria(state);
     s.answers = answers(mesh_, phases_, state, options_.castings, fields_.bodies(), mechanical);

@@ -2,9 +2,11 @@
 /// cannot follow, as in bending or where temperature has a gradient (docs/theory/mechanics.md).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "results/answers.hpp"
 #include "results/field.hpp"
 
 namespace solidus::results {
@@ -20,6 +22,8 @@ std::vector<double> stress_jumps(const mesh::Mesh& mesh, AnalysisKind kind, cons
 
 /// Tells people of bodies of first-order elements whose stress jumps by more than half of its size.
 /// Collective.
-void tell_stress_jumps(const mesh::Mesh& mesh, AnalysisKind kind, const FieldSet& fields);
+/// @param castings  bodies that freeze: elements of second order neither open pores nor feed in them
+void tell_stress_jumps(const mesh::Mesh& mesh, AnalysisKind kind, const FieldSet& fields,
+                       std::span<const CastBody> castings);
 
 }  // namespace solidus::results
