@@ -189,6 +189,10 @@ ExitCode parse_and_run(int argc, char** argv) {
   CLI::App* explain_verb = program.add_subcommand("explain", "Explain a key of the case file, or list all");
   explain_verb->add_option("KEY", key, "For example time.step");
   explain_verb->add_flag("--manual", manual, "The reference manual of all keys, in Markdown");
+  bool of_fields = false, as_json = false;
+  CLI::Option* fields_option =
+      explain_verb->add_flag("--fields", of_fields, "Fields of results instead of keys; KEY is one of them");
+  explain_verb->add_flag("--json", as_json, "With --fields: for other programs")->needs(fields_option);
   CLI::App* schema_verb =
       program.add_subcommand("schema", "Print the JSON Schema of the case file, for editors");
   for (CLI::App* verb : {explain_verb, schema_verb}) {
@@ -196,6 +200,8 @@ ExitCode parse_and_run(int argc, char** argv) {
         verb->add_flag("--material", of_material, "Keys of a material file instead of a case file");
     verb->add_flag("--point", of_point, "Keys of a point file instead of a case file")->excludes(material);
   }
+  for (const char* file_kind : {"--material", "--point"})
+    fields_option->excludes(explain_verb->get_option(file_kind));
   CLI::App* point_verb = program.add_subcommand(
       "point", "Take a point of a material through a history of strain, stress and temperature");
   point_verb->add_option("CASE", arguments.path, "A point file, or a folder with a point.toml")->required();
@@ -335,6 +341,10 @@ ExitCode parse_and_run(int argc, char** argv) {
   if (*variants_verb) return list_variants(arguments.path);
   if (*resolve_verb) return resolve(arguments);
   if (*point_verb) return check_law ? check_point_laws(arguments) : run_point(arguments);
+  if (*explain_verb && of_fields)
+    return explain_fields(key, as_json  ? ExplainedAs::json
+                               : manual ? ExplainedAs::manual
+                                        : ExplainedAs::text);
   if (*explain_verb) return explain(file, key, manual);
   if (*schema_verb) return schema(file);
   if (*mesh_verb) return mesh_info(arguments, unit, pictures);

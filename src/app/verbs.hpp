@@ -48,6 +48,10 @@ ExitCode check_point_laws(const CaseArguments& arguments);
 enum class FileKind { case_file, material_file, point_file };
 /// @param key a path such as "time.step"; empty: all keys
 ExitCode explain(FileKind file, const std::string& key, bool manual);
+enum class ExplainedAs { text, manual, json };
+/// The fields that a run can have (coupling/all_fields.hpp).
+/// @param field  one of them; empty: all
+ExitCode explain_fields(const std::string& field, ExplainedAs form);
 ExitCode schema(FileKind file);
 /// @param path a case, or a mesh file
 /// @param unit of the lengths of a mesh file; empty: what the file says, else m

@@ -13,8 +13,9 @@
 #include "build/run_input.hpp"
 #include "build/scheme_input.hpp"
 #include "build/time_input.hpp"
-#include "case/field_list.hpp"
 #include "case/stage_input.hpp"
+#include "contact/quantities.hpp"
+#include "coupling/all_fields.hpp"
 #include "input/units.hpp"
 #include "results/run_folder.hpp"
 
@@ -280,7 +281,7 @@ void check_contacts(const CaseSpec& spec) {
 /// The unit of a field in this case: the internal variable of friction may be a slip
 /// (results/state_fields.cpp).
 std::string field_unit(const CaseSpec& spec, const std::string& field) {
-  if (field != "internal_variable") return field_info(field).unit;
+  if (field != contact::fields::k_internal_variable.name) return std::string(coupling::field_of(field).unit);
   bool works = false, slips = false;
   for (const ContactSpec& c : spec.contacts) {
     if (!c.friction) continue;
@@ -355,7 +356,7 @@ void check_probes(const CaseSpec& spec) {
     if (p.body && std::find(bodies.begin(), bodies.end(), *p.body) == bodies.end())
       throw InputError(p.where, fmt::format("the probe '{}' is on an unknown body '{}'", p.name, *p.body),
                        one_of(bodies, *p.body));
-    if (!p.field.empty() && field_info(p.field).of_contact && spec.contacts.empty() &&
+    if (!p.field.empty() && coupling::field_of(p.field).of_contact() && spec.contacts.empty() &&
         spec.interfaces.empty())
       throw InputError(
           p.where,

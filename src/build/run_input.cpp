@@ -1,10 +1,10 @@
 #include "build/run_input.hpp"
 
-#include "case/field_list.hpp"
-
 #include <fmt/format.h>
 
 #include <stdexcept>
+
+#include "coupling/all_fields.hpp"
 
 namespace solidus::model {
 
@@ -19,7 +19,7 @@ results::Sampled sampled(const CaseSpec& spec, const S& probe) {
   result.where = probe.where;
   try {
     result.component = results::component_index(
-        probe.component, field_info(probe.field).components(spec.analysis.kind), spec.analysis.kind);
+        probe.component, coupling::field_of(probe.field).components(spec.analysis.kind), spec.analysis.kind);
   } catch (const std::invalid_argument& error) {
     throw InputError(probe.where,
                      fmt::format("probe '{}' of the field '{}': {}", probe.name, probe.field, error.what()));

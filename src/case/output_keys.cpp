@@ -1,5 +1,5 @@
 #include "case/case_keys.hpp"
-#include "case/field_list.hpp"
+#include "coupling/all_fields.hpp"
 
 namespace solidus::model {
 
@@ -25,7 +25,7 @@ Section<ProbeSpec> probe_keys() {
              "a column that history.csv has anyway, under another name, times a factor"}})
       .initially("point")
       .doc("What is taken.");
-  s.key("field", &P::field).choices(field_names(true)).when("kind", k_sampling).doc("The field.");
+  s.key("field", &P::field).choices(coupling::field_names(true)).when("kind", k_sampling).doc("The field.");
   s.key("component", &P::component)
       .initially("")
       .when("kind", k_sampling)
@@ -60,7 +60,7 @@ Section<ProfileColumnSpec> profile_column_keys() {
   using C = ProfileColumnSpec;
   Section<C> s("column", "A column of the table.");
   s.key("name", &C::name).doc("Header of the column; the unit is added in brackets.");
-  s.key("field", &C::field).choices(field_names(true)).doc("The field, one at nodes.");
+  s.key("field", &C::field).choices(coupling::field_names(true)).doc("The field, one at nodes.");
   s.key("component", &C::component)
       .initially("")
       .doc("Component of a vector or tensor, as in [[probe]]; \"magnitude\" of a vector.");
@@ -98,7 +98,7 @@ Section<OutputSpec> output_keys() {
       .doc("Fields are written at the end of every stage too.");
   s.key("fields", &OutputSpec::fields)
       .initially(Value::list())
-      .choices(field_names(false))
+      .choices(coupling::field_names(false))
       .doc("The fields to write; empty: all there are.");
   s.key("vtkhdf", &OutputSpec::vtkhdf)
       .initially(false)

@@ -8,50 +8,16 @@
 #include <string_view>
 #include <vector>
 
-#include "case/field_list.hpp"
+#include "coupling/all_fields.hpp"
 
 namespace solidus::model {
 
 namespace {
 
-/// Fields that only mechanics computes. Those of contact are left where heat passes.
+/// Whether only mechanics computes the field. Those of contact are left where heat passes.
 bool is_mechanical(const std::string& field) {
-  static const std::set<std::string, std::less<>> fields = {"displacement",
-                                                            "velocity",
-                                                            "acceleration",
-                                                            "stress",
-                                                            "von_mises",
-                                                            "pressure",
-                                                            "viscous_strain",
-                                                            "dissipation",
-                                                            "plastic_strain",
-                                                            "equivalent_plastic_strain",
-                                                            "back_stress",
-                                                            "flow_stress",
-                                                            "thermal_dissipation",
-                                                            "inelastic_entropy",
-                                                            "strain",
-                                                            "intermediate_temperature",
-                                                            "nodal_stress",
-                                                            "nodal_von_mises",
-                                                            "principal_stress_1",
-                                                            "principal_stress_2",
-                                                            "principal_stress_3",
-                                                            "contact_pressure",
-                                                            "frictional_heat_flux",
-                                                            "friction_traction",
-                                                            "contact_status",
-                                                            "slip",
-                                                            "internal_variable",
-                                                            "friction_coefficient",
-                                                            "friction_dissipation",
-                                                            "wear_depth",
-                                                            "interface_temperature",
-                                                            "strain_in_liquid",
-                                                            "strain_since_coherency",
-                                                            "brittle_strain",
-                                                            "distortion"};
-  return fields.contains(field);
+  const coupling::Quantity* known = coupling::find_field(field);
+  return known != nullptr && known->needs.mechanics;
 }
 
 std::string text_of(const Value& table, std::string_view key) {

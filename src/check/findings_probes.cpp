@@ -3,30 +3,24 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "case/roles.hpp"
 #include "check/findings.hpp"
+#include "coupling/all_fields.hpp"
 #include "mesh/locate.hpp"
 
 namespace solidus::model {
 
 namespace {
 
-bool deforms(std::string_view field) {
-  constexpr std::array k_of_mechanics = {
-      "displacement",  "velocity",     "acceleration",   "stress",
-      "von_mises",     "pressure",     "viscous_strain", "plastic_strain",
-      "flow_stress",   "back_stress",  "strain",         "equivalent_plastic_strain",
-      "pore_fraction", "nodal_stress", "distortion",     "nodal_von_mises"};
-  return std::find(k_of_mechanics.begin(), k_of_mechanics.end(), field) != k_of_mechanics.end();
+/// Whether a body that only conducts heat keeps the field as it is. A surface of it has values of contact.
+bool deforms(const coupling::Quantity& field) {
+  return field.needs.mechanics && !field.of_contact();
 }
 
-bool freezes(std::string_view field) {
-  constexpr std::array k_of_freezing = {"solid_fraction", "solidified_at",      "local_solidification_time",
-                                        "niyama",         "shrinkage_porosity", "secondary_arm_spacing"};
-  return std::find(k_of_freezing.begin(), k_of_freezing.end(), field) != k_of_freezing.end();
+/// Whether the field says nothing of a body that cannot melt.
+bool freezes(const coupling::Quantity& field) {
+  return field.needs.melting;
 }
 
 /// The bodies that hold a point: two where they touch. Collective.
@@ -45,13 +39,15 @@ std::vector<std::size_t> bodies_at(const Assembly& a, const CaseMeasures& m, con
 void compare(const CaseSpec& spec, const Assembly& a, const ProbeSpec& probe, std::size_t b,
              Findings& findings) {
   const BodySpec& body = spec.bodies[b];
-  if (spec.has_heat() && spec.has_mechanics() && deforms(probe.field) && only_conducts(body))
+  const coupling::Quantity& field = coupling::field_of(probe.field);
+  const bool rigid = spec.has_heat() && spec.has_mechanics() && only_conducts(body);
+  if (deforms(field) && rigid)
     findings.push_back({false, probe.where,
                         fmt::format("the probe '{}' takes the {} of '{}', which only conducts heat: it stays "
                                     "as it is",
                                     probe.name, probe.field, body.name),
                         "a body that deforms"});
-  if (freezes(probe.field) && a.materials[b].solidification() == nullptr)
+  else if (freezes(field) && a.materials[b].solidification() == nullptr)
     findings.push_back({false, probe.where,
                         fmt::format("the probe '{}' takes the {} of '{}', of '{}', which does not freeze",
                                     probe.name, probe.field, body.name, body.material),

@@ -38,10 +38,10 @@ void Criteria::step(const CriterionInput& old, const CriterionInput& next, Crite
   seconds_ += processes::wall_time() - start;
 }
 
-std::vector<CriterionField> Criteria::fields() const {
-  std::vector<CriterionField> all;
+std::vector<const quantities::Quantity*> Criteria::fields() const {
+  std::vector<const quantities::Quantity*> all;
   for (const auto& criterion : list_)
-    for (const CriterionField& field : criterion->fields()) all.push_back(field);
+    for (const quantities::Quantity* field : criterion->fields()) all.push_back(field);
   return all;
 }
 

@@ -24,7 +24,7 @@ class Criteria {
   /// t_{n+1}. Collective.
   void step(const CriterionInput& old, const CriterionInput& next, CriteriaState& state);
   /// Returns the fields of all criteria, one after the other.
-  std::vector<CriterionField> fields() const;
+  std::vector<const quantities::Quantity*> fields() const;
   /// @param values  one span per field, in the order of fields()
   void fill(const CriterionInput& now, const CriteriaState& state,
             std::span<const std::span<double>> values) const;

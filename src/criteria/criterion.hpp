@@ -9,6 +9,7 @@
 #include "criteria/criteria_state.hpp"
 #include "heat/thermal_state.hpp"
 #include "mechanics/mechanical_state.hpp"
+#include "quantities/quantity.hpp"
 
 namespace solidus::criteria {
 
@@ -25,14 +26,6 @@ struct CriterionInput {
   std::span<const double> plateau_share = {};
 };
 
-/// A field that a criterion can show. Values are finite always; where a criterion says nothing (yet) they are
-/// zero, unless its documentation names another mark.
-struct CriterionField {
-  std::string name, unit;  ///< SI: "K/s"; "1" for a number
-  int components = 1;
-  mesh::FieldPlace place = mesh::FieldPlace::node;
-};
-
 /// A number for the summary, with where it was found.
 struct CriterionResult {
   std::string name, unit;  ///< "niyama_min", SI
@@ -40,6 +33,14 @@ struct CriterionResult {
   bool somewhere = false;  ///< `where` says where
   mesh::Point where = {};  ///< [m]
 };
+
+/// Names of the least and of the largest value of a field among the findings: "niyama_min", "niyama_max".
+inline std::string least_of(const quantities::Quantity& field) {
+  return std::string(field.name) + "_min";
+}
+inline std::string largest_of(const quantities::Quantity& field) {
+  return std::string(field.name) + "_max";
+}
 
 class Criterion {
  public:
@@ -55,7 +56,9 @@ class Criterion {
   /// criterion knows have just reached `next`. Collective. Neither throws nor depends on anything but its
   /// arguments: a run that is continued goes the same way.
   virtual void step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) = 0;
-  virtual std::vector<CriterionField> fields() const = 0;
+  /// The fields that the criterion shows: rows of its kind (criterion_kind.hpp). Values are finite always;
+  /// where a criterion says nothing (yet) they are the row's mark for no value, or zero.
+  virtual std::span<const quantities::Quantity* const> fields() const = 0;
   /// Values of all fields at this moment, in their order; each span has the shape of a CriterionColumn.
   /// Collective.
   virtual void fill(const CriterionInput& now, const CriterionRecord& record,

@@ -6,6 +6,7 @@
 
 #include "criteria/freezing_history.hpp"
 #include "criteria/gather.hpp"
+#include "criteria/quantities.hpp"
 
 namespace solidus::criteria {
 
@@ -19,7 +20,6 @@ constexpr double k_mushy = 1, k_sharp = 2, k_waiting = 3;  // in k_mode; zero: n
 constexpr double k_same_time = 1e-9;
 
 // Fields carry units that can be converted; this one has roots in it.
-constexpr const char* k_niyama_unit = "K^0.5 s^0.5/m";
 
 double length(const mesh::Point& v) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -318,16 +318,9 @@ std::array<double, Freezing::k_fields> Freezing::values_of(const FreezingNode& w
   return {h[k_solidified_at], time, rate, gradient, speed, spacing, ny, number, pores};
 }
 
-std::vector<CriterionField> Freezing::fields() const {
-  return {{"solidified_at", "s"},
-          {"local_solidification_time", "s"},
-          {"cooling_rate", "K/s"},
-          {"thermal_gradient", "K/m"},
-          {"front_speed", "m/s"},
-          {"secondary_arm_spacing", "m"},
-          {"niyama", "1"},
-          {"dimensionless_niyama", "1"},
-          {"shrinkage_porosity", "1"}};
+std::span<const quantities::Quantity* const> Freezing::fields() const {
+  static_assert(fields::k_of_freezing.size() == k_fields);
+  return fields::k_of_freezing;
 }
 
 void Freezing::fill(const CriterionInput& /*now*/, const CriterionRecord& record,
@@ -376,13 +369,12 @@ std::vector<CriterionResult> Freezing::findings(const CriterionRecord& record) c
     if (row[1] >= 0) take(best[which], row[0], row[1], {row[2], row[3], row[4]}, which % 2 == 0);
   }
   std::vector<CriterionResult> found;
-  std::vector<CriterionField> names = fields();
-  names[6].unit = k_niyama_unit;
   for (std::size_t f = 0; f < k_fields; ++f)
     for (std::size_t side = 0; side < 2; ++side)
       if (const Extreme& e = best[2 * f + side]; e.number >= 0)
         found.push_back(
-            {names[f].name + (side == 0 ? "_min" : "_max"), names[f].unit, e.value, true, e.where});
+            {side == 0 ? least_of(*fields::k_of_freezing[f]) : largest_of(*fields::k_of_freezing[f]),
+             std::string(fields::k_of_freezing[f]->exact_unit()), e.value, true, e.where});
   return found;
 }
 

@@ -62,11 +62,9 @@ class Freezing : public Criterion {
   };
   /// Of the bodies that were solid before the last pour.
   static std::vector<LastMelt> frozen_before(const CriteriaState& state);
-  /// solidified_at (−1: not in this run), local_solidification_time [s], cooling_rate [K/s], thermal_gradient
-  /// [K/m], front_speed [m/s], secondary_arm_spacing [m], niyama [K^½ s^½/m, as a number without a unit],
-  /// dimensionless_niyama, shrinkage_porosity; zero where the node has not frozen, or where the material does
+  /// fields::k_of_freezing; the mark for no value where the node has not frozen, or where the material does
   /// not say.
-  std::vector<CriterionField> fields() const override;
+  std::span<const quantities::Quantity* const> fields() const override;
   void fill(const CriterionInput& now, const CriterionRecord& record,
             std::span<const std::span<double>> values) const override;
   /// The last node to freeze, and least and greatest values of the criteria.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "criteria/pool_tracking.hpp"
+#include "criteria/quantities.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::criteria {
@@ -180,8 +181,8 @@ void Pools::track(const CriterionInput* old, const CriterionInput& next, Criteri
   }
 }
 
-std::vector<CriterionField> Pools::fields() const {
-  return {{"liquid_pool", "1"}, {"pool_volume", "m3"}};
+std::span<const quantities::Quantity* const> Pools::fields() const {
+  return fields::k_of_pools;
 }
 
 void Pools::fill(const CriterionInput& /*now*/, const CriterionRecord& record,

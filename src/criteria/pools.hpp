@@ -49,7 +49,7 @@ class Pools : public Criterion {
   CriterionRecord initial(const CriterionInput& start) const override;
   void step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) override;
   /// liquid_pool (number, 0: none) and pool_volume [m³].
-  std::vector<CriterionField> fields() const override;
+  std::span<const quantities::Quantity* const> fields() const override;
   void fill(const CriterionInput& now, const CriterionRecord& record,
             std::span<const std::span<double>> values) const override;
   /// Returns the number of pools that were cut off, and when and where the largest of them froze.

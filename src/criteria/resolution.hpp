@@ -31,7 +31,7 @@ class Resolution : public Criterion {
 
   CriterionRecord initial(const CriterionInput& start) const override;
   void step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) override;
-  std::vector<CriterionField> fields() const override { return {}; }
+  std::span<const quantities::Quantity* const> fields() const override { return {}; }
   void fill(const CriterionInput&, const CriterionRecord&,
             std::span<const std::span<double>>) const override {}
   std::size_t bytes() const override { return patches_.bytes(); }

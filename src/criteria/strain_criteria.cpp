@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "criteria/quantities.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
@@ -169,11 +170,8 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
   ghosts_.update(displacement, static_cast<int>(components_));
 }
 
-std::vector<CriterionField> StrainCriteria::fields() const {
-  return {{"strain_in_liquid", "1", 1, mesh::FieldPlace::cell},
-          {"strain_since_coherency", "1", 1, mesh::FieldPlace::cell},
-          {"brittle_strain", "1", 1, mesh::FieldPlace::cell},
-          {"distortion", "m", static_cast<int>(components_), mesh::FieldPlace::node}};
+std::span<const quantities::Quantity* const> StrainCriteria::fields() const {
+  return fields::k_of_strain;
 }
 
 void StrainCriteria::fill(const CriterionInput& now, const CriterionRecord& record,
@@ -206,7 +204,7 @@ void StrainCriteria::fill(const CriterionInput& now, const CriterionRecord& reco
 
 std::vector<CriterionResult> StrainCriteria::findings(const CriterionRecord& record) const {
   double mine = 0;
-  CriterionResult finding{"brittle_strain_max", "1", 0, true, {}};
+  CriterionResult finding{largest_of(fields::k_brittle_strain), "1", 0, true, {}};
   std::size_t element = 0;
   for (const mesh::ElementBlock& block : mesh_.blocks)
     for (Index e = 0; e < block.size(); ++e, ++element) {

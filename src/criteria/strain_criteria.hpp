@@ -41,7 +41,7 @@ class StrainCriteria : public Criterion {
   /// Nothing strained so far. Nodes and elements that never melt stay so.
   CriterionRecord initial(const CriterionInput& start) const override;
   void step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) override;
-  std::vector<CriterionField> fields() const override;
+  std::span<const quantities::Quantity* const> fields() const override;
   void fill(const CriterionInput& now, const CriterionRecord& record,
             std::span<const std::span<double>> values) const override;
   /// The largest strain in the brittle range.

@@ -231,8 +231,8 @@ class Driver {
   bool is_criterion(const std::string& name) const {
     const criteria::Criteria* criteria = session_->assembly().phases.criteria;
     if (criteria == nullptr) return false;
-    const std::vector<criteria::CriterionField> fields = criteria->fields();
-    return std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field.name == name; });
+    const std::vector<const quantities::Quantity*> fields = criteria->fields();
+    return std::any_of(fields.begin(), fields.end(), [&](const auto* field) { return field->name == name; });
   }
 
   std::unique_ptr<model::Session> session_;

@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "contact/quantities.hpp"
+#include "criteria/quantities.hpp"
 #include "criteria/resolution.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "mechanics/quantities.hpp"
 #include "parallel/parallel.hpp"
 #include "results/spots.hpp"
 
@@ -27,7 +30,8 @@ constexpr double k_pores = 0.01;
 /// Of that volume and the share of the time in which the last of it freezes.
 constexpr double k_last_pores = 0.5;
 
-constexpr std::string_view k_kept[] = {"displacement", "gap", "von_mises"};
+constexpr std::array k_kept = {mechanics::fields::k_displacement.name, contact::fields::k_gap.name,
+                               mechanics::fields::k_von_mises.name};
 
 /// η² of each body and the largest of the others added up.
 std::vector<double> with_others(const std::vector<double>& own) {
@@ -63,7 +67,7 @@ class ErrorFinder {
   void of_stress(ValueAt& answer) const;
   void of_niyama(ValueAt& answer) const {
     const std::optional<Spot> spot = node_spot(mesh_, answer.where, cast_nodes_);
-    answer.error = of_state(answer.value, 0, k_around_niyama * at(spot, "niyama")[1]);
+    answer.error = of_state(answer.value, 0, k_around_niyama * at(spot, criteria::fields::k_niyama.name)[1]);
   }
   ErrorBand of_pores(double flow) const {
     return {.step = k_last_pores * shrinkage_ * late_, .mesh = k_pores * shrinkage_ * std::sqrt(flow)};
@@ -128,13 +132,13 @@ void ErrorFinder::of_gap(GapAnswer& answer) const {
     if (surface == mesh_.surfaces.end()) continue;
     for (const Index node : surface->second.nodes) slave[static_cast<std::size_t>(node)] = 1;
   }
-  const auto [change, around] = at(node_spot(mesh_, answer.gap.where, slave), "gap");
+  const auto [change, around] = at(node_spot(mesh_, answer.gap.where, slave), contact::fields::k_gap.name);
   answer.gap.error = of_state(answer.gap.value, change, k_around_gap * around);
 }
 
 double ErrorFinder::change_of_shape(const std::optional<Spot>& spot) const {
-  const FieldValues now(fields_, "displacement");
-  const std::span<const double> before = last_.before("displacement");
+  const FieldValues now(fields_, mechanics::fields::k_displacement.name);
+  const std::span<const double> before = last_.before(mechanics::fields::k_displacement.name);
   if (before.empty()) return 0;
   const auto n_owned = static_cast<std::size_t>(mesh_.n_owned_nodes);
   double square = 0, n = 0;
@@ -154,7 +158,7 @@ double ErrorFinder::change_of_shape(const std::optional<Spot>& spot) const {
 }
 
 void ErrorFinder::of_distortion(ValueAt& answer) const {
-  const FieldValues distortion(fields_, "distortion");
+  const FieldValues distortion(fields_, criteria::fields::k_distortion.name);
   const std::optional<Spot> spot = node_spot(mesh_, answer.where, cast_nodes_);
   const double around = parallel::global_max(
       spot ? difference_to_around(*spot, [&](std::size_t i) { return distortion.length(i); }) : 0.0);
@@ -162,15 +166,17 @@ void ErrorFinder::of_distortion(ValueAt& answer) const {
 }
 
 void ErrorFinder::of_stress(ValueAt& answer) const {
-  const auto [change, around] = at(element_spot(mesh_, answer.where), "von_mises");
+  const auto [change, around] = at(element_spot(mesh_, answer.where), mechanics::fields::k_von_mises.name);
   answer.error = of_state(answer.value, change, k_around_stress * around);
 }
 
 std::optional<ErrorBand> ErrorFinder::of_criterion(const criteria::CriterionResult& found) const {
-  const bool is_time = found.name == "local_solidification_time_max", is_niyama = found.name == "niyama_min";
+  const bool is_time = found.name == criteria::largest_of(criteria::fields::k_local_solidification_time),
+             is_niyama = found.name == criteria::least_of(criteria::fields::k_niyama);
   if (!is_time && !is_niyama) return {};
   const std::optional<Spot> spot = node_spot(mesh_, found.where, cast_nodes_);
-  if (is_niyama) return of_state(found.value, 0, k_around_niyama * at(spot, "niyama")[1]);
+  if (is_niyama)
+    return of_state(found.value, 0, k_around_niyama * at(spot, criteria::fields::k_niyama.name)[1]);
   return ErrorBand{.step = k_within * parallel::global_max(spot ? within_[spot->at] : 0.0),
                    .mesh = k_flow_ * worst_flow_ * found.value};
 }

@@ -5,10 +5,14 @@
 #include <string_view>
 
 #include "contact/contact_report.hpp"
+#include "contact/quantities.hpp"
 #include "criteria/freezing.hpp"
 #include "criteria/gather.hpp"
 #include "criteria/pools.hpp"
+#include "criteria/quantities.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "heat/quantities.hpp"
+#include "mechanics/quantities.hpp"
 #include "mesh/block_geometry.hpp"
 #include "numbers/types.hpp"
 #include "parallel/parallel.hpp"
@@ -64,7 +68,7 @@ std::optional<ValueAt> largest_at(const mesh::Mesh& mesh, const std::vector<char
 /// The least Niyama value of a body that has frozen anywhere.
 std::optional<ValueAt> least_niyama(const mesh::Mesh& mesh, const std::vector<char>& nodes,
                                     const FieldSet& fields) {
-  const FieldValues niyama(fields, "niyama");
+  const FieldValues niyama(fields, criteria::fields::k_niyama.name);
   if (niyama.empty()) return {};
   std::optional<ValueAt> least = largest_at(
       mesh, nodes, [&](std::size_t i) { return niyama[i] > 0 ? std::optional(-niyama[i]) : std::nullopt; });
@@ -85,7 +89,7 @@ CastAnswer cast_answer(const mesh::Mesh& mesh, const coupling::Phases& phases, c
   answer.solid_fraction = phases.heat->mean_solid_fraction(state.heat, cast.body);
   const std::vector<char> nodes = owned_nodes_of(mesh, cast.body);
   const auto last_melt = [&] {
-    const FieldValues frozen(fields, "solidified_at");
+    const FieldValues frozen(fields, criteria::fields::k_solidified_at.name);
     return largest_at(mesh, nodes, [&](std::size_t i) {
       return frozen.empty() || frozen[i] < 0 ? std::nullopt : std::optional(frozen[i]);
     });
@@ -110,7 +114,8 @@ CastAnswer cast_answer(const mesh::Mesh& mesh, const coupling::Phases& phases, c
     if (!answer.froze) answer.froze = before_the_last_pour();
     return answer;
   }
-  const FieldValues solid(fields, "solid_fraction"), temperature(fields, "temperature");
+  const FieldValues solid(fields, heat::fields::k_solid_fraction.name),
+      temperature(fields, heat::fields::k_temperature.name);
   const std::optional<ValueAt> softest =
       largest_at(mesh, nodes, [&](std::size_t i) { return std::optional(-solid[i]); });
   if (softest)
@@ -158,7 +163,7 @@ std::vector<GapAnswer> largest_of_contacts(const mesh::Mesh& mesh, const couplin
 
 std::vector<GapAnswer> largest_gaps(const mesh::Mesh& mesh, const coupling::Phases& phases,
                                     const FieldSet& fields) {
-  const FieldValues gap(fields, "gap");
+  const FieldValues gap(fields, contact::fields::k_gap.name);
   return largest_of_contacts(mesh, phases, [&](std::size_t, std::size_t i) {
     return !gap.empty() && gap[i] > 0 ? std::optional(gap[i]) : std::nullopt;
   });
@@ -182,7 +187,7 @@ std::vector<GapAnswer> deepest_overlaps(const mesh::Mesh& mesh, const coupling::
 /// The largest von Mises stress in some bodies, and which of them has it.
 void add_stress(const mesh::Mesh& mesh, const FieldSet& fields, const std::vector<char>& bodies,
                 Answers& answers) {
-  const FieldValues stress(fields, "von_mises");
+  const FieldValues stress(fields, mechanics::fields::k_von_mises.name);
   if (stress.empty()) return;
   std::vector<Largest> of_body(mesh.bodies.size());
   std::size_t first = 0;
@@ -207,7 +212,7 @@ void add_stress(const mesh::Mesh& mesh, const FieldSet& fields, const std::vecto
 /// The pores of some bodies, where any have opened.
 std::optional<Pores> pores_in(const mesh::Mesh& mesh, AnalysisKind kind, const FieldSet& fields,
                               const std::vector<char>& bodies) {
-  const FieldValues fraction(fields, "pore_fraction");
+  const FieldValues fraction(fields, mechanics::fields::k_pore_fraction.name);
   if (fraction.empty()) return {};
   Largest densest;
   double volume = 0, whole = 0;
@@ -265,7 +270,8 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
     a.pores = pores_in(mesh, phases.mechanics->kind(), fields, any_part ? parts : stressed);
   a.gaps = largest_gaps(mesh, phases, fields);
   a.overlaps = deepest_overlaps(mesh, phases, state.heat.temperature);
-  if (const FieldValues distortion(fields, "distortion"); !distortion.empty() && !castings.empty()) {
+  if (const FieldValues distortion(fields, criteria::fields::k_distortion.name);
+      !distortion.empty() && !castings.empty()) {
     a.distortion = largest_at(mesh, cast_nodes, [&](std::size_t i) {
       const double length = distortion.length(i);
       return length > 0 ? std::optional(length) : std::nullopt;

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "coupling/all_fields.hpp"
+#include "criteria/quantities.hpp"
 #include "input/units.hpp"
 #include "results/answers.hpp"
 
@@ -189,16 +191,18 @@ std::string pools_text(const Answers::CutOffPools& pools, const Formatter& forma
       format.place(pools.where));
 }
 
-/// Line of the printed answers on a criterion, and the name of the finding that it shows.
-struct Line {
-  std::string_view text, finding, unit;
-  double factor;
-};
-constexpr Line k_lines[] = {{"longest local solidification time", "local_solidification_time_max", "s", 1},
-                            {"largest arm spacing", "secondary_arm_spacing_max", "um", 1e6},
-                            {"least Niyama", "niyama_min", "sqrt(K s)/mm", 1e-3},
-                            {"least dimensionless Niyama", "dimensionless_niyama_min", "", 1},
-                            {"largest estimate of porosity", "shrinkage_porosity_max", "%", 100}};
+/// The name of the finding that holds the worst value of a criterion.
+std::string worst_of(const quantities::Quantity& field) {
+  return field.worst == quantities::Extreme::least ? criteria::least_of(field) : criteria::largest_of(field);
+}
+
+/// A unit that every terminal can show: UDUNITS' form of it, a root in words.
+std::string printed(const quantities::ShownUnit& shown) {
+  std::string unit(shown.unit == "1" ? "" : shown.unit);
+  constexpr std::string_view k_root = "K0.5 s0.5";
+  if (unit.starts_with(k_root)) unit.replace(0, k_root.size(), "sqrt(K s)");
+  return unit;
+}
 
 /// What a body is to the foundry.
 std::string_view kind_of(const CastBody& cast) {
@@ -231,21 +235,24 @@ const ValueAt* least_niyama_of_parts(const Answers& answers) {
 std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, const Answers& answers,
                            const Formatter& format) {
   std::string text;
-  for (const Line& wanted : k_lines) {
+  for (const quantities::Quantity* field : coupling::all_fields()) {
+    if (field->answer.empty()) continue;
+    const std::string wanted = worst_of(*field);
     const auto f = std::find_if(found.begin(), found.end(), [&](const criteria::CriterionResult& finding) {
-      return finding.name == wanted.finding;
+      return finding.name == wanted;
     });
     if (f == found.end()) continue;
     std::optional<ErrorBand> error;
     for (const auto& [name, of_finding] : answers.criteria_errors)
-      if (name == wanted.finding) error = of_finding;
+      if (name == wanted) error = of_finding;
     ValueAt value{f->value, f->where, error};
     // Where a runner freezes is nobody's concern.
-    if (const ValueAt* of_parts = least_niyama_of_parts(answers); of_parts && wanted.finding == "niyama_min")
+    if (const ValueAt* of_parts = least_niyama_of_parts(answers);
+        of_parts && field == &criteria::fields::k_niyama)
       value = *of_parts;
-    std::string answer = with_error(value.value, value.error, wanted.factor, std::string(wanted.unit));
+    std::string answer = with_error(value.value, value.error, field->shown().factor, printed(field->shown()));
     if (f->somewhere) answer += " " + format.place(value.where);
-    text += line(wanted.text, answer);
+    text += line(field->answer, answer);
   }
   return text;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "coupling/all_fields.hpp"
 #include "coupling/energy_scale.hpp"
 #include "coupling/internal_energy.hpp"
 #include "results/output_error.hpp"
@@ -64,11 +65,11 @@ std::vector<Reading> global_readings(const coupling::Phases& phases, const Recor
 }
 
 // A probe that samples a field of a criterion.
-bool samples_criteria(const Probe& probe, const std::vector<criteria::CriterionField>& fields) {
+bool samples_criteria(const Probe& probe, const std::vector<const quantities::Quantity*>& fields) {
   return std::visit(
       [&](const auto& p) {
         if constexpr (std::is_base_of_v<Sampled, std::decay_t<decltype(p)>>)
-          return std::any_of(fields.begin(), fields.end(), [&](const auto& f) { return f.name == p.field; });
+          return std::any_of(fields.begin(), fields.end(), [&](const auto& f) { return f->name == p.field; });
         else
           return false;
       },
@@ -77,7 +78,7 @@ bool samples_criteria(const Probe& probe, const std::vector<criteria::CriterionF
 
 bool samples_criteria(const coupling::Phases& phases, const std::vector<Probe>& probes) {
   if (phases.criteria == nullptr) return false;
-  const std::vector<criteria::CriterionField> fields = phases.criteria->fields();
+  const std::vector<const quantities::Quantity*> fields = phases.criteria->fields();
   return std::any_of(probes.begin(), probes.end(),
                      [&](const Probe& p) { return samples_criteria(p, fields); });
 }
@@ -369,6 +370,9 @@ void Recorder::write_summary_file(const std::string& outcome, const coupling::St
     s.seconds.emplace_back("criteria", phases_.criteria->seconds());
     s.table_bytes.emplace_back("criteria", phases_.criteria->bytes());
   }
+  const FieldSet written = fields_.bodies().select(options_.fields);
+  for (const Field& field : written.all())
+    if (const quantities::Quantity* known = coupling::find_field(field.name)) s.fields.push_back(known);
   s.warnings = logging::warnings();
   s.profile = profile::rows();
   s.profile_total = profile::total();

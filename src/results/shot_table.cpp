@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "criteria/quantities.hpp"
 #include "numbers/types.hpp"
 #include "parallel/parallel.hpp"
 #include "results/answers.hpp"
@@ -84,7 +85,7 @@ Json temperature_json(const coupling::DieTemperature& die) {
 
 std::optional<double> time_to_solidify(const mesh::Mesh& mesh, const FieldSet& fields,
                                        const std::vector<CastBody>& castings) {
-  const Field* field = fields.find("solidified_at");
+  const Field* field = fields.find(criteria::fields::k_solidified_at.name);
   if (field == nullptr || castings.empty()) return {};
   std::vector<double> storage;
   const std::span<const double> solidified = field->read(storage);

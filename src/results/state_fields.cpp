@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
-#include <string_view>
 
+#include "contact/quantities.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "heat/quantities.hpp"
+#include "mechanics/quantities.hpp"
 #include "mesh/block_geometry.hpp"
 #include "results/heat_flux.hpp"
 
@@ -14,48 +15,51 @@ namespace solidus::results {
 
 namespace {
 
-struct FieldName {
-  const char *name, *unit;
-};
-// Fields of contact surfaces, and those that friction accumulates, which a surface keeps when its partner has
-// been removed.
-constexpr FieldName k_contact[] = {{"gap", "m"}, {"contact_pressure", "Pa"}, {"conductance", "W/m2/K"}};
-constexpr const char* k_internal_variable = "internal_variable";
-constexpr FieldName k_remembered[] = {{"slip", "m"},
-                                      {k_internal_variable, "N/m"},
-                                      {"friction_coefficient", "1"},
-                                      {"friction_dissipation", "J/m2"},
-                                      {"wear_depth", "m"}};
-
-/// Fields per area in contact: a surface that is covered in part carries them there alone.
-constexpr std::string_view k_of_area[] = {"contact_pressure", "contact_heat_flux", "frictional_heat_flux",
-                                          "friction_traction"};
-
+namespace of_heat = heat::fields;
+namespace of_mechanics = mechanics::fields;
+namespace of_contact = contact::fields;
 using mechanics::ElementField;
-struct ElementFieldName {
-  const char *name, *unit;
-  ElementField which;
-  bool plastic;             ///< of bodies that flow plastically
-  bool on_request = false;  ///< Field::on_request
-};
-constexpr ElementFieldName k_elements[] = {
-    {"stress", "Pa", ElementField::stress, false},
-    {"von_mises", "Pa", ElementField::von_mises, false},
-    {"pressure", "Pa", ElementField::pressure, false},
-    {"viscous_strain", "1", ElementField::viscous_strain, false},
-    {"dissipation", "W/m3", ElementField::dissipation, false},
-    {"plastic_strain", "1", ElementField::plastic_strain, true},
-    {"equivalent_plastic_strain", "1", ElementField::equivalent_plastic_strain, true},
-    {"back_stress", "Pa", ElementField::back_stress, true},
-    {"flow_stress", "Pa", ElementField::flow_stress, true},
-    {"pore_fraction", "1", ElementField::pore_fraction, false},
-    {"thermal_dissipation", "W/m3", ElementField::thermal_dissipation, true, true},
-    {"inelastic_entropy", "J/m3/K", ElementField::inelastic_entropy, true, true},
-    {"strain", "1", ElementField::strain, false, true},
-    {"intermediate_temperature", "K", ElementField::intermediate_temperature, false, true}};
+using quantities::Quantity;
 
-/// Names of the principal values of the recovered stress, the largest first.
-constexpr const char* k_principal[] = {"principal_stress_1", "principal_stress_2", "principal_stress_3"};
+/// Fields of every contact surface, and those that friction accumulates, which a surface keeps when its
+/// partner has been removed.
+constexpr std::array k_contact = {&of_contact::k_gap, &of_contact::k_contact_pressure,
+                                  &of_contact::k_conductance};
+constexpr std::array k_remembered = {&of_contact::k_slip, &of_contact::k_internal_variable,
+                                     &of_contact::k_friction_coefficient, &of_contact::k_friction_dissipation,
+                                     &of_contact::k_wear_depth};
+
+struct ElementQuantity {
+  const Quantity& quantity;
+  ElementField which;
+};
+constexpr ElementQuantity k_elements[] = {
+    {of_mechanics::k_stress, ElementField::stress},
+    {of_mechanics::k_von_mises, ElementField::von_mises},
+    {of_mechanics::k_pressure, ElementField::pressure},
+    {of_mechanics::k_viscous_strain, ElementField::viscous_strain},
+    {of_mechanics::k_dissipation, ElementField::dissipation},
+    {of_mechanics::k_plastic_strain, ElementField::plastic_strain},
+    {of_mechanics::k_equivalent_plastic_strain, ElementField::equivalent_plastic_strain},
+    {of_mechanics::k_back_stress, ElementField::back_stress},
+    {of_mechanics::k_flow_stress, ElementField::flow_stress},
+    {of_mechanics::k_pore_fraction, ElementField::pore_fraction},
+    {of_mechanics::k_thermal_dissipation, ElementField::thermal_dissipation},
+    {of_mechanics::k_inelastic_entropy, ElementField::inelastic_entropy},
+    {of_mechanics::k_strain, ElementField::strain},
+    {of_mechanics::k_intermediate_temperature, ElementField::intermediate_temperature}};
+
+/// Principal values of the recovered stress, the largest first.
+constexpr std::array k_principal = {&of_mechanics::k_principal_stress_1, &of_mechanics::k_principal_stress_2,
+                                    &of_mechanics::k_principal_stress_3};
+
+mesh::FieldPlace place_of(const Quantity& quantity) {
+  return quantity.place == quantities::Place::element ? mesh::FieldPlace::cell : mesh::FieldPlace::node;
+}
+
+bool on_request(const Quantity& quantity) {
+  return quantity.written == quantities::Written::on_request;
+}
 
 bool rubs(const contact::ContactPair* pair) {
   return pair->spec().friction.has_value();
@@ -96,15 +100,15 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
   find_side_areas(kind);
   bodies_.set_cylindrical(kind == AnalysisKind::axisymmetric);
   if (phases.heat != nullptr) {
-    add("temperature", "K", 1, mesh::FieldPlace::node);
-    add("solid_fraction", "1", 1, mesh::FieldPlace::node);
+    add(of_heat::k_temperature);
+    add(of_heat::k_solid_fraction);
     add_heat_flux();
   }
   if (phases.mechanics != nullptr) {
-    add("displacement", "m", phases.mechanics->components(), mesh::FieldPlace::node);
+    add(of_mechanics::k_displacement);
     if (phases.mechanics->dynamic()) {
-      add("velocity", "m/s", phases.mechanics->components(), mesh::FieldPlace::node);
-      add("acceleration", "m/s2", phases.mechanics->components(), mesh::FieldPlace::node);
+      add(of_mechanics::k_velocity);
+      add(of_mechanics::k_acceleration);
     }
     add_elements();
     add_nodal_stress();
@@ -120,34 +124,33 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
   for (std::size_t i = 0; i < n_of_phases; ++i)
     if (const auto& v = values_[i]; v->place == mesh::FieldPlace::node && !v->compute)
       contact.add({v->name, v->unit, v->components, v->place, v->values});
-  const auto add_everywhere = [&](const FieldName& field, int components) {
-    const std::vector<double>& values = add(field.name, field.unit, components, mesh::FieldPlace::node);
-    values_.back()->of_contact = true;
-    contact.add({field.name, field.unit, components, mesh::FieldPlace::node, values});
-    const bool of_area = std::ranges::find(k_of_area, std::string_view(field.name)) != std::end(k_of_area);
-    bodies_.add({field.name,
-                 field.unit,
-                 components,
-                 mesh::FieldPlace::node,
+  const auto add_everywhere = [&](const Quantity& quantity, const char* unit = nullptr) {
+    const std::vector<double>& values = add(quantity);
+    Values& v = *values_.back();
+    if (unit != nullptr) v.unit = unit;
+    contact.add({v.name, v.unit, v.components, v.place, values});
+    bodies_.add({v.name,
+                 v.unit,
+                 v.components,
+                 v.place,
                  values,
                  {},
-                 of_area ? std::span<const double>(covered_) : std::span<const double>()});
+                 quantity.per_covered_area ? std::span<const double>(covered_) : std::span<const double>()});
   };
-  for (const FieldName& field : k_contact) add_everywhere(field, 1);
+  for (const Quantity* quantity : k_contact) add_everywhere(*quantity);
   if (with_heat(phases)) {
-    add_everywhere({"contact_heat_flux", "W/m2"}, 1);
-    if (with_friction(phases)) add_everywhere({"frictional_heat_flux", "W/m2"}, 1);
+    add_everywhere(of_contact::k_contact_heat_flux);
+    if (with_friction(phases)) add_everywhere(of_contact::k_frictional_heat_flux);
   }
   if (with_friction(phases)) {
-    add_everywhere({"friction_traction", "Pa"}, phases.mechanics->components());
-    for (const FieldName& field : k_remembered) {
-      const bool internal = std::string_view(field.name) == k_internal_variable;
-      add_everywhere({field.name, internal ? internal_variable_unit(phases) : field.unit}, 1);
-    }
-    add_everywhere({"contact_status", "1"}, 1);
+    add_everywhere(of_contact::k_friction_traction);
+    for (const Quantity* quantity : k_remembered)
+      add_everywhere(*quantity,
+                     quantity == &of_contact::k_internal_variable ? internal_variable_unit(phases) : nullptr);
+    add_everywhere(of_contact::k_contact_status);
   }
   if (phases.heat != nullptr && (with_friction(phases) || interfaces_store(phases)))
-    add_everywhere({"interface_temperature", "K"}, 1);
+    add_everywhere(of_contact::k_interface_temperature);
   for (const contact::ContactPair* pair : phases.contacts)
     for (const std::string& surface : {pair->spec().slave, pair->spec().master})
       if (surface == pair->spec().slave || !pair->spec().rigid_master) surfaces_[surface] = contact;
@@ -175,50 +178,50 @@ void StateFields::find_side_areas(AnalysisKind kind) {
   }
 }
 
-std::vector<double>& StateFields::add(std::string name, std::string unit, int components,
-                                      mesh::FieldPlace place) {
-  auto v =
-      std::make_unique<Values>(Values{std::move(name), std::move(unit), components, place, {}, false, {}});
-  v->values.assign(value_count(mesh_, place, components), 0.0);
-  by_name_[v->name] = &v->values;
-  values_.push_back(std::move(v));
-  return values_.back()->values;
+StateFields::Values& StateFields::add_values(const quantities::Quantity& quantity) {
+  values_.push_back(std::make_unique<Values>(Values{.name = std::string(quantity.name),
+                                                    .unit = std::string(quantity.unit),
+                                                    .components = quantity.components(kind_),
+                                                    .place = place_of(quantity),
+                                                    .of_contact = quantity.of_contact(),
+                                                    .on_request = on_request(quantity)}));
+  return *values_.back();
+}
+
+std::vector<double>& StateFields::add(const quantities::Quantity& quantity) {
+  Values& v = add_values(quantity);
+  v.values.assign(value_count(mesh_, v.place, v.components), 0.0);
+  by_name_[v.name] = &v.values;
+  return v.values;
+}
+
+std::vector<double>& StateFields::values_of(const quantities::Quantity& quantity) {
+  return *by_name_.find(quantity.name)->second;
 }
 
 void StateFields::add_elements() {
-  for (const ElementFieldName& field : k_elements) {
-    if (field.plastic && !phases_.mechanics->plastic()) continue;
+  for (const auto& [quantity, which] : k_elements) {
+    if (quantity.needs.plasticity && !phases_.mechanics->plastic()) continue;
     const bool isentropic = phases_.mechanics->mapping() == mechanics::Mapping::isentropic;
-    if (field.which == ElementField::intermediate_temperature && !isentropic) continue;
-    if (field.which == ElementField::pore_fraction && phases_.coherency == nullptr)
-      continue;  // nothing melts
-    const auto compute = [this, which = field.which] {
+    if (quantity.needs.isentropic && !isentropic) continue;
+    if (quantity.needs.melting && phases_.coherency == nullptr) continue;
+    add_values(quantity).compute = [this, which = which] {
       return mechanics::element_field(mesh_, shown_, which);
     };
-    values_.push_back(std::make_unique<Values>(Values{field.name,
-                                                      field.unit,
-                                                      component_count(field.which),
-                                                      mesh::FieldPlace::cell,
-                                                      {},
-                                                      false,
-                                                      compute,
-                                                      field.on_request}));
   }
 }
 
 void StateFields::add_heat_flux() {
-  const auto add = [this](const char* name, const char* unit, int components, auto element_values) {
-    const auto compute = [this, element_values] {
+  const auto add = [this](const Quantity& quantity, auto element_values) {
+    add_values(quantity).compute = [this, element_values] {
       return element_values(
           mesh_, kind_,
           [this](int body) -> const material::Material& { return phases_.heat->storage().material(body); },
-          *by_name_.at("temperature"));
+          values_of(of_heat::k_temperature));
     };
-    values_.push_back(std::make_unique<Values>(
-        Values{name, unit, components, mesh::FieldPlace::cell, {}, false, compute, true}));
   };
-  add("heat_flux", "W/m2", mesh_.dimension, element_heat_flux);
-  add("conduction_dissipation", "W/m3", 1, element_conduction_dissipation);
+  add(of_heat::k_heat_flux, element_heat_flux);
+  add(of_heat::k_conduction_dissipation, element_conduction_dissipation);
 }
 
 void StateFields::add_nodal_stress() {
@@ -226,33 +229,25 @@ void StateFields::add_nodal_stress() {
     if (!recovery_) recovery_ = std::make_unique<StressRecovery>(mesh_, kind_);
     return recovery_->at_nodes(mechanics::element_field(mesh_, shown_, ElementField::stress), body);
   };
-  const auto add = [this](const char* name, int components,
+  const auto add = [this](const Quantity& quantity,
                           const std::function<std::vector<double>(int body)>& compute) {
-    values_.push_back(std::make_unique<Values>(Values{name,
-                                                      "Pa",
-                                                      components,
-                                                      mesh::FieldPlace::node,
-                                                      {},
-                                                      false,
-                                                      [compute] { return compute(-1); },
-                                                      true,
-                                                      compute}));
+    Values& v = add_values(quantity);
+    v.compute = [compute] { return compute(-1); };
+    v.compute_of = compute;
   };
-  add("nodal_stress", 6, nodal);
-  add("nodal_von_mises", 1, [nodal](int body) { return von_mises_values(nodal(body)); });
-  for (int rank = 0; rank < 3; ++rank)
-    add(k_principal[rank], 1, [nodal, rank](int body) { return principal_values(nodal(body), rank); });
+  add(of_mechanics::k_nodal_stress, nodal);
+  add(of_mechanics::k_nodal_von_mises, [nodal](int body) { return von_mises_values(nodal(body)); });
+  for (std::size_t rank = 0; rank < k_principal.size(); ++rank)
+    add(*k_principal[rank],
+        [nodal, rank](int body) { return principal_values(nodal(body), static_cast<int>(rank)); });
 }
 
 void StateFields::add_criteria() {
   if (phases_.criteria == nullptr) return;
-  for (const criteria::CriterionField& field : phases_.criteria->fields()) {
-    const mesh::FieldPlace place = field.place;
-    values_.push_back(
-        std::make_unique<Values>(Values{field.name, field.unit, field.components, place, {}, false, {}}));
-    Values* v = values_.back().get();
+  for (const Quantity* quantity : phases_.criteria->fields()) {
+    Values* v = &add_values(*quantity);
     by_name_[v->name] = &v->values;
-    v->compute = [v, n = value_count(mesh_, place, field.components)] {
+    v->compute = [v, n = value_count(mesh_, v->place, v->components)] {
       return v->values.empty() ? std::vector<double>(n, 0.0) : v->values;
     };
   }
@@ -260,16 +255,16 @@ void StateFields::add_criteria() {
 
 void StateFields::release_criteria() {
   if (phases_.criteria == nullptr) return;
-  for (const criteria::CriterionField& field : phases_.criteria->fields())
-    std::vector<double>().swap(*by_name_.at(field.name));
+  for (const Quantity* quantity : phases_.criteria->fields())
+    std::vector<double>().swap(values_of(*quantity));
 }
 
 void StateFields::update_criteria(const coupling::State& state) {
   if (phases_.criteria == nullptr) return;
   std::vector<std::span<double>> values;
-  for (const criteria::CriterionField& field : phases_.criteria->fields()) {
-    std::vector<double>& of_field = *by_name_.at(field.name);
-    of_field.resize(value_count(mesh_, field.place, field.components));
+  for (const Quantity* quantity : phases_.criteria->fields()) {
+    std::vector<double>& of_field = values_of(*quantity);
+    of_field.resize(value_count(mesh_, place_of(*quantity), quantity->components(kind_)));
     values.emplace_back(of_field);
   }
   phases_.criteria->fill({state.time - state.poured, state.heat, state.mechanics}, state.criteria, values);
@@ -282,18 +277,14 @@ void StateFields::update(const coupling::State& state) {
   bodies_.set_active(active);
   for (auto& [name, fields] : surfaces_) fields.set_active(active);
   if (phases_.heat != nullptr) {
-    std::copy(state.heat.temperature.begin(), state.heat.temperature.end(), by_name_["temperature"]->begin());
-    const std::vector<double> solid = phases_.heat->solid_fraction(state.heat);
-    std::copy(solid.begin(), solid.end(), by_name_["solid_fraction"]->begin());
+    std::ranges::copy(state.heat.temperature, values_of(of_heat::k_temperature).begin());
+    std::ranges::copy(phases_.heat->solid_fraction(state.heat), values_of(of_heat::k_solid_fraction).begin());
   }
   if (phases_.mechanics != nullptr) {
-    std::copy(state.mechanics.displacement.begin(), state.mechanics.displacement.end(),
-              by_name_["displacement"]->begin());
+    std::ranges::copy(state.mechanics.displacement, values_of(of_mechanics::k_displacement).begin());
     if (phases_.mechanics->dynamic()) {
-      std::copy(state.mechanics.velocity.begin(), state.mechanics.velocity.end(),
-                by_name_["velocity"]->begin());
-      std::copy(state.mechanics.acceleration.begin(), state.mechanics.acceleration.end(),
-                by_name_["acceleration"]->begin());
+      std::ranges::copy(state.mechanics.velocity, values_of(of_mechanics::k_velocity).begin());
+      std::ranges::copy(state.mechanics.acceleration, values_of(of_mechanics::k_acceleration).begin());
     }
     shown_.elements = state.mechanics.elements;
   }
@@ -304,8 +295,8 @@ void StateFields::update(const coupling::State& state) {
 void StateFields::update_contacts(std::span<const double> temperature) {
   for (const auto& v : values_)
     if (v->of_contact) std::fill(v->values.begin(), v->values.end(), 0.0);
-  std::vector<double>&gap = *by_name_["gap"], &pressure = *by_name_["contact_pressure"],
-  &conductance = *by_name_["conductance"];
+  std::vector<double>&gap = values_of(of_contact::k_gap),
+  &pressure = values_of(of_contact::k_contact_pressure), &conductance = values_of(of_contact::k_conductance);
   std::vector<char> seen(gap.size(), 0);
   std::fill(covered_.begin(), covered_.end(), 0.0);
   for (std::size_t number = 0; number < phases_.contacts.size(); ++number) {
@@ -334,15 +325,15 @@ void StateFields::update_contacts(std::span<const double> temperature) {
 
 // Shows the heat of the pair with the closest partner.
 void StateFields::update_heat(const contact::ContactNodalFields& fields, std::span<const char> closest) {
-  const auto show = [&](const char* name, const std::vector<double>& values) {
-    const auto found = by_name_.find(name);
+  const auto show = [&](const Quantity& quantity, const std::vector<double>& values) {
+    const auto found = by_name_.find(quantity.name);
     if (found == by_name_.end()) return;
     for (std::size_t k = 0; k < values.size(); ++k)
       if (closest[k] != 0) (*found->second)[static_cast<std::size_t>(fields.nodes[k])] = values[k];
   };
-  show("contact_heat_flux", fields.heat_flux);
-  show("frictional_heat_flux", fields.frictional_heat_flux);
-  const auto interface = by_name_.find("interface_temperature");
+  show(of_contact::k_contact_heat_flux, fields.heat_flux);
+  show(of_contact::k_frictional_heat_flux, fields.frictional_heat_flux);
+  const auto interface = by_name_.find(of_contact::k_interface_temperature.name);
   // The slave's alone: the master remembers none.
   for (std::size_t k = 0; interface != by_name_.end() && k < fields.temperature.size(); ++k)
     if (closest[k] != 0 && std::isfinite(fields.temperature[k]))
@@ -354,12 +345,13 @@ void StateFields::update_heat(const contact::ContactNodalFields& fields, std::sp
 void StateFields::update_friction(const contact::ContactNodalFields& fields, std::span<const char> closest) {
   const std::array<const std::vector<double>*, std::size(k_remembered)> remembered = {
       &fields.slip, &fields.internal_variable, &fields.coefficient, &fields.dissipation, &fields.wear_depth};
-  std::vector<double>&traction = *by_name_["friction_traction"], &status = *by_name_["contact_status"];
+  std::vector<double>&traction = values_of(of_contact::k_friction_traction),
+  &status = values_of(of_contact::k_contact_status);
   const auto components = static_cast<std::size_t>(phases_.mechanics->components());
   for (std::size_t k = 0; k < fields.nodes.size(); ++k) {
     const auto i = static_cast<std::size_t>(fields.nodes[k]);
     for (std::size_t f = 0; f < remembered.size(); ++f) {
-      double& value = (*by_name_[k_remembered[f].name])[i];
+      double& value = values_of(*k_remembered[f])[i];
       value = std::fmax(value, (*remembered[f])[k]);  // NaN where the node has none
     }
     if (closest[k] == 0) continue;

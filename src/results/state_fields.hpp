@@ -8,22 +8,16 @@
 
 #include "coupling/phases.hpp"
 #include "parallel/parallel.hpp"
+#include "quantities/quantity.hpp"
 #include "results/field.hpp"
 #include "results/recovered_stress.hpp"
 
 namespace solidus::results {
 
-/// temperature [K], solid_fraction, displacement [m], with inertia velocity [m/s] and acceleration [m/s²] at
-/// nodes; stress, von_mises, pressure [Pa], viscous_strain, dissipation [W/m³] in elements, where a material
-/// flows plastically also plastic_strain, equivalent_plastic_strain, back_stress, flow_stress [Pa]; on
-/// request heat_flux [W/m²] and strain in elements, nodal_stress, nodal_von_mises and principal_stress_1 to
-/// _3 [Pa] at nodes (recovered_stress.hpp), with the isentropic mapping intermediate_temperature Θ̄ [K]; and
-/// on contact surfaces gap [m], contact_pressure [Pa], conductance [W/(m² K)], with heat contact_heat_flux
-/// into the body that has the node and frictional_heat_flux [W/m²], the part by friction, and with friction
-/// friction_traction [Pa] on the master, contact_status (0 open, 1 sticks, 2 slips), interface_temperature
-/// [K], and what surfaces remember: slip, wear_depth [m], internal_variable ζ_c [N/m] (of work; slip is
-/// `slip`), friction_coefficient, friction_dissipation [J/m²]; and what the criteria of the run show
-/// (criteria/criterion.hpp). Those exist that the analysis has.
+/// Those fields of coupling/all_fields.hpp exist that the analysis has. Fields of elements and what is
+/// computed on request (quantities::Written) are computed when they are read; stress at nodes is recovered
+/// (recovered_stress.hpp). A node of several contacts shows the one with the closest partner, and what
+/// friction accumulates as the largest of all.
 class StateFields {
  public:
   StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases, AnalysisKind kind);
@@ -45,15 +39,19 @@ class StateFields {
  private:
   struct Values {
     std::string name, unit;
-    int components;
-    mesh::FieldPlace place;
-    std::vector<double> values;
-    bool of_contact;
-    std::function<std::vector<double>()> compute;               ///< instead of values
-    bool on_request = false;                                    ///< Field::on_request
-    std::function<std::vector<double>(int body)> compute_of{};  ///< Field::compute_of
+    int components = 1;
+    mesh::FieldPlace place = mesh::FieldPlace::node;
+    std::vector<double> values = {};
+    bool of_contact = false;
+    std::function<std::vector<double>()> compute = {};             ///< instead of values
+    bool on_request = false;                                       ///< Field::on_request
+    std::function<std::vector<double>(int body)> compute_of = {};  ///< Field::compute_of
   };
-  std::vector<double>& add(std::string name, std::string unit, int components, mesh::FieldPlace place);
+  Values& add_values(const quantities::Quantity& quantity);
+  /// A field that is stored, zero.
+  std::vector<double>& add(const quantities::Quantity& quantity);
+  /// Of a field that is stored.
+  std::vector<double>& values_of(const quantities::Quantity& quantity);
   void find_side_areas(AnalysisKind kind);
   void add_elements();
   void add_heat_flux();
@@ -70,7 +68,7 @@ class StateFields {
   std::unique_ptr<StressRecovery> recovery_;  ///< from its first use on
   parallel::GhostExchange ghosts_;
   std::vector<std::unique_ptr<Values>> values_;  // stable addresses: the sets hold views
-  std::map<std::string, std::vector<double>*> by_name_;
+  std::map<std::string, std::vector<double>*, std::less<>> by_name_;
   /// Nodal areas of the sides of each pair, slave and master: ∫ N_a dA, [local node], owned ones complete
   /// [m²].
   std::vector<std::array<std::vector<double>, 2>> side_area_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "mechanics/quantities.hpp"
 #include "mesh/block_geometry.hpp"
 #include "results/spots.hpp"
 #include "system/log.hpp"
@@ -75,8 +76,8 @@ bool of_first_order(const mesh::Mesh& mesh, int body) {
 }  // namespace
 
 std::vector<double> stress_jumps(const mesh::Mesh& mesh, AnalysisKind kind, const FieldSet& fields) {
-  const FieldValues stress(fields, "stress");
-  if (fields.find("stress") == nullptr) return {};
+  const FieldValues stress(fields, mechanics::fields::k_stress.name);
+  if (fields.find(mechanics::fields::k_stress.name) == nullptr) return {};
   std::vector<double> jumps;
   for (int body = 0; body < static_cast<int>(mesh.bodies.size()); ++body) {
     std::array<double, 2> sums = sums_of_body(mesh, kind, body, stress);

@@ -7,6 +7,7 @@
 #include "parallel/parallel.hpp"
 #include "results/json_document.hpp"
 #include "results/output_file.hpp"
+#include "results/quantity_json.hpp"
 #include "system/processes.hpp"
 #include "system/version.hpp"
 
@@ -135,6 +136,10 @@ std::string summary_json(const Summary& s) {
       .add("tables[bytes]", object(s.table_bytes));
   if (s.relative_energy_defect) json.add("relative_energy_defect", *s.relative_energy_defect);
   json.add("final", object(s.final_values)).add("criteria", findings(s.criteria));
+  Json fields;
+  for (const quantities::Quantity* field : s.fields)
+    fields.add(std::string(field->name), results::json(*field));
+  json.add("fields", std::move(fields));
   if (s.answers) json.add("answers", results::json(*s.answers));
   if (!s.melt.empty()) json.add("melt", by_name(s.melt, &ChosenMelt::body, melt_members));
   if (!s.left_walls.empty())

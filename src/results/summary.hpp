@@ -11,6 +11,7 @@
 
 #include "criteria/criterion.hpp"
 #include "mesh/mesh.hpp"
+#include "quantities/quantity.hpp"
 #include "results/answers.hpp"
 #include "results/load_balance.hpp"
 #include "results/overview.hpp"
@@ -77,7 +78,8 @@ struct Summary {
   std::optional<double> relative_energy_defect;                  ///< absent without heat
   std::vector<std::pair<std::string, double>> final_values;
   std::vector<criteria::CriterionResult> criteria;
-  std::optional<Answers> answers;  ///< absent in steady runs
+  std::vector<const quantities::Quantity*> fields;  ///< that the field files have
+  std::optional<Answers> answers;                   ///< absent in steady runs
   std::vector<ChosenMelt> melt;
   std::vector<LeftWall> left_walls;
   std::vector<UnsettledTurns> unsettled;

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "../unit/results/vtu_reader.hpp"
-#include "case/field_list.hpp"
 #include "case_folder.hpp"
+#include "coupling/all_fields.hpp"
 
 namespace {
 
@@ -344,28 +344,28 @@ feeders = ["upper_y_max"]
 )";
 
 TEST(Probes, TakeMeanIntegralAndExtremesOfEveryFieldOverABodyAndASurface) {
-  using solidus::model::FieldInfo;
+  using solidus::quantities::Rank;
   struct Group {
     std::string name, unit;
     double measure;  ///< for a metre of thickness
   };
   const Group groups[] = {{"upper", "m3", 0.04 * 0.02}, {"upper_bottom", "m2", 0.04}};
   const auto header = [](const std::string& field, const Group& group, const std::string& kind) {
-    const std::string unit = solidus::model::field_info(field).unit;
+    const std::string unit(solidus::coupling::field_of(field).unit);
     const std::string shown = kind != "integral" ? unit : unit == "1" ? group.unit : unit + " " + group.unit;
     return std::array{field + "_" + group.name + "_" + kind, shown};
   };
   std::string text = k_rubbing;
-  const auto fields = solidus::model::field_names(true);
+  const auto fields = solidus::coupling::field_names(true);
   for (const std::string& field : fields)
     for (const Group& group : groups)
       for (const char* kind : {"mean", "minimum", "maximum", "integral"}) {
-        const FieldInfo::Rank rank = solidus::model::field_info(field).rank;
+        const Rank rank = solidus::coupling::field_of(field).rank;
         const auto [name, unit] = header(field, group, kind);
         text += "[[probe]]\nname = \"" + name + "\"\nkind = \"" + kind + "\"\nfield = \"" + field +
                 "\"\ngroup = \"" + group.name + "\"\nunit = \"" + unit + "\"\n";
-        if (rank != FieldInfo::Rank::scalar)
-          text += rank == FieldInfo::Rank::vector ? "component = \"x\"\n" : "component = \"xx\"\n";
+        if (rank != Rank::scalar)
+          text += rank == Rank::vector ? "component = \"x\"\n" : "component = \"xx\"\n";
       }
   const auto run = k_here.run("rubbing", text);
   ASSERT_TRUE(run.finished) << run.reason;

@@ -123,6 +123,18 @@ class CommandLine(ProgramTest):
             "\nResults in one. Next: solidus report one; solidus plot one\n"))
         self.assertTrue(self.done("run", "case.toml", "--report", "-o", "other").endswith("\nResults in other.\n"))
 
+    def test_the_fields_of_page_and_pictures_are_those_of_the_program(self):
+        """When this fails: ./dev docs, or the two lines of it that write these files."""
+        for option, file in (("--json", "python/solidus_plots/fields.json"), ("--manual", "docs/reference/fields.md")):
+            self.assertEqual(self.done("explain", "--fields", option), (SOURCES / file).read_text(encoding="utf-8"), file)
+
+    def test_a_field_is_explained_and_one_that_is_not_there_is_refused(self):
+        self.assertIn("called Von Mises stress, shown in MPa", self.done("explain", "--fields", "von_mises"))
+        result = solidus("explain", "--fields", "von_mise", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("there is no field 'von_mise'", result.stderr)
+        self.assertIn("von_mises", result.stderr)
+
     def test_bash_completes_verbs_options_keys_and_materials(self):
         script = self.write("solidus.bash", self.done("completion", "bash"))
 

@@ -36,8 +36,8 @@ inline Fields freeze(const mesh::Mesh& mesh, AnalysisKind kind,
   }
   Fields fields;
   std::vector<std::span<double>> values;
-  for (const criteria::CriterionField& field : freezing.fields())
-    values.emplace_back(fields[field.name] = std::vector<double>(mesh.x.size()));
+  for (const quantities::Quantity* field : freezing.fields())
+    values.emplace_back(fields[std::string(field->name)] = std::vector<double>(mesh.x.size()));
   freezing.fill({end, old, none, before}, record, values);
   return fields;
 }

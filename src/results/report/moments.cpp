@@ -9,6 +9,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "coupling/all_fields.hpp"
+#include "mechanics/quantities.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::report {
@@ -19,50 +21,31 @@ namespace {
 
 constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
 
-/// Criteria of a casting: what they say at the end holds for the whole run (docs/guide/criteria.md).
-constexpr std::array<std::string_view, 13> k_criteria = {"solidified_at",
-                                                         "local_solidification_time",
-                                                         "cooling_rate",
-                                                         "thermal_gradient",
-                                                         "front_speed",
-                                                         "secondary_arm_spacing",
-                                                         "niyama",
-                                                         "dimensionless_niyama",
-                                                         "shrinkage_porosity",
-                                                         "distortion",
-                                                         "strain_in_liquid",
-                                                         "strain_since_coherency",
-                                                         "brittle_strain"};
-/// Fields of which the last moment is enough: they follow from others that the page has at every moment.
-constexpr std::array<std::string_view, 3> k_last_alone = {"conductance", "dissipation", "flow_stress"};
-/// Those among them in which zero is a value.
-constexpr std::array<std::string_view, 4> k_zero_counts = {"distortion", "strain_in_liquid",
-                                                           "strain_since_coherency", "brittle_strain"};
-/// Numbers of things, and tensors of which a scalar says enough.
-constexpr std::array<std::string_view, 6> k_passed_over = {"node",    "element",      "body",
-                                                           "process", "vtkGhostType", "pool_volume"};
+/// Arrays of a field file that are no fields: numbers of things.
+constexpr std::array<std::string_view, 5> k_numbers = {"node", "element", "body", "process", "vtkGhostType"};
 
-template <std::size_t n>
-bool is_one_of(const std::array<std::string_view, n>& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+bool is_number_of_things(std::string_view name) {
+  return std::find(k_numbers.begin(), k_numbers.end(), name) != k_numbers.end();
 }
 
 void add_columns(const FieldFile::Piece& piece, bool of_elements, const std::set<std::string>& contact_fields,
                  std::vector<FieldColumn>& columns) {
   const char* section = of_elements ? "CellData" : "PointData";
   for (const std::string& name : mesh::array_names(*piece.tree, section)) {
-    if (is_one_of(k_passed_over, name)) continue;
+    if (is_number_of_things(name)) continue;
+    const quantities::Quantity unknown{};
+    const quantities::Quantity* const declared = coupling::find_field(name);
+    const quantities::Quantity& quantity = declared != nullptr ? *declared : unknown;
+    if (quantity.kept == quantities::Kept::none) continue;
     const ptree& array = *mesh::find_array(*piece.tree, section, name);
     FieldColumn column;
     column.field = column.name = name;
     column.unit = mesh::array_unit(array);
     column.n_components = array.get<int>("<xmlattr>.NumberOfComponents", 1);
     column.of_elements = of_elements;
-    const bool criterion = is_one_of(k_criteria, name);
-    column.at_end = criterion || is_one_of(k_last_alone, name);
-    column.none_below_zero = name == "solidified_at";
-    column.none_at_zero =
-        (criterion && !column.none_below_zero && !is_one_of(k_zero_counts, name)) || name == "liquid_pool";
+    column.at_end = quantity.kept == quantities::Kept::last;
+    column.none_below_zero = quantity.no_value && *quantity.no_value < 0;
+    column.none_at_zero = quantity.no_value && *quantity.no_value == 0;
     column.of_contact = contact_fields.contains(name);
     if (column.n_components == 1) {
       columns.push_back(column);
@@ -71,8 +54,8 @@ void add_columns(const FieldFile::Piece& piece, bool of_elements, const std::set
         column.component = std::string(1, "xyz"[column.index]);
         columns.push_back(column);
       }
-    } else if (column.n_components == 6 && name == "stress") {
-      column.name = "first_principal_stress";
+    } else if (column.n_components == 6 && declared == &mechanics::fields::k_stress) {
+      column.name = mechanics::fields::k_first_principal_stress.name;
       column.principal = true;
       columns.push_back(column);
     }

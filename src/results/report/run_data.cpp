@@ -11,9 +11,12 @@
 #include <set>
 #include <sstream>
 
+#include "coupling/all_fields.hpp"
 #include "input/document.hpp"
+#include "mechanics/quantities.hpp"
 #include "results/output_error.hpp"
 #include "results/pvd.hpp"
+#include "results/quantity_json.hpp"
 #include "results/report/moments.hpp"
 #include "results/report/report_table.hpp"
 #include "system/errors.hpp"
@@ -151,16 +154,16 @@ ContactParts contact_parts(const std::vector<fs::path>& files) {
   for (const fs::path& path : files) {
     const FieldFile file(path);
     for (const FieldFile::Piece& piece : file.pieces()) {
-      for (const std::string& name : mesh::array_names(*piece.tree, "PointData")) parts.fields.insert(name);
+      for (const std::string& name : mesh::array_names(*piece.tree, "PointData")) {
+        const quantities::Quantity* known = coupling::find_field(name);
+        if (known != nullptr && known->of_contact()) parts.fields.insert(name);
+      }
       const auto* array = mesh::find_array(*piece.tree, "PointData", "node");
       if (array == nullptr) continue;
       for (const double number : piece.file->numbers(*array, piece.n_points))
         parts.nodes.insert(mesh::whole_number(number));
     }
   }
-  for (const char* state :
-       {"temperature", "solid_fraction", "displacement", "velocity", "acceleration", "node"})
-    parts.fields.erase(state);
   return parts;
 }
 
@@ -220,6 +223,13 @@ Json fields_data(const PackedMoments& packed_moments) {
     columns.push_back(std::move(c));
   }
   return columns;
+}
+
+/// The declarations of all fields that a page can show.
+Json all_quantities() {
+  Json::Array rows{results::json(mechanics::fields::k_first_principal_stress)};
+  for (const quantities::Quantity* field : coupling::all_fields()) rows.push_back(results::json(*field));
+  return rows;
 }
 
 void add_fields(Json& out, const fs::path& folder, const std::vector<BodyMaterial>& names,
@@ -298,7 +308,8 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
     own.emplace_back(
         "There is no summary.json: the run goes on, or it was killed. The page shows how far it came.");
   // The run at the values as they are of `solidus uncertain`, whose ranks lie beside its folder.
-  if (const fs::path ranks = whole.parent_path() / "uncertain.json"; whole.filename() == "best" && fs::exists(ranks))
+  if (const fs::path ranks = whole.parent_path() / "uncertain.json";
+      whole.filename() == "best" && fs::exists(ranks))
     out.add("uncertain_text", checked_summary(ranks));
   out.add("materials", run.materials);
   Json tables;
@@ -312,6 +323,7 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
     tables.add(name, table_data(table, blocks));
   }
   out.add("tables", std::move(tables));
+  out.add("quantities", all_quantities()).add("units", results::shown_units_json());
   add_fields(out, folder, body_materials(folder), options, most_bytes, blocks, own);
   Json::Array texts;
   for (const std::string& note : own) {

@@ -191,6 +191,11 @@ field = "von_mises"
 unit = "MPa"
 point = ["0 mm", "0 mm"]
 [[probe]]
+name = "pores"
+kind = "point"
+field = "pore_fraction"
+point = ["0 mm", "0 mm"]
+[[probe]]
 name = "T"
 kind = "point"
 field = "temperature"
@@ -203,7 +208,7 @@ fields = ["temperature", "stress"]
 )",
                                   "case.toml");
   const std::string left_out = switch_physics(document, Physics::heat);
-  for (const char* what : {"[mechanics]", "'support'", "friction of contact 'wall'", "probe 's'", "stress"})
+  for (const char* what : {"[mechanics]", "'support'", "friction of contact 'wall'", "probe 's', 'pores'", "stress"})
     EXPECT_THAT(left_out, HasSubstr(what));
   EXPECT_THAT(left_out, Not(HasSubstr("'T'")));
   const CaseSpec spec = case_keys().read(document);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "casting.hpp"
+#include "coupling/all_fields.hpp"
 
 namespace {
 
@@ -175,6 +176,33 @@ TEST_F(FindingsTest, ProbesThatMeasureNothingAreNamed) {
                                     deforming().substr(deforming().find("[[mechanical_condition]]")), "");
   EXPECT_THAT(said_of(probe(rigid, "von_mises", "MPa", in_mould)),
               Contains(HasSubstr("the probe 'p' takes the von_mises of 'lower', which only conducts heat")));
+}
+
+TEST_F(FindingsTest, EveryFieldOfMechanicsOrOfFreezingIsNamedInABodyThatDoesNeither) {
+  const std::string rigid = changed(changed(deforming(), "\"steel_mould\"", "\"green_sand\""),
+                                    deforming().substr(deforming().find("[[mechanical_condition]]")), "");
+  int named = 0;
+  for (const solidus::quantities::Quantity* field : solidus::coupling::all_fields()) {
+    using solidus::quantities::Rank;
+    const auto& needs = field->needs;
+    if (field->of_contact() || needs.inertia || needs.plasticity || needs.isentropic) continue;
+    const std::string keys = field->rank == Rank::tensor   ? "component = \"xx\"\n"
+                             : field->rank == Rank::vector ? "component = \"x\"\n"
+                                                           : "";
+    const std::string name(field->name);
+    const std::vector<std::string> said =
+        said_of(with(rigid, "[[probe]]\nname = \"p\"\nfield = \"" + name + "\"\nunit = \"" +
+                                std::string(field->unit) + "\"\npoint = [\"20 mm\", \"10 mm\"]\n" + keys));
+    const std::string takes = "the probe 'p' takes the " + name + " of 'lower', ";
+    if (needs.mechanics)
+      EXPECT_THAT(said, Contains(HasSubstr(takes + "which only conducts heat"))) << name;
+    else if (needs.melting)
+      EXPECT_THAT(said, Contains(HasSubstr(takes + "of 'green_sand', which does not freeze"))) << name;
+    else
+      EXPECT_THAT(said, Not(Contains(HasSubstr(takes)))) << name;
+    named += needs.mechanics || needs.melting ? 1 : 0;
+  }
+  EXPECT_GT(named, 25);
 }
 
 TEST_F(FindingsTest, CriteriaThatFollowNothingAreNamed) {

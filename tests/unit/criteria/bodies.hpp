@@ -75,7 +75,8 @@ class Casting {
     for (std::size_t f = 0; f < criterion.fields().size(); ++f) values.emplace_back(mesh.x.size(), 99.0);
     const std::vector<std::span<double>> spans(values.begin(), values.end());
     criterion.fill({time_, next_.heat, mechanics_, next_.fraction}, record, spans);
-    for (std::size_t f = 0; f < values.size(); ++f) result[criterion.fields()[f].name] = values[f];
+    for (std::size_t f = 0; f < values.size(); ++f)
+      result[std::string(criterion.fields()[f]->name)] = values[f];
     return result;
   }
 

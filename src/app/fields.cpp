@@ -1,0 +1,132 @@
+/// The fields that a run can have, as a list, one by one, as a page and as JSON.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string_view>
+#include <vector>
+
+#include "app/verbs.hpp"
+#include "coupling/all_fields.hpp"
+#include "input/keys.hpp"
+#include "mechanics/quantities.hpp"
+#include "quantities/names.hpp"
+#include "results/quantity_json.hpp"
+#include "system/errors.hpp"
+
+namespace solidus::app {
+
+namespace {
+
+using quantities::name;
+using quantities::Quantity;
+
+std::string shown_text(const Quantity& field) {
+  const std::string_view text = field.shown().text;
+  return text.empty() ? "–" : std::string(text);
+}
+
+/// "velocity" exists with inertia alone, for example; empty: with every analysis that has its room.
+std::string needs_of(const Quantity& field) {
+  std::vector<std::string_view> words;
+  const quantities::Needs& n = field.needs;
+  if (n.heat) words.emplace_back("heat");
+  if (n.mechanics) words.emplace_back("mechanics");
+  if (n.inertia) words.emplace_back("inertia");
+  if (n.plasticity) words.emplace_back("plastic flow");
+  if (n.melting) words.emplace_back("metal that melts");
+  if (n.isentropic) words.emplace_back("the isentropic split");
+  if (n.friction) words.emplace_back("friction");
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string place_of(const Quantity& field) {
+  switch (field.place) {
+    case quantities::Place::node:
+      return "nodes";
+    case quantities::Place::element:
+      return "elements";
+    case quantities::Place::contact:
+      break;
+  }
+  return "nodes of contact surfaces";
+}
+
+/// A text for a cell of a table in Markdown, whose columns are told apart by |.
+std::string cell(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
+  return out;
+}
+
+std::string list_of_fields() {
+  std::string text;
+  for (const Quantity* field : coupling::all_fields())
+    text += fmt::format("{:26} {:10} {}\n", field->name, field->exact_unit(), field->doc);
+  return text;
+}
+
+std::string details(const Quantity& field) {
+  std::string text = fmt::format("{} [{}]  {}, at {}\n  {}.\n", field.name, field.exact_unit(),
+                                 name(field.rank), place_of(field), field.doc);
+  text += fmt::format("  called {}, shown in {}\n", field.label, shown_text(field));
+  if (const std::string needs = needs_of(field); !needs.empty()) text += fmt::format("  needs {}\n", needs);
+  if (field.no_value) text += fmt::format("  {:g} says that there is no value\n", *field.no_value);
+  if (field.written == quantities::Written::on_request)
+    text += "  written to field files where [output] fields names it\n";
+  return text;
+}
+
+std::string page_of_fields() {
+  std::string text =
+      "# Reference: fields\n\nFor those who choose probes and fields, and who read files of results. Files "
+      "hold the "
+      "unit in the second column; the report and pictures show the one in the third.\n";
+  for (const quantities::Group group : {quantities::Group::heat, quantities::Group::mechanics,
+                                        quantities::Group::contact, quantities::Group::criteria}) {
+    std::string title(name(group));
+    title[0] = static_cast<char>(title[0] - 'a' + 'A');
+    text += fmt::format(
+        "\n## {}\n\n| field | unit | shown in | what | at | needs | no value "
+        "|\n|---|---|---|---|---|---|---|\n",
+        title);
+    for (const Quantity* field : coupling::all_fields()) {
+      if (field->group != group) continue;
+      const bool asked = field->written == quantities::Written::on_request;
+      text += fmt::format(
+          "| `{}` | {} | {} | {}{} | {}{} | {} | {} |\n", field->name, field->exact_unit(),
+          shown_text(*field), cell(field->doc), asked ? "; where `[output] fields` names it" : "",
+          field->rank == quantities::Rank::scalar ? "" : fmt::format("{}, ", name(field->rank)),
+          place_of(*field), needs_of(*field), field->no_value ? fmt::format("{:g}", *field->no_value) : "");
+    }
+  }
+  return text +
+         "\nNext: [results](../guide/results.md) · [criteria of a casting](../guide/criteria.md) · [add a "
+         "criterion](../developers/add_a_criterion.md)\n";
+}
+
+std::string json_of_fields() {
+  results::Json::Array rows{results::json(mechanics::fields::k_first_principal_stress)};
+  for (const Quantity* field : coupling::all_fields()) rows.push_back(results::json(*field));
+  results::Json document;
+  document.add("fields", std::move(rows)).add("units", results::shown_units_json());
+  return document.text();
+}
+
+}  // namespace
+
+ExitCode explain_fields(const std::string& field, ExplainedAs form) {
+  if (!field.empty()) {
+    const Quantity* known = coupling::find_field(field);
+    if (known == nullptr)
+      throw InputError({}, fmt::format("there is no field '{}'", field),
+                       one_of(coupling::field_names(true), field));
+    print(details(*known));
+  } else {
+    print(form == ExplainedAs::manual ? page_of_fields()
+          : form == ExplainedAs::json ? json_of_fields()
+                                      : list_of_fields());
+  }
+  return k_done;
+}
+
+}  // namespace solidus::app

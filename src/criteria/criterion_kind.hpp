@@ -1,0 +1,61 @@
+/// A criterion as a plug-in: the fields that it shows and how it is made. A criterion describes itself by a
+/// struct in its own file:
+///
+///   struct HotTearing {
+///     static constexpr std::array fields = {&k_tearing_rate};            // its rows
+///     (quantities/quantity.hpp) std::unique_ptr<Criterion> make(const CriterionContext& c) const;  // null:
+///     it has nothing to follow
+///   };
+///   const AddCriterion<HotTearing> k_hot_tearing;  // at namespace scope: every run that freezes follows it
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "criteria/criterion.hpp"
+#include "heat/thermal_phase.hpp"
+#include "material/material.hpp"
+
+namespace solidus::criteria {
+
+/// What a criterion may be made of. References outlive the criterion.
+struct CriterionContext {
+  const mesh::Mesh& mesh;
+  AnalysisKind kind;
+  const std::vector<material::Material>& materials;  ///< [body]
+  const heat::ThermalPhase* heat;                    ///< null: there is none
+  bool mechanics;                                    ///< there is a mechanical phase
+  std::vector<double> temperature;                   ///< without a thermal phase [K], [local node]
+  std::vector<char> followed;                        ///< bodies that are poured or may melt, [body]
+  double evaluation, feeding_limit;                  ///< criteria.evaluation and criteria.feeding_limit
+  std::vector<std::string> feeders;                  ///< groups of the mesh
+};
+
+class CriterionKind {
+ public:
+  virtual ~CriterionKind() = default;
+  virtual std::span<const quantities::Quantity* const> fields() const = 0;
+  /// Returns null where the criterion has nothing to follow, as one of strains without mechanics. Throws
+  /// InputError with no place for a feeder that is no group of the mesh. Collective.
+  virtual std::unique_ptr<Criterion> make(const CriterionContext& c) const = 0;
+};
+
+/// All kinds, built in and added, in the order in which a run follows them.
+std::vector<std::unique_ptr<const CriterionKind>>& criterion_kinds();
+
+template <class Description>
+class CriterionKindOf final : public CriterionKind {
+ public:
+  std::span<const quantities::Quantity* const> fields() const override { return Description::fields; }
+  std::unique_ptr<Criterion> make(const CriterionContext& c) const override { return Description{}.make(c); }
+};
+
+/// Adds a criterion while the program starts, as an object at namespace scope.
+template <class Description>
+struct AddCriterion {
+  AddCriterion() { criterion_kinds().push_back(std::make_unique<CriterionKindOf<Description>>()); }
+};
+
+}  // namespace solidus::criteria

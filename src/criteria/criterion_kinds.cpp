@@ -1,0 +1,63 @@
+/// The criteria that every program has, in the order of the reference page.
+#include "criteria/criterion_kind.hpp"
+#include "criteria/freezing.hpp"
+#include "criteria/pools.hpp"
+#include "criteria/quantities.hpp"
+#include "criteria/resolution.hpp"
+#include "criteria/strain_criteria.hpp"
+
+namespace solidus::criteria {
+
+namespace {
+
+struct FreezingKind {
+  static constexpr auto fields = criteria::fields::k_of_freezing;
+  std::unique_ptr<Criterion> make(const CriterionContext& c) const {
+    if (c.heat == nullptr) return nullptr;
+    return std::make_unique<Freezing>(c.mesh, c.kind, c.heat->storage(),
+                                      FreezingOptions{.evaluation = c.evaluation, .bodies = c.followed});
+  }
+};
+
+/// Shows no field: the errors of answers are estimated with it.
+struct ResolutionKind {
+  static constexpr std::array<const quantities::Quantity*, 0> fields = {};
+  std::unique_ptr<Criterion> make(const CriterionContext& c) const {
+    if (c.heat == nullptr) return nullptr;
+    return std::make_unique<Resolution>(c.mesh, c.kind, c.followed);
+  }
+};
+
+struct PoolsKind {
+  static constexpr auto fields = criteria::fields::k_of_pools;
+  std::unique_ptr<Criterion> make(const CriterionContext& c) const {
+    if (c.heat == nullptr) return nullptr;
+    return std::make_unique<Pools>(
+        c.mesh, c.heat->storage(),
+        PoolOptions{.limit = c.feeding_limit, .feeders = c.feeders, .bodies = c.followed});
+  }
+};
+
+struct StrainKind {
+  static constexpr auto fields = criteria::fields::k_of_strain;
+  std::unique_ptr<Criterion> make(const CriterionContext& c) const {
+    if (!c.mechanics) return nullptr;
+    return std::make_unique<StrainCriteria>(c.mesh, c.kind, c.materials, c.temperature);
+  }
+};
+
+}  // namespace
+
+std::vector<std::unique_ptr<const CriterionKind>>& criterion_kinds() {
+  static std::vector<std::unique_ptr<const CriterionKind>> kinds = [] {
+    std::vector<std::unique_ptr<const CriterionKind>> all;
+    all.push_back(std::make_unique<CriterionKindOf<FreezingKind>>());
+    all.push_back(std::make_unique<CriterionKindOf<ResolutionKind>>());
+    all.push_back(std::make_unique<CriterionKindOf<PoolsKind>>());
+    all.push_back(std::make_unique<CriterionKindOf<StrainKind>>());
+    return all;
+  }();
+  return kinds;
+}
+
+}  // namespace solidus::criteria

@@ -1,0 +1,199 @@
+/// The fields of the criteria that every program has, one row each (quantities/quantity.hpp).
+#pragma once
+
+#include <array>
+
+#include "quantities/quantity.hpp"
+
+namespace solidus::criteria::fields {
+
+using quantities::Quantity;
+
+inline constexpr Quantity k_solidified_at{.name = "solidified_at",
+                                          .unit = "s",
+                                          .label = "Solid at (time)",
+                                          .doc = "Time since pouring at which the metal was solid",
+                                          .group = quantities::Group::criteria,
+                                          .needs = {.heat = true, .melting = true},
+                                          .no_value = -1,
+                                          .kept = quantities::Kept::last,
+                                          .worst = quantities::Extreme::greatest,
+                                          .headline = "Freezes last",
+                                          .compared = true,
+                                          .pictured = true};
+
+inline constexpr Quantity k_local_solidification_time{.name = "local_solidification_time",
+                                                      .unit = "s",
+                                                      .label = "Local solidification time",
+                                                      .doc = "Time from liquidus to solidus",
+                                                      .group = quantities::Group::criteria,
+                                                      .needs = {.heat = true, .melting = true},
+                                                      .no_value = 0,
+                                                      .kept = quantities::Kept::last,
+                                                      .worst = quantities::Extreme::greatest,
+                                                      .headline = "Longest freezing",
+                                                      .answer = "longest local solidification time"};
+
+inline constexpr Quantity k_cooling_rate{.name = "cooling_rate",
+                                         .unit = "K/s",
+                                         .label = "Cooling rate",
+                                         .doc = "Cooling rate near the end of freezing",
+                                         .group = quantities::Group::criteria,
+                                         .needs = {.heat = true, .melting = true},
+                                         .no_value = 0,
+                                         .kept = quantities::Kept::last,
+                                         .worst = quantities::Extreme::least};
+
+inline constexpr Quantity k_thermal_gradient{.name = "thermal_gradient",
+                                             .unit = "K/m",
+                                             .label = "Thermal gradient",
+                                             .doc = "Gradient of temperature near the end of freezing",
+                                             .group = quantities::Group::criteria,
+                                             .needs = {.heat = true, .melting = true},
+                                             .no_value = 0,
+                                             .kept = quantities::Kept::last,
+                                             .worst = quantities::Extreme::least};
+
+inline constexpr Quantity k_front_speed{.name = "front_speed",
+                                        .unit = "m/s",
+                                        .label = "Speed of the front",
+                                        .doc = "Speed of the front near the end of freezing",
+                                        .group = quantities::Group::criteria,
+                                        .needs = {.heat = true, .melting = true},
+                                        .no_value = 0,
+                                        .kept = quantities::Kept::last};
+
+inline constexpr Quantity k_secondary_arm_spacing{.name = "secondary_arm_spacing",
+                                                  .unit = "m",
+                                                  .label = "Dendrite arm spacing",
+                                                  .doc = "Spacing of secondary dendrite arms",
+                                                  .group = quantities::Group::criteria,
+                                                  .needs = {.heat = true, .melting = true},
+                                                  .no_value = 0,
+                                                  .kept = quantities::Kept::last,
+                                                  .worst = quantities::Extreme::greatest,
+                                                  .answer = "largest arm spacing",
+                                                  .shown_as = {"um", "µm", 1e6}};
+
+inline constexpr Quantity k_niyama{
+    .name = "niyama",
+    .unit = "1",
+    .root_unit = "K^0.5 s^0.5/m",
+    .label = "Niyama criterion",
+    .doc = "Niyama criterion, gradient over the root of the cooling rate: low values feed badly",
+    .group = quantities::Group::criteria,
+    .needs = {.heat = true, .melting = true},
+    .no_value = 0,
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::least,
+    .headline = "Least Niyama",
+    .answer = "least Niyama",
+    .compared = true,
+    .pictured = true,
+    .shown_as = {"K0.5 s0.5/mm", "√(K s)/mm", 1e-3}};
+
+inline constexpr Quantity k_dimensionless_niyama{.name = "dimensionless_niyama",
+                                                 .unit = "1",
+                                                 .label = "Dimensionless Niyama",
+                                                 .doc = "Dimensionless Niyama criterion",
+                                                 .group = quantities::Group::criteria,
+                                                 .needs = {.heat = true, .melting = true},
+                                                 .no_value = 0,
+                                                 .kept = quantities::Kept::last,
+                                                 .worst = quantities::Extreme::least,
+                                                 .answer = "least dimensionless Niyama"};
+
+inline constexpr Quantity k_shrinkage_porosity{
+    .name = "shrinkage_porosity",
+    .unit = "1",
+    .label = "Shrinkage porosity (estimate)",
+    .doc = "Estimate of shrinkage porosity by the dimensionless Niyama criterion",
+    .group = quantities::Group::criteria,
+    .needs = {.heat = true, .melting = true},
+    .no_value = 0,
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::greatest,
+    .headline = "Porosity (estimate)",
+    .answer = "largest estimate of porosity",
+    .pictured = true,
+    .shown_as = quantities::k_percent};
+
+inline constexpr Quantity k_liquid_pool{.name = "liquid_pool",
+                                        .unit = "1",
+                                        .label = "Pool of melt",
+                                        .doc = "Number of the pool of melt, 0: none",
+                                        .group = quantities::Group::criteria,
+                                        .needs = {.heat = true, .melting = true},
+                                        .no_value = 0,
+                                        .kept = quantities::Kept::every};
+
+inline constexpr Quantity k_pool_volume{.name = "pool_volume",
+                                        .unit = "m3",
+                                        .label = "Volume of the pool",
+                                        .doc = "Volume of the pool of melt",
+                                        .group = quantities::Group::criteria,
+                                        .needs = {.heat = true, .melting = true},
+                                        .no_value = 0,
+                                        .kept = quantities::Kept::none};
+
+inline constexpr Quantity k_strain_in_liquid{.name = "strain_in_liquid",
+                                             .unit = "1",
+                                             .label = "Strain in the melt",
+                                             .doc = "Equivalent strain that was taken below coherency",
+                                             .group = quantities::Group::criteria,
+                                             .place = quantities::Place::element,
+                                             .needs = {.mechanics = true, .melting = true},
+                                             .kept = quantities::Kept::last,
+                                             .worst = quantities::Extreme::greatest,
+                                             .shown_as = quantities::k_percent};
+
+inline constexpr Quantity k_strain_since_coherency{.name = "strain_since_coherency",
+                                                   .unit = "1",
+                                                   .label = "Strain since coherency",
+                                                   .doc = "Equivalent strain since the metal became coherent",
+                                                   .group = quantities::Group::criteria,
+                                                   .place = quantities::Place::element,
+                                                   .needs = {.mechanics = true},
+                                                   .kept = quantities::Kept::last,
+                                                   .worst = quantities::Extreme::greatest,
+                                                   .shown_as = quantities::k_percent};
+
+inline constexpr Quantity k_brittle_strain{
+    .name = "brittle_strain",
+    .unit = "1",
+    .label = "Strain in the brittle range",
+    .doc = "Largest principal strain taken in the brittle range of solid fractions",
+    .group = quantities::Group::criteria,
+    .place = quantities::Place::element,
+    .needs = {.mechanics = true, .melting = true},
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::greatest,
+    .shown_as = quantities::k_percent};
+
+inline constexpr Quantity k_distortion{
+    .name = "distortion",
+    .unit = "m",
+    .label = "Distortion",
+    .doc = "Displacement since coherency without the rigid motion of the body",
+    .group = quantities::Group::criteria,
+    .rank = quantities::Rank::vector,
+    .needs = {.mechanics = true},
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::greatest,
+    .compared = true,
+    .pictured = true};
+
+/// Fields of Freezing, in their order.
+inline constexpr std::array k_of_freezing = {
+    &k_solidified_at,     &k_local_solidification_time, &k_cooling_rate, &k_thermal_gradient,
+    &k_front_speed,       &k_secondary_arm_spacing,     &k_niyama,       &k_dimensionless_niyama,
+    &k_shrinkage_porosity};
+
+/// Fields of Pools, in their order.
+inline constexpr std::array k_of_pools = {&k_liquid_pool, &k_pool_volume};
+
+/// Fields of StrainCriteria, in their order.
+inline constexpr std::array k_of_strain = {&k_strain_in_liquid, &k_strain_since_coherency, &k_brittle_strain,
+                                           &k_distortion};
+
+}  // namespace solidus::criteria::fields
