@@ -1,4 +1,5 @@
 /** Colour maps that people with colour blindness read, as 33 anchors of sRGB, and colours of curves. */
+import type { Quantity } from "./quantities";
 
 const ANCHORS: Record<string, string> = {
   Viridis:
@@ -27,11 +28,11 @@ export function colourTable(name: string): Uint8Array {
   return out;
 }
 
-/** The map that suits a field. */
-export function mapOf(field: string, group: string): string {
-  if (group === "Heat" && field === "temperature") return "Inferno";
-  if (/\.[xyz]$|principal|pressure$|flux/.test(field) && field !== "contact_pressure") return "Blue–red";
-  return field === "solid_fraction" ? "Cividis" : "Viridis";
+const MAP_OF = { sequential: "Viridis", hot: "Inferno", share: "Cividis", by_sign: "Blue–red" };
+
+/** The map that suits a field; components have a sign. */
+export function mapOf(colours: Quantity["colours"] | undefined, component: string): string {
+  return MAP_OF[component ? "by_sign" : (colours ?? "sequential")];
 }
 
 /** Curves: Okabe and Ito's colours, those that read on light and on dark. */

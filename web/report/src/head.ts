@@ -1,6 +1,6 @@
 /** The head of the page: titles, how each run ended, its key figures and warnings. */
 import { byId, h } from "./dom";
-import { duration, place, short, Unit, unitOf, withUnit } from "./quantities";
+import { duration, headlines, PERCENT, place, Quantity, quantityOf, short, Unit, unitOf, withUnit } from "./quantities";
 import type { Answer, CastAnswer, Page, Run } from "./run";
 import type { Workbench } from "./workbench";
 
@@ -20,8 +20,6 @@ export function final(run: Run, header: string): number | undefined {
   const v = run.summary.final?.[header];
   return typeof v === "number" ? v : undefined;
 }
-
-const NIYAMA = "K^0.5 s^0.5/m";
 
 interface Figure {
   label: string;
@@ -52,13 +50,16 @@ function parts(run: Run): CastAnswer[] {
   return found.length ? found : all;
 }
 
-/** The least Niyama value of the parts. */
-function leastNiyama(run: Run): { value: number; at: number[]; answer: Answer } | undefined {
-  const told = parts(run).map((c) => c.least_niyama).filter((a) => a !== undefined);
-  const value = (a: Answer) => a[`value[${NIYAMA}]`] as number;
-  if (!told.length) return undefined;
-  const answer = told.reduce((least, a) => (value(a) < value(least) ? a : least));
-  return { value: value(answer), at: answer["at[m]"] as number[], answer };
+/** The end of a quantity's range that matters, as findings and as answers are named. */
+function worst(of: Quantity): { end: "min" | "max"; answer: string } {
+  return of.worst === "least" ? { end: "min", answer: `least_${of.name}` } : { end: "max", answer: `largest_${of.name}` };
+}
+
+/** The worst of what the answers say of a quantity for each part. */
+function worstOfParts(run: Run, of: Quantity): { value: number; answer: Answer } | undefined {
+  const key = worst(of).answer, sign = of.worst === "least" ? 1 : -1, si = of.root_unit ?? of.unit;
+  const told = parts(run).map((c) => c[key] as Answer | undefined).filter((a): a is Answer => a !== undefined).map((answer) => ({ answer, value: answer[`value[${si}]`] as number }));
+  return told.length ? told.reduce((a, b) => (sign * b.value < sign * a.value ? b : a)) : undefined;
 }
 
 /** The casting, no riser, whose last melt froze last. */
@@ -67,63 +68,65 @@ function lastFrozen(run: Run): Answer | undefined {
   return all.reduce((late: Answer | undefined, a) => (late && (late["value[s]"] as number) >= (a["value[s]"] as number) ? late : a), undefined);
 }
 
-function figures(): Figure[] {
-  const of = (name: string, end: "min" | "max", format: (v: number, u: Unit) => string): Pick<Figure, "text" | "place"> => ({
+function textOf(value: number, unit: Unit): string {
+  return unit.text === "s" ? duration(value) : withUnit(value, unit);
+}
+
+/** The figure of a quantity: what the answers say of the parts, else what the criteria found, else the largest in the elements at the end. */
+function figureOf(of: Quantity): Figure {
+  const { end, answer } = worst(of), si = of.root_unit ?? of.unit, unit = unitOf(of.name, of.unit);
+  const find = (r: Run): { value: number; at?: number[] } | undefined => {
+    const told = worstOfParts(r, of);
+    if (told) return { value: told.value, at: told.answer["at[m]"] as number[] };
+    const found = criterion(r, of.name, end);
+    if (found) return found;
+    const field = r.fields.find((f) => f.id === of.name), castings = r.castings;
+    if (!field?.ofElements) return undefined;
+    const all = field.extremes(r.times.length - 1).filter((e) => castings.length === 0 || castings.includes(e.body));
+    if (!all.length) return undefined;
+    const most = all.reduce((a, b) => (end === "max" ? b.high > a.high : b.low < a.low) ? b : a);
+    return end === "max" ? { value: most.high, at: most.highAt } : { value: most.low, at: most.lowAt };
+  };
+  const shown = (v: number) => textOf(v, unit);
+  return {
+    label: of.headline!,
     text: (r) => {
-      const c = criterion(r, name, end);
-      return c && format(c.value, c.unit);
+      const found = find(r);
+      return found && shown(found.value);
     },
     place: (r) => {
-      const c = criterion(r, name, end);
-      return c?.at && { at: c.at, label: format(c.value, c.unit) };
+      const found = find(r);
+      return found?.at && { at: found.at, label: shown(found.value) };
     },
-  });
-  const largest = (id: string): Pick<Figure, "text" | "place"> => {
-    const find = (r: Run) => {
-      const field = r.fields.find((f) => f.id === id), castings = r.castings;
-      const all = field?.extremes(r.times.length - 1).filter((e) => castings.length === 0 || castings.includes(e.body)) ?? [];
-      return all.length ? { field: field!, most: all.reduce((a, b) => (b.high > a.high ? b : a)) } : undefined;
-    };
-    return {
-      text: (r) => {
-        const f = find(r);
-        return f && withUnit(f.most.high, f.field.unit);
-      },
-      place: (r) => {
-        const f = find(r);
-        return f && { at: f.most.highAt, label: withUnit(f.most.high, f.field.unit) };
-      },
-    };
+    error: (r) => {
+      const all = r.summary.answers, found = all?.errors_of_criteria?.[`${of.name}_${end}`];
+      return errorText(worstOfParts(r, of)?.answer, si, shown) ?? errorText(found, "SI", shown) ?? errorText(all?.[answer] as Answer | undefined, si, shown);
+    },
   };
+}
+
+function figures(): Figure[] {
+  // The answers tell these two better than a field does.
+  const frozen = quantityOf("solidified_at"), porous = quantityOf("pore_fraction");
+  const others = headlines().filter((q) => q !== frozen && q !== porous), share = PERCENT;
   return [
     { label: "Freezes last", text: (r) => {
       const froze = lastFrozen(r);
-      return froze ? duration(froze["value[s]"] as number) : of("solidified_at", "max", (v) => duration(v)).text(r);
+      return froze ? duration(froze["value[s]"] as number) : frozen && figureOf(frozen).text(r);
     }, place: (r) => {
       const froze = lastFrozen(r);
-      return froze ? { at: froze["at[m]"] as number[], label: duration(froze["value[s]"] as number) } : of("solidified_at", "max", (v) => duration(v)).place!(r);
+      return froze ? { at: froze["at[m]"] as number[], label: duration(froze["value[s]"] as number) } : frozen && figureOf(frozen).place!(r);
     }, error: (r) => errorText(lastFrozen(r), "s", duration) },
-    { label: "Longest freezing", ...of("local_solidification_time", "max", (v) => duration(v)),
-      error: (r) => errorText(r.summary.answers?.errors_of_criteria?.local_solidification_time_max, "SI", duration) },
-    { label: "Least Niyama", text: (r) => {
-      const least = leastNiyama(r);
-      return least ? withUnit(least.value, unitOf("niyama", NIYAMA)) : of("niyama", "min", (v, u) => withUnit(v, u)).text(r);
-    }, place: (r) => {
-      const least = leastNiyama(r);
-      return least ? { at: least.at, label: withUnit(least.value, unitOf("niyama", NIYAMA)) } : of("niyama", "min", (v, u) => withUnit(v, u)).place!(r);
-    }, error: (r) => errorText(leastNiyama(r)?.answer, NIYAMA, (v) => withUnit(v, unitOf("niyama", NIYAMA))) },
-    { label: "Porosity (estimate)", ...of("shrinkage_porosity", "max", (v, u) => withUnit(v, u)) },
+    ...others.filter((q) => q.group === "criteria").map(figureOf),
     { label: "Pores, in all", text: (r) => {
       const pores = r.summary.answers?.pores;
-      return pores && withUnit(pores.share_of_casting, unitOf("pore_fraction", "1"));
+      return pores && withUnit(pores.share_of_casting, share);
     }, place: (r) => {
       const pores = r.summary.answers?.pores;
-      return pores && { at: pores["at[m]"], label: `densest, ${withUnit(pores["value[1]"], unitOf("pore_fraction", "1"))}` };
-    }, error: (r) => errorText(r.summary.answers?.pores, "1", (v) => withUnit(v, unitOf("pore_fraction", "1"))) },
+      return pores && { at: pores["at[m]"], label: `densest, ${withUnit(pores["value[1]"], share)}` };
+    }, error: (r) => errorText(r.summary.answers?.pores, "1", (v) => withUnit(v, share)) },
     { label: "Pools closed off", text: (r) => (typeof r.summary.criteria?.closed_off_pools === "number" ? String(r.summary.criteria.closed_off_pools) : undefined) },
-    { label: "Von Mises at end", ...largest("von_mises"),
-      error: (r) => errorText(r.summary.answers?.largest_von_mises, "Pa", (v) => withUnit(v, unitOf("von_mises", "Pa"))) },
-    { label: "Plastic strain", ...largest("equivalent_plastic_strain") },
+    ...others.filter((q) => q.group !== "criteria").map(figureOf),
     { label: "At the end", text: (r) => {
       const low = final(r, "T_min[degC]"), high = final(r, "T_max[degC]");
       return low !== undefined && high !== undefined ? (Math.abs(high - low) < 0.5 ? `${short(Math.round(high))} °C` : `${+low.toFixed(1)} … ${+high.toFixed(1)} °C`.replace(/-/g, "−")) : undefined;

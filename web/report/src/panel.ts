@@ -45,7 +45,7 @@ export class Panel {
       if (!groups.has(f.group)) groups.set(f.group, h("optgroup", { label: f.group }));
       groups.get(f.group)!.append(h("option", { value: f.id }, f.label));
     }
-    for (const name of ["Heat", "Mechanics", "Contact", "Criteria"]) if (groups.has(name)) select.append(groups.get(name)!);
+    for (const name of ["Heat", "Mechanics", "Contact", "Criteria", "Other"]) if (groups.has(name)) select.append(groups.get(name)!);
     const map = h("select", { "aria-label": "Colours", change: () => this.bench.change((ch) => (ch.map = map.value)) }, ...MAPS.map((m) => h("option", { value: m }, m)));
     const bands = h("select", { "aria-label": "Bands", change: () => this.bench.change((ch) => (ch.bands = +bands.value)) }, ...[["0", "smooth"], ["6", "6 bands"], ["10", "10 bands"], ["16", "16 bands"]].map(([v, t]) => h("option", { value: v }, t)));
     const low = h("input", { type: "number", step: "any", "aria-label": "Least of the scale" }), high = h("input", { type: "number", step: "any", "aria-label": "Greatest of the scale" });

@@ -6,71 +6,69 @@ export interface Unit {
   offset: number;
 }
 
-const UNITS: Record<string, Unit> = {
-  K: { text: "°C", scale: 1, offset: -273.15 },
-  m: { text: "mm", scale: 1e3, offset: 0 },
-  Pa: { text: "MPa", scale: 1e-6, offset: 0 },
-  "W/m2": { text: "kW/m²", scale: 1e-3, offset: 0 },
-  "W/m2/K": { text: "W/(m² K)", scale: 1, offset: 0 },
-  "W/m3": { text: "kW/m³", scale: 1e-3, offset: 0 },
-  m3: { text: "cm³", scale: 1e6, offset: 0 },
-  "m/s": { text: "mm/s", scale: 1e3, offset: 0 },
-  "K/m": { text: "K/mm", scale: 1e-3, offset: 0 },
-  "J/m2": { text: "J/m²", scale: 1, offset: 0 },
-  "1": { text: "", scale: 1, offset: 0 },
-};
-const OF_FIELD: Record<string, Unit> = {
-  niyama: { text: "√(K\u00a0s)/mm", scale: 1e-3, offset: 0 },
-  secondary_arm_spacing: { text: "µm", scale: 1e6, offset: 0 },
-  shrinkage_porosity: { text: "%", scale: 100, offset: 0 },
-  pore_fraction: { text: "%", scale: 100, offset: 0 },
-  equivalent_plastic_strain: { text: "%", scale: 100, offset: 0 },
-  brittle_strain: { text: "%", scale: 100, offset: 0 },
-  strain_in_liquid: { text: "%", scale: 100, offset: 0 },
-  strain_since_coherency: { text: "%", scale: 100, offset: 0 },
-  wear_depth: { text: "µm", scale: 1e6, offset: 0 },
-};
-/** A tick of temperature differences, not of temperatures. */
-const RATES = new Set(["cooling_rate", "thermal_gradient"]);
-
-export function unitOf(field: string, unit: string): Unit {
-  if (OF_FIELD[field]) return OF_FIELD[field];
-  if (RATES.has(field) && unit === "K") return { text: "K", scale: 1, offset: 0 };
-  return UNITS[unit] ?? { text: unit, scale: 1, offset: 0 };
+/** What the program says of a field: a row of its declarations, in SI. */
+export interface Quantity {
+  name: string;
+  unit: string;
+  root_unit?: string;
+  label: string;
+  group: string;
+  worst: "none" | "least" | "greatest";
+  headline?: string;
+  colours: "sequential" | "hot" | "share" | "by_sign";
+  shown: ShownUnit;
+}
+export interface ShownUnit {
+  text: string;
+  factor: number;
+  offset: number;
 }
 
-const LABELS: Record<string, string> = {
-  solid_fraction: "Solid fraction",
-  von_mises: "Von Mises stress",
-  first_principal_stress: "Largest principal stress",
-  solidified_at: "Solid at (time)",
-  local_solidification_time: "Local solidification time",
-  secondary_arm_spacing: "Dendrite arm spacing",
-  niyama: "Niyama criterion",
-  dimensionless_niyama: "Dimensionless Niyama",
-  shrinkage_porosity: "Shrinkage porosity (estimate)",
-  pore_fraction: "Pores (share of the volume)",
-  liquid_pool: "Pool of melt",
-  gap: "Air gap",
-  conductance: "Heat transfer coefficient",
-  contact_heat_flux: "Heat flux through contact",
-  equivalent_plastic_strain: "Plastic strain",
-  brittle_strain: "Strain in the brittle range",
-  distortion: "Distortion",
-  front_speed: "Speed of the front",
-};
+const quantities = new Map<string, Quantity>(), units = new Map<string, Unit>();
+export const PERCENT: Unit = { text: "%", scale: 100, offset: 0 };
+
+function asUnit(shown: ShownUnit): Unit {
+  return { text: shown.text.replace(/ /g, "\u00a0"), scale: shown.factor, offset: shown.offset };
+}
+
+/** Takes the declarations that a run brings; those of a later run count where both have one. */
+export function declare(rows: Quantity[], shown: Record<string, ShownUnit>): void {
+  for (const [si, unit] of Object.entries(shown)) units.set(si, asUnit(unit));
+  for (const row of rows) {
+    quantities.set(row.name, row);
+    if (row.root_unit) units.set(row.root_unit, asUnit(row.shown));
+  }
+}
+
+export function quantityOf(field: string): Quantity | undefined {
+  return quantities.get(field);
+}
+
+/** Quantities that have a figure at the head of the page. */
+export function headlines(): Quantity[] {
+  return [...quantities.values()].filter((row) => row.headline);
+}
+
+/** The unit in which people read values of a SI unit. */
+export function unitOfValue(si: string): Unit {
+  return units.get(si) ?? { text: si, scale: 1, offset: 0 };
+}
+
+/** The unit in which people read a field. */
+export function unitOf(field: string, si: string): Unit {
+  const row = quantities.get(field);
+  return row && (row.unit === si || row.root_unit === si) ? asUnit(row.shown) : unitOfValue(si);
+}
 
 export function labelOf(name: string): string {
-  const text = LABELS[name] ?? name.replace(/_/g, " ");
+  const text = quantities.get(name)?.label ?? name.replace(/_/g, " ");
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
-/** Groups of fields in their menu. */
-export function groupOf(name: string, atEnd: boolean): string {
-  if ((atEnd && !/conductance|dissipation|flow_stress/.test(name)) || name === "liquid_pool" || name === "pore_fraction") return "Criteria";
-  if (/temperature|solid_fraction/.test(name)) return "Heat";
-  if (/gap|contact|conductance|friction|slip|wear|internal_variable|interface/.test(name)) return "Contact";
-  return "Mechanics";
+/** The heading of a field in the menu. */
+export function groupOf(name: string): string {
+  const group = quantities.get(name)?.group ?? "other";
+  return group.charAt(0).toUpperCase() + group.slice(1);
 }
 
 /** About four digits, without noise. */

@@ -1,6 +1,6 @@
 /** A run as the page holds it: meshes, fields over the written moments, tables. */
 import { blockJson, doubles, PackedValues, risingNumbers, smallNumbers, STEPS, Values } from "./blocks";
-import { groupOf, labelOf, Unit, unitOf } from "./quantities";
+import { declare, groupOf, labelOf, Quantity, ShownUnit, Unit, unitOf } from "./quantities";
 
 interface BodyMeta {
   name: string;
@@ -47,6 +47,8 @@ interface RunMeta {
   mesh?: { dimension: number; bodies: BodyMeta[] };
   moments?: { time: number; present: boolean[] }[];
   fields?: FieldMeta[];
+  quantities: Quantity[];
+  units: Record<string, ShownUnit>;
   notes: string[];
 }
 interface PageMeta {
@@ -137,7 +139,7 @@ export class Field {
   ) {
     this.label = labelOf(name) + (component ? ` ${component}` : "");
     this.unit = unitOf(name, metas[0].unit);
-    this.group = groupOf(name, metas[0].at_end);
+    this.group = groupOf(name);
   }
   get ofElements(): boolean {
     return this.metas[0].of_elements;
@@ -267,6 +269,7 @@ export interface CastAnswer {
   last_melt_froze?: Answer;
   least_niyama?: Answer;
   pores?: Answer;
+  [answer: string]: unknown;
 }
 
 /** summary.json; every member may be missing. */
@@ -289,8 +292,10 @@ export interface Summary {
     yield?: number;
     largest_von_mises?: Answer;
     errors_of_criteria?: Record<string, Answer>;
+    [answer: string]: unknown;
     pores?: Answer & { "value[1]": number; "at[m]": number[]; "volume[m3]": number; share_of_casting: number };
   };
+  fields?: Record<string, Quantity>;
   warnings?: string[];
   understood?: {
     bodies?: Record<string, unknown>[];
@@ -314,6 +319,8 @@ export class Run {
     this.dimension = meta.mesh?.dimension ?? 3;
     this.bodies = (meta.mesh?.bodies ?? []).map((b) => new Body(b));
     this.times = (meta.moments ?? []).map((m) => m.time);
+    this.summary = meta.summary_text ? (JSON.parse(meta.summary_text) as Summary) : {};
+    declare(Object.values(this.summary.fields ?? {}), {});  // also of criteria that this program does not have
     const columns = (f: FieldMeta) =>
       f.values.map((v, b) => new Values(v, this.bodies[b].n, f.at_end ? 1 : this.times.length));
     const metas = meta.fields ?? [];
@@ -331,7 +338,6 @@ export class Run {
     }
     this.displacement = metas.filter((f) => f.name === "displacement").map(columns);
     if (meta.uncertain_text) this.uncertain = JSON.parse(meta.uncertain_text) as Uncertain;
-    this.summary = meta.summary_text ? (JSON.parse(meta.summary_text) as Summary) : {};
     for (const [name, table] of Object.entries(meta.tables)) this.tables.set(name, new Table(table));
   }
   get axisymmetric(): boolean {
@@ -367,6 +373,7 @@ export class Page {
   constructor() {
     this.meta = blockJson("meta") as PageMeta;
     if (this.meta.format !== 1) throw new Error("the page is of another version of the viewer");
+    for (const r of this.meta.runs) declare(r.quantities, r.units);
     this.runs = this.meta.runs.map((r) => new Run(r));
   }
 }

@@ -1,7 +1,7 @@
 /** What stands below the picture: curves, criteria, pools, steps, energy, materials, the case. */
 import { byId, h, save, svg, table } from "./dom";
 import { chart, Line } from "./charts";
-import { duration, labelOf, short, Unit, unitOf, unitText, withUnit } from "./quantities";
+import { duration, labelOf, PERCENT, short, Unit, unitOfValue, unitText, withUnit } from "./quantities";
 import { criterion, errorText, final, triesText } from "./head";
 import type { Answer, Page, Run } from "./run";
 import type { Workbench } from "./workbench";
@@ -152,14 +152,14 @@ function castings(run: Run, index: number, bench: Workbench): Node_[] {
     const text = format(answer[`value[${si}]`] as number), error = errorText(answer, si, format);
     return h("span", {}, `${text} `, h("small", {}, error ?? ""), " ", bench.placeButton(answer["at[m]"] as number[], text, index));
   };
-  const niyama = unitOf("niyama", "K^0.5 s^0.5/m"), share = unitOf("pore_fraction", "1");
+  const root = "K^0.5 s^0.5/m", niyama = unitOfValue(root), share = PERCENT;
   const part = Math.max(...all.filter(([, c]) => !c.riser && !c.gating).map(([, c]) => (c.last_melt_froze?.["value[s]"] as number) ?? NaN));
   const rows = all.map(([name, c]) => {
     const mass = c["mass[kg]"], froze = c.last_melt_froze?.["value[s]"] as number | undefined;
     const margin = c.riser && froze !== undefined ? froze - part : NaN, error = (c.last_melt_froze?.["error[s]"] as number) ?? 0;
     const verdict = Number.isNaN(margin) ? "" : Math.abs(margin) < error ? "too close to tell" : margin > 0 ? `outlived the part by ${duration(margin)}` : `froze ${duration(-margin)} before the part`;
     const pores = c.pores ? `${short((c.pores["volume[m3]"] as number) * 1e6)} cm³, ${withUnit(c.pores.share_of_casting as number, share)}` : "–";
-    return [name, c.riser ? "riser" : c.gating ? "gating" : "part", mass === undefined ? "–" : `${short(mass)} kg`, cell(c.last_melt_froze, "s", duration), cell(c.least_niyama, "K^0.5 s^0.5/m", (v) => withUnit(v, niyama)), pores, verdict];
+    return [name, c.riser ? "riser" : c.gating ? "gating" : "part", mass === undefined ? "–" : `${short(mass)} kg`, cell(c.last_melt_froze, "s", duration), cell(c.least_niyama, root, (v) => withUnit(v, niyama)), pores, verdict];
   });
   const told = typeof answers?.yield === "number" ? h("p", { class: "hint" }, `${short(100 * answers.yield)} % of what is poured is part.`) : null;
   return [table(["Body", "", "Mass", "Frozen after", "Least Niyama", "Pores", "Verdict"], rows), told];
@@ -200,7 +200,7 @@ function criteriaTable(run: Run, index: number, bench: Workbench): Node_ {
   const cell = (name: string, end: "min" | "max"): [string, Node | string] => {
     const c = criterion(run, name, end);
     if (!c) return ["–", ""];
-    const text = /time|solidified/.test(name) ? duration(c.value) : withUnit(c.value, c.unit);
+    const text = c.unit.text === "s" ? duration(c.value) : withUnit(c.value, c.unit);
     return [text, c.at ? bench.placeButton(c.at, text, index) : ""];
   };
   const rows = names.map((name) => {
@@ -235,7 +235,7 @@ function pools(run: Run, index: number, bench: Workbench): Node_[] {
   const list = [...all.values()];
   const rows = list.map((p) => [
     `${p.number}`, p.parent > 0 ? `${p.parent}` : "–", duration(p.from), p.closed >= 0 ? duration(p.closed) : "fed to the end", p.frozen >= 0 ? duration(p.frozen) : "left as melt or still there",
-    withUnit(p.volume, unitOf("pool", "m3")), bench.placeButton(p.at, `pool ${p.number}`, index),
+    withUnit(p.volume, unitOfValue("m3")), bench.placeButton(p.at, `pool ${p.number}`, index),
   ]);
   return [h("div", { class: "card" }, gantt(list)), h("div", { style: "height:12px" }), table(["Pool", "Split off from", "Since", "Closed off since", "Frozen at", "Largest volume", "Last melt at"], rows)];
 }

@@ -6,7 +6,7 @@ import { Camera } from "./camera";
 import { mapOf } from "./colours";
 import { LineSpec, Probes } from "./probes";
 import { Panel } from "./panel";
-import { duration, place, withUnit } from "./quantities";
+import { duration, place, quantityOf, withUnit } from "./quantities";
 import type { Field, Page, Run } from "./run";
 import { Mark, Stage } from "./stage";
 import type { Hit } from "./picking";
@@ -84,8 +84,10 @@ export class Workbench {
     this.times = [...new Set(this.runs.flatMap((r) => r.times))].sort((a, b) => a - b);
     // A run that goes on is watched at its front.
     c.time = location.protocol === "http:" ? this.times[this.times.length - 1] : this.times[Math.max(0, this.firstTelling())];
-    const field = ["temperature", "von_mises", "displacement"].find((id) => this.run.fields.some((f) => f.id === id)) ?? this.run.fields[0]?.id ?? "";
-    c.field = field;
+    // The temperature, else the first field of the elements that has a figure at the head, as the stress.
+    const fields = this.run.fields, of = (f: Field) => quantityOf(f.name);
+    const first = fields.find((f) => of(f)?.colours === "hot") ?? fields.find((f) => f.ofElements && of(f)?.headline) ?? fields[0];
+    c.field = first?.id ?? "";
     const high = this.run.fields.find((f) => f.id === "displacement")?.bound(this.shownBodies(this.run)) ?? 0;
     const size = this.sizeOfBodies();
     // Drawn as it is unless that cannot be seen: then so that the largest is a thirtieth of the body.
@@ -152,7 +154,7 @@ export class Workbench {
   private adoptField(): void {
     const field = this.runs.map((r) => r.fields.find((f) => f.id === this.choice.field)).find((f) => f);
     if (!field) return;
-    this.choice.map = mapOf(field.id, field.group);
+    this.choice.map = mapOf(quantityOf(field.name)?.colours, field.component);
     this.choice.log = false;
     this.fixedRange = false;
     this.choice.only.on = false;
