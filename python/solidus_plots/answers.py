@@ -2,6 +2,7 @@
 
 import json
 
+from solidus_plots import fields
 from solidus_plots.vtu import ResultError
 
 
@@ -32,6 +33,12 @@ def _error_of(entry, unit, factor=1.0):
     return None if error is None else factor * error
 
 
+def _criteria(summary):
+    """The criteria whose worst value is an answer, under its name with the unit."""
+    fields.declare(summary)
+    return {f"{field.answer}[{field.shown}]": field for field in fields.known() if field.answer}
+
+
 def bands(summary):
     """Name as of answers() -> half width of the error of step and mesh, where the run states it."""
     given, found = summary.get("answers", {}), {}
@@ -44,8 +51,8 @@ def bands(summary):
     found["largest von Mises stress[MPa]"] = _error_of(given.get("largest_von_mises"), "Pa", 1e-6)
     found["pores, share of the casting[%]"] = _error_of(given.get("pores"), "1", 100.0)
     criteria = given.get("errors_of_criteria", {})
-    found["longest local solidification time[s]"] = _error_of(criteria.get("local_solidification_time_max"), "SI")
-    found["least Niyama[K0.5 s0.5/mm]"] = _error_of(criteria.get("niyama_min"), "SI", 1e-3)
+    for name, field in _criteria(summary).items():
+        found[name] = _error_of(criteria.get(field.finding.split("[")[0]), "SI", field.factor)
     return {name: band for name, band in found.items() if band is not None}
 
 
@@ -58,13 +65,9 @@ def answers(summary):
     if "pools_cut_off" in given:
         found["pools cut off[1]"] = given["pools_cut_off"]["number"]
     criteria = summary.get("criteria", {})
-    for name, key, factor in (("longest local solidification time[s]", "local_solidification_time_max[s]", 1.0),
-                              ("largest arm spacing[um]", "secondary_arm_spacing_max[m]", 1e6),
-                              ("least Niyama[K0.5 s0.5/mm]", "niyama_min[K^0.5 s^0.5/m]", 1e-3),
-                              ("least dimensionless Niyama[1]", "dimensionless_niyama_min", 1.0),
-                              ("largest porosity[%]", "shrinkage_porosity_max", 100.0)):
-        if key in criteria:
-            found[name] = factor * criteria[key]
+    for name, field in _criteria(summary).items():
+        if field.finding in criteria:
+            found[name] = field.factor * criteria[field.finding] + field.offset
     for contact, gap in given.get("largest_gaps", {}).items():
         found[f"largest gap of {contact}[mm]"] = 1e3 * gap["value[m]"]
     if "largest_distortion" in given:

@@ -5,7 +5,7 @@ import tomllib
 
 import numpy as np
 
-from solidus_plots import hot_spots
+from solidus_plots import fields, hot_spots
 from solidus_plots.cells import VOLUME
 from solidus_plots.overview import Case
 
@@ -90,9 +90,20 @@ def plan(run, times, summary, history, results, wishes):
     limit = wishes.get("niyama", NIYAMA)
     sheets, written = [], {*grid.point_data, *grid.cell_data}
 
-    def add(field, file=None, **spec):
-        if field in written:
+    considered = set()
+
+    def add(field, file=None, when=None, **spec):
+        """A sheet of a field that was written, where `when` holds of its values."""
+        considered.add(field)
+        if field in written and (when is None or when()):
             sheets.append({"file": file or f"overview_{field}", "field": field, "times": [last], "bodies": cast, **spec})
+
+    def frozen():
+        return "solidified_at" in written and (grid.point_data["solidified_at"] >= 0).any()
+
+    def feeds_badly():
+        niyama = grid.point_data["niyama"]
+        return frozen() and ((niyama > 0) & (1e-3 * niyama < limit)).any()
 
     add("temperature", title="Temperature of the casting" if others else "Temperature", unit="degC", times=during,
         levels=_levels(summary))
@@ -101,29 +112,34 @@ def plan(run, times, summary, history, results, wishes):
             title="Temperature at the end" if times[-1] == whole[-1] else "Temperature before the casting leaves")
     if during != [last] or _melt(grid, mask):
         add("solid_fraction", title="Solid fraction", unit="%", times=during, range=[0, 100], levels=[])
-    if "solidified_at" in written and (grid.point_data["solidified_at"] >= 0).any():
-        add("solidified_at", title="Time of solidification, with hot spots", quantity="Solid after", above=-0.5,
-            hot_spots=True, timeless=True)
-        niyama = grid.point_data["niyama"] if "niyama" in written else np.zeros(1)
-        if ((niyama > 0) & (1e-3 * niyama < limit)).any():
-            add("niyama", title=f"Niyama below {limit:g} √(K s)/mm", quantity="Niyama", above=0, below=limit, timeless=True,
-                remark=NIYAMA_REMARK.format(limit))
-        if "shrinkage_porosity" in written and (grid.point_data["shrinkage_porosity"] > 0).any():
-            add("shrinkage_porosity", title="Estimate of shrinkage porosity", unit="%",
-                timeless=True)
-    if "pore_fraction" in written and grid.cell_data["pore_fraction"][mask].any():
-        add("pore_fraction", title="Shrinkage that nothing fed (pores)", quantity="Pores", unit="%")
-    if "gap" in written and "displacement" in written and (grid.point_data["gap"] > 0).any():
-        add("gap", title="Gap between casting and mould", unit="mm", skin_alone=True, contours=0)
-    if "distortion" in written and np.any(grid.point_data["distortion"]):
-        add("distortion", title="Distortion", unit="mm")
-    elif "displacement" in written and "distortion" not in written:
-        add("displacement", title="Displacement", unit="mm")
-    if "von_mises" in written and grid.cell_data["von_mises"][mask].any():
-        add("von_mises", title="Residual stress, von Mises" if cast != list(run.bodies) or case.spots
-            else "Stress, von Mises", quantity="von Mises stress", unit="MPa", smooth=True,
-            remark="averaged at the nodes; the largest and least values are those of elements")
+    add("solidified_at", when=frozen, title="Time of solidification, with hot spots", quantity="Solid after", above=-0.5,
+        hot_spots=True, timeless=True)
+    add("niyama", when=feeds_badly, title=f"Niyama below {limit:g} √(K s)/mm", quantity="Niyama", above=0, below=limit,
+        timeless=True, remark=NIYAMA_REMARK.format(limit))
+    add("shrinkage_porosity", when=lambda: frozen() and (grid.point_data["shrinkage_porosity"] > 0).any(),
+        title="Estimate of shrinkage porosity", unit="%", timeless=True)
+    add("pore_fraction", when=lambda: grid.cell_data["pore_fraction"][mask].any(), title="Shrinkage that nothing fed (pores)",
+        quantity="Pores", unit="%")
+    add("gap", when=lambda: "displacement" in written and (grid.point_data["gap"] > 0).any(),
+        title="Gap between casting and mould", unit="mm", skin_alone=True, contours=0)
+    add("distortion", when=lambda: np.any(grid.point_data["distortion"]), title="Distortion", unit="mm")
+    add("displacement", when=lambda: "distortion" not in written, title="Displacement", unit="mm")
+    add("von_mises", when=lambda: grid.cell_data["von_mises"][mask].any(),
+        title="Residual stress, von Mises" if cast != list(run.bodies) or case.spots else "Stress, von Mises",
+        quantity="von Mises stress", unit="MPa", smooth=True,
+        remark="averaged at the nodes; the largest and least values are those of elements")
+    for field in fields.known():
+        if field.group == "criteria" and field.pictured and field.name not in considered and field.name in written:
+            _add_criterion(field, grid, mask, add)
     return case, sheets
+
+
+def _add_criterion(field, grid, mask, add):
+    """A sheet of a criterion that has no particular one, where it says something of the castings."""
+    at_nodes = field.name in grid.point_data
+    values = grid.point_data[field.name] if at_nodes else grid.cell_data[field.name][mask]
+    if np.isfinite(field.with_value(values)).any() and np.any(values):
+        add(field.name, title=field.label, unit=field.shown, timeless=True, **({} if field.no_value != 0 else {"above": 0}))
 
 
 def _melt(grid, mask):

@@ -13,7 +13,7 @@ import sys
 import matplotlib.pyplot as plt
 import numpy as np
 
-from solidus_plots import automatic, curves, hot_spots, moments, overview, style
+from solidus_plots import automatic, curves, fields, hot_spots, moments, overview, style
 from solidus_plots.answers import answers, read_summary
 from solidus_plots.cells import VOLUME
 from solidus_plots.history import Table, read_table
@@ -21,12 +21,6 @@ from solidus_plots.mapping import Mapper, same_mesh
 from solidus_plots.moments import Moments
 from solidus_plots.vtu import Grid, ResultError, read_collection, read_fields
 from solidus_plots.vtu_writer import write_grid
-
-# Fields whose difference says something, with the unit people read and whether it has a sign.
-FIELDS = [("temperature", "K"), ("solid_fraction", "1"), ("solidified_at", "s"), ("niyama", "K0.5 s0.5/mm"), ("gap", "mm"),
-          ("displacement", "mm"), ("distortion", "mm"), ("von_mises", "MPa"), ("equivalent_plastic_strain", "1")]
-NO_VALUE = {"solidified_at": -1.0, "niyama": 0.0}  # marks of nodes without one
-DRAWN = {"temperature", "solidified_at", "gap", "distortion", "von_mises"}
 
 
 @dataclass
@@ -40,7 +34,9 @@ class Run:
 
     @staticmethod
     def read(folder):
-        return Run(folder, "", read_summary(folder), read_table(folder / "history.csv"))
+        summary = read_summary(folder)
+        fields.declare(summary)
+        return Run(folder, "", summary, read_table(folder / "history.csv"))
 
     @property
     def bodies(self):
@@ -133,11 +129,6 @@ def last_common(one, other):
     return None
 
 
-def _with_value(name, values):
-    """Values, nan where the field says that there is none."""
-    return np.where(values == NO_VALUE[name], np.nan, values) if name in NO_VALUE else values
-
-
 def _mapped(one, other, grid, other_grid):
     """How values of the other run come to the nodes and cells of the first: functions, and a word for it."""
     if same_mesh(grid, other_grid):
@@ -178,13 +169,14 @@ def difference(one, other, grid, other_grid):
     to_nodes, to_cells, how = _mapped(one, other, grid, other_grid)
     result = Grid(grid.points, grid.cell_types, grid.offsets, grid.connectivity,
                   {}, {"body": grid.cell_data["body"]}, {}, grid.time)
-    for name, unit in FIELDS:
+    for field in (field for field in fields.known() if field.compared):
+        name, unit = field.name, field.unit_of_differences
         for kind, mapped in (("point_data", to_nodes), ("cell_data", to_cells)):
             mine, theirs = getattr(grid, kind), getattr(other_grid, kind)
             if name not in mine or name not in theirs:
                 continue
-            written = style.ROOT_UNITS.get(name, grid.units[name])
-            values = mapped(_with_value(name, theirs[name])) - _with_value(name, mine[name])
+            written = fields.unit(name, grid.units[name])
+            values = mapped(field.with_value(theirs[name])) - field.with_value(mine[name])
             if values.ndim > 1:
                 values = np.linalg.norm(values, axis=1)
             getattr(result, kind)[name] = values if unit == written else style.convert(values, written, unit)
@@ -250,7 +242,7 @@ def draw_fields(one, other, grid, difference_grid, folder):
     case = overview.Case(f"{other.name} less {one.name}", bool(np.isin(grid.cell_types, VOLUME).any()),
                          ("r", "z") if kind == "axisymmetric" else ("x", "y"), hot_spots.hottest(grid, mask))
     files = []
-    for name in DRAWN:
+    for name in [field.name for field in fields.known() if field.compared and field.pictured]:
         values = difference_grid.point_data.get(name, difference_grid.cell_data.get(name))
         if values is None:
             continue
@@ -260,7 +252,7 @@ def draw_fields(one, other, grid, difference_grid, folder):
             continue
         signed = shown[np.isfinite(shown)].min() < 0.0
         spec = {"file": f"difference_{name}", "field": name, "times": ["last"], "bodies": cast, "contours": 0,
-                "title": f"Difference of {name.replace('_', ' ')}", "quantity": "Difference",
+                "title": f"Difference of {fields.label(name)}", "quantity": "Difference",
                 "range": [-largest if signed else 0.0, largest], "colours": "RdBu_r" if signed else "viridis"}
         files += overview.draw({**spec, "skin_alone": name == "gap"}, run, case, folder)
     return files

@@ -7,7 +7,7 @@ from matplotlib.transforms import ScaledTranslation
 from matplotlib.tri import Triangulation
 import numpy as np
 
-from solidus_plots import moments, style
+from solidus_plots import fields, moments, style
 from solidus_plots.vtu import ResultError
 
 MM = 1e3  # sections are drawn in millimetres
@@ -97,7 +97,7 @@ def field_maps(spec, section, folder):
             place = _place(grid, spec.get("magnification", 0), side)
             places.append(place[moments.nodes_of(grid, mask)])
             shape = Triangulation(place[:, 0], place[:, 1], triangles)
-            look = {"cmap": style.SEQUENTIAL.get(spec["field"], "viridis")}
+            look = {"cmap": fields.colour_map(spec["field"], None, 0.0, 0.0)}
             if kind == "point_data":
                 shown = np.clip(values, low, high)
                 colours = axes.tricontourf(shape, shown, levels=levels, **look)
@@ -115,7 +115,7 @@ def field_maps(spec, section, folder):
     _frame(panels[0][0], places)
     panels[0][0].set_ylabel("z [mm]" if mirror else "y [mm]")
     bar = figure.colorbar(colours, ax=panels[0].tolist(), pad=0.015, aspect=32, shrink=0.92)
-    bar.set_label(style.axis_label(spec.get("quantity", spec["field"].replace("_", " ")), unit))
+    bar.set_label(style.axis_label(spec.get("quantity", fields.label(spec["field"])), unit))
     bar.outline.set_visible(False)
     bar.locator = plt.MaxNLocator(8)
     bar.update_ticks()

@@ -4,7 +4,7 @@ import fnmatch
 
 import numpy as np
 
-from solidus_plots import style
+from solidus_plots import fields, style
 from solidus_plots.vtu import ResultError, read_fields
 
 
@@ -100,13 +100,13 @@ def displacement(grid):
 
 
 def _written_unit(grid, name):
-    return style.ROOT_UNITS.get(name, grid.units[name])
+    return fields.unit(name, grid.units[name])
 
 
 def unit(grid, spec):
     """The unit of the values of a picture."""
-    written = _written_unit(grid, spec["field"])
-    return spec.get("unit") or style.SHOWN_UNITS.get(written, written)
+    field = fields.find(spec["field"])
+    return spec.get("unit") or (field.shown if field and field.is_root else grid.units[spec["field"]])
 
 
 def limits(grids, masks, spec):

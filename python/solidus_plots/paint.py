@@ -7,7 +7,7 @@ from matplotlib.patheffects import Normal, Stroke
 import matplotlib.pyplot as plt
 import numpy as np
 
-from solidus_plots import style
+from solidus_plots import fields, style
 from solidus_plots.vtu import ResultError
 
 ROUND = [1, 2, 2.5, 5, 10]  # what round values are multiples of
@@ -24,8 +24,7 @@ class Paint:
     """`unit` of the values; `shown`: all of them (nan: none), for the range where a picture says none."""
 
     def __init__(self, spec, unit, shown):
-        words = spec["field"].replace("_", " ").capitalize()
-        self._label = style.axis_label(spec.get("quantity", words), unit)
+        self._label = style.axis_label(spec.get("quantity", fields.label(spec["field"])), unit)
         shown = shown[np.isfinite(shown)]
         if not shown.size:
             raise ResultError(f"plots.toml: '{spec['file']}': the field has no value above {spec.get('above')}")
@@ -33,7 +32,7 @@ class Paint:
         self.low, self.high = spec.get("range", (low, high))
         if not self.high > self.low:
             self.high = self.low + 1.0
-        usual = style.colour_map(spec["field"], spec.get("component"), self.low, self.high)
+        usual = fields.colour_map(spec["field"], spec.get("component"), self.low, self.high)
         name = spec.get("colours", usual)
         if name not in plt.colormaps():
             raise ResultError(f"plots.toml: no colours '{name}'; any of matplotlib's: viridis, inferno, "

@@ -11,7 +11,7 @@ import os
 from pathlib import Path
 import sys
 
-from solidus_plots import automatic, curves, graphs, maps, measured, overview, point, sections, style, surfaces
+from solidus_plots import automatic, curves, fields, graphs, maps, measured, overview, point, sections, style, surfaces
 from solidus_plots.history import read_table
 from solidus_plots.moments import Moments
 from solidus_plots.plots_file import Mistake, find_spec, read_spec, star
@@ -79,6 +79,7 @@ def draw_fields(spec, wishes, results, summary, history, folder, problems):
     """The pictures of fields, those that plots.toml asks for and those that every run gets; files written."""
     tasks = [(kind, picture) for kind in FIELD_PICTURES for picture in spec.get(kind, [])]
     times, written = read_collection(results / "fields.pvd")
+    fields.declare(summary)
     run = Moments(times, written, list(summary.get("mesh", {}).get("bodies", {})),
                   read_points(results / "case.toml"))
     case, sheets = None, []

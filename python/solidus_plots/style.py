@@ -5,14 +5,14 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
 
+from solidus_plots import fields  # noqa: E402
+
 # Okabe and Ito (2008), without the yellow that vanishes on white.
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"]
 REMARK = {"fontsize": 7.5, "color": "#595959"}
 DASHES = ["-", "--", "-.", ":"]
-SEQUENTIAL = {"temperature": "inferno", "solid_fraction": "cividis"}
 BODIES = ["#a9b6c3", "#d3bd94", "#9db89a", "#c3a5b0", "#b8b093"]
 NO_VALUE = (0.82, 0.82, 0.82)  # where a field has none yet
-SIGNED = {"pressure", "stress", "back_stress"}  # tension and compression are told apart where both are there
 
 # What people read instead of UDUNITS' ASCII.
 UNIT_TEXT = {"degC": "°C", "W/m2/K": "W/(m² K)", "W/m2": "W/m²", "m2": "m²", "m3": "m³", "um": "µm",
@@ -21,11 +21,6 @@ UNIT_TEXT = {"degC": "°C", "W/m2/K": "W/(m² K)", "W/m2": "W/m²", "m2": "m²",
 QUANTITY = {"degC": "Temperature", "K": "Temperature", "mm": "Length", "m": "Length", "J": "Energy",
             "W": "Heat flow", "N": "Force", "MPa": "Stress", "Pa": "Stress", "1": "Share", "s": "Time",
             "W/m2/K": "Conductance"}
-
-# Fields whose unit UDUNITS cannot name: the files say 1.
-ROOT_UNITS = {"niyama": "K0.5 s0.5/m"}
-# What is shown instead of SI where a picture names no unit: one unit of Niyama everywhere.
-SHOWN_UNITS = {"K0.5 s0.5/m": "K0.5 s0.5/mm"}
 
 # Units a picture may ask for: (SI unit, unit) -> (factor, offset).
 CONVERSIONS = {("K", "degC"): (1.0, -273.15), ("m", "mm"): (1e3, 0.0), ("m", "um"): (1e6, 0.0),
@@ -55,13 +50,6 @@ def body_colour(index):
     return matplotlib.colors.to_rgb(BODIES[index % len(BODIES)])
 
 
-def colour_map(field, component, low, high):
-    """The name of the colours of a field."""
-    if low < 0.0 < high and (component is not None or field in SIGNED):
-        return "RdBu_r"
-    return SEQUENTIAL.get(field, "viridis")
-
-
 def time_texts(seconds):
     """Moments [s] in one unit: hours or minutes where the last one has two of them and all have few digits."""
     last = max(abs(time) for time in seconds)
@@ -87,9 +75,10 @@ def convert(values, unit, wanted):
     """Values in SI to the unit a picture asks for; says so when it does not know how."""
     if not wanted or unit == wanted:
         return values
-    if (unit, wanted) not in CONVERSIONS:
+    found = CONVERSIONS.get((unit, wanted)) or fields.conversion(unit, wanted)
+    if found is None:
         raise ValueError(f"cannot show a field in {unit} as {wanted}")
-    factor, offset = CONVERSIONS[unit, wanted]
+    factor, offset = found
     return factor * values + offset
 
 
