@@ -95,6 +95,12 @@ class Results(Sequence[Moment]):
         return self.summary.get("criteria", {})
 
     @property
+    def fields(self) -> dict[str, dict[str, Any]]:
+        """What the program says of the fields that the run has written, by name: label, unit, the unit in which people read
+        it, the mark for "no value"."""
+        return self.summary.get("fields", {})
+
+    @property
     def warnings(self) -> list[str]:
         """Warnings that the run gave."""
         return self.summary.get("warnings", [])
