@@ -5,7 +5,10 @@ find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(tomlplusplus REQUIRED)
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Eigen3 REQUIRED NO_MODULE)
+if(Eigen3_VERSION VERSION_LESS 3.4) # asked for 3.4, the package of Eigen 5 would say that it is no Eigen 3
+  message(FATAL_ERROR "Eigen ${Eigen3_VERSION} is too old: 3.4 or newer is needed")
+endif()
 find_package(CLI11 REQUIRED)
 if(POLICY CMP0167) # CMake 3.30 and later warn where its own way to find Boost would be asked for; Boost 1.70 and later brings one
   cmake_policy(SET CMP0167 NEW)
