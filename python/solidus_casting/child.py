@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import logging
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -16,7 +17,7 @@ from typing import IO, Any
 
 from . import verbs
 from .case import Case, physics_option, with_keys
-from .errors import RunInterrupted
+from .errors import ProgramMissing, RunInterrupted
 
 logger = logging.getLogger("solidus_casting")
 
@@ -81,6 +82,8 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
         What the case has wrong.
     RunStopped
         The physics could not go on; ``error.results`` holds what was computed.
+    ProgramMissing
+        There is no program, or no ``mpirun`` for several processes.
     RunInterrupted
         A ``KeyboardInterrupt``: Ctrl-C, behind a whole step. A second Ctrl-C ends the run at once.
     """
@@ -104,6 +107,8 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
         command += ["--restart"] if restart else []
         command += ["--", *options] if options else []
         if processes > 1:
+            if shutil.which("mpirun") is None:
+                raise ProgramMissing("several processes need mpirun, which is not on the PATH (Debian's openmpi-bin)")
             command = ["mpirun", "-n", str(processes), "--bind-to", "none", "--oversubscribe", *command]
         return _Child(command, case, None if output is None else Path(output).absolute(), note, processes > 1,
                       progress).wait()

@@ -1,3 +1,5 @@
-from solidus_plots.plot_case import main
+import sys
 
-raise SystemExit(main())
+from solidus_plots.verb import main
+
+raise SystemExit(main(["plot_case", *sys.argv[1:]]))

@@ -19,6 +19,7 @@ from solidus_plots.cells import VOLUME
 from solidus_plots.history import Table, read_table
 from solidus_plots.mapping import Mapper, same_mesh
 from solidus_plots.moments import Moments
+from solidus_plots.verb import sentence
 from solidus_plots.vtu import Grid, ResultError, read_collection, read_fields
 from solidus_plots.vtu_writer import write_grid
 
@@ -301,7 +302,7 @@ def main(arguments=None):
     try:
         output, files = compare(options.folder, options.other, options.output, not options.no_plots)
     except (ResultError, OSError, ValueError) as error:
-        print(f"solidus compare: {error}", file=sys.stderr)
+        print(f"solidus compare: {sentence(error)}", file=sys.stderr)
         return 1
     print(f"\n{len(files)} files in {output}")
     return 0

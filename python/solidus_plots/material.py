@@ -15,6 +15,7 @@ import numpy as np
 
 from solidus_plots import style
 from solidus_plots.history import read_table
+from solidus_plots.verb import sentence
 from solidus_plots.vtu import ResultError
 
 TEMPERATURE = "temperature[degC]"
@@ -108,7 +109,7 @@ def main(arguments=None):
     try:
         files = draw(options.folder)
     except (ResultError, OSError) as error:
-        print(f"solidus_plots: {error}", file=sys.stderr)
+        print(f"solidus_plots: {sentence(error)}", file=sys.stderr)
         return 1
     for file in files:
         print(file)

@@ -17,6 +17,7 @@ from solidus_plots import style
 from solidus_plots.history import Table, read_table
 from solidus_plots.plots_file import find_spec, read_spec
 from solidus_plots.style import plt
+from solidus_plots.verb import sentence
 from solidus_plots.vtu import ResultError
 
 MARKERS = "osD^vPX*"
@@ -120,7 +121,7 @@ def main(arguments=None):
                 print(f"  {line[0]}: {comparison.deviation(line, used):.2f}; with {best:g} "
                       f"{comparison.deviation(line, best):.2f}; own shift {own:g}: {comparison.deviation(line, own):.2f}")
     except (ResultError, OSError) as error:
-        print(f"solidus_plots.measured: {error}", file=sys.stderr)
+        print(f"solidus_plots.measured: {sentence(error)}", file=sys.stderr)
         return 1
     return 0
 

@@ -16,6 +16,7 @@ from solidus_plots.history import read_table
 from solidus_plots.moments import Moments
 from solidus_plots.plots_file import Mistake, find_spec, read_spec, star
 from solidus_plots.probes import read_points
+from solidus_plots.verb import sentence
 from solidus_plots.vtu import ResultError, read_collection
 
 # Pictures of fields and what draws them.
@@ -139,7 +140,7 @@ def main(arguments=None):
     try:
         files, problems = draw(options.results, options.plots)
     except (ResultError, OSError) as error:
-        print(f"solidus_plots: {error}", file=sys.stderr)
+        print(f"solidus_plots: {sentence(error)}", file=sys.stderr)
         return 1
     for file in files:
         print(file)

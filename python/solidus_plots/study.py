@@ -15,6 +15,7 @@ from solidus_plots.answers import answers, read_summary
 from solidus_plots.compare import as_text, write_csv
 from solidus_plots.many_runs import INTERRUPTED, Runner, how_it_ended, jobs_from, program
 from solidus_plots.study_file import read_study
+from solidus_plots.verb import sentence
 from solidus_plots.vtu import ResultError
 
 
@@ -123,7 +124,7 @@ def main(given=None):
         print(f"{study.title}: {len(study.runs)} runs, {jobs} at a time, in {folder}")
         failed = run_study(study, folder, jobs, options.restart)
     except (ResultError, OSError) as error:
-        print(f"solidus study: {error}", file=sys.stderr)
+        print(f"solidus study: {sentence(error)}", file=sys.stderr)
         return 1
     if failed is None:
         print("solidus study: stopped; what has ended is kept, --restart goes on", file=sys.stderr)

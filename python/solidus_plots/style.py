@@ -3,7 +3,12 @@
 import matplotlib
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
+from matplotlib import font_manager  # noqa: E402  (after the choice of the backend)
+import matplotlib.pyplot as plt  # noqa: E402
+
+from solidus_plots.vtu import ResultError  # noqa: E402
+
+FONT = "DejaVu Sans"
 
 from solidus_plots import fields  # noqa: E402
 
@@ -31,9 +36,14 @@ CONVERSIONS = {("K", "degC"): (1.0, -273.15), ("m", "mm"): (1e3, 0.0), ("m", "um
 
 
 def setup():
+    try:
+        font_manager.findfont(FONT, fallback_to_default=False)
+    except ValueError:
+        raise ResultError(f"the font {FONT} is missing, which comes with matplotlib (Debian: python-matplotlib-data, "
+                          "fonts-dejavu-core); nothing is drawn without it") from None
     plt.rcParams.update({
         "figure.dpi": 100, "savefig.dpi": 200, "savefig.bbox": "tight", "savefig.pad_inches": 0.06,
-        "font.family": "DejaVu Sans", "font.size": 9, "axes.titlesize": 10, "axes.labelsize": 9,
+        "font.family": FONT, "font.size": 9, "axes.titlesize": 10, "axes.labelsize": 9,
         "axes.prop_cycle": matplotlib.cycler(color=COLOURS), "axes.grid": True, "axes.axisbelow": True,
         "axes.spines.top": False, "axes.spines.right": False, "axes.linewidth": 0.8,
         "grid.color": "#d9d9d9", "grid.linewidth": 0.6, "lines.linewidth": 1.6,

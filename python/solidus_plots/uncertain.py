@@ -19,6 +19,7 @@ from solidus_plots.compare import write_csv
 from solidus_plots.many_runs import INTERRUPTED, Runner, how_it_ended, jobs_from, program
 from solidus_plots.uncertain_parameters import merged, parameter_of
 from solidus_plots.uncertain_result import answers_of_run, bands_of_run, evaluate, line, rounded, worth_the_other_side
+from solidus_plots.verb import sentence
 from solidus_plots.vtu import ResultError
 
 MOST_RUNS = 20
@@ -250,7 +251,7 @@ def main(given=None):
     try:
         return run(options)
     except (ResultError, OSError) as error:
-        print(f"solidus uncertain: {error}", file=sys.stderr)
+        print(f"solidus uncertain: {sentence(error)}", file=sys.stderr)
         return 1
 
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -20,6 +19,7 @@
 #include "mesh/file_unit.hpp"
 #include "mesh/quality.hpp"
 #include "results/output_error.hpp"
+#include "results/output_file.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::app {
@@ -80,12 +80,10 @@ void write_faces(const RawMesh& mesh, const std::vector<mesh::SkinPatch>& patche
     throw InputError({"--pictures", 0, 0}, "the mesh is plane", "the table: it has places and neighbours");
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  std::ofstream file(folder / k_faces);
-  file << mesh::to_vtk(patches);
-  file.flush();
-  if (error || !file)
-    throw InputError({"--pictures", 0, 0}, fmt::format("'{}' cannot be written", (folder / k_faces).string()),
-                     "a folder with room");
+  if (error)
+    throw results::OutputError(folder.string(), "cannot make this folder: " + error.message(),
+                               "--pictures names another one");
+  results::write_file(folder / k_faces, mesh::to_vtk(patches));
 }
 
 }  // namespace
@@ -109,7 +107,7 @@ ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit,
   });
   print(text);
   if (pictures.empty()) return k_done;
-  return run_python("solidus_plots.faces", {(pictures / k_faces).string()});
+  return run_python("faces", {(pictures / k_faces).string()});
 }
 
 }  // namespace solidus::app

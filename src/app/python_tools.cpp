@@ -54,7 +54,7 @@ ExitCode run_python(const std::string& module, const std::vector<std::string>& a
   if (processes::count() > 1) throw InputError({}, "this verb runs on one process", "solidus without mpirun");
   const char* chosen = std::getenv("SOLIDUS_PYTHON");
   const std::string python = chosen != nullptr && *chosen != '\0' ? chosen : "/usr/bin/python3";
-  std::vector<std::string> command = {python, "-m", module};
+  std::vector<std::string> command = {python, "-m", "solidus_plots.verb", module};
   command.insert(command.end(), arguments.begin(), arguments.end());
   std::vector<std::string> inherited;
   std::string path = modules().string();

@@ -73,7 +73,7 @@ std::optional<ExitCode> PythonVerbs::run_uncertain() const {
   flag("--one-sided", one_sided_);
   flag("--restart", restart_);
   flag("--dry-run", dry_run_);
-  return run_python("solidus_plots.uncertain", arguments);
+  return run_python("uncertain", arguments);
 }
 
 std::optional<ExitCode> PythonVerbs::run() const {
@@ -86,13 +86,13 @@ std::optional<ExitCode> PythonVerbs::run() const {
   };
   if (*plot_) {
     add("--plots", plots_);
-    return run_python("solidus_plots", arguments);
+    return run_python("plot_case", arguments);
   }
   if (*compare_) {
     arguments.push_back(other_);
     add("--output", output_);
     flag("--no-plots", no_plots_);
-    return run_python("solidus_plots.compare", arguments);
+    return run_python("compare", arguments);
   }
   if (*uncertain_) return run_uncertain();
   if (!*study_) return {};
@@ -101,7 +101,7 @@ std::optional<ExitCode> PythonVerbs::run() const {
   add("--jobs", jobs_);
   flag("--restart", restart_);
   flag("--dry-run", dry_run_);
-  return run_python("solidus_plots.study", arguments);
+  return run_python("study", arguments);
 }
 
 }  // namespace solidus::app

@@ -1,7 +1,9 @@
 #include "new_case/draft_refinement.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -288,16 +290,23 @@ class Refinement {
 }  // namespace
 
 void write_draft(const Draft& draft) {
+  const auto require = [&](bool written, const std::string& reason) {
+    if (!written)
+      throw InputError({draft.folder.string()}, "the case cannot be written there: " + reason,
+                       "-o names another folder");
+  };
   std::error_code error;
   fs::create_directories(draft.folder, error);
+  require(!error, error.message());
   const fs::path copy = draft.folder / draft.geometry.filename();
   if (!fs::exists(copy) || !fs::equivalent(copy, draft.geometry, error))
     fs::copy_file(draft.geometry, copy, fs::copy_options::overwrite_existing, error);
+  require(!error, error.message());
+  errno = 0;
   std::ofstream file(draft.folder / "case.toml");
   file << case_text(draft);
   file.flush();
-  if (error || !file)
-    throw InputError({draft.folder.string()}, "the case cannot be written there", "a folder with room");
+  require(static_cast<bool>(file), std::strerror(errno));
 }
 
 DraftEstimate refine_draft(Draft& draft, const CastingProcess& process, const material::Material& alloy,

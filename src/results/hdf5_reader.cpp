@@ -130,7 +130,8 @@ int restrict_copy(int socket, double bytes_of_file) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1})
     std::signal(signal, SIG_IGN);  // the program decides
-  if (dup2(socket, k_socket) != k_socket || close_range(k_socket + 1, ~0U, 0) != 0) _exit(1);
+  if (dup2(socket, k_socket) != k_socket) _exit(1);
+  closefrom(k_socket + 1);  // on kernels before 5.9 too, which have no close_range()
   constexpr double k_beside = 5e8, k_of_file = 4;
   if (const auto held = held_memory()) sandbox::limit_memory(*held + k_beside + k_of_file * bytes_of_file);
   sandbox::forbid_all_but_reading();

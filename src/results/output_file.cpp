@@ -16,16 +16,19 @@ std::string reason(int error) {
 
 }  // namespace
 
-OutputFile::OutputFile(std::filesystem::path path, Mode mode) : path_(std::move(path)) {
+OutputFile::OutputFile(std::filesystem::path path, Mode mode) : OutputFile(path, mode, path) {}
+
+OutputFile::OutputFile(std::filesystem::path path, Mode mode, std::filesystem::path shown)
+    : path_(std::move(path)), shown_(std::move(shown)) {
   errno = 0;
   file_.reset(std::fopen(path_.c_str(), mode == Mode::replace ? "wb" : "ab"));
-  if (!file_) throw OutputError(path_.string(), "cannot open for writing: " + reason(errno));
+  if (!file_) throw OutputError(shown_.string(), "cannot open for writing: " + reason(errno));
 }
 
 void OutputFile::write(std::string_view bytes) {
   errno = 0;
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
-    throw OutputError(path_.string(), "cannot write: " + reason(errno));
+    throw OutputError(shown_.string(), "cannot write: " + reason(errno));
 }
 
 void OutputFile::write(std::span<const std::byte> bytes) {
@@ -34,13 +37,13 @@ void OutputFile::write(std::span<const std::byte> bytes) {
 
 void OutputFile::flush() {
   errno = 0;
-  if (std::fflush(file_.get()) != 0) throw OutputError(path_.string(), "cannot write: " + reason(errno));
+  if (std::fflush(file_.get()) != 0) throw OutputError(shown_.string(), "cannot write: " + reason(errno));
 }
 
 void OutputFile::close() {
   flush();
   errno = 0;
-  if (std::fclose(file_.release()) != 0) throw OutputError(path_.string(), "cannot write: " + reason(errno));
+  if (std::fclose(file_.release()) != 0) throw OutputError(shown_.string(), "cannot write: " + reason(errno));
 }
 
 SpoolFile::SpoolFile(std::filesystem::path path) : path_(std::move(path)) {
@@ -94,7 +97,8 @@ std::filesystem::path part_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), file_(part_of(path_)) {}
+AtomicFile::AtomicFile(std::filesystem::path path)
+    : path_(std::move(path)), file_(part_of(path_), OutputFile::Mode::replace, path_) {}
 
 AtomicFile::~AtomicFile() {
   std::error_code ignored;

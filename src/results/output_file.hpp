@@ -19,6 +19,8 @@ class OutputFile {
  public:
   enum class Mode { replace, append };
   explicit OutputFile(std::filesystem::path path, Mode mode = Mode::replace);
+  /// @param shown  the file that errors name, where `path` is its part
+  OutputFile(std::filesystem::path path, Mode mode, std::filesystem::path shown);
 
   void write(std::string_view bytes);
   void write(std::span<const std::byte> bytes);
@@ -32,7 +34,7 @@ class OutputFile {
   struct Closer {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  std::filesystem::path path_;
+  std::filesystem::path path_, shown_;
   std::unique_ptr<std::FILE, Closer> file_;
 };
 

@@ -117,6 +117,22 @@ class CommandLine(ProgramTest):
             for text in said:
                 self.assertIn(text, result.stderr, arguments)
 
+    def test_a_place_that_cannot_be_written_is_named_with_the_reason(self):
+        self.done("run", SOURCES / "cases/hot_spots", "--heat-only", "-o", "out", "--set", "time.end=4 s")
+        self.write("file", "where a folder would be made")
+        part = SOURCES / "tests/parts/flange.step"
+        for arguments, said in (
+                (("new", part, "--alloy", "aluminium_alsi7mg", "-o", "file/case"),
+                 "file/case: the case cannot be written there: Not a directory\n  -o names another folder"),
+                (("report", "out", "-o", "file/page.html"), "file/page.html: cannot open for writing: Not a directory"),
+                (("materials", "aluminium_alsi7mg", "-o", "file/tables"),
+                 "file/tables: cannot make this folder: Not a directory\n  -o names another one"),
+                (("mesh-info", part, "--pictures", "file/faces"),
+                 "file/faces: cannot make this folder: Not a directory\n  --pictures names another one")):
+            result = solidus(*arguments, cwd=self.folder)
+            error = result.stderr[result.stderr.find("solidus: "):].strip()  # a slow machine says before that it is meshing
+            self.assertEqual((result.returncode, error), (1, "solidus: " + said), arguments)
+
     def test_a_run_ends_with_where_its_results_are_and_how_to_look_at_them(self):
         self.write("case.toml", LONG_CASE.replace("1000000 s", "3 s").replace("100000 s", "3 s"))
         self.assertTrue(self.done("run", "case.toml", "-o", "one").endswith(

@@ -6,6 +6,7 @@ import signal
 import threading
 import time
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -223,6 +224,12 @@ class Runs(ProgramTest):
         self.assertFalse(caught.exception.results.finished)
         short = case.copy({"time.end": f"{reached + 0.5} s"})
         self.assertAlmostEqual(sc.run(short, self.folder / "out", restart=True).steps["time"][-1], reached + 0.5)
+
+    def test_several_processes_without_mpirun_are_refused_in_one_sentence(self):
+        case = sc.Case.load(SOURCES / "cases/hot_spots")
+        with mock.patch.dict(os.environ, {"PATH": str(self.folder)}), \
+                self.assertRaisesRegex(sc.ProgramMissing, "several processes need mpirun, which is not on the PATH"):
+            sc.run(case, self.folder / "out", processes=2)
 
     def test_an_exception_of_the_callers_function_stops_the_run(self):
         def refuse(progress):
