@@ -19,6 +19,17 @@ pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi) # the flavour that PETSc uses
 
+# A distribution on the move may have a PETSc that was built with another MPI than the one that it offers: that is told here and not by
+# the first of two hundred sources.
+if(NOT SOLIDUS_PETSC_FITS_MPI)
+  try_compile(SOLIDUS_PETSC_FITS_MPI SOURCE_FROM_CONTENT petsc.cpp "#include <petscsys.h>\nint main() { return 0; }\n"
+              CMAKE_FLAGS -DCMAKE_CXX_STANDARD=20 LINK_LIBRARIES PkgConfig::PETSC MPI::MPI_CXX OUTPUT_VARIABLE said)
+  if(NOT SOLIDUS_PETSC_FITS_MPI)
+    string(REGEX MATCH "error: [^\n]*" said "${said}\nerror: see CMakeFiles/CMakeConfigureLog.yaml")
+    message(FATAL_ERROR "PETSc ${PETSC_VERSION} and the MPI of this system (${MPI_CXX_LIBRARIES}) do not fit each other: ${said}")
+  endif()
+endif()
+
 # An imported target for a library that is only a shared object and a header, where one is named.
 function(solidus_plain_library name)
   if(TARGET ${name})

@@ -13,8 +13,10 @@ NO_WRITING = {errno.EROFS, errno.ENOSPC, errno.EDQUOT}
 def sentence(error):
     """The error for whoever typed the verb; that of the system with the file first, and what was done with it where the
     error tells."""
-    if not isinstance(error, OSError) or error.filename is None:
+    if not isinstance(error, OSError) or error.strerror is None:
         return str(error)
+    if error.filename is None:
+        return error.strerror
     what = "cannot be written: " if error.errno in NO_WRITING else ""
     return f"{error.filename}: {what}{error.strerror}"
 
@@ -27,6 +29,9 @@ def main(arguments):
         print(f"solidus: pictures and comparisons need numpy and matplotlib, and {sys.executable} has no "
               f"'{error.name or error}'\n  Debian's python3-numpy and python3-matplotlib; SOLIDUS_PYTHON names another Python",
               file=sys.stderr)
+        return 1
+    except OSError as error:  # matplotlib wants a folder for temporary files as soon as it is imported
+        print(f"solidus: {sentence(error)}", file=sys.stderr)
         return 1
     return verb.main(rest)
 

@@ -78,6 +78,8 @@ class BadGround(unittest.TestCase):
         self.assertEqual(sentence(error), "results/x/plots: cannot be written: Read-only file system")
         error = OSError(errno.EISDIR, os.strerror(errno.EISDIR), "cases/hot_spots")
         self.assertEqual(sentence(error), "cases/hot_spots: Is a directory")
+        self.assertEqual(sentence(FileNotFoundError(errno.ENOENT, "No usable temporary directory found in ['/tmp']")),
+                         "No usable temporary directory found in ['/tmp']")
         self.assertEqual(sentence(ResultError("history.csv: there is no such file")), "history.csv: there is no such file")
 
     def test_a_missing_font_is_named(self):
