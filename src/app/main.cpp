@@ -396,11 +396,15 @@ int main(int argc, char** argv) {
   char** const separator = std::find_if(argv, end, [](const char* a) { return std::string_view(a) == "--"; });
   const std::vector<std::string> for_petsc(separator == end ? end : separator + 1, end);
   std::optional<profile::Part> start(std::in_place, "start of the program");
-  if (!petsc::start(for_petsc)) {
-    std::fputs("solidus: PETSc cannot start; its message stands above, its options behind --\n", stderr);
-    return separator == end ? k_our_bug : k_bad_input;
+  try {
+    if (!petsc::start(for_petsc)) {
+      std::fputs("solidus: PETSc cannot start; its message stands above, its options behind --\n", stderr);
+      return separator == end ? k_our_bug : k_bad_input;
+    }
+  } catch (const InputError& error) {
+    std::fputs(("solidus: " + printable(error.what()) + "\n").c_str(), stderr);
+    return k_bad_input;
   }
-
   start.reset();
   if (run_wanted && !stop_asked()) listen_to_signals();  // MPI and PETSc may have put theirs in place
   const int own_argc = static_cast<int>(separator - argv);

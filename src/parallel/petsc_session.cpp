@@ -6,29 +6,43 @@
 #include <cstdlib>
 #include <deque>
 #include <iterator>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
+#include "system/errors.hpp"
 #include "system/processes.hpp"
+#include "system/temporary_folder.hpp"
 
 namespace solidus::petsc {
 
 namespace {
 
-/// A variable of the environment for as long as this lives; one that is there already stays as it is.
+/// A variable of the environment for as long as this lives.
 class PassingVariable {
  public:
-  PassingVariable(const char* name, const char* value) : name_(name), ours_(std::getenv(name) == nullptr) {
-    if (ours_) setenv(name, value, 0);
+  enum class There { stays, is_replaced };
+  /// @param there  what becomes of a value that the variable has already
+  PassingVariable(const char* name, const char* value, There there = There::stays) : name_(name) {
+    const char* before = std::getenv(name);
+    ours_ = before == nullptr || there == There::is_replaced;
+    if (before != nullptr) before_ = before;
+    if (ours_) setenv(name, value, 1);
   }
   ~PassingVariable() {
-    if (ours_) unsetenv(name_);
+    if (!ours_) return;
+    if (before_)
+      setenv(name_, before_->c_str(), 1);
+    else
+      unsetenv(name_);
   }
   PassingVariable(const PassingVariable&) = delete;
   PassingVariable& operator=(const PassingVariable&) = delete;
 
  private:
   const char* name_;
+  std::optional<std::string> before_;
   bool ours_;
 };
 
@@ -78,11 +92,32 @@ bool on_one_machine() {
   return all != nullptr && here != nullptr && std::string_view(all) == here;
 }
 
+#if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION >= 5
+constexpr bool k_needs_temporary_folder = true;
+#else
+constexpr bool k_needs_temporary_folder = false;
+#endif
+
+/// Lets one process alone start where the usual folder for temporary files cannot be written: Open MPI 5
+/// makes one of its own there, and ends the process with a page of text where it cannot. Throws InputError
+/// where no folder can be written.
+void choose_temporary_folder(std::deque<PassingVariable>& settings) {
+  if (!k_needs_temporary_folder) return;
+  const std::string folder = writable_temporary_folder();
+  if (folder.empty())
+    throw InputError(
+        {}, "MPI needs a folder for temporary files, and " + temporary_folder() + " cannot be written",
+        "TMPDIR names another one");
+  if (folder != temporary_folder())
+    settings.emplace_back("TMPDIR", folder.c_str(), PassingVariable::There::is_replaced);
+}
+
 bool initialize(int* n, char*** list) {
   std::deque<PassingVariable> settings;
-  if (!launched())
+  if (!launched()) {
     for (const auto& [name, value] : k_alone) settings.emplace_back(name, value);
-  else if (on_one_machine())
+    choose_temporary_folder(settings);
+  } else if (on_one_machine())
     for (const auto& [name, value] : k_on_one_machine) settings.emplace_back(name, value);
   return PetscInitialize(n, list, nullptr, nullptr) == 0;
 }

@@ -9,7 +9,8 @@ namespace solidus::petsc {
 /// Starts PETSc, and MPI, where nobody has.
 /// @param options  of PETSc, as on a command line. A .petscrc of the present folder or the home is not read,
 ///                 for it would change answers in silence, and signals stay the caller's.
-/// Returns false where PETSc cannot start; its message then stands on the standard error.
+/// Returns false where PETSc cannot start; its message then stands on the standard error. Throws InputError
+/// where MPI needs a folder for temporary files and none can be written.
 bool start(const std::vector<std::string>& options);
 /// The processes of a communicator, by its number in Fortran, in place of all. Before start().
 void use_communicator(int fortran_number);

@@ -133,6 +133,10 @@ class CommandLine(ProgramTest):
             error = result.stderr[result.stderr.find("solidus: "):].strip()  # a slow machine says before that it is meshing
             self.assertEqual((result.returncode, error), (1, "solidus: " + said), arguments)
 
+    def test_a_folder_for_temporary_files_that_cannot_be_written_stops_nothing(self):
+        file = self.write("file", "where a folder is meant")
+        self.assertIn("aluminium_alsi7mg", self.done("materials", env={"TMPDIR": str(file / "temporary")}))
+
     def test_a_run_ends_with_where_its_results_are_and_how_to_look_at_them(self):
         self.write("case.toml", LONG_CASE.replace("1000000 s", "3 s").replace("100000 s", "3 s"))
         self.assertTrue(self.done("run", "case.toml", "-o", "one").endswith(
