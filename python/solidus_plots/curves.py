@@ -180,7 +180,7 @@ def steps(table, folder):
         cut = table[header] > 0
         if cut.any():
             sizes.plot(time[cut], clock(table["dt[s]"])[cut], marker, color=style.COLOURS[index], markersize=5, label=label)
-            sizes.legend()
+            sizes.legend(loc="best")  # named, so that matplotlib does not warn a slow machine that it takes long
     for index, (name, header) in enumerate(phases):
         work.plot(time, table[header], marker=".", markersize=3, label=name,
                   **style.line_style(index))
@@ -188,6 +188,6 @@ def steps(table, folder):
     work.set_ylim(bottom=0)
     work.set_xlim(0, time.max(initial=0.0) or None)
     if phases:
-        work.legend()
+        work.legend(loc="best")
     figure.align_ylabels()
     return style.save(figure, folder, "steps", vector=True)

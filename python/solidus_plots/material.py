@@ -50,7 +50,7 @@ def over_temperature(axes, table, panel, mushy):
     for index, (values, label) in enumerate(lines):
         axes.plot(table[TEMPERATURE], values, label=label, **style.line_style(index))
     if len(lines) > 1:
-        axes.legend()
+        axes.legend(loc="best")  # named, so that matplotlib does not warn a slow machine
     values = np.concatenate([values for values, _ in lines])
     if title == "Flow stress":  # the hot strength matters as much as the cold one
         axes.set_yscale("log")

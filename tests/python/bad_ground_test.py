@@ -1,6 +1,7 @@
 """What a machine lacks is said in one sentence: by ./dev and by the verbs in Python."""
 
 import errno
+import itertools
 import os
 from pathlib import Path
 import shutil
@@ -9,8 +10,12 @@ import sys
 import tempfile
 import unittest
 from unittest import mock
+import warnings
 
-from solidus_plots import style
+import numpy as np
+
+from solidus_plots import curves, style
+from solidus_plots.history import Table
 from solidus_plots.verb import sentence
 from solidus_plots.vtu import ResultError
 
@@ -85,6 +90,15 @@ class BadGround(unittest.TestCase):
     def test_a_missing_font_is_named(self):
         with mock.patch.object(style, "FONT", "No Such Font"), self.assertRaisesRegex(ResultError, "the font No Such Font is missing"):
             style.setup()
+
+    def test_a_slow_machine_draws_without_warnings(self):
+        to_and_fro = np.tile([0.0, 5.0], 200)  # there is no place for a legend that hides nothing
+        steps = Table({header: to_and_fro for header in ("dt[s]", "heat_iterations[1]", "mechanics_iterations[1]", "rejected[1]")})
+        steps["time[s]"] = np.arange(400.0)
+        style.setup()
+        with mock.patch("matplotlib.legend.time.perf_counter", side_effect=itertools.count(0, 2)), warnings.catch_warnings():
+            warnings.simplefilter("error")
+            curves.steps(steps, self.folder)
 
 
 if __name__ == "__main__":
