@@ -143,7 +143,9 @@ void write_flow_curves(const Flow& flow, const fs::path& file) {
 void write_material_tables(const Material& material, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw results::OutputError(folder.string(), "cannot make this folder: " + error.message(), "-o names another one");
+  if (error)
+    throw results::OutputError(folder.string(), "cannot make this folder: " + error.message(),
+                               "-o names another one");
   write_properties(material, folder / "properties.csv");
   if (material.flow) write_flow_curves(*material.flow, folder / "flow_curves.csv");
 }
