@@ -5,6 +5,7 @@
 
 An equation is cited in comments as (2.49a) or 4.31–4.54; ranges are spelled out here.
 """
+import bisect
 import pathlib
 import re
 import sys
@@ -12,7 +13,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/theory/equations.md"
 # The last equation of each chapter of CIMNE monograph 48.
-LAST = {2: 151, 3: 76, 4: 152, 5: 63, 6: 34}
+LAST = {2: 151, 3: 76, 4: 152, 5: 64, 6: 34}
 CHAPTERS = {
     2: "The thermodynamic framework and the constitutive law",
     3: "Contact",
@@ -22,10 +23,14 @@ CHAPTERS = {
 }
 NUMBER = r"[2-6]\.\d{1,3}[a-d]?"
 RANGE = rf"({NUMBER})\s*[–-]\s*({NUMBER})"
-# Inside parentheses any number of this form is an equation; outside of them one with two digits behind the point
-# or a letter, after a word that introduces it.
-INTRODUCED = re.compile(rf"(?:\b(?:of|in|to|by|and|with|from|see|for|as|equation|monograph|errata)\s|,\s)({NUMBER})\b")
+# Inside parentheses any number of this form is an equation; outside of them one with a letter, and one with two digits
+# behind the point after a word that introduces it, alone in its line, or in a table's column of equations.
+INTRODUCED = re.compile(
+    rf"(?:\b(?:of|in|to|by|and|with|from|see|for|as|equation|monograph|errata)\s+|,\s+)({NUMBER})\b(?!\.\d)")
+NAMED = re.compile(rf"\b(?:equation|monograph|errata)\s+({NUMBER})\b(?!\.\d)")
+LETTERED = re.compile(r"(?<![\w.,/\-×\\#])([2-6]\.\d{1,3}[a-d])\b")
 PARENTHESES = re.compile(r"\(([^()]*)\)")
+ALONE = re.compile(rf"[\s,;–-]*(?:{NUMBER}[\s,;–-]*)+")
 
 
 def split(number):
@@ -49,39 +54,93 @@ def spelled_out(first, last):
     return [first] + [f"{chapter}.{n}" for n in range(low + 1, high)] + [last]
 
 
-def cited(text):
-    """The equations that a line of comment or documentation cites."""
+def blank(match):
+    return " " * len(match[0])
+
+
+def ranges(text):
+    """(place, equation) of all ranges in a text."""
+    for match in re.finditer(RANGE, text):
+        yield from ((match.start(), number) for number in spelled_out(match[1], match[2]))
+
+
+def inside_parentheses(text):
+    """(place, equation) of what stands between two parentheses."""
+    # Sections of the monograph ("4.2.3") and quantities with units are no equations.
+    text = re.sub(r"\d+\.\d+\.\d+", blank, text)
+    yield from ranges(text)
+    rest = re.sub(RANGE, blank, text)
+    number = rf"(?<![\d.,]){NUMBER}(?![\d.%])"
+    if re.fullmatch(rf"[\s,;and]*(?:(?:monograph|errata|to|after|as in|as|of|remark|the|see)[\s,]*)*(?:{NUMBER}[\s,;and]*)+"
+                    r"(?:[,;:].*|(?:with|but|and|of|in|for|written|without|errata|as|where|there|its|is)\b.*)?", rest):
+        yield from ((match.start(), match[0]) for match in re.finditer(number, rest))
+    yield from ((match.start(1), match[1]) for match in [*NAMED.finditer(rest), *LETTERED.finditer(rest)])
+
+
+def cited_at(text):
+    """(place, equation) of what a paragraph of comment or documentation cites."""
     found = []
-    for inside in PARENTHESES.findall(text):
-        # Sections of the monograph ("4.2.3") and quantities with units are no equations.
-        inside = re.sub(r"\d+\.\d+\.\d+", " ", inside)
-        for first, last in re.findall(RANGE, inside):
-            found += spelled_out(first, last)
-        rest = re.sub(RANGE, " ", inside)
-        if re.fullmatch(rf"[\s,;and]*(?:(?:monograph|errata|to|after|as in|as|of|remark|the|see)[\s,]*)*(?:{NUMBER}[\s,;and]*)+"
-                        r"(?:[,;:].*|(?:with|but|and|of|in|for|written|without|errata|as|where|there|its|is)\b.*)?", rest):
-            found += re.findall(rf"(?<![\d.,]){NUMBER}(?![\d.%])", rest)
-    outside = PARENTHESES.sub(" ", text)
-    for first, last in re.findall(RANGE, outside):
-        if len(first) >= 4 and len(last) >= 4:
-            found += spelled_out(first, last)
-    for number in INTRODUCED.findall(re.sub(RANGE, " ", outside)):
-        _, serial, letter = split(number)
+    for match in PARENTHESES.finditer(text):
+        found += [(match.start(1) + at, number) for at, number in inside_parentheses(match[1])]
+    outside = PARENTHESES.sub(blank, text)
+    found += [(at, number) for at, number in ranges(outside) if len(number) >= 4]
+    rest = re.sub(RANGE, blank, outside)
+    if ALONE.fullmatch(rest):
+        found += [(match.start(), match[0]) for match in re.finditer(NUMBER, rest)]
+    found += [(match.start(1), match[1]) for match in LETTERED.finditer(rest)]
+    for match in INTRODUCED.finditer(rest):
+        _, serial, letter = split(match[1])
         if serial >= 10 or letter:
-            found.append(number)
-    return [n for n in dict.fromkeys(found) if known(n)]
+            found.append((match.start(1), match[1]))
+    return sorted((at, number) for at, number in found if known(number))
 
 
-def comments(path):
-    """(line number, text) of what is comment in a source, of everything in a page."""
-    text = path.read_text(encoding="utf-8").splitlines()
-    if path.suffix == ".md":
-        yield from enumerate(text, 1)
-        return
-    for number, line in enumerate(text, 1):
-        at = line.find("//")
-        if at >= 0:
-            yield number, line[at:]
+def cited(text):
+    """The equations that a text cites, in their order."""
+    return list(dict.fromkeys(number for _, number in cited_at(text)))
+
+
+def column_of_equations(header):
+    """The place of the column of a table that holds equations, from its first line; None: there is none."""
+    names = [cell.strip().lower() for cell in header.split("|")]
+    return next((i for i, name in enumerate(names) if name in ("equation", "equations", "monograph", "where")), None)
+
+
+def cited_in_table(rows):
+    """(line, equation) of a table of a page."""
+    column = column_of_equations(rows[0][1])
+    for line, row in rows[2:]:
+        cells = re.split(r"(?<!\\)\|", row)
+        for i, cell in enumerate(cells):
+            listed = i == column and ALONE.fullmatch(cell)
+            yield from ((line, number) for number in cited(f"({cell})" if listed else cell if not ALONE.fullmatch(cell) else ""))
+
+
+def paragraphs(path):
+    """[(line number, text)] of each paragraph of comment in a source, of each paragraph and table in a page."""
+    page, found = path.suffix == ".md", []
+    for number, line in enumerate([*path.read_text(encoding="utf-8").splitlines(), ""], 1):
+        at = 0 if page else line.find("//")
+        text = line if page else line[at:].lstrip("/<").strip() if at >= 0 else ""
+        ends = not text.strip() or (found and text.startswith("|") != found[-1][1].startswith("|"))
+        if ends and found:
+            yield found
+            found = []
+        if text.strip():
+            found.append((number, text))
+
+
+def citations(path):
+    """(line, equation) of a file."""
+    for lines in paragraphs(path):
+        if path.suffix == ".md" and lines[0][1].startswith("|"):
+            yield from cited_in_table(lines)
+            continue
+        starts = [0]
+        for _, text in lines:
+            starts.append(starts[-1] + len(text) + 1)
+        for at, number in cited_at(" ".join(text for _, text in lines)):
+            yield lines[bisect.bisect_right(starts, at) - 1][0], number
 
 
 def sources():
@@ -98,10 +157,8 @@ def places():
     found = {}
     for path in [*sources(), *pages()]:
         name = path.relative_to(ROOT).as_posix()
-        for line, text in comments(path):
-            for number in cited(text):
-                where = found.setdefault(number, {})
-                where.setdefault(name, line)
+        for line, number in citations(path):
+            found.setdefault(number, {}).setdefault(name, line)
     return {number: list(where.items()) for number, where in found.items()}
 
 

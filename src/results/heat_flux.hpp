@@ -1,4 +1,4 @@
-/// The heat flux q = −k(Θ) ∇Θ in elements (Fourier's law, monograph 2.35).
+/// The heat flux q = −k(Θ) ∇Θ in elements (Fourier's law, monograph 2.61).
 #pragma once
 
 #include <functional>
