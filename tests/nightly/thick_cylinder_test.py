@@ -6,11 +6,12 @@ import unittest
 from whole_cases import ROOT, numbers, reference, run
 
 SURFACES = (("u_inner[mm]", "u"), ("u_outer[mm]", "u"), ("T_inner[K]", "T"), ("T_outer[K]", "T"))
-# Schemes of the reference (tests/verification/reference/README.md) of the quasi-static variants; None: without one.
+# Schemes of the reference (tests/verification/reference/README.md) of the quasi-static variants; the double pass, which it
+# has not, is compared with what all schemes of the energy form lead to as the step vanishes.
 QUASI_STATIC = {
     "isentropic": "isentropic_printed",
     "isentropic_energy": "isentropic_energy_kept",
-    "isentropic_double_pass": None,
+    "isentropic_double_pass": "limits",
     "isothermal": "isothermal",
     "isothermal_collapsed": "isothermal_collapsed",
     "isothermal_temperature": "isothermal_temperature",
@@ -18,7 +19,10 @@ QUASI_STATIC = {
     "simultaneous_energy": "simultaneous_energy",
     "block_iterative": "simultaneous",
 }
-MOVING = {"isentropic": "isentropic_energy", "isothermal": "isothermal", "simultaneous": "simultaneous_energy"}
+# Differences of the double pass with steps of 10 s to the limit, from 100 s on [mm], [K].
+DOUBLE_PASS = {("te", 1): {"u": 4e-5, "T": 0.05}, ("te", 6): {"u": 4e-4, "T": 0.3},
+               ("tp", 1): {"u": 4e-3, "T": 0.05}, ("tp", 6): {"u": 5e-3, "T": 0.6}}
+MOVING = {"isentropic": "isentropic_energy", "isentropic_printed": "isentropic_printed", "isothermal": "isothermal", "simultaneous": "simultaneous_energy"}
 
 
 class ThickCylinder(unittest.TestCase):
@@ -35,9 +39,11 @@ class ThickCylinder(unittest.TestCase):
             self.assertIn("coupling.scheme", said)
             return
         self.assertEqual(code, 0, said)
-        if QUASI_STATIC[scheme] is None:
-            return
         history = numbers(folder / "history.csv")
+        if QUASI_STATIC[scheme] == "limits":
+            for row in reference("limits.csv", (law, factor)):
+                self.compare(history, float(row["time[s]"]), row, DOUBLE_PASS[law, factor])
+            return
         for time in (10, 100, 1000):
             (row,) = reference("histories.csv", (law, factor, "closed", QUASI_STATIC[scheme], time))
             self.compare(history, time, row, {"u": 1e-5, "T": 1e-3})
@@ -54,7 +60,7 @@ class ThickCylinder(unittest.TestCase):
             return
         self.assertEqual(code, 0, said)
         # Here the flow of the mechanical phase is kept, the reference maps it again.
-        plastic = law == "tp" and scheme != "simultaneous"
+        plastic = law == "tp" and scheme not in ("simultaneous", "isentropic_printed")
         tolerance = {"u": 1e-4, "T": 1e-3} if plastic else {"u": 1e-7, "T": 1e-5}
         if scheme == "isothermal" and (integrator != "be" or factor == 6):
             tolerance = {"u": 0.05, "T": 1.0}  # rounding grows with the scheme
@@ -64,7 +70,7 @@ class ThickCylinder(unittest.TestCase):
         variants = tomllib.loads((ROOT / "cases/thick_cylinder/variants.toml").read_text())["variant"]
         names = {name for name in variants if not name.startswith("dyn_")}
         self.assertEqual(names, {f"{law}_x{f}_{s}" for law in ("te", "tp") for f in (1, 6) for s in QUASI_STATIC})
-        self.assertEqual(len(set(variants) - names), 54)
+        self.assertEqual(len(set(variants) - names), 58)
 
 
 def add(name, check, *arguments):
@@ -77,7 +83,7 @@ for a_law in ("te", "tp"):
             add(f"{a_law}_x{a_factor}_{a_scheme}", "quasi_static", a_law, a_factor, a_scheme)
     for a_factor in (1, 3, 6):
         for an_integrator in ("be", "newmark", "trapezoidal"):
-            for a_scheme in MOVING:
+            for a_scheme in (s for s in MOVING if s != "isentropic_printed" or (an_integrator == "newmark" and a_factor < 6)):
                 add(f"dyn_{a_law}_x{a_factor}_{an_integrator}_{a_scheme}", "moving", a_law, a_factor, an_integrator, a_scheme)
 
 if __name__ == "__main__":
