@@ -9,13 +9,16 @@ ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = ROOT / "tests/verification/reference"
 
 
-def run(case):
-    """Runs a case file below cases/, or a variant of a case, FOLDER:VARIANT.
+def run(case, name=None, settings=()):
+    """Runs a case file below cases/, or a variant of a case, FOLDER:VARIANT, with settings as --set takes them.
+
+    name: of the folder of its results, where it is not that of the case
 
     @returns its exit code, what it said, and the folder of its results
     """
-    folder = Path(os.environ["SOLIDUS_FOLDER"]) / Path(case.replace(":", "/")).with_suffix("")
-    done = subprocess.run([os.environ["SOLIDUS_PROGRAM"], "run", str(ROOT / "cases" / case), "-o", str(folder)],
+    folder = Path(os.environ["SOLIDUS_FOLDER"]) / (name or Path(case.replace(":", "/")).with_suffix(""))
+    done = subprocess.run([os.environ["SOLIDUS_PROGRAM"], "run", str(ROOT / "cases" / case), "-o", str(folder),
+                           *(part for setting in settings for part in ("--set", setting))],
                           capture_output=True, text=True, timeout=3600, check=False)
     return done.returncode, done.stdout + done.stderr, folder
 
