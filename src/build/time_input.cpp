@@ -18,8 +18,10 @@ void refuse(const TimeSpec& t, bool given, const char* key, const char* needs, c
 
 void check_limits(const TimeSpec& t, const CaseSpec& spec) {
   using coupling::ErrorControl;
-  const bool errors = t.temperature_error || t.displacement_error;
-  const char* error_key = t.temperature_error ? "temperature_error" : "displacement_error";
+  const bool errors = t.temperature_error || t.displacement_error || t.stress_error;
+  const char* error_key = t.temperature_error    ? "temperature_error"
+                          : t.displacement_error ? "displacement_error"
+                                                 : "stress_error";
   if (!t.adaptive) {
     const char* needs = "without adaptive = true";
     refuse(t, t.max_step.has_value(), "max_step", needs, "adaptive = true, or no max_step");
@@ -37,6 +39,8 @@ void check_limits(const TimeSpec& t, const CaseSpec& spec) {
   }
   refuse(t, !spec.has_mechanics() && t.displacement_error, "displacement_error",
          "in an analysis without mechanics", "temperature_error");
+  refuse(t, !spec.has_mechanics() && t.stress_error, "stress_error", "in an analysis without mechanics",
+         "temperature_error");
 }
 
 void check_until(const TimeSpec& t, const CaseSpec& spec) {
@@ -63,6 +67,7 @@ coupling::StepOptions step_options(const TimeSpec& t, double step) {
   options.easy_iterations = t.easy_iterations;
   options.limits.control = t.error_control;
   options.limits.temperature = t.temperature_error.value_or(1.0);
+  options.limits.stress = t.stress_error.value_or(0.005);
   options.limits.solid_fraction = t.solid_fraction_change.value_or(0.1);
   return options;
 }

@@ -161,6 +161,7 @@ struct TimeSpec {
   int easy_iterations = 0;
   coupling::ErrorControl error_control = coupling::ErrorControl::predictor;
   std::optional<double> temperature_error, displacement_error;  ///< local, of a step [K], [m]
+  std::optional<double> stress_error;                           ///< local, share of the stress [1]
   std::optional<double> solid_fraction_change;                  ///< in a step
   SourceLocation where;
 };

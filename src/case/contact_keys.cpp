@@ -83,10 +83,7 @@ Section<BodyInterfaceSpec> body_interface_keys() {
       .doc(
           "How far apart faces may be that face each other; without it a quarter of the mean edge of the "
           "finer of the two skins.");
-  s.quantity("touching", &I::touching, "m")
-      .at_least(0)
-      .doc(
-          "As of a [[contact]].");
+  s.quantity("touching", &I::touching, "m").at_least(0).doc("As of a [[contact]].");
   s.key("law", &I::law)
       .initially("")
       .doc(
@@ -194,7 +191,8 @@ Section<ContactSpec> contact_keys() {
   s.quantity("touching", &C::touching, "m")
       .at_least(0)
       .doc(
-          "Initial gaps and penetrations up to this size count as touching, others stay as the mesh has them; "
+          "Initial gaps and penetrations up to this size count as touching, others stay as the mesh has "
+          "them; "
           "without it the gap is that between the curved surfaces that facets stand for, and what is left of "
           "it by rounding and scatter, up to a quarter of the height of the facets, counts as touching.");
   s.key("wet", &C::wet)

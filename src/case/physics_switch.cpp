@@ -134,7 +134,7 @@ std::string switch_physics(Value& document, Physics physics) {
       removal.key(body, "initial_velocity", of);
     }
   if (Value* time = document.find("time"); time != nullptr)
-    removal.key(*time, "displacement_error", "[time]");
+    for (const char* key : {"displacement_error", "stress_error"}) removal.key(*time, key, "[time]");
   take_out_of_probes(document, removal);
   take_out_of_output(document, removal);
   return removal.text();

@@ -52,6 +52,12 @@ Section<TimeSpec> time_keys() {
       .doc(
           "The same of the displacement of what is coherent: melt that flows costs no step. Without it 3e-4 "
           "of the section, volume over cooling surface, of the body that deforms where it is least.");
+  s.key("stress_error", &TimeSpec::stress_error)
+      .range(1e-6, 1)
+      .doc(
+          "Local error of an adaptive step in the stress of solid metal that creeps (flow that depends on "
+          "its "
+          "rate), as a share of the stress of the body where it is largest; without it 0.005.");
   s.key("solid_fraction_change", &TimeSpec::solid_fraction_change)
       .range(1e-4, 1)
       .doc("Change in an adaptive step of the solid share of the volume that can melt; without it 0.1.");

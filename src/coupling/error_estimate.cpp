@@ -77,16 +77,33 @@ double ErrorEstimate::displacement_predictor(const State& old, const State& now,
       casting(coherency(old), rates.coherency));
 }
 
+std::span<const double> ErrorEstimate::temperature(const State& state) const {
+  return state.heat.temperature.empty() ? phases_->temperature : state.heat.temperature;
+}
+
+double ErrorEstimate::stress_predictor(const State& old, const State& now, double dt,
+                                       const Rates& rates) const {
+  if (creep_ == nullptr || rates.creep.empty()) return 0;
+  const mechanics::CreepField rate = creep_->flow(old.mechanics, now.mechanics, 1 / dt);
+  return creep_->of_stress(mechanics::CreepError::error(rate, rates.creep, dt), rate, rates.creep,
+                           temperature(now), now.mechanics, dt);
+}
+
 LocalError ErrorEstimate::doubling(const State& old, const State& whole, const State& halves,
-                                   const Rates& rates, const heat::StageFlows& flows) const {
-  double temperature = norm_(difference(whole.heat.temperature, halves.heat.temperature));
+                                   const Rates& rates, double dt, const heat::StageFlows& flows) const {
+  double in_heat = norm_(difference(whole.heat.temperature, halves.heat.temperature));
   if (measures(flows))
-    temperature =
-        std::max(temperature, lasting(norm_.mean(phases_->heat->change_in_kelvin(whole.heat, halves.heat)),
-                                      rates.changed, change_of(old, halves, flows)));
-  return {temperature,
+    in_heat = std::max(in_heat, lasting(norm_.mean(phases_->heat->change_in_kelvin(whole.heat, halves.heat)),
+                                        rates.changed, change_of(old, halves, flows)));
+  double in_stress = 0;
+  if (creep_ != nullptr)
+    in_stress = creep_->of_stress(creep_->flow(whole.mechanics, halves.mechanics, 1),
+                                  creep_->flow(old.mechanics, halves.mechanics, 1 / dt), rates.creep,
+                                  temperature(halves), halves.mechanics, dt / 2);
+  return {in_heat,
           size_of_displacement(difference(whole.mechanics.displacement, halves.mechanics.displacement),
-                               casting(coherency(old)))};
+                               casting(coherency(old))),
+          in_stress};
 }
 
 Rates ErrorEstimate::rates_of(const State& old, const State& now, double dt,
@@ -98,6 +115,7 @@ Rates ErrorEstimate::rates_of(const State& old, const State& now, double dt,
     rates.temperature = difference(old.heat.temperature, now.heat.temperature, dt);
   rates.displacement = difference(old.mechanics.displacement, now.mechanics.displacement, dt);
   rates.coherency = coherency(old);
+  if (creep_ != nullptr) rates.creep = creep_->flow(old.mechanics, now.mechanics, 1 / dt);
   return rates;
 }
 

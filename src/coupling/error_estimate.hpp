@@ -1,4 +1,4 @@
-/// Estimate of the error of a step in temperature and displacement.
+/// Estimate of the error of a step in temperature, displacement and stress.
 ///
 /// Temperature, where nodes hold the heat and the phase is solved once a step: heat::time_error() of the
 /// flows of heat, spread to temperatures (heat/heat_spread.hpp), for backward Euler and SDIRK2. The part of
@@ -32,8 +32,14 @@
 /// has come off its walls is held by hardly anything, and stress, which is what a step has to resolve, knows
 /// nothing of a rigid motion. What it does to gaps shows in the temperatures.
 ///
+/// A displacement that is held says nothing of the stress that creeps away at it. The stress has an error of
+/// its own where the flow of solid metal depends on its rate: y is the plastic strain at the points, and ε
+/// what it leaves in the stress (mechanics/creep_error.hpp), as a share of the stress of the body.
+///
 /// A first step has no step before, and one after a jump none that tells: they are measured by doubling.
 #pragma once
+
+#include <memory>
 
 #include "coupling/body_norm.hpp"
 #include "coupling/phases.hpp"
@@ -46,6 +52,7 @@ namespace solidus::coupling {
 struct LocalError {
   double temperature = 0;   ///< [K]; with the lasting part, see above
   double displacement = 0;  ///< [m]
+  double stress = 0;        ///< of the deviatoric stress of a body [1]
 };
 
 /// Whether the error of a displacement is that of the distortion of bodies, or of their whole motion.
@@ -58,7 +65,11 @@ class ErrorEstimate {
   ///                nothing melts, and temperatures are compared alone
   explicit ErrorEstimate(BodyNorm norm, const Phases* phases = nullptr,
                          Displacement displacement = Displacement::motion)
-      : norm_(std::move(norm)), phases_(phases), displacement_(displacement) {}
+      : norm_(std::move(norm)), phases_(phases), displacement_(displacement) {
+    if (phases_ == nullptr || phases_->mechanics == nullptr) return;
+    creep_ = std::make_shared<const mechanics::CreepError>(*phases_->mechanics);
+    if (!creep_->any()) creep_.reset();
+  }
 
   /// Estimates the error of temperature of the step from `old` to `now` by its extrapolation from `rates`,
   /// which must be known [K]; `now` need not be deformed yet.
@@ -67,10 +78,13 @@ class ErrorEstimate {
                                const heat::StageFlows& flows) const;
   /// The same of the displacement [m].
   double displacement_predictor(const State& old, const State& now, double dt, const Rates& rates) const;
-  /// The error of the two `halves` of a step, by comparison with the `whole`. Both start from `old`.
+  /// That of the stress of what creeps, as a share [1]; zero where nothing does or the rate is not known.
+  double stress_predictor(const State& old, const State& now, double dt, const Rates& rates) const;
+  /// The error of the two `halves` of a step, by comparison with the `whole`. Both start from `old` and take
+  /// `dt`.
   /// @param flows  of the second half
   LocalError doubling(const State& old, const State& whole, const State& halves, const Rates& rates,
-                      const heat::StageFlows& flows) const;
+                      double dt, const heat::StageFlows& flows) const;
   /// Heat that a step has moved: the norm of its change in the nodes in kelvin of sensible heat. Zero where
   /// its flows are not known.
   double change_of(const State& old, const State& now, const heat::StageFlows& flows) const;
@@ -81,12 +95,14 @@ class ErrorEstimate {
   /// Whether the error of the heat is taken from these flows.
   bool measures(const heat::StageFlows& flows) const;
   std::vector<double> coherency(const State& state) const;
+  std::span<const double> temperature(const State& state) const;
   double size_of_displacement(std::span<const double> error, std::span<const char> counts) const;
   double lasting(double mean, double before, double change) const;
 
   BodyNorm norm_;
   const Phases* phases_;
   Displacement displacement_;
+  std::shared_ptr<const mechanics::CreepError> creep_;  ///< null: nothing creeps
 };
 
 }  // namespace solidus::coupling

@@ -23,6 +23,7 @@ MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double ti
   if (!taken.effort) return taken;
   const heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
   taken.error.displacement = estimate_->displacement_predictor(old, trial, dt, rates_);
+  taken.error.stress = estimate_->stress_predictor(old, trial, dt, rates_);
   if (!conducted) taken.error.temperature = estimate_->temperature_predictor(old, trial, dt, rates_, flows);
   next_rates_ = estimate_->rates_of(old, trial, dt, flows);
   next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);
@@ -50,10 +51,12 @@ MeasuredStep::Taken MeasuredStep::told(const State& old, State& trial, double ti
   if (!first) {
     taken.error.temperature = estimate_->temperature_predictor(old, trial, dt, rates_, flows);
     taken.error.displacement = estimate_->displacement_predictor(old, trial, dt, rates_);
+    taken.error.stress = estimate_->stress_predictor(old, trial, dt, rates_);
   } else if (halved) {
-    taken.error = estimate_->doubling(old, trial, halves, rates_, flows);
+    taken.error = estimate_->doubling(old, trial, halves, rates_, dt, flows);
     taken.error.temperature *= 2;  // of the whole, which commits twice what its halves do
     taken.error.displacement *= 2;
+    taken.error.stress *= 2;
   }
   next_rates_ = estimate_->rates_of(old, trial, dt, flows);
   next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);
@@ -69,7 +72,7 @@ MeasuredStep::Taken MeasuredStep::doubled(const State& old, State& trial, double
   Taken taken{scheme_.advance(old, middle, middle.time, dt / 2), {}};
   *taken.effort += scheme_.advance(middle, trial, time, dt / 2);
   const heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
-  taken.error = estimate_->doubling(old, whole, trial, rates_, flows);
+  taken.error = estimate_->doubling(old, whole, trial, rates_, dt, flows);
   if (control_ == ErrorControl::predictor) next_rates_ = estimate_->rates_of(middle, trial, dt / 2, flows);
   next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);
   return taken;

@@ -136,8 +136,8 @@ struct StepRecord : StepEffort {
   std::string stage;        ///< empty in a run without stages
   int stage_of_case = 0;    ///< its number in the case, from one; zero without stages
   int cycle = 0;            ///< how often its cycle has come round, from one; zero outside of cycles
-  /// Local errors as estimated, zero where nothing estimates them [K], [m].
-  double temperature_error = 0, displacement_error = 0;
+  /// Local errors as estimated, zero where nothing estimates them [K], [m], [1].
+  double temperature_error = 0, displacement_error = 0, stress_error = 0;
 };
 
 class Observer {

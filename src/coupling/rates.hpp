@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "mechanics/creep_error.hpp"
+
 namespace solidus::coupling {
 
 /// Difference quotients of a step that was taken. Empty where none was, and where nothing asks for them.
@@ -16,6 +18,8 @@ struct Rates {
   /// Coherency::at of the state that the step set out from: rates of melt say nothing of the next step. Empty
   /// where nothing that deforms melts.
   std::vector<double> coherency;
+
+  mechanics::CreepField creep;  ///< of ε^vp where flow takes time [1/s]; empty where nothing creeps
 
   /// Sum of the changes of heat of all steps so far [K] (ErrorEstimate::change_of): since the run or its
   /// stage began, or a jump.

@@ -23,7 +23,8 @@ constexpr double k_solid = 1 - 1e-12;
 
 /// A state whose change cannot be measured is none to go on from. The same on every process.
 void require_numbers(const StepMeasure& measure) {
-  if (std::isfinite(measure.temperature_error + measure.displacement_error + measure.solid_fraction_change))
+  if (std::isfinite(measure.temperature_error + measure.displacement_error + measure.stress_error +
+                    measure.solid_fraction_change))
     return;
   throw StepRejected("coupling: the error of the step is not a number", {}, Failure::divergence);
 }
@@ -350,6 +351,7 @@ Simulation::Try Simulation::try_step(Progress& p) {
       StepMeasure of_error;
       of_error.temperature_error = error.temperature;
       of_error.displacement_error = error.displacement;
+      of_error.stress_error = error.stress;
       return of_error;
     };
     const MeasuredStep::Taken taken =
@@ -394,6 +396,7 @@ Simulation::Try Simulation::try_step(Progress& p) {
   record.reason = step.reason;
   record.temperature_error = measure.temperature_error;
   record.displacement_error = measure.displacement_error;
+  record.stress_error = measure.stress_error;
   record.output = std::binary_search(p.outputs.begin(), p.outputs.end(), step.time) ||
                   (options_.until_solid && record.solid_fraction >= k_solid);
   record.energy.bodies = p.carried;

@@ -40,6 +40,7 @@ Strictest strictest(const StepLimits& limits, const StepMeasure& measure) {
     look("temperature error", " K", measure.temperature_error, limits.temperature, 2, k_tolerated);
     look("displacement error", " m", measure.displacement_error, limits.displacement, 2,
          limits.inertia ? k_tolerated : k_tolerated_displacement);
+    look("stress error", "", measure.stress_error, limits.stress, 2, k_tolerated);
   }
   look("solid fraction", "", measure.solid_fraction_change, limits.solid_fraction, 1, k_tolerated);
   return result;

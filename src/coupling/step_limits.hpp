@@ -13,6 +13,7 @@ struct StepLimits {
   double temperature = 1;       ///< local error per step [K]
   double displacement = 1e-6;   ///< local error per step [m]
   double solid_fraction = 0.1;  ///< change per step of the solid share of all bodies that can melt [1]
+  double stress = 0.005;        ///< local error per step, as a share of the stress [1]
   bool inertia = false;         ///< displacements are integrated in time, as temperatures are
 
   bool operator==(const StepLimits&) const = default;
@@ -22,6 +23,7 @@ struct StepLimits {
 struct StepMeasure {
   int iterations = 0;                                    ///< the largest Newton count of its phases
   double temperature_error = 0, displacement_error = 0;  ///< [K], [m]; zero where nothing measures them
+  double stress_error = 0;                               ///< [1]; zero where nothing creeps
   double solid_fraction_change = 0;
   bool ended_early = false;  ///< turns of contact did not settle (contact/augmented_lagrangian.hpp)
 };

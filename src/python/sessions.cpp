@@ -62,6 +62,7 @@ py::dict dict_of(const coupling::StepRecord& record) {
   d["max_temperature"] = record.max_temperature;
   d["temperature_error"] = record.temperature_error;
   d["displacement_error"] = record.displacement_error;
+  d["stress_error"] = record.stress_error;
   d["energy"] = dict_of(record.energy);
   return d;
 }

@@ -28,7 +28,7 @@ namespace {
 
 /// Characters that stand for a pair in State::steady_gaps.
 constexpr char k_steady = 's', k_unsteady = '-';
-constexpr const char* k_format = "Solidus checkpoint 24";
+constexpr const char* k_format = "Solidus checkpoint 25";
 constexpr const char* k_known = "known";
 /// Above absolute zero, and no hotter than a case may ask for [K].
 constexpr AllowedValues k_temperatures{std::numeric_limits<double>::min(), 1e6};
@@ -165,6 +165,15 @@ void take_history(TableReader& in, const std::string& name, const std::string& v
                                    static_cast<Index>(n));
 }
 
+/// Room for the rates of the plastic strain of a block with this history.
+mechanics::BlockHistory creep_layout(const mechanics::BlockHistory& history) {
+  constexpr int k_tensor = 6;
+  mechanics::BlockHistory rates{k_tensor, history.n_points, {}};
+  const auto width = static_cast<std::size_t>(history.n_components);
+  rates.values.assign(width > 0 ? history.values.size() / width * k_tensor : 0, Lane(0.0));
+  return rates;
+}
+
 std::string shot_table(std::size_t iterate, const char* field) {
   return fmt::format("shot_{}_{}", iterate, field);
 }
@@ -256,6 +265,11 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   for (char& of_pair : c.state.steady_gaps) of_pair = of_pair == k_steady;
   take_shots(in, nodes, c.state, c.continuation.shots);
   mechanics::MechanicalState& mechanics = c.state.mechanics;
+  const std::string creep = in.text("rates_of_creep");
+  if (!creep.empty() && creep.size() != mechanics.history.size())
+    in.refuse(fmt::format("its 'rates_of_creep' are of {} blocks, the mesh has {}", creep.size(),
+                          mechanics.history.size()));
+  c.continuation.rates.creep.resize(creep.size());
   // A run that went on with backward Euler left no history before the last: the next step is one too.
   if (mechanics.before.empty()) mechanics.dt_before = 0;
   for (std::size_t b = 0; b < mechanics.history.size(); ++b) {
@@ -263,6 +277,9 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
     take_history(in, name, name + "/values", mesh.blocks[b], mechanics.history[b]);
     if (mechanics.dt_before > 0)
       take_history(in, name, name + "/before", mesh.blocks[b], mechanics.before[b]);
+    if (b < creep.size() && creep[b] == k_creeps)
+      take_history(in, name, name + "/creep_rate", mesh.blocks[b],
+                   c.continuation.rates.creep[b] = creep_layout(mechanics.history[b]));
     if (!mechanics.stress.empty())
       take_history(in, name, name + "/stress", mesh.blocks[b], mechanics.stress[b]);
   }
@@ -337,6 +354,10 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
     out.text("rates_of_melt", melts ? k_known : "unknown");
     if (melts) nodal("coherency", rates.coherency);
   }
+  std::string creep;
+  for (const mechanics::BlockHistory& of_block : rates.creep)
+    creep += of_block.n_components > 0 ? k_creeps : k_no_creep;
+  out.text("rates_of_creep", creep);
   const coupling::ShotHistory& shots = c.continuation.shots;
   out.text("shots", parallel::any_process(!shots.start.empty()) ? k_known : "unknown");
   out.text("shot_iterates", std::to_string(shots.iterates.size()));
@@ -356,6 +377,9 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
     out.rows<double>(name + "/values", width, pack_history(block, history));
     if (c.state.mechanics.dt_before > 0)
       out.rows<double>(name + "/before", width, pack_history(block, c.state.mechanics.before[b]));
+    if (b < creep.size() && creep[b] == k_creeps)
+      out.rows<double>(name + "/creep_rate", rates.creep[b].n_points * rates.creep[b].n_components,
+                       pack_history(block, rates.creep[b]));
     if (!c.state.mechanics.stress.empty()) {
       const mechanics::BlockHistory& stress = c.state.mechanics.stress[b];
       out.rows<double>(name + "/stress", stress.n_points * stress.n_components, pack_history(block, stress));

@@ -179,6 +179,62 @@ TEST(ClosedFormsOfSolids, ATubeThatCreepsHasTheStressesOfThePowerLaw) {
   EXPECT_NEAR(at(run.history, "hoop_skin[MPa]", 200), p * (2 / n) / all, 0.2);
 }
 
+// A bar that is pulled at once and held at its length relaxes by σ' = −E √⅔ D/η (√⅔ σ/D)^n (F. H. Norton, The
+// Creep of Steel at High Temperatures, 1929). Nothing moves while it does: steps follow the error of stress,
+// and where that is let go they grow until the answer is off.
+TEST(ClosedFormsOfSolids, ABarHeldAtItsLengthRelaxesByThePowerLawInAdaptiveSteps) {
+  const CaseFolder folder("closed_forms_relaxation");
+  constexpr double young = 200e3, n = 4, drag = 100, viscosity = 1e7, pulled = 100;  // [MPa], [MPa s]
+  folder.write("creeping.toml",
+               steel("[plasticity]\nflow_stress = \"1 kPa\"\nrate_dependence = \"perzyna\"\n"
+                     "rate_exponent = 4\ndrag_stress = \"100 MPa\"\nviscosity = \"1e13 Pa s\"\n"));
+  const auto exact = [&](double t) {
+    const double share = std::sqrt(2.0 / 3);
+    const double rate = young * share * drag / viscosity * std::pow(share / drag, n);
+    return std::pow(std::pow(pulled, 1 - n) + (n - 1) * rate * t, 1 / (1 - n));
+  };
+  const std::string text = R"(
+title = "A bar is held at its length"
+[analysis]
+kind = "solid"
+physics = "mechanics"
+[mesh]
+shape = "block"
+element = "hex8"
+[mesh.block]
+size = ["10 mm", "10 mm", "10 mm"]
+[output]
+every = "100 s"
+[time]
+end = "1000 s"
+step = "10 s"
+adaptive = true
+[[body]]
+name = "block"
+material = "creeping.toml"
+initial_temperature = "300 degC"
+[[mechanical_condition]]
+name = "pull"
+group = "x_max"
+kind = "displacement"
+ux = "0.005 mm"
+)" + held("x_min", "ux") + held("y_min", "uy") +
+                           held("z_min", "uz") +
+                           probe("s", "stress", "xx", R"(["5 mm", "5 mm", "5 mm"])", "MPa");
+  const auto worst = [&](const std::string& name, const std::vector<std::string>& settings) {
+    const CaseRun run = folder.run(name, text, settings);
+    EXPECT_TRUE(run.finished) << run.reason;
+    double largest = 0;
+    for (std::size_t i = 1; i < run.history.at("time[s]").size(); ++i)
+      largest =
+          std::max(largest, std::abs(run.history.at("s[MPa]")[i] / exact(run.history.at("time[s]")[i]) - 1));
+    return largest;
+  };
+  EXPECT_GT(worst("unbounded", {"time.stress_error=1"}), 0.035);
+  EXPECT_LT(worst("default", {}), 0.03);
+  EXPECT_LT(worst("tight", {"time.stress_error=0.0005"}), 0.01);
+}
+
 // Beyond 2/√3 σ_0 ln(b/a) a tube of a metal that yields without hardening has no equilibrium (R. Hill, The
 // Mathematical Theory of Plasticity, 1950, ch. V). The run ends there and says why, and where.
 TEST(ClosedFormsOfSolids, ATubeThatYieldsCollapsesAtItsLimitLoadAndTheRunSaysSo) {

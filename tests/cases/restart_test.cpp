@@ -30,6 +30,14 @@ TEST_F(Restart, GoesOnWithTheSameBitsWhereStepsGrow) {
   expect_the_same("--set time.adaptive=true --set output.checkpoint_every=2", 1);
 }
 
+// Rates of creep are part of what a step is measured by.
+TEST_F(Restart, GoesOnWithTheSameBitsWhereStepsFollowTheErrorOfStress) {
+  expect_the_same(
+      "--set time.adaptive=true --set output.checkpoint_every=2 --set time.stress_error=1e-4"
+      " --set body.part.material='\"aluminium_alsi7mg\"'",
+      1);
+}
+
 TEST_F(Restart, GoesOnWithTheSameBitsWithMultigrid) {
   expect_the_same(k_multigrid, 1);
 }
