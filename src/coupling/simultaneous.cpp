@@ -147,7 +147,9 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
   heat::ThermalIteration& thermal = newton_->thermal();
   thermal.begin(old.heat, first_dt, heat::first_loads(time, dt));
   const std::vector<double> coherency = coherency_of(phases_, old.heat);
-  const StepEffort of_first = stage(old.mechanics, old.contacts, coherency, to_middle, first, deformation);
+  PhaseIterate of_middle(phases_, old.heat);
+  const StepEffort of_first =
+      stage(old.mechanics, old.contacts, coherency, to_middle, first, deformation, &of_middle);
 
   extrapolated =
       extrapolated && thermal.may_extrapolate(old.heat, first.heat, heat::last_loads(time, dt, true));
@@ -162,11 +164,13 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
   to_end.dt = extrapolated ? first_dt : dt - first_dt;
   to_end.from_extrapolation = extrapolated;
   to_end.iterate = &first.mechanics;
+  PhaseIterate of_end(phases_, first.heat);
+  of_end.hold(to_end);
   thermal.begin_stage(old.heat, first.heat, carried, to_end.dt, heat::last_loads(time, dt, extrapolated));
   StepEffort effort;
   try {
     effort = stage(start, second_start(phases_, old.contacts, first.contacts, carried), coherency, to_end,
-                   trial, deformation);
+                   trial, deformation, &of_end);
   } catch (const StepRejected&) {
     if (extrapolated) return std::nullopt;  // it may set out from a state that has no equilibrium nearby
     throw;
