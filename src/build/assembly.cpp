@@ -85,6 +85,7 @@ void build_contacts(const CaseSpec& spec, Assembly& a) {
     set_walls(spec, a.mesh, pair);
     set_leaving_gap(spec, a.mesh, a.materials, sections, pair);
     set_solid_penalty(a.mesh, a.materials, pair);
+    set_mean_conductivity(a.mesh, a.materials, pair);
     choose_normal(spec, a.materials, pair);
     a.contacts.push_back(
         std::make_unique<contact::ContactPair>(a.mesh, spec.analysis.kind, std::move(pair), moduli));

@@ -1,5 +1,7 @@
 #include "build/contact_input.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +9,7 @@
 #include "build/body_input.hpp"
 #include "build/friction_input.hpp"
 #include "build/rigid_surface_input.hpp"
+#include "contact/laws/contact_law.hpp"
 #include "contact/penalty.hpp"
 #include "material/elasticity.hpp"
 #include "parallel/parallel.hpp"
@@ -69,6 +72,48 @@ bool meets(const mesh::Mesh& mesh, int body, const contact::ContactParameters& p
            });
   });
   return parallel::any_process(here);
+}
+
+/// The body that has most nodes on a surface; -1: none. Collective.
+int body_on(const mesh::Mesh& mesh, const std::string& surface) {
+  const auto found = mesh.surfaces.find(surface);
+  std::vector<char> on(mesh.x.size(), 0);
+  if (found != mesh.surfaces.end())
+    for (const Index node : found->second.nodes) on[static_cast<std::size_t>(node)] = 1;
+  int most = -1;
+  double largest = 0;
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
+    std::vector<char> of_body(mesh.x.size(), 0);
+    for (const mesh::ElementBlock& block : mesh.blocks)
+      if (block.body == static_cast<int>(b))
+        for (const Index node : block.nodes) of_body[static_cast<std::size_t>(node)] = 1;
+    double count = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(mesh.n_owned_nodes); ++i)
+      count += on[i] * of_body[i];
+    count = parallel::global_sum(count);
+    if (count > largest) largest = count, most = static_cast<int>(b);
+  }
+  return most;
+}
+
+/// 2 k_1 k_2/(k_1 + k_2) at the points of both tables and between them.
+Table harmonic_mean(const Table& one, const Table& two) {
+  constexpr int k_parts = 16;  // of an interval of both tables
+  std::vector<double> x(one.x().begin(), one.x().end()), at, mean;
+  x.insert(x.end(), two.x().begin(), two.x().end());
+  std::ranges::sort(x);
+  x.erase(std::unique(x.begin(), x.end()), x.end());
+  const auto value = [&](double t) {
+    const double a = one.value(t), b = two.value(t);
+    return 2 * a * b / (a + b);
+  };
+  if (one.constant() && two.constant()) return {value(0)};
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (int part = 0; part < (i + 1 < x.size() ? k_parts : 1); ++part) {
+      at.push_back(part == 0 ? x[i] : x[i] + part * (x[i + 1] - x[i]) / k_parts);
+      mean.push_back(value(at.back()));
+    }
+  return {std::move(at), std::move(mean)};
 }
 
 }  // namespace
@@ -150,6 +195,22 @@ void set_solid_penalty(const mesh::Mesh& mesh, const std::vector<material::Mater
   for (const std::string& name : surfaces)
     softer = std::min(softer, contact::local_stiffness(mesh, contact::ContactSurface(mesh, name), moduli));
   pair.solid_penalty = pair.penalty * softer;
+}
+
+void set_mean_conductivity(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
+                           contact::ContactParameters& pair) {
+  if (!pair.heat || pair.heat->contact_law == nullptr || !pair.heat->contact_law->needs_conductivity())
+    return;
+  const int slave = body_on(mesh, pair.slave), master = pair.rigid_master ? -1 : body_on(mesh, pair.master);
+  if (slave < 0 || master < 0)
+    throw InputError(
+        pair.heat->where,
+        fmt::format("the contact '{}' needs the mean conductivity of its spots, and {}", pair.name,
+                    pair.rigid_master ? "a rigid surface has none" : "no body is on its surfaces"),
+        "'conductivity' in [contact.heat.asperities]");
+  pair.heat->contact_law = pair.heat->contact_law->with_conductivity(
+      harmonic_mean(materials[static_cast<std::size_t>(slave)].conductivity,
+                    materials[static_cast<std::size_t>(master)].conductivity));
 }
 
 void choose_normal(const CaseSpec& spec, const std::vector<material::Material>& materials,

@@ -34,6 +34,13 @@ void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
 void set_solid_penalty(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                        contact::ContactParameters& pair);
 
+/// Gives a law of spots that has no mean conductivity of its own that of the bodies, k̄ = 2 k_1 k_2/(k_1 +
+/// k_2) (3.47), of the body that has most nodes on each surface. It is a table that follows k̄ to 1e-4 where
+/// those of k_1 and k_2 are lines. Collective. Throws InputError where the master is a rigid surface, which
+/// has no conductivity.
+void set_mean_conductivity(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
+                           contact::ContactParameters& pair);
+
 /// Chooses the law of pressure where the case leaves it to the program: of bodies none of which melts by
 /// multipliers, whose pressures do not show the compliance of the
 /// penalty; else as contact_specs() has it (docs/decisions/0033-default-pressure-of-contact.md).

@@ -164,8 +164,7 @@ std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh&
     std::size_t section = 0;
     for (const auto& [pair, number] : wanted)
       if (pair == f.bodies) section = number;
-    found.push_back(
-        {section, f.bodies.first, f.bodies.second, f.surface_a, f.surface_b, f.distance});
+    found.push_back({section, f.bodies.first, f.bodies.second, f.surface_a, f.surface_b, f.distance});
     // Faces that touch are apart by the rounding of their coordinates.
     const auto gap_in_mm = [&](double gap) { return gap < 1e-6 * f.distance ? 0.0 : 1e3 * gap; };
     logging::info(

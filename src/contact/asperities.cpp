@@ -13,7 +13,7 @@ Asperities::Pressed Asperities::spots(double pressure, double temperature) const
   const double relative =
       std::pow(pressure / hardness_coefficient * std::pow(size, -hardness_exponent), power);
   const double per_conductivity = 1.25 * slope / roughness * std::pow(relative, k_exponent);
-  const auto [k, k_slope] = conductivity.line(temperature);
+  const auto [k, k_slope] = conductivity->line(temperature);
   const double per_pressure = k_exponent * power / pressure;
   return {per_conductivity * k, per_pressure * per_conductivity * k, per_conductivity * k_slope,
           per_pressure * per_conductivity * k_slope};

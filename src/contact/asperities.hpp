@@ -31,16 +31,18 @@
 /// Source: Cooper, Mikić and Yovanovich 1969; Yovanovich 1981; Song and Yovanovich 1987; monograph 3.46–3.48.
 #pragma once
 
+#include <optional>
+
 #include "numbers/table.hpp"
 
 namespace solidus::contact {
 
 struct Asperities {
-  double roughness = 0;             ///< σ [m]
-  double slope = 0;                 ///< m [1]
-  Table conductivity;               ///< k̄ [W/(m K)] of the temperature [K]
-  double hardness_coefficient = 0;  ///< c_1 [Pa]
-  double hardness_exponent = 0;     ///< c_2 [1]
+  double roughness = 0;               ///< σ [m]
+  double slope = 0;                   ///< m [1]
+  std::optional<Table> conductivity;  ///< k̄ [W/(m K)] of the temperature [K]; absent: that of the bodies
+  double hardness_coefficient = 0;    ///< c_1 [Pa]
+  double hardness_exponent = 0;       ///< c_2 [1]
 
   /// h_S [W/(m² K)], its derivatives and the mixed one. At t_N = 0, where it has no bound, ∂h_S/∂t_N is given
   /// as zero.

@@ -3,6 +3,7 @@
 #include "contact/laws/constant_gap.hpp"
 #include "contact/laws/gas_gap.hpp"
 #include "contact/laws/power_contact.hpp"
+#include "contact/laws/sided_contact.hpp"
 #include "contact/laws/spots_contact.hpp"
 #include "contact/laws/tabulated.hpp"
 
@@ -14,6 +15,7 @@ Kinds<ContactLaw>& contact_laws() {
     all.add(kind_of<ContactLaw, ContactLawOf<PowerContact>>());
     all.add(kind_of<ContactLaw, ContactLawOf<SpotsContact>>());
     all.add(kind_of<ContactLaw, ContactLawOf<TableContact>>());
+    all.add(kind_of<ContactLaw, ContactLawOf<SidedContact>>());
     return all;
   }();
   return laws;

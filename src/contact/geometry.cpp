@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "contact/fixed_kinematics.hpp"
+#include "contact/laws/contact_law.hpp"
 #include "contact/master_mesh.hpp"
 #include "contact/penalty.hpp"
 #include "contact/segment_kinematics.hpp"
@@ -101,7 +102,11 @@ ContactParameters with_roles(const mesh::Mesh& mesh, ContactParameters spec,
            (1 + k_alike) * local_stiffness(mesh, second, body_modulus);
   if (!swap) return spec;
   std::swap(spec.slave, spec.master);
-  if (spec.heat) spec.heat->slave_resistance = 1 - spec.heat->slave_resistance;
+  if (!spec.heat) return spec;
+  if (spec.heat->slave_resistance) spec.heat->slave_resistance = 1 - *spec.heat->slave_resistance;
+  if (spec.heat->contact_law != nullptr)
+    if (std::shared_ptr<const ContactLaw> law = spec.heat->contact_law->swapped())
+      spec.heat->contact_law = law;
   return spec;
 }
 

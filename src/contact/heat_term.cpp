@@ -30,8 +30,8 @@ double fourth(double t) {
 
 }  // namespace
 
-std::array<double, 2> HeatTerm::side_shares() const {
-  const OneSided sides = law_.one_sided(1.0);
+std::array<double, 2> HeatTerm::side_shares(const AtPoint& s) {
+  const OneSided sides = HeatTransferLaw::one_sided(1.0, s.slave_resistance);
   return {sides.slave, sides.master};
 }
 
@@ -123,12 +123,13 @@ HeatTerm::Radiation HeatTerm::radiation(Index point) const {
     return {law_.radiation_factor(), 0};
   const SurfaceCurvature slave = curvature_.empty() ? SurfaceCurvature{} : curvature_[at(point)],
                          master = master_curvature(point);
-  const bool meshed = static_cast<std::size_t>(partners_.n_slave[at(point)]) < partners_.nodes_of(point).size();
+  const bool meshed =
+      static_cast<std::size_t>(partners_.n_slave[at(point)]) < partners_.nodes_of(point).size();
   const double of_slave = slave.area(gap), of_master = meshed ? master.area(gap) : 1 / of_slave;
   const double ratio = std::sqrt(of_slave / of_master);
-  const double slope = meshed ? 0.5 * ratio *
-                                    (slave.area_slope(gap) / of_slave - master.area_slope(gap) / of_master)
-                              : slave.area_slope(gap);
+  const double slope =
+      meshed ? 0.5 * ratio * (slave.area_slope(gap) / of_slave - master.area_slope(gap) / of_master)
+             : slave.area_slope(gap);
   return {law_.radiation_factor(ratio), law_.radiation_by_area(ratio) * slope};
 }
 
@@ -222,10 +223,12 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
     s.h.value = fixed_[at(point)];
   s.has_temperature = p.has_temperature;
   if (!p.has_temperature) return s;
-  const OneSided one_sided = law_.one_sided(s.h.value);
+  s.slave_resistance =
+      law_.slave_resistance(p.penetration < 0 ? 0.0 : p.pressure, 0.5 * (s.slave + s.master));
+  const OneSided one_sided = HeatTransferLaw::one_sided(s.h.value, s.slave_resistance);
   const InterfaceSides sides{{s.slave, s.master},
                              {one_sided.slave, s.master_takes_heat ? one_sided.master : 0.0},
-                             law_.slave_share(s.master_takes_heat)};
+                             HeatTransferLaw::slave_share(s.slave_resistance, s.master_takes_heat)};
   const InterfaceStep step = balance_step(point);
   s.dissipation = p.step.dissipation;
   if (p.friction != nullptr) {
@@ -294,7 +297,7 @@ void HeatTerm::add_residual(std::span<const double> x, std::span<double> r) {
 // change of conduction, ±(Θ_s − Θ_m), taken off.
 std::array<double, 2> HeatTerm::flux_by_conductance(const AtPoint& s) const {
   const bool both = s.master_takes_heat;
-  const std::array<double, 2> share = side_shares();
+  const std::array<double, 2> share = side_shares(s);
   const std::array<double, 2> difference = {s.slave - s.interface.temperature,
                                             both ? s.master - s.interface.temperature : 0.0};
   const double moved =

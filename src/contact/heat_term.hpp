@@ -72,14 +72,14 @@ struct InterfaceHeat {
 ///
 /// e = σ_r F(a), a the master's area over the slave's across the gap: a_s of the slave's curvature and 1/a_m
 /// of the master's, which are one of concentric faces, in geometric mean, so that the heat does not hang on
-/// which side is the slave. Both are sums of exchanges between pairs of nodes, so heat is conserved to rounding. In the
-/// nodal form the pairs are one of the slave and one of the master, with h N_i N_j >= 0 for linear shapes:
-/// with it a matrix of non-negative type stays one (6.3.1). Quadratic shapes have functions below zero, by
-/// which heat would pass from cold to hot: they take the consistent form, whose entropy production
-/// h (Θ_s − Θ_m)²/(Θ_s Θ_m) is nowhere below zero. In a step that is short against the time in which heat
-/// crosses an element it takes nodes beyond all temperatures around, as a matrix of capacities by integration
-/// does: at faces with such nodes (limit_exchange) it is the nodal form with the functions of the linear
-/// parts of the face (positive_shares.hpp).
+/// which side is the slave. Both are sums of exchanges between pairs of nodes, so heat is conserved to
+/// rounding. In the nodal form the pairs are one of the slave and one of the master, with h N_i N_j >= 0 for
+/// linear shapes: with it a matrix of non-negative type stays one (6.3.1). Quadratic shapes have functions
+/// below zero, by which heat would pass from cold to hot: they take the consistent form, whose entropy
+/// production h (Θ_s − Θ_m)²/(Θ_s Θ_m) is nowhere below zero. In a step that is short against the time in
+/// which heat crosses an element it takes nodes beyond all temperatures around, as a matrix of capacities by
+/// integration does: at faces with such nodes (limit_exchange) it is the nodal form with the functions of the
+/// linear parts of the face (positive_shares.hpp).
 ///
 /// Where friction acts, the heat is that of the balance of the interface (3.65, 5.33), Θ_c eliminated at the
 /// point (interface_thermodynamics.hpp): Q_1 and Q_2 leave the bodies, and what they differ from conduction
@@ -182,9 +182,10 @@ class HeatTerm : public linear::Contribution {
     Conductance h;
     double radiation = 0;  ///< e
     bool has_temperature = false;
-    InterfaceResponse interface;  ///< with a temperature
-    FrictionResponse friction;    ///< slip that this phase finds, of the whole step
-    double dissipation = 0;       ///< D_c,mech Δt of the whole step [J/m²]
+    double slave_resistance = 0.5;  ///< s, with a temperature; its slope is left out of the tangent
+    InterfaceResponse interface;    ///< with a temperature
+    FrictionResponse friction;      ///< slip that this phase finds, of the whole step
+    double dissipation = 0;         ///< D_c,mech Δt of the whole step [J/m²]
   };
   struct Run;
   AtPoint see(Index point, std::span<const double> temperature) const;
@@ -205,7 +206,7 @@ class HeatTerm : public linear::Contribution {
   /// conduction.
   std::array<double, 2> flux_by_conductance(const AtPoint& at) const;
   /// ∂h_i/∂h of the one-sided conductances.
-  std::array<double, 2> side_shares() const;
+  static std::array<double, 2> side_shares(const AtPoint& at);
   /// Heat of friction over the phase, found at the end of its last stage [J/m²].
   double dissipated(const AtPoint& at) const;
   /// @param per_h  scratch
@@ -243,8 +244,8 @@ class HeatTerm : public linear::Contribution {
   std::vector<SurfaceCurvature> curvature_;         ///< of the slave, [point]; empty: none
   std::vector<SurfaceCurvature> master_curvature_;  ///< of the master, [local node]; empty: none
   std::vector<Radiation> radiation_;                ///< [point]; empty: none
-  std::vector<char> limited_nodes_;          ///< by limit_exchange(), [local node]; empty: none
-  std::vector<double> positive_;             ///< B of limited points, as PartnerList::share; empty: none
+  std::vector<char> limited_nodes_;                 ///< by limit_exchange(), [local node]; empty: none
+  std::vector<double> positive_;  ///< B of limited points, as PartnerList::share; empty: none
   std::optional<double> tool_temperature_;
   struct Phase {
     HeatSpan span;

@@ -49,6 +49,12 @@ HeatTransferLaw::HeatTransferLaw(HeatTransferSpec spec) : spec_(std::move(spec))
     throw InputError(spec_.where, "an emissivity is not between 0 and 1", "0 to 1");
 }
 
+double HeatTransferLaw::slave_resistance(double pressure, double temperature) const {
+  const std::optional<double> of_law =
+      spec_.contact_law->slave_resistance(std::max(pressure, 0.0), std::max(temperature, 0.0));
+  return of_law.value_or(spec_.slave_resistance.value_or(0.5));
+}
+
 double HeatTransferLaw::radiation_factor(double area_ratio) const {
   const double slave = spec_.slave_emissivity, master = spec_.master_emissivity, share = 1 / area_ratio;
   if (!(slave > 0 && master > 0)) return 0;
@@ -70,6 +76,9 @@ void HeatTransferLaw::prepare_laws() {
   const bool fills = spec_.gap_law->fills_roughness();
   spec_.contact_law =
       spec_.contact_law->ready(fills, tables_of(spec_, &At::contact_conductance), spec_.where);
+  if (spec_.slave_resistance && spec_.contact_law->slave_resistance(0, 300))
+    throw InputError(spec_.where, "'slave_resistance' beside a law that has both sides",
+                     "one of them: the law says which share lies on the slave's side");
   between_asperities_ = fills && spec_.contact_law->rough();
   spec_.gap_law = spec_.gap_law->beside({spec_.contact_law->without_pressure(), between_asperities_},
                                         tables_of(spec_, &At::gap_table), spec_.where);

@@ -29,7 +29,8 @@
 ///
 /// One coefficient from body to body. 3.45 is one-sided, from each body to an interface temperature Θ_c, with
 /// 1/h = 1/h_1 + 1/h_2 (OneSided): h_1 = h/s and h_2 = h/(1 − s), s the share of the resistance that lies on
-/// the slave's side, a half unless the data say otherwise.
+/// the slave's side, a half unless the data say otherwise; a law with h_1(t_N, Θ_g) and h_2(t_N, Θ_g) of its
+/// own (laws/sided_contact.hpp) says it at every pressure and temperature, over a gap that at no pressure.
 ///
 /// Source: monograph 3.45–3.50, table 7.9; the network of surface and space resistances of grey enclosures
 /// (e.g. R. Siegel, J. R. Howell, Thermal Radiation Heat Transfer).
@@ -59,8 +60,9 @@ struct HeatTransferSpec {
   };
   std::vector<AtTemperature> families;
 
-  /// s, the share of the resistance 1/h that lies between the slave and Θ_c (3.45), between 0 and 1.
-  double slave_resistance = 0.5;
+  /// s, the share of the resistance 1/h that lies between the slave and Θ_c (3.45), between 0 and 1; absent:
+  /// a half, or what the law of contact says.
+  std::optional<double> slave_resistance;
   /// Emissivities of the slave's and the master's surface; absent or zero: no radiation.
   double slave_emissivity = 0, master_emissivity = 0;
 
@@ -97,13 +99,15 @@ class HeatTransferLaw {
   Conductance at(double penetration, double pressure, double temperature) const;
   /// Whether h changes with Θ_g.
   bool of_temperature() const { return of_temperature_; }
+  /// s at a pressure [Pa], zero over a gap, and a mean temperature [K].
+  double slave_resistance(double pressure = 0, double temperature = 300) const;
   /// h_1 and h_2 of a conductance (3.45).
-  OneSided one_sided(double conductance) const {
-    return {conductance / spec_.slave_resistance, conductance / (1 - spec_.slave_resistance)};
+  static OneSided one_sided(double conductance, double slave_resistance) {
+    return {conductance / slave_resistance, conductance / (1 - slave_resistance)};
   }
   /// h_1/(h_1 + h_2), the part of the interface's heat that the slave takes where neither side conducts.
-  double slave_share(bool master_takes_heat = true) const {
-    return master_takes_heat ? 1 - spec_.slave_resistance : 1.0;
+  static double slave_share(double slave_resistance, bool master_takes_heat = true) {
+    return master_takes_heat ? 1 - slave_resistance : 1.0;
   }
   /// σ_r F per area of the slave [W/(m² K⁴)], zero without radiation.
   /// @param area_ratio  a

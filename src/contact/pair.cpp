@@ -72,8 +72,9 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
                      .temperature = {pass.temperature.begin(), pass.temperature.end()},
                      .tool_temperature = tool_temperature_at(pass.time)};
   if ((rubs || has_temperature()) && !pass.temperature.empty())
-    history_->find_temperatures(pass.temperature, heat_ ? heat_->law().slave_share() : 0.5, has_temperature(),
-                                tool_temperature_at(step_.begun), step_);
+    history_->find_temperatures(pass.temperature,
+                                heat_ ? HeatTransferLaw::slave_share(heat_->law().slave_resistance()) : 0.5,
+                                has_temperature(), tool_temperature_at(step_.begun), step_);
   step_.iterate.clear();
   if (pass.iterate == nullptr || pass.iterate->points.size() != step_.from.size()) return;
   for (std::size_t p = 0; p < step_.from.size(); ++p) {

@@ -13,7 +13,7 @@ constexpr double k_on_the_cone = 1e-6;
 FrictionResponse PointLaw::respond(const FrictionInput& in, const std::optional<Surroundings>& around,
                                    double conductance, std::optional<JointSlopes>& joint) const {
   if (!around || !(in.temperature > 0)) return isentropic ? friction->isentropic(in) : friction->update(in);
-  const InterfaceSides sides = around->sides(conductance);
+  const InterfaceSides sides = around->sides(conductance, in.pressure);
   const InterfaceReturn r = interface_return_mapping(*friction, in, around->time_step, sides);
   FrictionResponse f = r.friction;
   if (!r.heat.balanced) {
@@ -24,7 +24,8 @@ FrictionResponse PointLaw::respond(const FrictionInput& in, const std::optional<
   f.trial_slope += r.traction_by_temperature * r.source_by_trial / r.heat.stiffness;
   f.pressure_slope += r.traction_by_temperature * r.source_by_pressure / r.heat.stiffness;
   joint = JointSlopes{r.heat.stiffness, r.source_by_trial, r.source_by_pressure, 0, {}};
-  const OneSided part = around->law->one_sided(1.0);
+  const OneSided part = HeatTransferLaw::one_sided(
+      1.0, around->law->slave_resistance(in.pressure, 0.5 * (sides.temperature[0] + sides.temperature[1])));
   double moved = part.slave * (sides.temperature[0] - f.temperature);
   if (around->master_takes_heat) moved += part.master * (sides.temperature[1] - f.temperature);
   joint->traction_by_conductance = r.traction_by_temperature * moved / r.heat.stiffness;

@@ -26,9 +26,13 @@ struct Surroundings {
   Conductance conductance(double penetration, double pressure) const {
     return law->at(penetration, pressure, 0.5 * (temperature[0] + temperature[1]));
   }
-  InterfaceSides sides(double conductance) const {
-    const OneSided h = law->one_sided(conductance);
-    return {temperature, {h.slave, master_takes_heat ? h.master : 0.0}, law->slave_share(master_takes_heat)};
+  /// @param pressure  at which the conductance is, zero over a gap [Pa]
+  InterfaceSides sides(double conductance, double pressure) const {
+    const double share = law->slave_resistance(pressure, 0.5 * (temperature[0] + temperature[1]));
+    const OneSided h = HeatTransferLaw::one_sided(conductance, share);
+    return {temperature,
+            {h.slave, master_takes_heat ? h.master : 0.0},
+            HeatTransferLaw::slave_share(share, master_takes_heat)};
   }
 };
 

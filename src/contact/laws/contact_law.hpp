@@ -17,6 +17,10 @@
 ///   std::optional<double> without_pressure() const;  // for gap laws that start where contact ends; absent:
 ///                                                    // h(0) of a law that is all of it, else nothing
 ///   Separation separation(double pressure) const;    // of the mean planes of rough surfaces
+///   double slave_resistance(double pressure, double temperature) const;  // s of 3.45 where it is the law's
+///   Law swapped() const;                             // of such a law: slave and master exchanged
+///   bool needs_conductivity() const;                 // of the bodies, which it has not been given
+///   void take_conductivity(Table mean);              // k̄ [W/(m K)] of the temperature
 ///   std::optional<Objection> objection(bool gas_between) const;  // gas_between: separation() will be asked
 ///
 /// Validity: h >= 0 and finite for t_N >= 0 and Θ_g >= 0.
@@ -40,6 +44,14 @@ class ContactLaw : public ConductanceLaw {
   virtual std::optional<double> without_pressure() const = 0;
   virtual bool rough() const = 0;  ///< it has a separation
   virtual Separation separation(double pressure) const = 0;
+  /// s of HeatTransferSpec::slave_resistance where the law says it, else nothing.
+  virtual std::optional<double> slave_resistance(double pressure, double temperature) const = 0;
+  /// The law with slave and master exchanged; null: it does not tell them apart.
+  virtual std::shared_ptr<const ContactLaw> swapped() const = 0;
+  /// Whether it conducts by the bodies' own mean conductivity, and the law with that: k̄ [W/(m K)] of the
+  /// temperature [K].
+  virtual bool needs_conductivity() const = 0;
+  virtual std::shared_ptr<const ContactLaw> with_conductivity(Table mean) const = 0;
   /// The law ready for use. Throws InputError where its numbers make none.
   /// @param gas_fills_roughness  the law of the gap does
   /// @param tables               of [[contact.heat.at]]
@@ -72,6 +84,33 @@ class ContactLawOf final : public ConductanceLawOf<ContactLaw, Law> {
       return data.separation(pressure);
     else
       return {};
+  }
+  std::optional<double> slave_resistance(double pressure, double temperature) const override {
+    if constexpr (requires { data.slave_resistance(pressure, temperature); })
+      return data.slave_resistance(pressure, temperature);
+    else
+      return std::nullopt;
+  }
+  std::shared_ptr<const ContactLaw> swapped() const override {
+    if constexpr (requires { data.swapped(); }) {
+      auto law = std::make_shared<ContactLawOf>(*this);
+      law->data = data.swapped();
+      return law;
+    } else {
+      return nullptr;
+    }
+  }
+  bool needs_conductivity() const override {
+    if constexpr (requires { data.needs_conductivity(); })
+      return data.needs_conductivity();
+    else
+      return false;
+  }
+  std::shared_ptr<const ContactLaw> with_conductivity(Table mean) const override {
+    auto law = std::make_shared<ContactLawOf>(*this);
+    if constexpr (requires { law->data.take_conductivity(mean); })
+      law->data.take_conductivity(std::move(mean));
+    return law;
   }
   std::shared_ptr<const ContactLaw> ready(bool gas_fills_roughness, std::vector<TableAt> tables,
                                           const SourceLocation& where) const override {

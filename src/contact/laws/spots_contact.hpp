@@ -19,7 +19,9 @@ struct SpotsContact {
   }
 
   static constexpr bool beside_gas = true;
-  bool of_temperature() const { return !asperities.conductivity.constant(); }
+  bool of_temperature() const { return !asperities.conductivity->constant(); }
+  bool needs_conductivity() const { return !asperities.conductivity; }
+  void take_conductivity(Table mean) { asperities.conductivity = std::move(mean); }
   LawConductance at(double pressure, double temperature) const {
     const Asperities::Pressed h = asperities.spots(pressure, temperature);
     return {h.value, h.by_pressure, h.by_temperature, h.mixed};
@@ -38,9 +40,10 @@ struct SpotsContact {
     if (!(a.hardness_exponent > -1 && a.hardness_exponent <= 0))
       return Objection{"the exponent c_2 of the hardness is out of range",
                        "above -1 and at most 0: small indentations are harder"};
-    if (!(a.conductivity.min_value() > 0))
-      return Objection{"spots need the mean conductivity of the two bodies",
-                       "above zero: 2 k1 k2 / (k1 + k2)"};
+    if (!(a.conductivity && a.conductivity->min_value() > 0))
+      return Objection{
+          "spots need the mean conductivity of the two bodies",
+          "'conductivity' above zero, 2 k1 k2 / (k1 + k2); without it that of the two materials"};
     if (gas_between && !(hardness && *hardness > 0))
       return Objection{"the gas between spots needs the hardness", "a hardness above zero"};
     return std::nullopt;
@@ -73,7 +76,7 @@ struct SpotsContact {
     s.function("conductivity", &A::conductivity, "W/m/K")
         .of({Argument::temperature})
         .positive()
-        .doc("Mean conductivity of the two bodies, 2 k1 k2 / (k1 + k2).");
+        .doc("Mean conductivity of the two bodies, 2 k1 k2 / (k1 + k2); without it that of their materials.");
     s.quantity("hardness_coefficient", &A::hardness_coefficient, "Pa")
         .positive()
         .doc("c1 of the hardness of small indentations, c1 (d / 1 um)^c2, of the softer body.");

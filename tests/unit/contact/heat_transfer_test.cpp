@@ -10,6 +10,7 @@
 #include "contact/laws/constant_gap.hpp"
 #include "contact/laws/gas_gap.hpp"
 #include "contact/laws/power_contact.hpp"
+#include "contact/laws/sided_contact.hpp"
 #include "contact/laws/spots_contact.hpp"
 #include "contact/laws/tabulated.hpp"
 #include "numbers/types.hpp"
@@ -255,12 +256,57 @@ TEST(HeatTransfer, ThroughBothSidesAddsTheirResistances) {
   for (const double share : {0.5, 0.2}) {
     spec.slave_resistance = share;
     const HeatTransferLaw law(spec);
-    const OneSided sides = law.one_sided(2300);
+    const double resistance = law.slave_resistance(1e6, 500);
+    EXPECT_EQ(resistance, share);
+    const OneSided sides = HeatTransferLaw::one_sided(2300, resistance);
     EXPECT_DOUBLE_EQ(1 / sides.slave + 1 / sides.master, 1 / 2300.0);
     EXPECT_DOUBLE_EQ(1 / sides.slave, share / 2300);
-    EXPECT_DOUBLE_EQ(law.slave_share(), sides.slave / (sides.slave + sides.master));
-    EXPECT_EQ(law.slave_share(false), 1) << "a master that takes no heat";
+    EXPECT_DOUBLE_EQ(HeatTransferLaw::slave_share(resistance), sides.slave / (sides.slave + sides.master));
+    EXPECT_EQ(HeatTransferLaw::slave_share(resistance, false), 1) << "a master that takes no heat";
   }
+}
+
+/// h_1 and h_2 of 3.45 as laws of their own, at 300 and 900 K.
+SidedContact two_sides() {
+  SidedContact law;
+  law.sides = {{300, Table({0, 1e7}, {1000, 5000}), Table({0, 1e7}, {4000, 8000})},
+               {900, Table({0, 1e7}, {2000, 9000}), Table({0, 1e7}, {3000, 4000})}};
+  return law;
+}
+
+TEST(HeatTransfer, OfTwoSidesHasTheConductanceOfBothAndTheirShareAtEveryPressureAndTemperature) {
+  HeatTransferSpec spec = law_spec(contact_law(two_sides()), table_gap({}));
+  spec.families = {{300, {}, Table({0, 1e-4}, {800, 100})}, {900, {}, Table({0, 1e-4}, {1200, 200})}};
+  const HeatTransferLaw law(spec);
+  EXPECT_TRUE(law.of_temperature());
+  for (const double pressure : {0.0, 2e6, 9e6})
+    for (const double temperature : {300.0, 450.0, 880.0}) {
+      const double warmth = (temperature - 300) / 600, pressed = pressure / 1e7;
+      const double cold_one = std::lerp(1000, 5000, pressed), cold_two = std::lerp(4000, 8000, pressed);
+      const double hot_one = std::lerp(2000, 9000, pressed), hot_two = std::lerp(3000, 4000, pressed);
+      const Conductance h = law.at(0, pressure, temperature);
+      EXPECT_NEAR(h.value,
+                  std::lerp(1 / (1 / cold_one + 1 / cold_two), 1 / (1 / hot_one + 1 / hot_two), warmth),
+                  1e-9 * h.value);
+      const double share = law.slave_resistance(pressure, temperature);
+      EXPECT_NEAR(share, std::lerp(cold_two / (cold_one + cold_two), hot_two / (hot_one + hot_two), warmth),
+                  1e-12);
+      if (temperature > 300) continue;
+      const OneSided sides = HeatTransferLaw::one_sided(h.value, share);
+      EXPECT_NEAR(sides.slave, cold_one, 1e-9 * cold_one);
+      EXPECT_NEAR(sides.master, cold_two, 1e-9 * cold_two);
+    }
+  const double p = 3e6, t = 500, dp = 10, dt = 1e-3;
+  const Conductance h = law.at(0, p, t);
+  EXPECT_NEAR(h.by_pressure, (law.at(0, p + dp, t).value - law.at(0, p - dp, t).value) / (2 * dp),
+              1e-6 * h.by_pressure);
+  EXPECT_NEAR(h.by_temperature, (law.at(0, p, t + dt).value - law.at(0, p, t - dt).value) / (2 * dt),
+              1e-6 * std::abs(h.by_temperature));
+  const std::shared_ptr<const ContactLaw> ready = spec.contact_law->ready(false, {}, {});
+  const double mixed = (ready->at(p + dp, t).by_temperature - ready->at(p - dp, t).by_temperature) / (2 * dp);
+  EXPECT_NEAR(ready->at(p, t).mixed, mixed, 1e-6 * std::abs(mixed));
+  spec.contact_law = spec.contact_law->swapped();
+  EXPECT_NEAR(HeatTransferLaw(spec).slave_resistance(p, t), 1 - law.slave_resistance(p, t), 1e-12);
 }
 
 std::string refusal(const HeatTransferSpec& spec) {
@@ -270,6 +316,24 @@ std::string refusal(const HeatTransferSpec& spec) {
     return error.what();
   }
   return "";
+}
+
+TEST(HeatTransfer, OfTwoSidesSaysWhatIsWrong) {
+  const auto of = [](SidedContact law) {
+    HeatTransferSpec spec;
+    spec.contact_law = contact_law(std::move(law));
+    return spec;
+  };
+  EXPECT_NE(refusal(of({})).find("needs the conductances of both sides"), std::string::npos);
+  SidedContact cold_last = two_sides();
+  std::swap(cold_last.sides[0], cold_last.sides[1]);
+  EXPECT_NE(refusal(of(cold_last)).find("do not increase"), std::string::npos);
+  SidedContact without = two_sides();
+  without.sides[1].temperature.reset();
+  EXPECT_NE(refusal(of(without)).find("has no temperature"), std::string::npos);
+  HeatTransferSpec both = of(two_sides());
+  both.slave_resistance = 0.5;
+  EXPECT_NE(refusal(both).find("'slave_resistance' beside a law that has both sides"), std::string::npos);
 }
 
 TEST(HeatTransfer, SaysWhatALawLacks) {
