@@ -149,9 +149,11 @@ void check_heat_of_expansion(const Material& m, const MaterialData& data) {
       if (expansion < measured) continue;
       throw InputError(
           data.where,
-          fmt::format("the specific heat of '{}', {:.4g} J/kg/K at {:.4g} degC, is less than what expansion "
-                      "against its stiffness takes up there, {:.4g} J/kg/K (9 alpha^2 k T/rho)",
-                      m.name, measured, temperature - k_zero_celsius, expansion),
+          fmt::format(
+              "the specific heat of '{}', at constant pressure as the key has it, {:.4g} J/kg/K at {:.4g} "
+              "degC, is less than what expansion "
+              "against its stiffness takes up there, {:.4g} J/kg/K (9 alpha^2 k T/rho)",
+              m.name, measured, temperature - k_zero_celsius, expansion),
           "usual are 1 to 8 %: look at the units of expansion and young_modulus; a change of volume in a "
           "narrow "
           "range of temperature is a [[phase_change]] with a volume_change, no steep piece of expansion; "

@@ -132,7 +132,10 @@ Section<MaterialData> material_keys() {
   s.function("specific_heat", &MaterialData::specific_heat, "J/kg/K")
       .positive()
       .of(temperature)
-      .doc("Without the latent heat of the phase changes that are given below.");
+      .doc(
+          "At constant pressure, as handbooks have it, or what specific_heat_at says; without the latent "
+          "heat of "
+          "the phase changes that are given below.");
   s.choice(
        "specific_heat_at", &MaterialData::specific_heat_at,
        {{"constant_pressure", SpecificHeatAt::constant_pressure,
