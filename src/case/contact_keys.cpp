@@ -45,13 +45,12 @@ Section<contact::HeatTransferSpec> contact_heat_keys() {
       .positive()
       .doc("Pressures up to which a smooth law is replaced; without it 0.1 MPa.");
   s.key("slave_resistance", &H::slave_resistance)
-      .initially(0.5)
       .range(0.001, 0.999)
       .doc(
           "Share of the interface's resistance that lies between the slave (of `surfaces`: the first) and "
           "the "
           "temperature of the interface: h1 = h / share, h2 = h / (1 - share) (3.45). It divides the heat of "
-          "friction and places a coating on one side.");
+          "friction and places a coating on one side; without it a half, or what contact_law = \"sides\" says.");
   s.key("slave_emissivity", &H::slave_emissivity)
       .initially(0.0)
       .range(0, 1)
