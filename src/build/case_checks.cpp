@@ -274,7 +274,7 @@ void check_contacts(const CaseSpec& spec) {
                        "slave = \"...\" and master = \"...\", or surfaces = [\"...\", \"...\"]");
     if (c.sides()[0] == c.sides()[1])
       throw InputError(c.where, fmt::format("the contact '{}' has one surface on both sides", c.name));
-    if (c.heat) contact::HeatTransferLaw checked(*c.heat);
+    if (c.heat) contact::HeatTransferLaw checked(contact::without_bodies(*c.heat));
   }
 }
 

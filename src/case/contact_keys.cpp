@@ -50,7 +50,8 @@ Section<contact::HeatTransferSpec> contact_heat_keys() {
           "Share of the interface's resistance that lies between the slave (of `surfaces`: the first) and "
           "the "
           "temperature of the interface: h1 = h / share, h2 = h / (1 - share) (3.45). It divides the heat of "
-          "friction and places a coating on one side; without it a half, or what contact_law = \"sides\" says.");
+          "friction and places a coating on one side; without it a half, or what contact_law = \"sides\" "
+          "says.");
   s.key("slave_emissivity", &H::slave_emissivity)
       .initially(0.0)
       .range(0, 1)

@@ -210,7 +210,7 @@ class Collector {
     const bool apart = m_.contacts[c].largest_gap > contact.touching.value_or(k_rounding);
     if (!spec_.has_mechanics() && !apart) return false;
     constexpr double k_gap = 1e-4, k_warm = 600, k_same = 0.01;  // [m], [K]
-    const contact::HeatTransferLaw law(*contact.heat);
+    const contact::HeatTransferLaw law(contact::without_bodies(*contact.heat));
     const double closed = law.at(0, 0, k_warm).value, open = law.at(-k_gap, 0, k_warm).value;
     return open > 0 && std::abs(open - closed) > k_same * closed;
   }

@@ -34,6 +34,12 @@ LawConductance transition(double x, double width, const LawConductance& start, c
 
 }  // namespace
 
+HeatTransferSpec without_bodies(HeatTransferSpec spec) {
+  if (spec.contact_law != nullptr && spec.contact_law->needs_conductivity())
+    spec.contact_law = spec.contact_law->with_conductivity(Table(1.0));
+  return spec;
+}
+
 HeatTransferLaw::HeatTransferLaw(HeatTransferSpec spec) : spec_(std::move(spec)) {
   if (!spec_.smooth && (spec_.transition_gap || spec_.transition_pressure))
     throw InputError(spec_.where, "a width of transition is given, but the law is not smooth",

@@ -76,6 +76,10 @@ struct HeatTransferSpec {
   SourceLocation where;
 };
 
+/// The spec with a conductivity of 1 W/(m K) where the law of contact takes that of bodies that are not known
+/// yet. Spots conduct nothing without pressure, so at none it is the law itself.
+HeatTransferSpec without_bodies(HeatTransferSpec spec);
+
 /// h and its derivatives; those at a bend of a table are those of the piece on its right.
 struct Conductance {
   double value = 0;           ///< [W/(m² K)]
