@@ -196,6 +196,27 @@ double winding_number(const ClosedShells& all, const Shell& shell, const Point& 
   return angle / (4 * k_pi);
 }
 
+void nest_shells(ClosedShells& all) {
+  std::vector<double> volumes;
+  for (Shell& shell : all.shells) {
+    volumes.push_back(enclosed_volume(all, shell));
+    if (volumes.back() < 0)
+      for (auto& nodes : shell.triangles) std::swap(nodes[0], nodes[1]);
+    volumes.back() = std::abs(volumes.back());
+    shell.depth = 0;
+    shell.around = -1;
+  }
+  for (std::size_t a = 0; a < all.shells.size(); ++a) {
+    const Point& corner = all.points[static_cast<std::size_t>(all.shells[a].triangles.front()[0])];
+    for (std::size_t b = 0; b < all.shells.size(); ++b) {
+      if (a == b || winding_number(all, all.shells[b], corner) < 0.5) continue;
+      ++all.shells[a].depth;
+      int& around = all.shells[a].around;
+      if (around < 0 || volumes[b] < volumes[static_cast<std::size_t>(around)]) around = static_cast<int>(b);
+    }
+  }
+}
+
 std::vector<std::array<Point, 3>> corners_of(const ClosedShells& all, const Shell& shell) {
   std::vector<std::array<Point, 3>> corners;
   corners.reserve(shell.triangles.size());
@@ -220,24 +241,12 @@ ClosedShells closed_shells(const std::vector<Facets>& parts, const std::string& 
   all.points = std::move(welder).points();
   const Neighbours neighbours(triangles, all.points, path);
   std::vector<char> taken(triangles.size(), 0);
-  std::vector<double> volumes;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (taken[t] != 0) continue;
-    Shell& shell = all.shells.emplace_back(shell_from(t, triangles, neighbours, taken, parts, path));
-    volumes.push_back(enclosed_volume(all, shell));
-    if (volumes.back() < 0)
-      for (auto& nodes : shell.triangles) std::swap(nodes[0], nodes[1]);
-    volumes.back() = std::abs(volumes.back());
-  }
-  for (std::size_t a = 0; a < all.shells.size(); ++a) {
-    const Point& corner = all.points[static_cast<std::size_t>(all.shells[a].triangles.front()[0])];
-    for (std::size_t b = 0; b < all.shells.size(); ++b) {
-      if (a == b || winding_number(all, all.shells[b], corner) < 0.5) continue;
-      ++all.shells[a].depth;
-      int& around = all.shells[a].around;
-      if (around < 0 || volumes[b] < volumes[static_cast<std::size_t>(around)]) around = static_cast<int>(b);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    if (taken[t] == 0) {
+      Shell& shell = all.shells.emplace_back(shell_from(t, triangles, neighbours, taken, parts, path));
+      shell.looked_inward = enclosed_volume(all, shell) < 0;
     }
-  }
+  nest_shells(all);
   return all;
 }
 

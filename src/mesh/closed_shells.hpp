@@ -15,6 +15,7 @@ struct Shell {
   std::vector<std::array<Index, 3>> triangles;  ///< numbers of points, outward of what it encloses
   int depth = 0;                                ///< number of shells around it: odd ones bound cavities
   int around = -1;                              ///< the innermost of these; −1: none
+  bool looked_inward = false;                   ///< in the file, as the skins of cavities do
 };
 
 struct ClosedShells {
@@ -27,6 +28,10 @@ struct ClosedShells {
 /// triangle, or more than two, and where a skin has but one side.
 /// @param path  for the message
 ClosedShells closed_shells(const std::vector<Facets>& parts, const std::string& path);
+
+/// Turns the triangles of shells, of which no two cross each other, so that they look outward, and finds what
+/// lies inside of what.
+void nest_shells(ClosedShells& all);
 
 /// The triangles of a shell by their corners.
 std::vector<std::array<Point, 3>> corners_of(const ClosedShells& all, const Shell& shell);

@@ -5,8 +5,10 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "mesh/casting_geometry.hpp"
+#include "mesh/meshing_ways.hpp"
 
 namespace solidus::mesh {
 
@@ -40,6 +42,13 @@ class KeptMesh {
   std::optional<Way> way() const { return way_; }
   void keep_way(Way way) { way_ = way; }
 
+  /// Processor time that is left for Gmsh to make new skins of facets [s] (k_time_of_direct_ways).
+  double time_of_direct_ways() const { return direct_time_; }
+  void leave_to_direct_ways(double time) { direct_time_ = time; }
+
+  /// What was said of the last mesh (RawMesh::notes).
+  const std::vector<std::string>& notes() const { return mesh_.notes; }
+
   /// The mesh that way() gave for this request; null where it was another request.
   const RawMesh* find(const std::string& request) const {
     return !request_.empty() && request == request_ ? &mesh_ : nullptr;
@@ -50,7 +59,7 @@ class KeptMesh {
   }
 
  private:
-  double most_wanted_ = 1;
+  double most_wanted_ = 1, direct_time_ = k_time_of_direct_ways;
   std::optional<Way> way_;
   std::string request_;
   RawMesh mesh_;

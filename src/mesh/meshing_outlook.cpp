@@ -6,11 +6,14 @@
 #include <cmath>
 #include <utility>
 
+#include "system/log.hpp"
+
 namespace solidus::mesh {
 
 namespace {
 
 std::function<void(const MeshingOutlook&)> g_listener;
+std::function<void(const std::string&)> g_progress;
 
 std::string length_text(double length) {
   return length >= 1 ? fmt::format("{:.3g} m", length) : fmt::format("{:.3g} mm", 1e3 * length);
@@ -73,6 +76,15 @@ void listen_to_outlook(std::function<void(const MeshingOutlook&)> listener) {
 
 void tell_outlook(const MeshingOutlook& outlook) {
   if (g_listener) g_listener(outlook);
+}
+
+void listen_to_progress(std::function<void(const std::string&)> listener) {
+  g_progress = std::move(listener);
+}
+
+void tell_progress(const std::string& text) {
+  if (g_progress) return g_progress(text);
+  logging::info("{}", text);
 }
 
 }  // namespace solidus::mesh

@@ -47,4 +47,9 @@ double meshing_memory(const MeshingOutlook& outlook);
 void listen_to_outlook(std::function<void(const MeshingOutlook&)> listener);
 void tell_outlook(const MeshingOutlook& outlook);
 
+/// What goes on while a mesh is waited for, every now and then: a line of the log; from now on a call of
+/// `listener` instead, until that is an empty function.
+void listen_to_progress(std::function<void(const std::string&)> listener);
+void tell_progress(const std::string& text);
+
 }  // namespace solidus::mesh

@@ -1,5 +1,7 @@
 #include "mesh/meshing_ways.hpp"
 
+#include <iterator>
+
 namespace solidus::mesh {
 
 namespace {
@@ -22,7 +24,13 @@ constexpr FacetedWay k_faceted_ways[] = {
     {"a new skin, edges of 40 degrees, HXT", 40, 10, 1},
     {"a new skin, edges of 20 degrees, elements of 0.8 of the size", 20, 1, 0.8},
     {"the triangles of the file", 0, 1, 1},
-    {"the triangles of the file, HXT", 0, 10, 1}};
+    {"the triangles of the file, HXT", 0, 10, 1},
+    {"a new skin by remeshing", 40, 1, 1, SkinOf::remeshing},
+    {"a new skin by remeshing, elements of 0.6 of the size, HXT", 40, 10, 0.6, SkinOf::remeshing},
+    {"a new skin around a wrap", 40, 1, 1, SkinOf::wrap}};
+
+constexpr int k_faceted_order[] = {0, 5, 1, 2, 6, 3, 7, 4};
+static_assert(std::size(k_faceted_order) == std::size(k_faceted_ways));
 
 }  // namespace
 
@@ -32,6 +40,10 @@ std::span<const SolidWay> solid_ways() {
 
 std::span<const FacetedWay> faceted_ways() {
   return k_faceted_ways;
+}
+
+std::span<const int> faceted_order() {
+  return k_faceted_order;
 }
 
 bool is_cheap(const SolidWay& way) {

@@ -17,17 +17,28 @@ struct SolidWay {
   bool cuts = false;              ///< bodies are cut along the seams of faces that cannot be meshed
 };
 
+/// What makes new triangles of facets: Gmsh, which needs minutes where facets are many or long; CGAL, of one
+/// size on each skin (mesh/cgal/remeshed_skin.hpp); CGAL on a wrap around them, where they cross each other.
+enum class SkinOf { gmsh, remeshing, wrap };
+
 /// A way to mesh what skins of triangles enclose.
 struct FacetedWay {
   const char* what;
   double angle = 0;  ///< of edges between faces that get new elements [degree]; 0: triangles stay
   int volumes = 1;   ///< Gmsh's number of the algorithm
   double scale = 1;  ///< of all sizes
+  SkinOf skin = SkinOf::gmsh;
 };
 
-/// All ways, in the order in which they are taken.
+/// All ways, by number; solids are meshed in this order.
 std::span<const SolidWay> solid_ways();
 std::span<const FacetedWay> faceted_ways();
+/// The numbers of all ways to mesh skins, in the order in which they are tried: numbers stand in case files
+/// and stay.
+std::span<const int> faceted_order();
+/// Processor time that Gmsh has to make new skins of facets, in all ways together [s]: beyond it CGAL makes
+/// them.
+inline constexpr double k_time_of_direct_ways = 120;
 /// Whether a way is tried whatever the quality of the meshes before is.
 bool is_cheap(const SolidWay& way);
 

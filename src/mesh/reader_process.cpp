@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -69,8 +70,8 @@ std::array<int, 2> open_pipe() {
 /// A reader at work; it does not outlive this.
 class Reader {
  public:
-  Reader(const MeshSource& source, const ReaderLimits& limits)
-      : program_(reader_program(source.path)), source_(source), limits_(limits) {}
+  Reader(const MeshSource& source, const ReaderLimits& limits, const TimeOfWay& time)
+      : program_(reader_program(source.path)), source_(source), limits_(limits), time_(time) {}
   ~Reader() {
     if (pid_ > 0) {
       ::kill(pid_, SIGKILL);
@@ -95,8 +96,14 @@ class Reader {
   /// memory than the reader may use.
   void hear(const MeshingOutlook& outlook);
   const std::string& program() const { return program_; }
+  /// Processor time of the reader while it was last waited for [s].
+  double processor_time() const { return processor_; }
 
  private:
+  /// Processor time that the way may take [s].
+  double most() const { return time_.processor + nodes_ * time_.processor_a_node; }
+  /// Says every now and then what goes on, and throws where it goes on for too long.
+  void check_time();
   void give(const void* bytes, std::size_t n);
   /// Waits until the pipe is ready for it (POLLIN, POLLOUT) or the other end has gone.
   void wait_for(int descriptor, short event);
@@ -110,6 +117,9 @@ class Reader {
   std::string outlook_;  ///< ": " and a text; empty where nothing is known yet
   Clock::time_point begun_ = Clock::now();
   bool many_nodes_ = false;
+  TimeOfWay time_;
+  double nodes_ = 0;        ///< that are expected; 0: not known
+  double processor_ = 0;    ///< [s]
   double next_report_ = 5;  ///< after so many seconds, then after twice as many, it is said that it goes on
   pid_t pid_ = -1;
   int to_ = -1, from_ = -1;
@@ -185,21 +195,34 @@ void Reader::wait_for(int descriptor, short event) {
     pollfd waiting{descriptor, event, 0};
     if (::poll(&waiting, 1, k_tick) > 0) return;
     if (give_up != nullptr && give_up()) throw StepRejected("stopped by a signal while the mesh was read");
-    const double taken = std::chrono::duration<double>(Clock::now() - begun_).count();
-    if (taken > next_report_) {
-      logging::info(
-          "'{}' is being read or meshed for {:.0f} s{}; it may take up to {:.0f} s (SOLIDUS_MESH_TIME)",
-          source_.path, taken, outlook_, limits_.time);
-      next_report_ *= 2;
-    }
-    if (taken > limits_.time) {
-      const std::string what = "reading or meshing took longer than " +
-                               std::to_string(std::lround(limits_.time)) + " s and was ended";
-      const char* allowed = "larger elements, a script that ends, or more time: SOLIDUS_MESH_TIME=\"2 h\"";
-      // Other ways of meshing have as many elements or more.
-      if (many_nodes_) throw UnusableGeometry({source_.path}, what, allowed);
-      throw InputError({source_.path}, what, allowed);
-    }
+    check_time();
+  }
+}
+
+void Reader::check_time() {
+  if (clockid_t clock = 0; clock_getcpuclockid(pid_, &clock) == 0) {
+    timespec time{};
+    if (clock_gettime(clock, &time) == 0)
+      processor_ = static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+  const double taken = std::chrono::duration<double>(Clock::now() - begun_).count();
+  if (taken > next_report_) {
+    tell_progress(fmt::format(
+        "'{}' is being read or meshed for {:.0f} s{}{}; {}", source_.path, taken,
+        time_.what.empty() ? "" : " (" + time_.what + ")", outlook_,
+        time_.processor > 0 ? fmt::format("another way follows after {:.0f} s of the processor", most())
+                            : fmt::format("it may take up to {:.0f} s (SOLIDUS_MESH_TIME)", limits_.time)));
+    next_report_ *= 2;
+  }
+  if (time_.processor > 0 && processor_ > most())
+    throw MeshingTooLong({source_.path}, fmt::format("took longer than {:.0f} s and was ended", most()));
+  if (taken > limits_.time) {
+    const std::string what = "reading or meshing took longer than " +
+                             std::to_string(std::lround(limits_.time)) + " s and was ended";
+    const char* allowed = "larger elements, a script that ends, or more time: SOLIDUS_MESH_TIME=\"2 h\"";
+    // Other ways of meshing have as many elements or more.
+    if (many_nodes_) throw UnusableGeometry({source_.path}, what, allowed);
+    throw InputError({source_.path}, what, allowed);
   }
 }
 
@@ -217,6 +240,7 @@ void Reader::hear(const MeshingOutlook& outlook) {
   logging::debug("'{}' is {}", source_.path, text);
   constexpr double k_many = 1e6;  // castings of many parts and thin walls have less
   many_nodes_ = outlook.nodes > k_many;
+  nodes_ = outlook.nodes;
   if (!outlook.overlap.empty())
     logging::warn(
         "bodies of '{}' overlap: {}; the first of each two keeps it. Bodies that belong together touch: cut "
@@ -317,13 +341,22 @@ RawMesh take_answer(Reader& reader, const MeshSource& source, const ReaderLimits
   throw MessageError("an answer of no kind");
 }
 
-RawMesh read_in_own_process(const MeshSource& source, const CastingGeometry* casting) {
+RawMesh read_in_own_process(const MeshSource& source, const CastingGeometry* casting, const TimeOfWay& time,
+                            double* spent) {
   const ReaderLimits limits = reader_limits(source, casting != nullptr);
-  Reader reader(source, limits);
+  Reader reader(source, limits, time);
   reader.start();
   reader.request(casting);
+  const auto note_time = [&] {
+    if (spent != nullptr) *spent = reader.processor_time();
+  };
   try {
-    return take_answer(reader, source, limits);
+    RawMesh mesh = take_answer(reader, source, limits);
+    note_time();
+    return mesh;
+  } catch (const InputError&) {
+    note_time();
+    throw;
   } catch (const MessageError& error) {
     throw InputError({source.path},
                      fmt::format("what the program that reads meshes, '{}', answered is no mesh: {}",
@@ -388,8 +421,10 @@ ReaderLimits reader_limits(const MeshSource& source, bool meshes) {
   return limits;
 }
 
-RawMesh read_in_one_way(const MeshSource& source, const CastingGeometry* casting) {
-  RawMesh mesh = reads_here != nullptr ? reads_here(source, casting) : read_in_own_process(source, casting);
+RawMesh read_in_one_way(const MeshSource& source, const CastingGeometry* casting, const TimeOfWay& time,
+                        double* spent) {
+  RawMesh mesh =
+      reads_here != nullptr ? reads_here(source, casting) : read_in_own_process(source, casting, time, spent);
   // A file that is read several times says each thing once.
   static std::set<std::string> said;
   for (const std::string& note : mesh.notes)

@@ -34,8 +34,24 @@ struct ReaderLimits {
 /// @param meshes  what the file holds is meshed anew, whatever it is
 ReaderLimits reader_limits(const MeshSource& source, bool meshes = false);
 
+/// How long a reader may work for one way of meshing, beside the limits above.
+struct TimeOfWay {
+  std::string what = {};        ///< the way, for messages
+  double processor = 0;         ///< [s] of the processor; 0: no such limit
+  double processor_a_node = 0;  ///< more for each node that is expected [s]
+};
+
+/// A way of meshing that took longer than it may.
+class MeshingTooLong : public InputError {
+  using InputError::InputError;
+};
+
 /// Reads a mesh, or with `casting` makes one in the way that its `attempt` says, in a reader
-/// but for read_in_this_process(). Throws InputError, also where there is no reader beside the program.
-RawMesh read_in_one_way(const MeshSource& source, const CastingGeometry* casting);
+/// but for read_in_this_process(). Throws InputError, also where there is no reader beside the program, and
+/// MeshingTooLong.
+/// @param time   not for read_in_this_process()
+/// @param spent  takes the reader's processor time [s]; may be null
+RawMesh read_in_one_way(const MeshSource& source, const CastingGeometry* casting, const TimeOfWay& time = {},
+                        double* spent = nullptr);
 
 }  // namespace solidus::mesh

@@ -44,16 +44,46 @@ class OverlapListener {
   OverlapListener& operator=(const OverlapListener&) = delete;
 };
 
+/// While an object of this class lives, nothing is printed but what meshing says of its progress.
+class QuietLog {
+ public:
+  QuietLog() : level_(logging::level()) {
+    logging::set_level(std::max(level_, logging::Level::silent));
+    mesh::listen_to_progress([this](const std::string& text) { say(text); });
+  }
+  ~QuietLog() {
+    mesh::listen_to_progress({});
+    logging::set_level(level_);
+  }
+  QuietLog(const QuietLog&) = delete;
+  QuietLog& operator=(const QuietLog&) = delete;
+
+  void say(const std::string& text) const {
+    const logging::Level quiet = logging::level();
+    logging::set_level(level_);
+    logging::info("{}", text);
+    logging::set_level(quiet);
+  }
+
+ private:
+  logging::Level level_;
+};
+
 class Refinement {
  public:
-  Refinement(Draft& draft, const CastingProcess& process, const material::Material& alloy, double fineness)
-      : draft_(draft), process_(process), alloy_(alloy), fineness_(fineness) {}
+  Refinement(Draft& draft, const CastingProcess& process, const material::Material& alloy, double fineness,
+             double time_of_direct_ways)
+      : draft_(draft),
+        process_(process),
+        alloy_(alloy),
+        fineness_(fineness),
+        time_of_direct_ways_(time_of_direct_ways) {}
 
   DraftEstimate refine() {
     mesh::KeptMesh kept;  // the case is built again and again, often with the same elements
     const OverlapListener listener(estimate_.overlap);
-    const logging::Level level = logging::level();
-    logging::set_level(std::max(level, logging::Level::silent));
+    const QuietLog quiet;
+    kept.leave_to_direct_ways(time_of_direct_ways_);
     try {
       // The best way of meshing is looked for when the sizes are found, not for each that is tried.
       kept.be_content_with(mesh::k_usable_quality);
@@ -72,6 +102,7 @@ class Refinement {
           kept.be_content_with(mesh::k_sound_quality);
         }
       }
+      if (!draft_.meshed) estimate_.skin_notes = kept.notes();
       // Every run would try the same ways again.
       if (const auto way = kept.way(); way && (way->number > 0 || way->quality < mesh::k_sound_quality)) {
         draft_.way = way->number + 1;
@@ -83,12 +114,10 @@ class Refinement {
       }
       if (draft_.coupled) check_run(load_case(draft_.folder / "case.toml", {}, Physics::thermomechanical));
     } catch (...) {
-      logging::set_level(level);
       std::error_code error;  // no case that does not run
       fs::remove(draft_.folder / "case.toml", error);
       throw;
     }
-    logging::set_level(level);
     return estimate_;
   }
 
@@ -280,7 +309,7 @@ class Refinement {
   Draft& draft_;
   const CastingProcess& process_;
   const material::Material& alloy_;
-  double fineness_;
+  double fineness_, time_of_direct_ways_;
   std::vector<HeatedWall> heated_;
   std::optional<Sizes> finer_;
   bool coarsening_is_vain_ = false;
@@ -310,8 +339,8 @@ void write_draft(const Draft& draft) {
 }
 
 DraftEstimate refine_draft(Draft& draft, const CastingProcess& process, const material::Material& alloy,
-                           double fineness) {
-  return Refinement(draft, process, alloy, fineness).refine();
+                           double fineness, double time_of_direct_ways) {
+  return Refinement(draft, process, alloy, fineness, time_of_direct_ways).refine();
 }
 
 }  // namespace solidus::model

@@ -56,7 +56,8 @@ NewCaseReport make_new_case(const NewCaseOptions& options) {
   Draft draft = choose_draft(options, process, alloy, part);
   draft.folder = folder;
   write_draft(draft);
-  const DraftEstimate estimate = refine_draft(draft, process, alloy, options.fineness);
+  const DraftEstimate estimate =
+      refine_draft(draft, process, alloy, options.fineness, part.time_of_direct_ways);
   return {draft.folder / "case.toml", report_text(draft, part, estimate, options)};
 }
 

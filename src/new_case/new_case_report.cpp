@@ -163,6 +163,7 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
         fmt::format("\n  cooling     {:g} W/m2/K outside the die take what the castings bring, an estimate",
                     draft.shots->cooling);
   out += overlap_text(estimate);
+  for (const std::string& note : estimate.skin_notes) out += "\n  note        " + note;
   out += poor_mesh_text(estimate);
   out += twin_riser_text(draft);
   out += hollow_text(draft);

@@ -8,6 +8,7 @@
 #include "mesh/casting_geometry.hpp"
 #include "mesh/file_format.hpp"
 #include "mesh/file_unit.hpp"
+#include "mesh/kept_mesh.hpp"
 
 namespace solidus::model {
 
@@ -37,7 +38,9 @@ PartMeasures measure_part(const NewCaseOptions& options) {
   const mesh::FileFormat format = mesh::file_format(source.path);
   const bool solids = mesh::is_cad(format), meshed = !solids && format != mesh::FileFormat::stl;
   refuse_cuts(options, solids);
+  mesh::KeptMesh kept;
   m.mesh = meshed ? mesh::read_mesh(source) : mesh::mesh_casting(source, {}, 0);
+  m.time_of_direct_ways = kept.time_of_direct_ways();
   if (m.mesh.dimension != 3)
     throw InputError({source.path}, "the mesh is plane", "a solid: STEP, BREP, IGES, STL, or a mesh of one");
   m.bodies = bodies_of(m.mesh, options.as, source.path);

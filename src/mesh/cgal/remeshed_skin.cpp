@@ -1,0 +1,103 @@
+#include "mesh/cgal/remeshed_skin.hpp"
+
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Polygon_mesh_processing/detect_features.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/cgal/surface.hpp"
+#include "mesh/cgal/wrapped_surface.hpp"
+#include "system/errors.hpp"
+
+namespace solidus::mesh {
+
+namespace {
+
+namespace PMP = CGAL::Polygon_mesh_processing;
+
+using Tree =
+    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<TriangleSurface>>>;
+
+/// Gives the edges of a closed surface one length, but for those that are kept for their angle.
+void remesh(TriangleSurface& surface, double size, double angle) {
+  constexpr unsigned k_rounds = 4, k_relaxations = 2;
+  PMP::remove_degenerate_faces(surface);
+  const auto sharp = surface.add_property_map<TriangleSurface::Edge_index, bool>("e:sharp", false).first;
+  PMP::detect_sharp_edges(surface, angle, sharp);
+  PMP::isotropic_remeshing(surface.faces(), size, surface,
+                           PMP::parameters::number_of_iterations(k_rounds)
+                               .edge_is_constrained_map(sharp)
+                               .protect_constraints(false)
+                               .number_of_relaxation_steps(k_relaxations));
+  surface.collect_garbage();
+}
+
+/// The largest distance of the corners of a surface, and of the middles of its triangles, from another one.
+double distance_from(const TriangleSurface& from, const TriangleSurface& to) {
+  Tree tree(to.faces().begin(), to.faces().end(), to);
+  tree.accelerate_distance_queries();
+  double most = 0;
+  for (const TriangleSurface::Vertex_index v : from.vertices())
+    most = std::max(most, tree.squared_distance(from.point(v)));
+  for (const TriangleSurface::Face_index f : from.faces()) {
+    const TriangleSurface::Halfedge_index h = from.halfedge(f);
+    const Kernel::Point_3 middle = CGAL::centroid(from.point(from.source(h)), from.point(from.target(h)),
+                                                  from.point(from.target(from.next(h))));
+    most = std::max(most, tree.squared_distance(middle));
+  }
+  return std::sqrt(most);
+}
+
+/// A share of a whole as "-0.4 %".
+std::string change_text(double value, double of) {
+  return fmt::format("{:+.2g} %", 100 * (value / of - 1));
+}
+
+}  // namespace
+
+RemeshedSkin remeshed_skin(const ClosedShells& all, const SkinRemeshing& how, const std::string& path) {
+  RemeshedSkin made;
+  TriangleSurface whole;
+  SkinDeviation& d = made.deviation;
+  for (std::size_t s = 0; s < all.shells.size(); ++s) {
+    const TriangleSurface facets = surface_of(all, all.shells[s]);
+    TriangleSurface skin = how.wraps ? wrapped_surface(facets, how.sizes[s]) : facets;
+    remesh(skin, how.sizes[s], how.angle);
+    const double sign = all.shells[s].depth % 2 == 0 ? 1 : -1;
+    d.facets_volume += sign * std::abs(PMP::volume(facets));
+    d.volume += sign * std::abs(PMP::volume(skin));
+    d.facets_area += PMP::area(facets);
+    d.area += PMP::area(skin);
+    d.distance = std::max({d.distance, distance_from(skin, facets), distance_from(facets, skin)});
+    append_shells(skin, all.shells[s].name, made.shells);
+    CGAL::copy_face_graph(skin, whole);
+  }
+  if (const std::string place = first_crossing(whole); !place.empty())
+    throw InputError({path}, "the new skin crosses itself near " + place);
+  if (std::abs(d.volume - d.facets_volume) > k_skin_tolerance * d.facets_volume)
+    throw InputError({path}, fmt::format("the new skin encloses another volume than the facets, by {}",
+                                         change_text(d.volume, d.facets_volume)));
+  nest_shells(made.shells);
+  return made;
+}
+
+std::string deviation_text(const RemeshedSkin& skin, double unit) {
+  const SkinDeviation& d = skin.deviation;
+  std::size_t triangles = 0;
+  for (const Shell& shell : skin.shells.shells) triangles += shell.triangles.size();
+  return fmt::format(
+      "a new skin of {} triangles stands for the facets: it encloses {:.4g} cm3 ({} of theirs), has {:.4g} "
+      "cm2 "
+      "({}), and neither lies farther than {:.2g} mm from the other",
+      triangles, 1e6 * unit * unit * unit * d.volume, change_text(d.volume, d.facets_volume),
+      1e4 * unit * unit * d.area, change_text(d.area, d.facets_area), 1e3 * unit * d.distance);
+}
+
+}  // namespace solidus::mesh

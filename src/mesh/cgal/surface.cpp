@@ -1,0 +1,74 @@
+#include "mesh/cgal/surface.hpp"
+
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
+namespace solidus::mesh {
+
+namespace PMP = CGAL::Polygon_mesh_processing;
+
+TriangleSurface surface_of(const ClosedShells& all, const Shell& shell) {
+  std::vector<Kernel::Point_3> points;
+  std::vector<std::vector<std::size_t>> triangles;
+  std::map<Index, std::size_t> number_of;
+  for (const std::array<Index, 3>& nodes : shell.triangles) {
+    std::vector<std::size_t>& triangle = triangles.emplace_back();
+    for (const Index node : nodes) {
+      const auto [place, is_new] = number_of.emplace(node, points.size());
+      triangle.push_back(place->second);
+      if (!is_new) continue;
+      const Point& p = all.points[static_cast<std::size_t>(node)];
+      points.emplace_back(p[0], p[1], p[2]);
+    }
+  }
+  PMP::orient_polygon_soup(points, triangles);
+  TriangleSurface surface;
+  PMP::polygon_soup_to_polygon_mesh(points, triangles, surface);
+  return surface;
+}
+
+void append_shells(const TriangleSurface& surface, const std::string& name, ClosedShells& all) {
+  std::map<TriangleSurface::Face_index, std::size_t> part_of;
+  const std::size_t n_parts =
+      PMP::connected_components(surface, boost::associative_property_map<decltype(part_of)>(part_of));
+  const std::size_t first = all.shells.size();
+  for (std::size_t p = 0; p < n_parts; ++p) all.shells.emplace_back().name = name;
+  std::map<TriangleSurface::Vertex_index, Index> number_of;
+  for (const TriangleSurface::Face_index face : surface.faces()) {
+    std::array<Index, 3> triangle{};
+    std::size_t k = 0;
+    for (const TriangleSurface::Vertex_index v :
+         CGAL::vertices_around_face(surface.halfedge(face), surface)) {
+      const auto [place, is_new] = number_of.emplace(v, static_cast<Index>(all.points.size()));
+      if (is_new) {
+        const Kernel::Point_3& p = surface.point(v);
+        all.points.push_back({p.x(), p.y(), p.z()});
+      }
+      triangle[k++] = place->second;
+    }
+    all.shells[first + part_of.at(face)].triangles.push_back(triangle);
+  }
+}
+
+std::string place_text(const Kernel::Point_3& p) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
+}
+
+std::string first_crossing(const TriangleSurface& surface) {
+  std::vector<std::pair<TriangleSurface::Face_index, TriangleSurface::Face_index>> pairs;
+  PMP::self_intersections(surface, std::back_inserter(pairs));
+  if (pairs.empty()) return {};
+  const auto corners = CGAL::vertices_around_face(surface.halfedge(pairs.front().first), surface);
+  auto corner = corners.begin();
+  const Kernel::Point_3 a = surface.point(*corner++), b = surface.point(*corner++),
+                        c = surface.point(*corner);
+  return place_text(CGAL::centroid(a, b, c));
+}
+
+}  // namespace solidus::mesh
