@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -13,6 +14,7 @@
 #include "mesh/skin.hpp"
 #include "mesh/smooth_parts.hpp"
 #include "system/errors.hpp"
+#include "system/log.hpp"
 
 namespace solidus::mesh {
 
@@ -27,7 +29,48 @@ double distance(const Point& a, const Point& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-std::vector<const SkinFace*> only_nearest(const std::vector<const SkinFace*>& faces, const Point& point) {
+/// Says which share of a curved face was taken where facets of coarse elements meet there at more than
+/// k_smooth, so that a smooth part is a strip of it: every facet of the strip has a neighbour beyond its
+/// border that bends by less than the edges of a drawing do.
+void tell_strip(const std::vector<const SkinFace*>& faces, const SmoothParts& parts, std::size_t part,
+                const std::string& group) {
+  constexpr double k_of_a_drawing = 75 * std::numbers::pi / 180, k_whole = 0.95;
+  constexpr double k_wider = 6;  // than the strip no other is, but the plane beside a chamfer
+  const SmoothParts wider = smooth_parts(faces, k_of_a_drawing);
+  std::set<std::pair<Index, Index>> beyond;  // edges of the rest of the wider part
+  std::map<std::size_t, double> area_of;     // of each smooth part
+  const auto edge = [](const SkinFace& face, std::size_t i) {
+    const Index a = face.nodes[i], b = face.nodes[(i + 1) % face.corners.size()];
+    return std::pair(std::min(a, b), std::max(a, b));
+  };
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (wider.of_face[f] != wider.of_face[part]) continue;
+    area_of[parts.of_face[f]] += faces[f]->area;
+    if (parts.of_face[f] != part)
+      for (std::size_t i = 0; i < faces[f]->corners.size(); ++i) beyond.insert(edge(*faces[f], i));
+  }
+  const double taken = area_of.at(part);
+  double whole = 0;
+  for (const auto& [other, area] : area_of) {
+    if (area > k_wider * taken) return;
+    whole += area;
+  }
+  if (taken > k_whole * whole) return;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    bool inside = parts.of_face[f] == part;
+    for (std::size_t i = 0; inside && i < faces[f]->corners.size(); ++i)
+      inside = !beyond.contains(edge(*faces[f], i));
+    if (inside) return;
+  }
+  logging::warn(
+      "the group '{}' takes {:.3g} of the {:.3g} cm2 of a curved face ({:.0f} %): its elements are so coarse "
+      "that facets meet at more than 30 degrees. Smaller elements there, or 'lowest' and 'highest' of a box "
+      "around the face in place of 'nearest', take all of it",
+      group, 1e4 * taken, 1e4 * whole, 100 * taken / whole);
+}
+
+std::vector<const SkinFace*> only_nearest(const std::vector<const SkinFace*>& faces, const Point& point,
+                                          const std::string& group) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::max();
   for (std::size_t f = 0; f < faces.size(); ++f)
@@ -37,6 +80,8 @@ std::vector<const SkinFace*> only_nearest(const std::vector<const SkinFace*>& fa
   std::vector<const SkinFace*> kept;
   for (std::size_t f = 0; f < faces.size(); ++f)
     if (parts.of_face[f] == parts.of_face[best]) kept.push_back(faces[f]);
+  const bool solid = faces[best]->corners.size() > 2;  // in the plane a face is a line
+  if (solid) tell_strip(faces, parts, parts.of_face[best], group);
   return kept;
 }
 
@@ -80,7 +125,7 @@ void add_faces_by_rule(RawMesh& mesh, const std::vector<std::string>& bodies, co
       if (fits(face, rule, slack) &&
           seen.insert(face_key(face.nodes.data(), static_cast<int>(face.corners.size())).vertices).second)
         chosen.push_back(&face);
-  if (rule.nearest && !chosen.empty()) chosen = only_nearest(chosen, *rule.nearest);
+  if (rule.nearest && !chosen.empty()) chosen = only_nearest(chosen, *rule.nearest, rule.name);
   if (chosen.empty())
     throw InputError({source}, fmt::format("no face of the mesh fits the rule of the group '{}'", rule.name),
                      "`solidus mesh-info` lists the faces with their normals and places");

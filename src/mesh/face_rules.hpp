@@ -23,6 +23,8 @@ struct FaceRule {
 
 /// Makes the group of the faces of the bodies' skins for which the rule holds. Faces that two bodies share
 /// belong to the skins of both; the first body's are taken.
+/// Warns where the smooth part nearest to a place is a strip of a curved face in coarse elements, with the
+/// share that was taken.
 /// @param source  for messages
 /// Throws InputError for a rule that holds for none.
 void add_faces_by_rule(RawMesh& mesh, const std::vector<std::string>& bodies, const FaceRule& rule,

@@ -57,7 +57,7 @@ double distance_from(const TriangleSurface& from, const TriangleSurface& to) {
 
 /// A share of a whole as "-0.4 %".
 std::string change_text(double value, double of) {
-  return fmt::format("{:+.2g} %", 100 * (value / of - 1));
+  return fmt::format("{:+.1f} %", 100 * (value / of - 1));
 }
 
 }  // namespace

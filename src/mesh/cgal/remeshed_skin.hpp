@@ -41,7 +41,7 @@ struct RemeshedSkin {
 /// than the facets by more than k_skin_tolerance.
 RemeshedSkin remeshed_skin(const ClosedShells& all, const SkinRemeshing& how, const std::string& path);
 
-/// "a new skin of 14826 triangles encloses 212.6 cm3 (-0.4 % of the facets' volume) …" @param unit [m]
+/// "a new skin of 14826 triangles encloses 212.6 cm3 (-0.4 % of theirs) …" @param unit [m]
 std::string deviation_text(const RemeshedSkin& skin, double unit);
 
 }  // namespace solidus::mesh

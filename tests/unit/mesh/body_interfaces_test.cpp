@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -15,11 +16,14 @@
 #include "mesh/skin.hpp"
 #include "split_block.hpp"
 #include "system/errors.hpp"
+#include "system/log.hpp"
 
 namespace solidus::mesh {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 double area(const RawMesh& mesh, const std::string& group) {
   double sum = 0;
@@ -160,6 +164,51 @@ TEST(FaceRules, ChooseByOwnerNormalPlaneBoxAndNearestPlace) {
     EXPECT_THAT(error.what(), HasSubstr("no face of the mesh fits the rule of the group 'chosen'"));
   }
   EXPECT_THROW(chosen({.name = "", .owner = "uper"}), InputError);
+}
+
+/// A prism of six sides about z as tetrahedra of one body 'bar': its sides meet at 60 degrees, as the facets
+/// of a round in coarse elements do.
+RawMesh prism_of_six_sides() {
+  RawMesh mesh;
+  mesh.dimension = 3;
+  for (const double z : {0.0, 1.0}) {
+    mesh.x.push_back({0, 0, z});
+    for (int i = 0; i < 6; ++i)
+      mesh.x.push_back({std::cos(i * std::numbers::pi / 3), std::sin(i * std::numbers::pi / 3), z});
+  }
+  RawBlock block{Shape::tet4, {}, {}};
+  for (Index i = 0; i < 6; ++i) {
+    const Index a = 1 + i, b = 1 + (i + 1) % 6, low = std::min(a, b), high = std::max(a, b);
+    // The diagonal of each side begins at its lower number, so that neighbours fit.
+    for (const std::array<Index, 4>& nodes :
+         {std::array<Index, 4>{0, low, high, static_cast<Index>(high + 7)},
+          {0, low, static_cast<Index>(low + 7), static_cast<Index>(high + 7)},
+          {0, 7, static_cast<Index>(low + 7), static_cast<Index>(high + 7)}})
+      block.nodes.insert(block.nodes.end(), nodes.begin(), nodes.end());
+  }
+  for (std::size_t n = 0; n < mesh.x.size(); ++n) mesh.input_node.push_back(static_cast<GlobalIndex>(n + 1));
+  for (std::size_t e = 0; e < block.nodes.size() / 4; ++e)
+    block.input_element.push_back(static_cast<GlobalIndex>(e + 1));
+  mesh.groups["bar"] = {3, {block}};
+  validate_and_orient(mesh, "prism");
+  return mesh;
+}
+
+TEST(FaceRules, AStripOfACurvedFaceTellsItsShare) {
+  RawMesh mesh = prism_of_six_sides();
+  logging::clear_warnings();
+  add_faces_by_rule(mesh, {"bar"}, {.name = "round", .nearest = Point{5, 3, 0.5}}, "prism");
+  EXPECT_NEAR(area(mesh, "round"), 1, 1e-9);
+  EXPECT_THAT(
+      logging::warnings(),
+      ElementsAre(HasSubstr("the group 'round' takes 1e+04 of the 6e+04 cm2 of a curved face (17 %)")));
+}
+
+TEST(FaceRules, ASideOfABlockIsTakenWholeAndNothingIsSaid) {
+  RawMesh mesh = make_block({{3, 2, 1}, {}, {1, 1, 1}}, Shape::tet4);
+  logging::clear_warnings();
+  add_faces_by_rule(mesh, {"block"}, {.name = "side", .nearest = Point{9, 1, 0.5}}, "block");
+  EXPECT_THAT(logging::warnings(), IsEmpty());
 }
 
 TEST(FaceRules, PatchesTellAreaNormalAndNeighbours) {
