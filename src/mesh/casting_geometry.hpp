@@ -66,10 +66,8 @@ inline constexpr double k_usable_quality = 0.05;
 /// the other until every body has elements and the least quality is k_sound_quality, those that are much
 /// finer only where the least quality of the others is below k_usable_quality; else takes the best of those
 /// that gave a mesh, with a warning. The first way of those that succeeds is said where it is not the first
-/// of all. Ways in which Gmsh makes new skins of facets have k_time_of_direct_ways (meshing_ways.hpp) in all,
-/// unless the environment sets a time (ReaderLimits). With `only_way` that way is taken where it gives a
-/// mesh. Each way is a reader process of its own. Throws InputError with the complaints of each way where
-/// none gives a mesh.
+/// of all. With `only_way` that way is taken where it gives a mesh. Each way is a reader process of its own.
+/// Throws InputError with the complaints of each way where none gives a mesh.
 /// @param enough  the least quality, 0 where any mesh will do
 RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double enough = k_sound_quality);
 

@@ -46,7 +46,9 @@ std::string thin_walls_text(const Draft& draft, const PartMeasures& part) {
       "\n  note        thin walls have one element through them{}",
       finer > k_most
           ? std::string()
-          : fmt::format(": enough for when and where it freezes last; --fineness {:.2g} gives two", finer));
+          : fmt::format(": enough for when and where it freezes last, not for temperatures within the wall, of "
+                        "which `check` warns; --fineness {:.2g} gives two",
+                        finer));
 }
 
 /// A note where several bodies are castings because neither their names nor `--as` say what they are: a core

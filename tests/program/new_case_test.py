@@ -181,6 +181,18 @@ class NewCase(ProgramTest):
             times.append(float(re.search(r"freezes +in about ([\d.e+]+) s", text)[1]))
         self.assertLess(times[1], 2.5 * times[0])
 
+    def test_skins_that_cross_each_other_are_united_and_freeze_as_one(self):
+        self.write("plate.stl", stl("plate", box((0, 0, 0), (60, 40, 10)) + box((20, 10, 5), (40, 30, 30))))
+        text, case = self.new("plate.stl", "--fineness", "0.5")
+        self.assertIn("2 closed skins that cross or touch each other", text)
+        self.assertIn("in common", text)
+        self.assertEqual([b["name"] for b in case["body"]], ["plate", "mould"])
+        self.assertIn("32 cm3", text)  # 24 of the plate, 10 of the boss, less the 2 that they share
+
+    def test_a_unit_that_is_none_is_the_users_mistake(self):
+        self.write("block.stl", stl("block", box((0, 0, 0), (80, 50, 20))))
+        self.assertIn("--unit: 'foo' is no unit of length", self.refusal("block.stl", "--unit", "foo"))
+
     def test_what_stl_files_cannot_is_said(self):
         closed = box((0, 0, 0), (60, 40, 40))
         self.write("open.stl", stl("open", closed[:-1]))

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/cgal/short_edges.hpp"
 #include "mesh/cgal/surface.hpp"
 #include "mesh/cgal/wrapped_surface.hpp"
 #include "system/errors.hpp"
@@ -36,7 +37,8 @@ void remesh(TriangleSurface& surface, double size, double angle) {
                                .edge_is_constrained_map(sharp)
                                .protect_constraints(false)
                                .number_of_relaxation_steps(k_relaxations));
-  surface.collect_garbage();
+  constexpr double k_short = 0.25;  // of the size: what is shorter spoils the elements at both of its ends
+  collapse_short_edges(surface, k_short * size, sharp);
 }
 
 /// The largest distance of the corners of a surface, and of the middles of its triangles, from another one.

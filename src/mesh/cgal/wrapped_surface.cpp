@@ -26,7 +26,7 @@ TriangleSurface drawn_back(TriangleSurface wrap, const TriangleSurface& facets, 
 }  // namespace
 
 TriangleSurface wrapped_surface(const TriangleSurface& facets, double size) {
-  constexpr double k_opening = 0.5, k_offset = 0.03;  // of the size
+  constexpr double k_opening = 0.5, k_offset = 0.03;  // radius and distance, of the size
   std::vector<Kernel::Point_3> points;
   std::vector<std::vector<std::size_t>> triangles;
   for (const TriangleSurface::Vertex_index v : facets.vertices()) points.push_back(facets.point(v));

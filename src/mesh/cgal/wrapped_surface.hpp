@@ -6,7 +6,7 @@
 namespace solidus::mesh {
 
 /// Wraps a surface from outside and draws the wrap back onto it. What is hollow and has no opening wider than
-/// half of `size` is filled.
+/// `size` is filled.
 /// @param size  of the elements that the wrap is for, in units of the file
 TriangleSurface wrapped_surface(const TriangleSurface& facets, double size);
 

@@ -15,7 +15,6 @@
 #include "mesh/casting_geometry.hpp"
 #include "mesh/cgal/united_shells.hpp"
 #include "mesh/kept_mesh.hpp"
-#include "sample_mesh.hpp"
 #include "system/errors.hpp"
 
 namespace {
@@ -66,7 +65,7 @@ Triangles box_that_crosses_itself() {
   Triangles all(triangles.begin(), triangles.begin() + 2);
   all.insert(all.end(), triangles.begin() + 4, triangles.end());
   const std::array<Point, 4> rim = {{{0, 0, 20}, {40, 0, 20}, {40, 40, 20}, {0, 40, 20}}};
-  const std::array<Point, 4> brink = {{{18, 18, 20}, {22, 18, 20}, {22, 22, 20}, {18, 22, 20}}};
+  const std::array<Point, 4> brink = {{{14, 14, 20}, {26, 14, 20}, {26, 26, 20}, {14, 26, 20}}};
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t j = (i + 1) % 4;
     all.push_back({rim[i], rim[j], brink[j]});
@@ -138,7 +137,7 @@ TEST(RemeshedSkin, WhatCrossesItselfIsNamedWithItsPlaceAndWrapped) {
   const RemeshedSkin skin = remeshed_skin(crossing, {.sizes = {4}, .wraps = true}, "part.stl");
   EXPECT_NEAR(skin.deviation.volume, skin.deviation.facets_volume,
               k_skin_tolerance * skin.deviation.facets_volume);
-  EXPECT_LT(skin.deviation.distance, 4);
+  EXPECT_LT(skin.deviation.distance, 8);  // where the hollow is narrower than an element it is filled
 }
 
 TEST(UnitedShells, OfOneNameBecomeOneWithANoteOfWhatTheyHadInCommon) {

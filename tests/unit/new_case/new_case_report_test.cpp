@@ -79,12 +79,19 @@ TEST(NewCaseReport, NotesWallsWithOneElementThroughThem) {
   report.part.thickness = {4e-3, 4e-3, 4e-3};
   EXPECT_THAT(report.text(),
               HasSubstr("thin walls have one element through them: enough for when and where it "
-                        "freezes last; --fineness 2.5 gives two"));
+                        "freezes last, not for temperatures within the wall, of which `check` warns; "
+                        "--fineness 2.5 gives two"));
   report.part.thickness = {1e-3, 1e-3, 1e-3};  // finer than --fineness goes
   EXPECT_THAT(report.text(), HasSubstr("thin walls have one element through them"));
   EXPECT_THAT(report.text(), Not(HasSubstr("--fineness")));
   report.draft.meshed = true;  // its elements are the user's
   EXPECT_THAT(report.text(), Not(HasSubstr("note")));
+}
+
+TEST(NewCaseReport, NotesHowANewSkinDiffersFromTheFacets) {
+  Report report;
+  report.estimate.skin_notes = {"a new skin stands for the facets"};
+  EXPECT_THAT(report.text(), HasSubstr("note        a new skin stands for the facets"));
 }
 
 TEST(NewCaseReport, NotesBodiesThatArePouredForWantOfAName) {
