@@ -92,6 +92,7 @@ class MeshingInTurn {
     const bool decided = geometry_.only_way && best_;
     for (const int way : order_) {
       if (decided || (best_ && quality_ >= sufficient)) break;
+      if (solids_ && too_long_ == k_most_too_long) break;
       if (solids_ && !is_cheap(way_of(solid_ways(), way)) && quality_ >= k_usable_quality) break;
       if (way != first) attempt(way);
     }
@@ -108,11 +109,11 @@ class MeshingInTurn {
 
   /// A way that the case asks for, or a user with a limit of his own, has all the time that readers have.
   TimeOfWay time_of(int way) const {
-    constexpr double k_new_skin = 60, k_new_skin_a_node = 1e-3;  // [s]: several times what is usual
+    constexpr double k_solids = 140, k_new_skin = 60, k_a_node = 1e-3;  // [s]: several times what is usual
     TimeOfWay time{text_of(way)};
-    if (solids_ || way == geometry_.only_way || std::getenv("SOLIDUS_MESH_TIME") != nullptr) return time;
-    time.processor = is_direct(way) ? direct_time_ : k_new_skin;
-    time.processor_a_node = is_direct(way) ? 0 : k_new_skin_a_node;
+    if (way == geometry_.only_way || std::getenv("SOLIDUS_MESH_TIME") != nullptr) return time;
+    time.processor = solids_ ? k_solids : is_direct(way) ? direct_time_ : k_new_skin;
+    time.processor_a_node = is_direct(way) ? 0 : k_a_node;
     return time;
   }
 
@@ -131,6 +132,7 @@ class MeshingInTurn {
     } catch (const MeshingTooLong& error) {
       note(text_of(way) + ": " + complaint_of(error, source_.path));
       spent = std::max(spent, time.processor);
+      ++too_long_;
       tell_progress("'" + source_.path + "': " + complaints_.back() + "; another way is tried");
     } catch (const InputError& error) {
       note(text_of(way) + ": " + complaint_of(error, source_.path));
@@ -166,8 +168,11 @@ class MeshingInTurn {
     if (!best_) {
       std::string all;
       for (const std::string& complaint : complaints_) all += "\n    " + complaint;
-      throw InputError({source_.path}, "the geometry could not be meshed in any of these ways:" + all,
-                       "a geometry whose faces neither cross nor nearly touch there; other element sizes");
+      const std::string allowed =
+          "a geometry whose faces neither cross nor nearly touch there; other element sizes";
+      throw InputError(
+          {source_.path}, "the geometry could not be meshed in any of these ways:" + all,
+          too_long_ == 0 ? allowed : allowed + "; more time for each way: SOLIDUS_MESH_TIME=\"1 h\"");
     }
     if (quality_ < enough_ && geometry_.only_way == way_)
       logging::warn(
@@ -187,10 +192,12 @@ class MeshingInTurn {
   double enough_;
   KeptMesh* kept_;
   bool solids_;
-  std::vector<int> order_;  ///< numbers of the ways
+  static constexpr int k_most_too_long = 2;  ///< of solids: other ways take as long
+  std::vector<int> order_;                   ///< numbers of the ways
   double direct_time_ = k_time_of_direct_ways;
   std::optional<RawMesh> best_;
   double quality_ = 0, last_ = 0;  ///< least quality of the best mesh and of the last one
+  int too_long_ = 0;               ///< ways that took longer than they may
   int way_ = 0, tried_ = 0;        ///< the way of the best mesh, and how many have been tried
   std::vector<std::string> complaints_;
 };
