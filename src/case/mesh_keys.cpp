@@ -254,7 +254,7 @@ Section<MeshSpec> mesh_keys() {
           "each has its own, for contact.");
   s.key("way", &MeshSpec::way)
       .initially(0)
-      .range(0, 8)
+      .range(0, 9)
       .doc(
           "With [[mesh.size]]: the number of the way of meshing that is taken, whatever the quality of its "
           "elements is; 0: one way after the other. `solidus new` writes it where several had to be tried.");
