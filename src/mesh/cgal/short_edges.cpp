@@ -2,8 +2,8 @@
 
 #include <CGAL/boost/graph/Euler_operations.h>
 
-#include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace solidus::mesh {
@@ -80,10 +80,18 @@ class ShortEdges {
 
 void collapse_short_edges(TriangleSurface& surface, double length, const Sharp& sharp) {
   constexpr int k_rounds = 5;
-  ShortEdges edges(surface, length, sharp);
-  for (int round = 0; round < k_rounds && edges.collapse_once(); ++round) {
+  if (!first_crossing(surface).empty()) return;  // it crosses itself as it is
+  // Where walls or gaps are narrow, edges that are drawn together may pull one side through the other.
+  for (const double share : {1.0, 0.4, 0.1}) {
+    TriangleSurface trial = surface;  // with the numbers of edges that `sharp` knows
+    ShortEdges edges(trial, share * length, sharp);
+    for (int round = 0; round < k_rounds && edges.collapse_once(); ++round) {
+    }
+    trial.collect_garbage();
+    if (!first_crossing(trial).empty()) continue;
+    surface = std::move(trial);
+    return;
   }
-  surface.collect_garbage();
 }
 
 }  // namespace solidus::mesh
