@@ -51,8 +51,8 @@ class Progress:
 
 
 def run(case: Case | str | Path, output: str | Path | None = None, *, restart: bool = False, processes: int = 1,
-        physics: str | None = None, progress: Callable[[Progress], Any] | None = None,
-        options: tuple[str, ...] | list[str] = (), in_process: bool = False) -> Any:
+        physics: str | None = None, progress: Callable[[Progress], Any] | None = None, sure: bool = False,
+        stop: threading.Event | None = None, options: tuple[str, ...] | list[str] = (), in_process: bool = False) -> Any:
     """Runs a case and returns its :class:`Results`: with the program ``solidus`` as a child process, or in this one.
 
     Parameters
@@ -70,6 +70,10 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
         ``"heat"`` or ``"thermomechanical"``, in place of what the case says.
     progress:
         Called with a :class:`Progress` after every step. An exception from it stops the run and is passed on.
+    sure:
+        Run it twice more, with longer steps and with larger elements, for the errors of the answers.
+    stop:
+        An event that another thread sets to stop the run behind a whole step, as Ctrl-C does.
     options:
         Options of PETSc.
     in_process:
@@ -85,16 +89,16 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
     ProgramMissing
         There is no program, or no ``mpirun`` for several processes.
     RunInterrupted
-        A ``KeyboardInterrupt``: Ctrl-C, behind a whole step. A second Ctrl-C ends the run at once.
+        A ``KeyboardInterrupt``: Ctrl-C, or `stop`, behind a whole step. A second Ctrl-C ends the run at once.
     """
     if not isinstance(case, Case):
         case = Case.load(case)
     if in_process:
         from .simulation import Simulation
 
-        if output is None or processes != 1 or options:
-            raise ValueError("a run in this process needs a folder for its results, and has the processes and options of "
-                             "solidus_casting.initialize()")
+        if output is None or processes != 1 or options or sure or stop is not None:
+            raise ValueError("a run in this process needs a folder for its results, has the processes and options of "
+                             "solidus_casting.initialize(), and knows neither sure nor stop")
         with Simulation(case, output, restart=restart, physics=physics) as simulation:
             return simulation.run(progress=progress)
     if output is None and case.file is None:
@@ -105,19 +109,21 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
         command = [str(verbs.program()), "run", *arguments, "--no-progress", *physics_option(physics)]
         command += ["-o", str(Path(output).absolute())] if output is not None else []
         command += ["--restart"] if restart else []
+        command += ["--sure"] if sure else []
         command += ["--", *options] if options else []
         if processes > 1:
             if shutil.which("mpirun") is None:
                 raise ProgramMissing("several processes need mpirun, which is not on the PATH (Debian's openmpi-bin)")
             command = ["mpirun", "-n", str(processes), "--bind-to", "none", "--oversubscribe", *command]
         return _Child(command, case, None if output is None else Path(output).absolute(), note, processes > 1,
-                      progress).wait()
+                      progress, stop).wait()
 
 
 class _Child:
     def __init__(self, command: list[str], case: Case, folder: Path | None, note: IO[str], parallel: bool,
-                 progress: Callable[[Progress], Any] | None) -> None:
+                 progress: Callable[[Progress], Any] | None, stop: threading.Event | None) -> None:
         self._folder, self._note, self._parallel, self._progress = folder, note, parallel, progress
+        self._stop, self._asked = stop, False
         self._messages: list[str] = []
         self._end = _end_time(case) if progress else None
         self._rows = _Rows(folder / "steps.csv") if progress and folder else None
@@ -145,17 +151,15 @@ class _Child:
     def wait(self) -> Any:
         from .results import Results
 
-        asked = False
         try:
             while True:
                 try:
                     self._watch()
                     break
                 except KeyboardInterrupt:
-                    if asked:
+                    if self._asked:
                         self._process.kill()
                         break
-                    asked = True
                     self._ask_to_stop()
         except BaseException:  # of the caller's own function
             self._ask_to_stop()
@@ -167,7 +171,7 @@ class _Child:
         folder = self._folder or Path(self._note.read().strip() or ".")
         results = Results(folder) if (folder / "steps.csv").exists() else None
         errors = "\n".join(self._messages)
-        if asked or code == 130:
+        if self._asked or code == 130:
             raise RunInterrupted(verbs.error_text(errors), results)
         if code != 0:
             verbs.raise_for(code, errors, results)
@@ -176,6 +180,8 @@ class _Child:
     def _watch(self) -> None:
         """Returns when the process has ended and its last rows were told of."""
         while self._process.poll() is None:
+            if self._stop is not None and self._stop.is_set() and not self._asked:
+                self._ask_to_stop()
             self._tell()
             time.sleep(_POLL)
         self._tell()
@@ -185,6 +191,7 @@ class _Child:
             self._progress(Progress(float(row["time[s]"]), float(row["dt[s]"]), int(float(row["step[1]"])), self._end, row))
 
     def _ask_to_stop(self) -> None:
+        self._asked = True
         # mpirun ends its processes within a second of an interrupt, but hands SIGUSR1 on.
         self._process.send_signal(signal.SIGUSR1 if self._parallel else signal.SIGINT)
 

@@ -64,6 +64,8 @@ ExitCode run_python(const std::string& module, const std::vector<std::string>& a
     else
       inherited.push_back(entry);
   }
+  // Python would otherwise take modules from the present folder, which may be a stranger's.
+  inherited.emplace_back("PYTHONSAFEPATH=1");
   inherited.push_back("PYTHONPATH=" + path);
   inherited.push_back("SOLIDUS_PROGRAM=" + fs::read_symlink("/proc/self/exe").string());
   std::vector<char*> argv = pointers(command), envp = pointers(inherited);

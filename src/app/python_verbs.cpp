@@ -13,7 +13,9 @@ PythonVerbs::PythonVerbs(CLI::App& program)
       compare_(program.add_subcommand("compare", "Compare two runs: tables, curves and fields")),
       study_(program.add_subcommand("study", "Run a case many times with other values, and compare")),
       uncertain_(program.add_subcommand(
-          "uncertain", "Print how far the answers of a case may be off because its data are")) {
+          "uncertain", "Print how far the answers of a case may be off because its data are")),
+      mcp_(program.add_subcommand(
+          "mcp", "Serve assistants: the Model Context Protocol over standard input and output")) {
   plot_->add_option("FOLDER", folder_, "Folder of the results")->required();
   plot_->add_option("--plots", plots_, "A plots.toml other than the case's own")->type_name("FILE");
   compare_->add_option("FOLDER", folder_, "Folder of the results of one run")->required();
@@ -49,6 +51,9 @@ PythonVerbs::PythonVerbs(CLI::App& program)
   uncertain_->add_flag("--restart", restart_, "Keep the runs that have ended");
   uncertain_->add_flag("--dry-run", dry_run_, "Print what is uncertain and run nothing");
   uncertain_->add_flag("--parameters", parameters_, "Print what is uncertain as JSON and run nothing");
+  mcp_->add_option("FOLDER", folder_, "The only folder that is worked in; default the present one");
+  mcp_->add_flag("--trust-files", trust_files_,
+                 "Serve where the system cannot refuse other files: only the paths of cases are looked at");
 }
 
 std::optional<ExitCode> PythonVerbs::run_uncertain() const {
@@ -95,6 +100,11 @@ std::optional<ExitCode> PythonVerbs::run() const {
     return run_python("compare", arguments);
   }
   if (*uncertain_) return run_uncertain();
+  if (*mcp_) {
+    if (folder_.empty()) arguments = {"."};
+    flag("--trust-files", trust_files_);
+    return run_python("solidus_casting.mcp", arguments);
+  }
   if (!*study_) return {};
   if (output_.empty()) add("--results-root", results_root().string());
   add("--output", output_);

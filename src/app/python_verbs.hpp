@@ -1,4 +1,4 @@
-/// The verbs that Python does: plot, compare, study, uncertain.
+/// The verbs that Python does: plot, compare, study, uncertain, mcp.
 #pragma once
 
 #include <optional>
@@ -25,9 +25,10 @@ class PythonVerbs {
  private:
   std::optional<ExitCode> run_uncertain() const;
 
-  CLI::App *plot_, *compare_, *study_, *uncertain_;
+  CLI::App *plot_, *compare_, *study_, *uncertain_, *mcp_;
   std::string folder_, other_, plots_, output_, jobs_, runs_, samples_, seed_;
-  bool no_plots_ = false, restart_ = false, dry_run_ = false, one_sided_ = false, parameters_ = false;
+  bool no_plots_ = false, restart_ = false, dry_run_ = false, one_sided_ = false, parameters_ = false,
+       trust_files_ = false;
   CaseArguments uncertain_case_;
 };
 
