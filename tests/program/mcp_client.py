@@ -13,8 +13,9 @@ from program import PATIENCE, PROGRAM
 class Client:
     """Starts ``solidus mcp FOLDER`` and talks to it."""
 
-    def __init__(self, folder, *options, cwd=None):
-        self.process = subprocess.Popen([PROGRAM, "mcp", str(folder), *options], cwd=cwd, env=os.environ, text=True,
+    def __init__(self, folder, *options, cwd=None, temporary=None):
+        environment = {**os.environ, **({} if temporary is None else {"TMPDIR": str(temporary)})}
+        self.process = subprocess.Popen([PROGRAM, "mcp", str(folder), *options], cwd=cwd, env=environment, text=True,
                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.notifications, self._answers, self._heard = [], queue.Queue(), []
         self._number = 0

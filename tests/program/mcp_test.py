@@ -26,8 +26,9 @@ class McpTest(ProgramTest):
 
     def setUp(self):
         super().setUp()
-        self.room = self.folder / "room"
+        self.room, self.temporary = self.folder / "room", self.folder / "temporary"
         self.room.mkdir()
+        self.temporary.mkdir()
         self.case("block")
 
     def case(self, name, **changes):
@@ -35,7 +36,7 @@ class McpTest(ProgramTest):
         self.write(f"room/{name}/case.toml", document_text({**CASE, **changes}))
 
     def session(self, version="2025-11-25", cwd=None):
-        client = Client(self.room, *OPTIONS, cwd=cwd)
+        client = Client(self.room, *OPTIONS, cwd=cwd, temporary=self.temporary)
         self.addCleanup(lambda: client.process.poll() is None and (client.process.kill(), client.close()))
         self.information = client.initialize(version)
         self.tools = {tool["name"]: tool for tool in client.ask("tools/list")["result"]["tools"]}
@@ -118,6 +119,8 @@ class Protocol(McpTest):
                 ("check", {"case": "block", "phisics": "heat"}, "no argument 'phisics'", "did you mean 'physics'?"),
                 ("check", {"case": "block", "physics": "chemistry"}, "not among the choices", "heat, thermomechanical"),
                 ("check", {"case": 4}, "4 is no string", "case file"),
+                ("check", {"case": "b" * 3000}, "there is no case", "`new` makes one"),
+                ("check", {"case": "block", "set": {"time.step": None}}, "None", "a text"),
                 ("check", {"case": "blocks"}, "there is no case 'blocks'", "`new` makes one"),
                 ("new", {"part": "a.step", "alloy": "aluminium_alsi7mg", "fineness": 9}, "9 is out of range", "0.3 to 5"),
                 ("report", {"results": []}, "0 entries", "1 to 16"),
@@ -265,6 +268,7 @@ class Cancellation(McpTest):
         self.long_run(client)
         self.assertEqual(client.close(), 0)
         self.assertEqual(self.summary(self.room / "long")["outcome"], "stopped: as asked")
+        self.assertEqual(list(self.temporary.iterdir()), [])  # nothing is left of it
 
 
 class Confinement(McpTest):
@@ -304,6 +308,15 @@ class Confinement(McpTest):
         for value in ({"body.block.material": "../leads_out/secret.toml"}, {"mesh.file": "/etc/passwd"},
                       {"thermal_condition.air.ambient": {"file": "../../outside/secret.toml"}}):
             self.assertIn("lies outside", self.wrong(client, "check", case="block", set=value)["found"])
+        self.assertEqual(client.close(), 0)
+
+    def test_a_summary_that_no_run_has_written_is_an_error_of_its_own(self):
+        client = self.session()
+        self.good(client, "run", case="block")
+        for text in ("{", "[]", '{"answers": []}', '{"answers": {"relative_energy_defect": NaN}}', '{"warnings": 3}'):
+            self.write("room/results/block/summary.json", text)
+            error = self.wrong(client, "report", results=["results/block"])
+            self.assertIn("summary", error["message"], text)
         self.assertEqual(client.close(), 0)
 
     def test_results_with_a_link_that_leads_out_are_refused(self):

@@ -38,13 +38,26 @@ def main() -> int:
     if not sys.flags.safe_path:
         return _refuse("Python would take modules from the present folder: solidus mcp, or python3 -P -m solidus_casting.mcp")
     temporary = Path(tempfile.mkdtemp(prefix="solidus_mcp_"))
+    # The server may not touch what lies around its folders: another process, which reads nothing, takes this one away.
+    child = os.fork()
+    if child == 0:
+        return _serve(options.folder, temporary, options.trust_files)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, lambda *_: os.kill(child, signal.SIGTERM))
+    _, status = os.waitpid(child, 0)
+    shutil.rmtree(temporary, ignore_errors=True)
+    code = os.waitstatus_to_exitcode(status)
+    return code if code >= 0 else 128 - code
+
+
+def _serve(folder: str, temporary: Path, trust_files: bool) -> int:
     try:
-        room = Room(options.folder)
+        room = Room(folder)
         information = {"name": "solidus", "title": "Solidus", "version": verbs.version()}
         os.environ.update(TMPDIR=str(temporary), MPLCONFIGDIR=str(temporary), PYTHONSAFEPATH="1")
         tempfile.tempdir = str(temporary)
         os.chdir(room.folder)
-        if not _confined(room, temporary, options.trust_files):
+        if not _confined(room, temporary, trust_files):
             return 1
         server = Server(tools(room), information, _INSTRUCTIONS, _own_output())
         signal.signal(signal.SIGTERM, _leave)
@@ -54,8 +67,6 @@ def main() -> int:
         return _refuse(str(error))
     except KeyboardInterrupt:
         return 130
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
 
 
 def _confined(room: Room, temporary: Path, trust: bool) -> bool:

@@ -1,6 +1,6 @@
 """Takes from this process, and from all that it starts, the right to files outside of a few folders, by Linux' Landlock.
 
-Landlock (Linux 5.13 and newer, on in the kernels of Debian 12 and 13) refuses to open, make, rename or remove what no rule names. It
+Landlock (Linux 5.13 and newer, where it is switched on) refuses to open, make, rename or remove what no rule names. It
 cannot be undone, not even by a defect of what runs here. Since Linux 6.7 it refuses connections by TCP as well. It does not hide that
 a file exists, nor its size.
 """

@@ -226,7 +226,7 @@ def result_of(tool: Any, given: Mapping[str, Any], job: Job) -> dict[str, Any]:
     try:
         checks.check(tool.input, given)
         found = tool.work(given, job)
-    except SolidusError as error:
+    except (SolidusError, OSError) as error:
         job.raise_if_stopped()
         found = tool.failure(error)
         return {"content": [{"type": "text", "text": found["error"]["message"]}], "structuredContent": found, "isError": True}

@@ -58,7 +58,7 @@ class Room:
     def results(self, given: str, argument: str) -> Path:
         """A folder of results, none of whose files is a link that leads out."""
         folder = self.inside(given, argument)
-        if not folder.is_dir():
+        if not os.path.isdir(folder):
             raise InputError(f"there is no folder '{given}'", "a folder of results, as `run` names it", key=argument)
         for path in _links(folder):
             self.inside(str(path), argument)
@@ -69,13 +69,13 @@ class Room:
     def case(self, given: str, argument: str, changes: Mapping[str, Any]) -> str:
         """A case as the program is given it, ``FILE`` or ``FILE:VARIANT``, with nothing in it that names a file outside."""
         path, colon, variant = given, "", ""
-        if not (self.folder / given).exists():
+        if not os.path.exists(self.folder / given):
             before, colon, after = given.rpartition(":")
             path, variant = (before, after) if colon else (given, "")
         file = self.inside(path, argument)
-        if file.is_dir():
+        if os.path.isdir(file):
             file = self.inside(str(file / "case.toml"), argument)
-        if not file.is_file():
+        if not os.path.isfile(file):
             raise InputError(f"there is no case '{given}'", "a case file, or a folder with a case.toml; `new` makes one", key=argument)
         self._look_at(file, argument)
         for key, value in changes.items():
@@ -88,7 +88,7 @@ class Room:
         waiting, seen = [first], set()
         while waiting and len(seen) < _MOST_FILES:
             file = waiting.pop()
-            if file in seen or file.suffix != ".toml" or not file.is_file():
+            if file in seen or file.suffix != ".toml" or not os.path.isfile(file):
                 continue
             seen.add(file)
             try:

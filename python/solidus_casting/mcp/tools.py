@@ -82,7 +82,7 @@ class Tool:
                 "annotations": {"title": self.title, "readOnlyHint": self.reads_only, "destructiveHint": False,
                                 "idempotentHint": self.reads_only, "openWorldHint": False}}
 
-    def failure(self, error: SolidusError) -> Schema:
+    def failure(self, error: SolidusError | OSError) -> Schema:
         """The result for an error, paths as seen from the folder."""
         kinds = {InputError: "input", RunStopped: "stopped", InternalError: "program", ProgramMissing: "missing"}
         found: Schema = {"kind": kinds.get(type(error), "input"), "message": self.room.text(str(error))}

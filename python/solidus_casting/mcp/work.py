@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import os
 import re
 import signal
@@ -69,7 +70,7 @@ class Workshop:
         case = self._room.case(given["case"], "case", changes)
         folder = self._output(given, case)
         with self._turn(job):
-            loaded = Case.load(case).copy(changes)
+            loaded = _loaded(case, changes)
             try:
                 results = run(loaded, folder, restart=given.get("restart", False), physics=given.get("physics"),
                               sure=given.get("sure", False), stop=job.stop, progress=lambda step: _tell(job, step))
@@ -123,7 +124,7 @@ class Workshop:
 
     def _check(self, case: str, changes: Mapping[str, Any], physics: str | None, job: Job) -> Answer:
         options = {None: [], "heat": ["--heat-only"], "thermomechanical": ["--coupled"]}[physics]
-        with Case.load(case).copy(changes).as_arguments() as words:
+        with _loaded(case, changes).as_arguments() as words:
             text, messages = self._call(["check", *words, *options], job, "checks the case")
         return {"text": self._room.text(text), "findings": self._findings(_after("warning:", messages)),
                 "notes": [self._room.text(line) for line in _after("info:", messages)]}
@@ -139,12 +140,21 @@ class Workshop:
         file = Path(file if variant else case)
         stem = file.parent.name if file.stem == "case" else file.stem
         folder = self._room.inside(given.get("output", f"results/{stem}{'_' + variant if variant else ''}"), "output")
-        if folder.exists() and (not folder.is_dir() or any(folder.iterdir()) and not (folder / "steps.csv").exists()):
+        if os.path.exists(folder) and (not folder.is_dir() or any(folder.iterdir()) and not (folder / "steps.csv").exists()):
             raise InputError(f"'{self._room.name(folder)}' holds something else than results of a run",
                              "a new folder, or one of results", key="output")
         return folder
 
     def _answers(self, results: Results) -> Answer:
+        try:
+            found = self._of_summary(results)
+            json.dumps(found, allow_nan=False)
+        except (ValueError, TypeError, AttributeError, KeyError) as error:
+            raise InputError(f"this is no summary of Solidus: {error!r}", "the summary.json that a run has written",
+                             file=Path(self._room.name(results.folder / "summary.json"))) from error
+        return found
+
+    def _of_summary(self, results: Results) -> Answer:
         from solidus_plots.answers import answers, bands
 
         summary = results.summary
@@ -195,6 +205,13 @@ class Workshop:
         if code != 0:
             verbs.raise_for(code, "\n".join(messages))
         return "\n".join(printed), messages
+
+
+def _loaded(case: str, changes: Mapping[str, Any]) -> Case:
+    try:
+        return Case.load(case).copy(changes)
+    except TypeError as error:  # a value that TOML does not have
+        raise InputError(str(error), "texts, numbers, true, false, lists of these", key="set") from error
 
 
 class _Turn:
