@@ -11,8 +11,8 @@ namespace {
 
 constexpr int k_metal_cells = 16, k_mould_cells = 24;
 constexpr double k_mould_growth = 1.2;  // of its cells outward
-/// Between a bar and a ball: the thick place of a casting of several thicknesses.
-constexpr double k_thick_place = 2.5;
+/// A bar: the thick place of a casting of several thicknesses, beside whose walls no mould cools it.
+constexpr double k_thick_place = 2;
 
 /// A cell of the line: joined to `parent` alone, which comes later in the list. The last is the metal's skin.
 struct Cell {
