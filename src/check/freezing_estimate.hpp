@@ -24,7 +24,7 @@
 ///
 /// The estimate neglects the exchange of heat between thick and thin places of one body, smaller bodies
 /// behind a mould, and the flow of metal, and it takes the mould of a hollow wall to widen outward as that of
-/// a bar does. Measured: 0.6 to 1.3 of the runs of fourteen castings and risers, 0.48 of a fan in a die, 1.5
+/// a bar does. Measured: 0.6 to 1.3 of the runs of fifteen castings and risers, 0.48 of a fan in a die, 1.5
 /// beside a sleeve that burns (docs/guide/findings.md).
 ///
 /// Source: N. Chvorinov, "Theorie der Erstarrung von Gussstücken", Die Giesserei 27 (1940) 177–186, 201–208,
