@@ -11,7 +11,7 @@ target_compile_options(solidus_options INTERFACE
 # The same objects serve the program and the Python module, which is a shared library. Calls within a file are inlined as without it;
 # in the program the linker turns the detours over tables of addresses back into direct ones.
 target_compile_options(solidus_options INTERFACE $<BUILD_INTERFACE:-fPIC;-fno-semantic-interposition>)
-target_compile_definitions(solidus_options INTERFACE SOLIDUS_VERSION="${PROJECT_VERSION}" OMPI_SKIP_MPICXX)
+target_compile_definitions(solidus_options INTERFACE OMPI_SKIP_MPICXX)
 if(SOLIDUS_MARCH)
   target_compile_options(solidus_options INTERFACE -march=${SOLIDUS_MARCH})
 endif()

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "app/built_version.hpp"
+#include "app/child_process.hpp"
 #include "app/command_tree.hpp"
 #include "app/completion.hpp"
 #include "app/manual_page.hpp"
@@ -290,6 +291,8 @@ ExitCode parse_and_run(int argc, char** argv) {
   report_verb->add_option("-o,--output", reported.output,
                           "The page; default report.html in the first folder");
   CLI::App* version_verb = program.add_subcommand("version", "Print versions");
+  CLI::App* doctor_verb = program.add_subcommand(
+      "doctor", "Say what this machine lacks for runs, several processes and pictures");
   const PythonVerbs python(program);
   std::string verb_name, shell, editor_folder;
   CLI::App* editor_verb = program.add_subcommand(
@@ -355,6 +358,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   if (*new_verb) return new_case(fresh);
   if (*report_verb) return write_report(reported);
   if (*version_verb) return version();
+  if (*doctor_verb) return doctor();
   if (*help_verb) {
     // help() of the program itself would tell of this verb, which was asked for.
     print(verb_name.empty()

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "system/processes.hpp"
+#include "system/program_path.hpp"
 
 namespace solidus::app {
 
@@ -19,8 +20,7 @@ fs::path results_root() {
 }
 
 fs::path shared_folder() {
-  std::error_code error;
-  return fs::read_symlink("/proc/self/exe", error).parent_path().parent_path() / "share/solidus";
+  return program_path().parent_path().parent_path() / "share/solidus";
 }
 
 void note_folder(const fs::path& folder) {

@@ -11,11 +11,11 @@
 #include <cstring>
 #include <filesystem>
 
+#include "app/child_process.hpp"
 #include "app/places.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
-
-extern char** environ;
+#include "system/program_path.hpp"
 
 namespace solidus::app {
 
@@ -23,42 +23,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string>& environment() {
-  static std::vector<std::string> kept;
-  return kept;
-}
-
 /// Returns the folder of the Python modules.
 fs::path modules() {
-  for (const fs::path& folder : {shared_folder() / "python", fs::path(SOLIDUS_PYTHON_DIR)})
-    if (std::error_code error; fs::is_directory(folder / "solidus_plots", error)) return folder;
+  const auto holds_modules = [](const fs::path& folder) {
+    std::error_code error;
+    return fs::is_directory(folder / "solidus_plots", error);
+  };
+  if (const fs::path installed = shared_folder() / "python"; holds_modules(installed)) return installed;
+  if (const fs::path sources = SOLIDUS_SOURCES; !sources.empty() && holds_modules(sources / "python"))
+    return sources / "python";
   throw InputError({}, "the Python modules of Solidus are not where the program was installed",
                    "`cmake --install`, which brings them, or the folder python/ of the sources");
 }
 
-std::vector<char*> pointers(std::vector<std::string>& texts) {
-  std::vector<char*> list;
-  for (std::string& text : texts) list.push_back(text.data());
-  list.push_back(nullptr);
-  return list;
-}
-
 }  // namespace
 
-void keep_environment() {
-  environment().clear();
-  for (char** entry = environ; *entry != nullptr; ++entry) environment().emplace_back(*entry);
+std::string python_program() {
+  const char* chosen = std::getenv("SOLIDUS_PYTHON");
+  return chosen != nullptr && *chosen != '\0' ? chosen : "/usr/bin/python3";
 }
 
 ExitCode run_python(const std::string& module, const std::vector<std::string>& arguments) {
   if (processes::count() > 1) throw InputError({}, "this verb runs on one process", "solidus without mpirun");
-  const char* chosen = std::getenv("SOLIDUS_PYTHON");
-  const std::string python = chosen != nullptr && *chosen != '\0' ? chosen : "/usr/bin/python3";
+  const std::string python = python_program();
   std::vector<std::string> command = {python, "-m", "solidus_plots.verb", module};
   command.insert(command.end(), arguments.begin(), arguments.end());
   std::vector<std::string> inherited;
   std::string path = modules().string();
-  for (const std::string& entry : environment()) {
+  for (const std::string& entry : kept_environment()) {
     if (entry.starts_with("PYTHONPATH="))
       path += ":" + entry.substr(std::strlen("PYTHONPATH="));
     else
@@ -67,8 +59,8 @@ ExitCode run_python(const std::string& module, const std::vector<std::string>& a
   // Python would otherwise take modules from the present folder, which may be a stranger's.
   inherited.emplace_back("PYTHONSAFEPATH=1");
   inherited.push_back("PYTHONPATH=" + path);
-  inherited.push_back("SOLIDUS_PROGRAM=" + fs::read_symlink("/proc/self/exe").string());
-  std::vector<char*> argv = pointers(command), envp = pointers(inherited);
+  inherited.push_back("SOLIDUS_PROGRAM=" + program_path().string());
+  std::vector<char*> argv = pointers_to(command), envp = pointers_to(inherited);
   // Ctrl-C is for the child, which may have runs to stop first: this program waits for it.
   std::signal(SIGINT, SIG_IGN);
   sigset_t by_default;

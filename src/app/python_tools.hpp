@@ -9,13 +9,12 @@
 
 namespace solidus::app {
 
-/// Remembers the environment that the program was started with: MPI adds to it what a child must not inherit,
-/// which starts MPI itself. Called before MPI starts.
-void keep_environment();
+/// The Python that runs modules: what SOLIDUS_PYTHON names, else /usr/bin/python3.
+std::string python_program();
 
-/// Runs a module with the Python that SOLIDUS_PYTHON names, else /usr/bin/python3, and waits for it; what it
-/// prints goes where ours goes. The module's exit code is the program's: 0 or 1, and 130 after Ctrl-C.
-/// Throws InputError where there is no such Python or no module.
+/// Runs a module with that Python and waits for it; what it prints goes where ours goes. The module's exit
+/// code is the program's: 0 or 1, and 130 after Ctrl-C. Throws InputError where there is no such Python or no
+/// module.
 ExitCode run_python(const std::string& module, const std::vector<std::string>& arguments);
 
 }  // namespace solidus::app

@@ -105,6 +105,9 @@ struct ReportArguments {
 /// Not collective: one process reads and writes.
 ExitCode write_report(const ReportArguments& arguments);
 ExitCode version();
+/// Tries what runs need of the machine (reader of meshes, materials, room for results, several processes,
+/// Python for pictures) and prints a line for each. k_bad_input where no run is possible.
+ExitCode doctor();
 /// Writes schemas and rules for editors into a folder; empty: the present one.
 ExitCode init_editor(const std::string& folder);
 

@@ -33,7 +33,7 @@ std::vector<fs::path> material_folders() {
     add(folder / "share/solidus/materials");
     add(folder / "materials");
   }
-  add(SOLIDUS_MATERIALS_DIR);
+  if (const fs::path sources = SOLIDUS_SOURCES; !sources.empty()) add(sources / "materials");
   return folders;
 }
 

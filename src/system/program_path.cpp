@@ -1,5 +1,8 @@
 #include "system/program_path.hpp"
 
+#include <errno.h>  // program_invocation_name
+#include <sys/auxv.h>
+
 #include <system_error>
 #include <utility>
 
@@ -17,6 +20,9 @@ std::filesystem::path& chosen() {
 std::filesystem::path program_path() {
   if (!chosen().empty()) return chosen();
   std::error_code error;
+  // The system loads a program and an interpreter for it, whose address it tells. Where it tells none, the
+  // loader was started as a program that loads this one, and would be what /proc names.
+  if (getauxval(AT_BASE) == 0) return std::filesystem::absolute(program_invocation_name, error);
   return std::filesystem::read_symlink("/proc/self/exe", error);
 }
 

@@ -7,7 +7,8 @@
 namespace solidus {
 
 /// Returns the full path of the program `solidus`, which its data are found from and which reads meshes in
-/// processes of its own. By default the program of this process.
+/// processes of its own. By default the program of this process, or what a loader that was started by hand
+/// was told to call it (`ld.so --argv0 NAME PROGRAM`): so do the launchers of an archive.
 std::filesystem::path program_path();
 
 /// Names the program for a process that is not the program itself. Call it before anything else.

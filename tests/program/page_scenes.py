@@ -66,6 +66,8 @@ SCENES = {
 ELSEWHERE = {
     "./dev test": "the suite itself",
     "./dev docs --site": "tests/python/site_test.py",
+    "./dev release": "the same build, packed by tests/program/archive_test.py",
+    "./dev release --tag": "the same build, and a tag",
     "./dev package": "packs a build for other processors, which takes twenty minutes; the page says when it was walked",
     "./dev build portable": "the same build",
     "./dev python": "tests/program/python_package_test.py imports what it builds",

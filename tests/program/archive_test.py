@@ -1,0 +1,86 @@
+"""The archive that runs on any Linux: made of this build, moved, and run with nothing of the system but its kernel and a shell."""
+
+import json
+from pathlib import Path
+import re
+import shutil
+import subprocess
+import unittest
+
+from program import PROGRAM, ProgramTest
+
+TOOLS = ("dpkg-query", "ldd", "mpirun", "cmake")
+LACKING = [tool for tool in TOOLS if shutil.which(tool) is None]
+
+
+@unittest.skipIf(LACKING, f"{', '.join(LACKING)} not installed")
+@unittest.skipUnless(Path("/usr/lib/x86_64-linux-gnu/openmpi/lib/openmpi3").is_dir(), "the archive is made on Debian 12, with its Open MPI 4")
+class Archive(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        from solidus_release import archive  # in python/ of the sources
+
+        made = self.folder / "made/solidus-x86_64"
+        made.parent.mkdir()
+        self.bill = json.loads(archive.make_tree(Path(PROGRAM).parent, made, "0.0.0", "12", 86400))
+        self.root = self.folder / "a folder with blanks/solidus"
+        self.root.parent.mkdir()
+        made.rename(self.root)
+        self.addCleanup(shutil.rmtree, self.root)
+
+    def run_alone(self, *command, cwd=None, **variables):
+        """Runs it in an empty environment."""
+        return subprocess.run(command, cwd=cwd or self.folder, capture_output=True, text=True, timeout=600,
+                              env={"PATH": "/usr/bin:/bin", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", **variables})
+
+    def test_it_runs_where_it_lies_with_its_own_libraries_and_processes(self):
+        program, mpirun = self.root / "bin/solidus", self.root / "bin/mpirun"
+        checked = self.run_alone(program, "doctor")
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        for line in ("works  materials", "works  meshes", f"works  processes  '{mpirun}'"):
+            self.assertIn(line, checked.stdout)
+        (self.folder / "link").symlink_to(program)
+        case = self.root / "share/solidus/cases/hot_spots"
+        one = self.run_alone(self.folder / "link", "run", "--report", case, "-o", "one", "--set", "time.end=6 s")
+        self.assertEqual(one.returncode, 0, one.stderr)
+        self.assertGreater((self.folder / "one/report.html").stat().st_size, 100000)
+        two = self.run_alone(mpirun, "-n", "2", "--oversubscribe", program, "run", case, "-o", "two", "--set", "time.end=6 s")
+        self.assertEqual(two.returncode, 0, two.stderr)
+        self.assertEqual(json.loads((self.folder / "two/summary.json").read_text())["processes"], 2)
+
+        # A library of the system would be loaded from /lib or /usr/lib.
+        traced = self.run_alone(program, "--version", LD_TRACE_LOADED_OBJECTS="1")
+        loaded = [Path(path) for path in re.findall(r"=> (/.*) \(0x", traced.stdout)]
+        self.assertGreater(len(loaded), 50)
+        self.assertEqual([path for path in loaded if self.root not in path.parents], [])
+
+        # Processes of another mpirun would each run the whole case.
+        foreign = self.run_alone(program, "--version", OMPI_COMM_WORLD_SIZE="2", OPAL_PREFIX="/usr")
+        self.assertEqual(foreign.returncode, 1)
+        self.assertIn(f"start it with {mpirun}", foreign.stderr)
+
+        # A file that is gone or cut off is named.
+        real = self.root / "libexec/solidus/programs/solidus"
+        real.write_bytes(b"")
+        broken = self.run_alone(program, "--version")
+        self.assertEqual(broken.returncode, 1)
+        self.assertIn(f"cannot start {real}", broken.stderr)
+
+    def test_every_library_is_of_a_package_that_the_bill_names_with_its_licence(self):
+        names = {package["name"] for package in self.bill["packages"]}
+        self.assertLessEqual({"solidus", "libc6", "openmpi-bin", "libudunits2-data", "libeigen3-dev", "three"}, names)
+        places = set(" ".join(package.get("comment", "") for package in self.bill["packages"]).split())
+        for file in sorted((self.root / "lib").rglob("*.so*")):
+            self.assertIn(str(file.relative_to(self.root)), places)
+        for package in self.bill["packages"][1:]:
+            if package["SPDXID"].startswith("SPDXRef-debian"):
+                self.assertTrue((self.root / "share/licences" / package["name"]).exists(), package["name"])
+                self.assertTrue(package["downloadLocation"].startswith("https://snapshot.debian.org/package/"))
+        self.assertIn("GNU General", (self.root / "README.md").read_text())
+        self.assertTrue((self.root / "share/licences/common-licenses/GPL-2").exists())
+        self.assertEqual(list(self.root.rglob("_core*.so")), [])
+        self.assertIn("version:", (self.root / "share/doc/solidus/CITATION.cff").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()
