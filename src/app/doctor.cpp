@@ -114,10 +114,10 @@ Finding look_at_present_folder() {
 /// Why a program did not do what was asked, in one line.
 std::string reason(const ChildOutcome& outcome) {
   if (!outcome.failure.empty()) return outcome.failure;
-  constexpr std::size_t k_longest = 400;
+  constexpr std::size_t k_enough = 40;  // characters; what follows the first lines is advice
   std::string text;
   std::istringstream said(outcome.said);
-  for (std::string part; std::getline(said, part) && text.size() < k_longest;) {
+  for (std::string part; std::getline(said, part) && text.size() < k_enough;) {
     if (part.empty() || part.starts_with("----")) continue;
     if (!text.empty()) text += ' ';
     text += part.substr(part.find_first_not_of(' '));

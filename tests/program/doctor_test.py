@@ -1,6 +1,5 @@
 """`solidus doctor` tries what runs need of a machine and says what it lacks."""
 
-from pathlib import Path
 import os
 import shutil
 import subprocess
@@ -43,7 +42,7 @@ class Doctor(ProgramTest):
     def test_a_program_without_its_reader_cannot_run_cases(self):
         alone = self.folder / "alone/solidus"
         alone.parent.mkdir()
-        os.link(PROGRAM, alone) if Path(PROGRAM).stat().st_dev == self.folder.stat().st_dev else shutil.copy(PROGRAM, alone)
+        shutil.copy(PROGRAM, alone)
         result = subprocess.run([alone, "doctor"], capture_output=True, text=True, cwd=self.folder)
         self.assertEqual(result.returncode, 1, result.stderr)
         said = self.found(result.stdout)
