@@ -167,7 +167,7 @@ def compress(prefix: Path, archive: Path, epoch: int) -> None:
            "--format=gnu", "--directory", prefix.parent, prefix.name]
     with archive.open("wb") as file:
         packing = subprocess.Popen(tar, stdout=subprocess.PIPE, env={**os.environ, "LC_ALL": "C"})
-        subprocess.run(["zstd", "-19", "--long=27", "-T2", "--no-progress", "-q"], stdin=packing.stdout, stdout=file, check=True)
+        subprocess.run(["zstd", "-10", "--long=27", "-T2", "--no-progress", "-q"], stdin=packing.stdout, stdout=file, check=True)
         packing.stdout.close()
         if packing.wait() != 0:
             raise SystemExit(f"{archive}: tar failed")
