@@ -136,10 +136,10 @@ TEST(DisplacementError, MeltThatFlowsCostsNoStep) {
   const State rest = body.moved(0, 0);
   coupling::Rates rates = estimate.rates_of(rest, rest, 1, {});
   EXPECT_EQ(estimate.displacement_predictor(rest, body.moved(5, 0), 1, rates), 0);
-  EXPECT_EQ(estimate.doubling(rest, rest, body.moved(5, 0), {}, {}).displacement, 0);
+  EXPECT_EQ(estimate.doubling(rest, rest, body.moved(5, 0), {}, 1, {}).displacement, 0);
   // Nodes that have no melt beside them count with their share of the body's volume: four of nine columns.
   const double half = std::sqrt(0.5 - 1.0 / 16);
-  EXPECT_NEAR(estimate.doubling(rest, rest, body.moved(5, 3), {}, {}).displacement, 3 * half, 1e-12);
+  EXPECT_NEAR(estimate.doubling(rest, rest, body.moved(5, 3), {}, 1, {}).displacement, 3 * half, 1e-12);
   EXPECT_NEAR(estimate.displacement_predictor(rest, body.moved(5, 3), 1, rates), 1.5 * half, 1e-12);
 }
 
