@@ -79,7 +79,7 @@ TEST_F(ForeignReader, IsRestrictedByTheSystemUnlessTheScriptIsTrusted) {
 
 TEST_F(ForeignReader, OfAnotherBuildIsRefused) {
   std::string reader = whole_reader();
-  const std::string& version = program_version();  // without a commit, as tests do not set it
+  const std::string& version = solidus::program_version();  // without a commit, as tests do not set it
   for (std::size_t at = reader.find(version); at != std::string::npos; at = reader.find(version, at + 1))
     reader[at] ^= 1;  // another first figure
   become(reader);
