@@ -67,9 +67,10 @@ std::string card_text(const std::string& law) {
   return law;
 }
 
-std::string law_text(const ContactSpec& contact, const ContactMeasures& m, double temperature) {
-  if (!contact.heat) return "no heat";
-  const contact::HeatTransferLaw law(*contact.heat);
+/// @param heat  with the conductivities of its bodies, which the case may leave to them
+std::string law_text(const ContactSpec& contact, const contact::HeatTransferSpec& heat,
+                     const ContactMeasures& m, double temperature) {
+  const contact::HeatTransferLaw law(heat);
   const double pressure = contact.wet ? contact.atmosphere : 0.0;
   const double start = m.largest_start;
   const double closed = law.at(0, pressure, temperature).value, gap = std::max(start, 1e-4);
@@ -104,7 +105,11 @@ results::SkinOverview contact_overview(const CaseSpec& spec, const Assembly& a, 
   }
   double hot = 0, cold = 1e300;
   for (const InitialTemperatureRange& r : a.start) hot = std::max(hot, r.high), cold = std::min(cold, r.low);
-  skin.law = spec.has_heat() ? law_text(contact, m, (hot + cold) / 2) : "";
+  if (!spec.has_heat()) return skin;
+  const auto pair =
+      std::ranges::find_if(a.contacts, [&](const auto& c) { return c->spec().name == contact.name; });
+  const bool conducts = pair != a.contacts.end() && (*pair)->spec().heat.has_value();
+  skin.law = conducts ? law_text(contact, *(*pair)->spec().heat, m, (hot + cold) / 2) : "no heat";
   return skin;
 }
 

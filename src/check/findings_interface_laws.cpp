@@ -18,7 +18,7 @@ constexpr double k_alike = 3;
 
 double closed_conductance(const contact::HeatTransferSpec& heat, double temperature) {
   constexpr double k_atmosphere = 101325;  // pressure that holds melt on its wall [Pa]
-  return contact::HeatTransferLaw(heat).at(0, k_atmosphere, temperature).value;
+  return contact::HeatTransferLaw(contact::without_bodies(heat)).at(0, k_atmosphere, temperature).value;
 }
 
 /// Whether a side of the card is for a material or for a role of its own, not for whatever is a die or a

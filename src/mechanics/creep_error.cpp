@@ -72,8 +72,8 @@ CreepField CreepError::flow(const MechanicalState& from, const MechanicalState& 
     if (!blocks_[b].creeps || b >= to.history.size() || b >= from.history.size()) continue;
     const BlockHistory &old = from.history[b], &now = to.history[b];
     const auto width = static_cast<std::size_t>(now.n_components);
-    if (now.values.empty() || old.values.size() != now.values.size()) continue;
-    const std::size_t n = now.values.size() / width;
+    if (old.values.size() != now.values.size()) continue;
+    const std::size_t n = width > 0 ? now.values.size() / width : 0;  // none where a process has no element
     field[b] = {static_cast<int>(k_components), now.n_points, {}};
     field[b].values.assign(n * k_components, Lane(0.0));
     for (std::size_t i = 0; i < n; ++i)

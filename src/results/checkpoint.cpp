@@ -355,9 +355,9 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
     out.text("rates_of_melt", melts ? k_known : "unknown");
     if (melts) nodal("coherency", rates.coherency);
   }
-  std::string creep;
+  std::string creep;  // the same on every process, also on one without an element of a block
   for (const mechanics::BlockHistory& of_block : rates.creep)
-    creep += of_block.n_components > 0 ? k_creeps : k_no_creep;
+    creep += parallel::any_process(!of_block.values.empty()) ? k_creeps : k_no_creep;
   out.text("rates_of_creep", creep);
   const coupling::ShotHistory& shots = c.continuation.shots;
   out.text("shots", parallel::any_process(!shots.start.empty()) ? k_known : "unknown");

@@ -203,6 +203,7 @@ shape = "block"
 element = "hex8"
 [mesh.block]
 size = ["10 mm", "10 mm", "10 mm"]
+divisions = [1, 1, 1]
 [output]
 every = "100 s"
 [time]

@@ -51,6 +51,7 @@ SCENES = {
     "point.md": Scene(words={"FILE": "cases/point/tensile.toml", "RESULTS_DIR": "results/point/tensile"}),
     "report.md": Scene(BRACKET, lines=[*CRANKSHAFT, "solidus run cases/aluminium_cylinder",
                                        "solidus run cases/aluminium_cylinder/h_const.toml"]),
+    "reporting.md": Scene(BRACKET, words={"CASE": "bracket"}),
     "restart.md": Scene({"case.toml": "cases/hot_spots/case.toml", "hot_spots.geo": "cases/hot_spots/hot_spots.geo"},
                         lines=["solidus run cases/aluminium_cylinder --set time.end='1 s'", "solidus run case.toml --set time.end='2 s'"],
                         end="3 s"),
