@@ -13,8 +13,8 @@ struct StepLimits {
   double temperature = 1;       ///< local error per step [K]
   double displacement = 1e-6;   ///< local error per step [m]
   double solid_fraction = 0.1;  ///< change per step of the solid share of all bodies that can melt [1]
-  double stress = 0.005;        ///< local error per step, as a share of the stress [1]
   bool inertia = false;         ///< displacements are integrated in time, as temperatures are
+  double stress = 0.005;        ///< local error per step, as a share of the stress [1]
 
   bool operator==(const StepLimits&) const = default;
 };

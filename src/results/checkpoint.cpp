@@ -53,7 +53,7 @@ void each_number(C& c, const Visit& visit) {
   all(k.control.size, k.control.refused, k.control.refused_ratio, k.control.before_refusal,
       k.control.failures, k.rates.changed);
   all(o.step, o.adaptive, o.min_step, o.max_step, o.growth, o.cut, o.easy_iterations);
-  all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.solid_fraction,
+  all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.stress, o.limits.solid_fraction,
       o.limits.inertia);
   all(e.stored_heat, e.structural, e.contact, e.kinetic, e.friction, e.frictional_heat, e.numerical, e.work,
       e.heat_in, e.entropy_in, e.heat_exchanged, e.viscous_dissipation, e.plastic_dissipation, e.plastic_work,

@@ -17,7 +17,8 @@ BRACKET = {"bracket": "cases/bracket"}
 # Any results will do for what is made of them: a run of the bracket stands for that of the crankshaft, whose mesh alone takes seconds.
 CRANKSHAFT = ["solidus run bracket -o results/crankshaft/default"]
 SCENES = {
-    "README.md": Scene({"part.step": "tests/parts/flange.step"}),
+    "README.md": Scene({"part.step": "tests/parts/flange.step"}, words={"FOLDER": "."}),
+    "assistants.md": Scene(words={"FOLDER": "."}),
     "case_file.md": Scene({"part.step": "tests/parts/flange.step"},
                           {"case.toml": 'title = "A steel block', "variants.toml": "[part.finer]"},
                           lines=["mkdir block && cp case.toml variants.toml block"],

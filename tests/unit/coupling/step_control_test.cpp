@@ -270,22 +270,31 @@ TEST(StepControl, AStepShortenedToLandDoesNotShortenThoseBehindIt) {
 
 TEST(StepControl, TheStrictestLimitSetsTheStepAndGivesTheReason) {
   StepOptions options = adaptive(1, 10);
-  options.limits = {ErrorControl::predictor, 2.0, 1e-6, 0.1};
+  options.limits = {
+      .control = ErrorControl::predictor, .temperature = 2.0, .displacement = 1e-6, .solid_fraction = 0.1};
   const auto next = [&](const StepMeasure& measure) {
     StepControl control(options, 0, {100});
     control.accepted(control.plan(0), measure);
     return control.plan(0);
   };
   // Errors go with the square of the step, changes with the step; a fifth is kept back.
-  PlannedStep step = next({1, 2.5, 1e-7, 0.01});
+  PlannedStep step = next(
+      {.iterations = 1, .temperature_error = 2.5, .displacement_error = 1e-7, .solid_fraction_change = 0.01});
   EXPECT_DOUBLE_EQ(step.dt, 0.8 * std::sqrt(2.0 / 2.5));
   EXPECT_EQ(step.reason, "temperature error");
-  step = next({1, 0.1, 1.2e-6, 0.01});
+  step = next({.iterations = 1,
+               .temperature_error = 0.1,
+               .displacement_error = 1.2e-6,
+               .solid_fraction_change = 0.01});
   EXPECT_DOUBLE_EQ(step.dt, 0.8 * std::sqrt(1 / 1.2));
   EXPECT_EQ(step.reason, "displacement error");
-  step = next({1, 0.1, 1e-7, 0.12});
+  step = next(
+      {.iterations = 1, .temperature_error = 0.1, .displacement_error = 1e-7, .solid_fraction_change = 0.12});
   EXPECT_DOUBLE_EQ(step.dt, 0.8 * 0.1 / 0.12);
   EXPECT_EQ(step.reason, "solid fraction");
+  step = next({.iterations = 1, .stress_error = 0.02});
+  EXPECT_DOUBLE_EQ(step.dt, 0.8 * std::sqrt(options.limits.stress / 0.02));
+  EXPECT_EQ(step.reason, "stress error");
 }
 
 TEST(StepControl, AStepFarBeyondALimitIsRepeatedUnlessItIsTheSmallest) {

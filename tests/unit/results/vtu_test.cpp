@@ -262,7 +262,7 @@ TEST_F(Vtu, LeavesNothingBehindOnAFullDisk) {
     FAIL() << "must throw";
   } catch (const OutputError& error) {
     EXPECT_EQ(std::string(error.what()),
-              (folder.path / "a.vtu.part").string() + ": cannot write: No space left on device");
+              (folder.path / "a.vtu").string() + ": cannot write: No space left on device");
   }
   EXPECT_TRUE(std::filesystem::is_empty(folder.path));
 }
