@@ -61,8 +61,8 @@ struct CastAnswer {
   std::optional<ValueAt> least_niyama = {};  ///< [K^½ s^½/m]
   std::optional<Pores> pores = {};           ///< where any have opened
   /// When and where its last melt froze [s since pouring]; also of one that left as a solid.
-  std::optional<ValueAt> froze;
-  std::optional<ValueAt> hottest;  ///< where it is not solid: temperature of the least solid node [K]
+  std::optional<ValueAt> froze = {};
+  std::optional<ValueAt> hottest = {};  ///< where it is not solid: temperature of the least solid node [K]
 };
 
 struct GapAnswer {

@@ -205,8 +205,8 @@ void StateFields::add_elements() {
     const bool isentropic = phases_.mechanics->mapping() == mechanics::Mapping::isentropic;
     if (quantity.needs.isentropic && !isentropic) continue;
     if (quantity.needs.melting && phases_.coherency == nullptr) continue;
-    add_values(quantity).compute = [this, which = which] {
-      return mechanics::element_field(mesh_, shown_, which);
+    add_values(quantity).compute = [this, field = which] {
+      return mechanics::element_field(mesh_, shown_, field);
     };
   }
 }
