@@ -23,7 +23,8 @@ std::string steel(const std::string& more = "") {
 /// A hot block lies on a cold one and is pressed on.
 struct Blocks {
   std::string time = "end = \"10 s\"\nstep = \"1 s\"\n";
-  std::string lower, contact, more;  ///< keys of the lower body and of the contact; further sections
+  std::string lower = {}, contact = {},
+              more = {};  ///< keys of the lower body and of the contact; further sections
   std::string head = "pressure = \"10 MPa\"";
 };
 
@@ -92,10 +93,10 @@ const std::string k_hardens =
     "coefficient = [0.1, 0.15]\n";
 
 struct Variant {
-  std::string name;
-  Blocks blocks;
-  std::string material;
-  std::vector<std::string> settings;
+  std::string name = {};
+  Blocks blocks = {};
+  std::string material = {};
+  std::vector<std::string> settings = {};
 };
 
 class InternalEnergyOfBlocks : public ::testing::TestWithParam<Variant> {};
