@@ -13,7 +13,7 @@ void keep_environment();
 /// The variables that keep_environment() remembered, as "NAME=value".
 const std::vector<std::string>& kept_environment();
 
-/// What became of a program that was waited for.
+/// The end of a program that was waited for.
 struct ChildOutcome {
   std::string failure;  ///< why it could not be started or was ended; empty where it ended by itself
   int code = -1;        ///< its exit code; -1 where there is none

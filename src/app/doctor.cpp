@@ -1,4 +1,4 @@
-/// What a machine lacks: each thing that runs need is tried, as a run would use it.
+/// Tells what a machine lacks: each thing that runs need is tried, as a run would use it.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What was tried, and what came of it.
+/// A thing that was tried, with its outcome.
 struct Finding {
   enum class Kind { works, optional_missing, missing };
   std::string subject;
@@ -125,7 +125,7 @@ std::string reason(const ChildOutcome& outcome) {
   return fmt::format("exit code {}: {}", outcome.code, text);
 }
 
-/// What to do where mpirun does not start processes.
+/// The advice where mpirun does not start processes.
 std::string advice(const fs::path& launcher) {
   if (geteuid() == 0 && std::getenv("OMPI_ALLOW_RUN_AS_ROOT") == nullptr)
     return "root has to allow it: OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1";

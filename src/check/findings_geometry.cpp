@@ -104,7 +104,7 @@ void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& find
     const double modulus = body.volume / pour.cooled_area;
     const std::string usual = fmt::format(
         "four elements through a wall{}: {}",
-        // Of second order they know no pores, and shrinkage strains them.
+        // Elements of second order know no pores, so that shrinkage strains them.
         spec.has_mechanics() ? "" : ", or two of second order",
         spec.mesh.sizes.empty() ? "mesh.element_size" : "smaller `size` and `smallest` of [[mesh.size]]");
     if (pour.spanned > 0.5)

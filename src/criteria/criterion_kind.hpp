@@ -20,7 +20,7 @@
 
 namespace solidus::criteria {
 
-/// What a criterion may be made of. References outlive the criterion.
+/// The parts of a run that a criterion is made of. References outlive the criterion.
 struct CriterionContext {
   const mesh::Mesh& mesh;
   AnalysisKind kind;

@@ -1,4 +1,5 @@
-/// What melt and mush resist compaction with, in a block with one point an element, eight elements at a time.
+/// The stress with which melt and mush resist compaction, in a block with one point an element, eight
+/// elements at a time.
 ///
 /// Melt and the network of dendrites have a bulk viscosity ζ, taken to be the shear viscosity η of the step
 /// (material/melt.hpp). Once the network is coherent its dendrites contract with the temperature as solid

@@ -46,7 +46,7 @@ class KeptMesh {
   double time_of_direct_ways() const { return direct_time_; }
   void leave_to_direct_ways(double time) { direct_time_ = time; }
 
-  /// What was said of the last mesh (RawMesh::notes).
+  /// The notes on the last mesh (RawMesh::notes).
   const std::vector<std::string>& notes() const { return mesh_.notes; }
 
   /// The mesh that way() gave for this request; null where it was another request.

@@ -47,8 +47,8 @@ double meshing_memory(const MeshingOutlook& outlook);
 void listen_to_outlook(std::function<void(const MeshingOutlook&)> listener);
 void tell_outlook(const MeshingOutlook& outlook);
 
-/// What goes on while a mesh is waited for, every now and then: a line of the log; from now on a call of
-/// `listener` instead, until that is an empty function.
+/// Called every now and then while a mesh is waited for, with what goes on: a line of the log; from now on a
+/// call of `listener` instead, until that is an empty function.
 void listen_to_progress(std::function<void(const std::string&)> listener);
 void tell_progress(const std::string& text);
 

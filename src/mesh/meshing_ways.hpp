@@ -17,8 +17,9 @@ struct SolidWay {
   bool cuts = false;              ///< bodies are cut along the seams of faces that cannot be meshed
 };
 
-/// What makes new triangles of facets: Gmsh, which needs minutes where facets are many or long; CGAL, of one
-/// size on each skin (mesh/cgal/remeshed_skin.hpp); CGAL on a wrap around them, where they cross each other.
+/// The library that makes new triangles of facets: Gmsh, which needs minutes where facets are many or long;
+/// CGAL, of one size on each skin (mesh/cgal/remeshed_skin.hpp); CGAL on a wrap around them, where they cross
+/// each other.
 enum class SkinOf { gmsh, remeshing, wrap };
 
 /// A way to mesh what skins of triangles enclose.

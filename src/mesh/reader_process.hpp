@@ -34,7 +34,7 @@ struct ReaderLimits {
 /// @param meshes  what the file holds is meshed anew, whatever it is
 ReaderLimits reader_limits(const MeshSource& source, bool meshes = false);
 
-/// How long a reader may work for one way of meshing, beside the limits above.
+/// The processor time that a reader may use for one way of meshing, beside the limits above.
 struct TimeOfWay {
   std::string what = {};        ///< the way, for messages
   double processor = 0;         ///< [s] of the processor; 0: no such limit

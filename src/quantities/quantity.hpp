@@ -12,7 +12,7 @@ namespace solidus::quantities {
 
 enum class Rank { scalar, vector, tensor };
 
-/// Where values are. `contact`: nodes of contact surfaces, whose files always have all of these.
+/// The place of values. `contact`: nodes of contact surfaces, whose files always have all of these.
 enum class Place { node, element, contact };
 
 /// The heading under which menus show a quantity.
@@ -30,8 +30,8 @@ enum class Kept { every, last, none };
 /// The colours that suit a quantity: from low to high; as of hot metal; of a share; apart by the sign.
 enum class Colours { sequential, hot, share, by_sign };
 
-/// What must be there so that a quantity has values of interest. Those of the run decide whether the field
-/// exists, `melting` and `mechanics` also which bodies it says something of.
+/// The parts of a run that must be there so that a quantity has values of interest. Those of the run decide
+/// whether the field exists, `melting` and `mechanics` also which bodies it says something of.
 struct Needs {
   bool heat = false;
   bool mechanics = false;   ///< a body that only conducts heat keeps its values

@@ -100,7 +100,7 @@ void tell_stress_jumps(const mesh::Mesh& mesh, AnalysisKind kind, const FieldSet
         "bend "
         "too stiffly, and take gradients of temperature for stress; {}",
         freezes ? cast->name : mesh.bodies[b].name, 100 * jumps[b],
-        freezes ? "smaller ones come closer (two through a wall have six sevenths of its bending, one 61 %)"
+        freezes ? "smaller ones come closer"
                 : "elements of second order (mesh.order = 2) follow both, smaller ones of first order come "
                   "closer");
   }

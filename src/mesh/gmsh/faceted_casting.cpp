@@ -49,7 +49,7 @@ class FacetedMaker {
     mesh();
   }
 
-  /// What is to be said of the skin, after make().
+  /// Notes on the skin, after make().
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
