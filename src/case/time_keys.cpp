@@ -45,8 +45,9 @@ Section<TimeSpec> time_keys() {
       .difference()
       .doc(
           "Error of a run with adaptive steps that is left to their size, root mean square over the body "
-          "where "
-          "it is largest; without it 1 K.");
+          "where it is largest; where bodies deform also the fourth root of the mean fourth power over "
+          "1.6. "
+          "Without it 1 K.");
   s.quantity("displacement_error", &TimeSpec::displacement_error, "m")
       .positive()
       .doc(

@@ -12,6 +12,10 @@
 /// so that the sum of all ε̄ stays about ε however many steps there are. What else there is of δ is levelled
 /// or dies away with the transient that made it.
 ///
+/// Where bodies deform, ‖δ‖ is the larger of the mean square and of the mean of the fourth power divided by
+/// 1.6 (BodyNorm::of_fourth_power): gaps and stresses are made by the skin, a small part of the body in which
+/// the error of the first seconds is largest (docs/theory/step_and_mesh.md).
+///
 /// Else, and for the displacement: backward Euler commits the local error ½ Δt² ÿ. Two ways to measure it:
 ///
 /// predictor   the solution less its extrapolation y_n + Δt ẏ_n, where ẏ_n = (y_n − y_{n−1})/Δt_n is what
@@ -96,6 +100,7 @@ class ErrorEstimate {
   bool measures(const heat::StageFlows& flows) const;
   std::vector<double> coherency(const State& state) const;
   std::span<const double> temperature(const State& state) const;
+  double size_of_temperature(std::span<const double> error) const;
   double size_of_displacement(std::span<const double> error, std::span<const char> counts) const;
   double lasting(double mean, double before, double change) const;
 

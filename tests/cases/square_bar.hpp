@@ -9,86 +9,39 @@
 #pragma once
 
 #include <cmath>
-#include <map>
-#include <sstream>
 #include <string>
-#include <utility>
-#include <vector>
+
+#include "triangle_grid.hpp"
 
 namespace solidus::testing {
 
 enum class Piece { quarter, half, whole };
 
-/// A mesh in Gmsh's format 2.2 [mm]: bodies 1 'cast' and 2 'die'; lines 'c_skin' and 'd_in' that face each
-/// other, 'd_out', and along the axes, planes of symmetry of a piece, 'cx', 'cy', 'dx', 'dy'.
+/// Its mesh [mm]; groups as in triangle_grid.hpp, 'cx' to 'dy' along the axes.
 inline std::string square_bar(Piece piece, int cells, double a = 20, double b = 40) {
-  struct Element {
-    int group;
-    std::vector<int> nodes;
-  };
-  enum Group { cast = 1, die, c_skin, d_in, d_out, cx, cy, dx, dy };
-  std::map<std::pair<long, long>, int> number[2];
-  std::vector<std::pair<double, double>> places;
-  std::vector<Element> lines, triangles;
+  using Grid = TriangleGrid;
   const double h = a / cells;
   const int outside = static_cast<int>(std::lround(b / h));
-  const auto node = [&](int body, int i, int j) {
-    const auto [found, fresh] = number[body].try_emplace({i, j}, static_cast<int>(places.size()) + 1);
-    if (fresh) places.emplace_back(i * h, j * h);
-    return found->second;
-  };
   const int from_x = piece == Piece::whole ? -outside : 0, from_y = piece == Piece::quarter ? 0 : -outside;
-  const auto line = [&](int group, int body, int i, int j, int k, int l) {
-    lines.push_back({group, {node(body, i, j), node(body, k, l)}});
-  };
+  Grid grid(h);
   for (int i = from_x; i < outside; ++i)
     for (int j = from_y; j < outside; ++j) {
       const bool inside = i >= -cells && i < cells && j >= -cells && j < cells;
-      const int body = inside ? 0 : 1, group = inside ? cast : die;
-      const int p = node(body, i, j), q = node(body, i + 1, j), r = node(body, i + 1, j + 1),
-                s = node(body, i, j + 1);
-      if ((i >= 0) == (j >= 0)) {
-        triangles.push_back({group, {p, q, r}});
-        triangles.push_back({group, {p, r, s}});
-      } else {
-        triangles.push_back({group, {p, q, s}});
-        triangles.push_back({group, {q, r, s}});
-      }
-      if (i == 0) line(inside ? cx : dx, body, i, j + 1, i, j);
-      if (j == 0) line(inside ? cy : dy, body, i, j, i + 1, j);
-      if (i + 1 == outside) line(d_out, body, i + 1, j, i + 1, j + 1);
-      if (i == -outside) line(d_out, body, i, j + 1, i, j);
-      if (j + 1 == outside) line(d_out, body, i + 1, j + 1, i, j + 1);
-      if (j == -outside) line(d_out, body, i, j, i + 1, j);
+      const Grid::Group body = inside ? Grid::cast : Grid::die;
+      grid.square(body, i, j, (i >= 0) == (j >= 0) ? Grid::Diagonal::rising : Grid::Diagonal::falling);
+      if (i == 0) grid.line(inside ? Grid::cx : Grid::dx, body, i, j + 1, i, j);
+      if (j == 0) grid.line(inside ? Grid::cy : Grid::dy, body, i, j, i + 1, j);
+      if (i + 1 == outside) grid.line(Grid::d_out, body, i + 1, j, i + 1, j + 1);
+      if (i == -outside) grid.line(Grid::d_out, body, i, j + 1, i, j);
+      if (j + 1 == outside) grid.line(Grid::d_out, body, i + 1, j + 1, i, j + 1);
+      if (j == -outside) grid.line(Grid::d_out, body, i, j, i + 1, j);
       if (!inside) continue;
-      const auto face = [&](int k, int l, int m, int n) {
-        line(c_skin, 0, k, l, m, n);
-        line(d_in, 1, m, n, k, l);
-      };
-      if (i + 1 == cells) face(i + 1, j, i + 1, j + 1);
-      if (i == -cells) face(i, j + 1, i, j);
-      if (j + 1 == cells) face(i + 1, j + 1, i, j + 1);
-      if (j == -cells) face(i, j, i + 1, j);
+      if (i + 1 == cells) grid.wall(i + 1, j, i + 1, j + 1);
+      if (i == -cells) grid.wall(i, j + 1, i, j);
+      if (j + 1 == cells) grid.wall(i + 1, j + 1, i, j + 1);
+      if (j == -cells) grid.wall(i, j, i + 1, j);
     }
-  std::ostringstream out;
-  out.precision(17);
-  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n9\n2 1 \"cast\"\n2 2 \"die\"\n1 3 "
-         "\"c_skin\"\n"
-         "1 4 \"d_in\"\n1 5 \"d_out\"\n1 6 \"cx\"\n1 7 \"cy\"\n1 8 \"dx\"\n1 9 \"dy\"\n$EndPhysicalNames\n"
-      << "$Nodes\n"
-      << places.size() << "\n";
-  for (std::size_t i = 0; i < places.size(); ++i)
-    out << i + 1 << " " << places[i].first << " " << places[i].second << " 0\n";
-  out << "$EndNodes\n$Elements\n" << lines.size() + triangles.size() << "\n";
-  int n = 0;
-  for (const auto* list : {&lines, &triangles})
-    for (const Element& e : *list) {
-      out << ++n << (list == &lines ? " 1 2 " : " 2 2 ") << e.group << " " << e.group;
-      for (const int v : e.nodes) out << " " << v;
-      out << "\n";
-    }
-  out << "$EndElements\n";
-  return out.str();
+  return grid.text();
 }
 
 /// The case of a piece in the file `mesh`: AlSi7Mg at 680 °C in H13 at 200 °C, with a gap that gas fills.
