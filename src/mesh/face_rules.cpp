@@ -20,8 +20,6 @@ namespace solidus::mesh {
 
 namespace {
 
-constexpr double k_smooth = std::numbers::pi / 6;  ///< neighbours of a smooth part bend by less
-
 double dot(const Point& a, const Point& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -30,7 +28,7 @@ double distance(const Point& a, const Point& b) {
 }
 
 /// Says which share of a curved face was taken where facets of coarse elements meet there at more than
-/// k_smooth, so that a smooth part is a strip of it: every facet of the strip has a neighbour beyond its
+/// k_smooth_bend, so that a smooth part is a strip of it: every facet of the strip has a neighbour beyond its
 /// border that bends by less than the edges of a drawing do.
 void tell_strip(const std::vector<const SkinFace*>& faces, const SmoothParts& parts, std::size_t part,
                 const std::string& group) {
@@ -70,13 +68,13 @@ void tell_strip(const std::vector<const SkinFace*>& faces, const SmoothParts& pa
 }
 
 std::vector<const SkinFace*> only_nearest(const std::vector<const SkinFace*>& faces, const Point& point,
-                                          const std::string& group) {
+                                          const std::vector<DrawnFace>& drawn, const std::string& group) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::max();
   for (std::size_t f = 0; f < faces.size(); ++f)
     if (const double here = distance(nearest_on_face(*faces[f], point), point); here < least)
       least = here, best = f;
-  const SmoothParts parts = smooth_parts(faces, k_smooth);
+  const SmoothParts parts = smooth_parts(faces, k_smooth_bend, drawn);
   std::vector<const SkinFace*> kept;
   for (std::size_t f = 0; f < faces.size(); ++f)
     if (parts.of_face[f] == parts.of_face[best]) kept.push_back(faces[f]);
@@ -125,7 +123,8 @@ void add_faces_by_rule(RawMesh& mesh, const std::vector<std::string>& bodies, co
       if (fits(face, rule, slack) &&
           seen.insert(face_key(face.nodes.data(), static_cast<int>(face.corners.size())).vertices).second)
         chosen.push_back(&face);
-  if (rule.nearest && !chosen.empty()) chosen = only_nearest(chosen, *rule.nearest, rule.name);
+  if (rule.nearest && !chosen.empty())
+    chosen = only_nearest(chosen, *rule.nearest, mesh.drawn_faces, rule.name);
   if (chosen.empty())
     throw InputError({source}, fmt::format("no face of the mesh fits the rule of the group '{}'", rule.name),
                      "`solidus mesh-info` lists the faces with their normals and places");

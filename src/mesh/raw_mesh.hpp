@@ -1,7 +1,9 @@
 /// A whole mesh as it was read or generated, on rank 0 only, before it is distributed.
 #pragma once
 
+#include <array>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +23,17 @@ struct RawGroup {
   int dimension;  ///< of its elements; 0 for points
   std::vector<RawBlock> blocks;
 };
+/// One smooth face of a geometry.
+struct DrawnFace {
+  /// Each by its vertices in rising order; of triangles the first is −1 (FaceKey).
+  std::vector<std::array<Index, 4>> facets;
+  double radius = 0;  ///< of a cylinder [m]; 0: it is none
+};
+
+/// By less do the facets of a smooth part of a skin, and the faces of a geometry that continue one another,
+/// bend [rad].
+inline constexpr double k_smooth_bend = std::numbers::pi / 6;
+
 struct RawMesh {
   int dimension = 2;
   std::vector<Point> x;  ///< [m]
@@ -34,6 +47,9 @@ struct RawMesh {
   /// Of all solids of a CAD file, by its surfaces and not by the mesh's facets [m]; absent: it is no CAD
   /// file.
   std::optional<Point> centre_of_volume = {};
+  /// The smooth faces of the geometry that the mesh was made of; empty: it was made of none, or facets of it
+  /// are not known.
+  std::vector<DrawnFace> drawn_faces = {};
 };
 
 /// A mesh file and how it is to be read.

@@ -243,6 +243,11 @@ void put_mesh(const RawMesh& mesh, const PutBytes& put) {
   for (const std::string& note : mesh.notes) put_text(note, put);
   put_number(mesh.centre_of_volume.has_value(), put);
   if (mesh.centre_of_volume) put_number(*mesh.centre_of_volume, put);
+  put_number(mesh.drawn_faces.size(), put);
+  for (const DrawnFace& face : mesh.drawn_faces) {
+    put_list(face.facets, put);
+    put_number(face.radius, put);
+  }
 }
 
 RawMesh take_mesh(const TakeBytes& take, double most_bytes) {
@@ -269,6 +274,17 @@ RawMesh take_mesh(const TakeBytes& take, double most_bytes) {
     mesh.centre_of_volume = take_number<Point>(take);
     for (const double x : *mesh.centre_of_volume)
       if (!std::isfinite(x)) throw MessageError("a centre that is no place");
+  }
+  for (auto n = take_number<std::size_t>(take); n > 0; --n) {
+    DrawnFace& face = mesh.drawn_faces.emplace_back();
+    face.facets = take_list<std::array<Index, 4>>(take, left);
+    face.radius = take_number<double>(take);
+    if (face.facets.empty()) throw MessageError("a face without facets");
+    if (!std::isfinite(face.radius) || face.radius < 0) throw MessageError("a radius that is none");
+    for (const auto& facet : face.facets)
+      for (const Index node : facet)
+        if (node < -1 || (node >= 0 && static_cast<std::size_t>(node) >= mesh.x.size()))
+          throw MessageError("a facet with a node that the mesh does not have");
   }
   return mesh;
 }

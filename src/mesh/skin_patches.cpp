@@ -18,7 +18,7 @@ std::vector<SkinPatch> skin_patches(const RawMesh& mesh, const std::vector<std::
     const std::vector<SkinFace> skin = skin_of(mesh, body);
     std::vector<const SkinFace*> faces;
     for (const SkinFace& face : skin) faces.push_back(&face);
-    const SmoothParts parts = smooth_parts(faces, angle);
+    const SmoothParts parts = smooth_parts(faces, angle, mesh.drawn_faces);
     std::map<std::size_t, SkinPatch> patches;  // by the number of the part
     for (std::size_t f = 0; f < faces.size(); ++f) {
       SkinPatch& p = patches[parts.of_face[f]];

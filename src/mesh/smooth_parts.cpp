@@ -3,6 +3,9 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <unordered_map>
+
+#include "mesh/faces.hpp"
 
 namespace solidus::mesh {
 
@@ -12,9 +15,27 @@ double dot(const Point& a, const Point& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/// The number of the drawn face that each face is a facet of; −1: none.
+std::vector<int> numbers_of(const std::vector<const SkinFace*>& faces, const std::vector<DrawnFace>& drawn) {
+  std::unordered_map<FaceKey, int, FaceKeyHash> number;
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    for (const std::array<Index, 4>& facet : drawn[i].facets)
+      number.emplace(FaceKey{facet}, static_cast<int>(i));
+  std::vector<int> numbers(faces.size(), -1);
+  if (number.empty()) return numbers;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto found =
+        number.find(face_key(faces[f]->nodes.data(), static_cast<int>(faces[f]->corners.size())));
+    if (found != number.end()) numbers[f] = found->second;
+  }
+  return numbers;
+}
+
 }  // namespace
 
-SmoothParts smooth_parts(const std::vector<const SkinFace*>& faces, double angle) {
+SmoothParts smooth_parts(const std::vector<const SkinFace*>& faces, double angle,
+                         const std::vector<DrawnFace>& drawn) {
+  const std::vector<int> of_geometry = numbers_of(faces, drawn);
   std::vector<std::size_t> root(faces.size());
   std::iota(root.begin(), root.end(), std::size_t{0});
   const auto find = [&](std::size_t i) {
@@ -31,7 +52,8 @@ SmoothParts smooth_parts(const std::vector<const SkinFace*>& faces, double angle
   }
   for (const auto& [edge, around] : edges)
     for (std::size_t i = 1; i < around.size(); ++i)
-      if (dot(faces[around[0]]->normal, faces[around[i]]->normal) >= std::cos(angle))
+      if (dot(faces[around[0]]->normal, faces[around[i]]->normal) >= std::cos(angle) ||
+          (of_geometry[around[0]] >= 0 && of_geometry[around[0]] == of_geometry[around[i]]))
         root[find(around[i])] = find(around[0]);
   SmoothParts parts;
   for (std::size_t f = 0; f < faces.size(); ++f) parts.of_face.push_back(find(f));

@@ -17,6 +17,9 @@ struct SmoothParts {
 };
 
 /// @param angle  by which neighbours of one part bend at most [rad]
-SmoothParts smooth_parts(const std::vector<const SkinFace*>& faces, double angle);
+/// @param drawn  smooth faces of the geometry (RawMesh::drawn_faces): neighbours of the same one are of one
+///               part whatever they bend by
+SmoothParts smooth_parts(const std::vector<const SkinFace*>& faces, double angle,
+                         const std::vector<DrawnFace>& drawn = {});
 
 }  // namespace solidus::mesh

@@ -255,6 +255,12 @@ void replace_nodes(RawMesh& mesh, const std::vector<Index>& replaced) {
   for (auto& [name, group] : mesh.groups)
     for (RawBlock& block : group.blocks)
       for (Index& node : block.nodes) node = replaced[static_cast<std::size_t>(node)];
+  for (DrawnFace& face : mesh.drawn_faces)
+    for (std::array<Index, 4>& facet : face.facets) {
+      for (Index& node : facet)
+        if (node >= 0) node = replaced[static_cast<std::size_t>(node)];
+      std::ranges::sort(facet);
+    }
 }
 
 HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<BodyFace>& skin,

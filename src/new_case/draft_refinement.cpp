@@ -128,6 +128,7 @@ class Refinement {
     bare.symmetric.clear();
     bare.layers.clear();
     bare.cavity.clear();
+    bare.channels.clear();
     write_draft(bare);
     return raw_mesh(load_case(draft_.folder / "case.toml", {}, Physics::heat).spec);
   }
@@ -157,10 +158,27 @@ class Refinement {
             mesh.groups.contains(die.name + "_to_" + body.name))
           draft_.cavity.push_back(die.name + "_to_" + body.name);
     find_heated_walls(mesh);
+    find_channels(mesh);
     for (const DraftBody& body : draft_.bodies) {
       if (mesh.groups.contains(body.name + "_free")) draft_.films.push_back(body.name);
       if (is_poured(body.role) && mesh.groups.contains(body.name + "_symmetry"))
         draft_.symmetric.push_back(body.name);
+    }
+  }
+
+  void find_channels(const mesh::RawMesh& mesh) {
+    draft_.channels.clear();
+    for (const DraftBody& body : draft_.bodies) {
+      const std::string free = body.name + "_free";
+      if (body.role != Role::die || !mesh.groups.contains(free)) continue;
+      std::vector<std::string> shared;
+      for (const auto& [group, content] : mesh.groups)
+        if (content.dimension < mesh.dimension && group.starts_with(body.name + "_to_"))
+          shared.push_back(group);
+      for (DieChannel& channel : die_channels(mesh, body.group, free, shared)) {
+        channel.die = body.name;
+        draft_.channels.push_back(channel);
+      }
     }
   }
 
@@ -198,9 +216,9 @@ class Refinement {
     return longest;
   }
 
-  /// Film outside of a die that takes as much heat in a shot as the castings bring until they are well solid,
-  /// less what spray and air take from the cavity, while the die is as warm as it was preheated; spread over
-  /// all of its outside [W/(m² K)].
+  /// Film outside of the dies without channels of their own that takes as much heat in a shot as the castings
+  /// bring to them until they are well solid, less what spray and air take from the cavity, while the die is
+  /// as warm as it was preheated; spread over all of their outside [W/(m² K)].
   double cooling_of_die(const CheckedRun& checked) const {
     constexpr double k_below_solidus = 100, k_ambient = 20, k_cavity_film = 20;  // [K], [°C], [W/(m² K)]
     const DraftShots& shots = *draft_.shots;
@@ -214,8 +232,18 @@ class Refinement {
           heat += body.volume * (curve.upper(pour.pouring) - curve.upper(pour.solidus - k_below_solidus)) -
                   body.skin * warmer *
                       (shots.spray_film * shots.spray + k_cavity_film * (shots.eject + shots.close));
-    for (const results::SkinOverview& skin : checked.overview.skins)
-      if (role_of(skin.body) == Role::die && skin.surface == skin.body + "_free") outside += skin.area;
+    double cavity = 0, own = 0;
+    for (const results::SkinOverview& skin : checked.overview.skins) {
+      if (skin.surface == skin.body + "_free" && role_of(skin.body) == Role::die &&
+          !has_channels(draft_, skin.body))
+        outside += skin.area;
+      for (const DraftBody& die : draft_.bodies)
+        if (die.role == Role::die && skin.surface == skin.body + "_to_" + die.name) {
+          cavity += skin.area;
+          own += has_channels(draft_, die.name) ? 0 : skin.area;
+        }
+    }
+    if (cavity > 0) heat *= own / cavity;
     if (heat <= 0 || outside <= 0 || warmer <= 0) return 0;
     return two_digits(heat / (shots.cycle() * outside * warmer));
   }

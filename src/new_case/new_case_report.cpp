@@ -46,9 +46,10 @@ std::string thin_walls_text(const Draft& draft, const PartMeasures& part) {
       "\n  note        thin walls have one element through them{}",
       finer > k_most
           ? std::string()
-          : fmt::format(": enough for when and where it freezes last, not for temperatures within the wall, of "
-                        "which `check` warns; --fineness {:.2g} gives two",
-                        finer));
+          : fmt::format(
+                ": enough for when and where it freezes last, not for temperatures within the wall, of "
+                "which `check` warns; --fineness {:.2g} gives two",
+                finer));
 }
 
 /// A note where several bodies are castings because neither their names nor `--as` say what they are: a core
@@ -117,6 +118,24 @@ std::string overlap_text(const DraftEstimate& estimate) {
       estimate.overlap);
 }
 
+/// The channels of a die; empty where its drawing has none.
+std::string channels_text(const Draft& draft, const std::string& die) {
+  std::string widths;
+  int number = 0;
+  for (const DieChannel& c : draft.channels) {
+    if (c.die != die) continue;
+    const std::string width = fmt::format("{:.3g}", 1e3 * c.diameter);
+    if (widths.find(width) == std::string::npos) widths += (number > 0 ? ", " : "") + width;
+    ++number;
+  }
+  if (number == 0) return "";
+  return fmt::format(
+      "\n  channels    {} bore{} of {} mm in {}, with water at 30 degC and 1 m/s: an estimate. A hole that "
+      "is "
+      "no channel: delete its [[thermal_condition]] water_in_{}_channel_…",
+      number, number > 1 ? "s" : "", widths, die, die);
+}
+
 }  // namespace
 
 std::string report_text(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate,
@@ -164,6 +183,7 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
     out +=
         fmt::format("\n  cooling     {:g} W/m2/K outside the die take what the castings bring, an estimate",
                     draft.shots->cooling);
+  for (const DraftBody& die : draft.bodies) out += channels_text(draft, die.name);
   out += overlap_text(estimate);
   for (const std::string& note : estimate.skin_notes) out += "\n  note        " + note;
   out += poor_mesh_text(estimate);

@@ -6,10 +6,13 @@
 
 #include "case/roles.hpp"
 #include "new_case/draft_layers.hpp"
+#include "new_case/rounding.hpp"
 
 namespace solidus::model {
 
 namespace {
+
+constexpr double k_film_of_die = 20;  ///< air and radiation [W/(m² K)]
 
 std::string mm(double metres) {
   return fmt::format("\"{:.6g} mm\"", 1e3 * metres);
@@ -125,10 +128,49 @@ std::string spray_text(const Draft& d) {
   return t;
 }
 
+/// The group and the film of a channel.
+std::string name_of(const Draft& d, const DieChannel& channel) {
+  std::size_t number = 0;
+  for (const DieChannel& other : d.channels) {
+    if (other.die == channel.die) ++number;
+    if (other == channel) break;
+  }
+  return fmt::format("{}_channel_{}", channel.die, number);
+}
+
+std::string channel_groups_text(const Draft& d) {
+  std::string t;
+  if (!d.channels.empty())
+    t += "# Bores of the die that open to no cavity, each the smooth part of its skin nearest to a place.\n";
+  for (const DieChannel& c : d.channels)
+    t += fmt::format(
+        "[[mesh.group]]   # {:.3g} mm wide, {:.3g} mm long\nname = {}\nowner = {}\nnearest = [{}, {}, "
+        "{}]\n\n",
+        1e3 * c.diameter, 1e3 * c.length, quoted(name_of(d, c)), quoted(c.die), mm(c.place[0]),
+        mm(c.place[1]), mm(c.place[2]));
+  return t;
+}
+
+std::string channel_films_text(const Draft& d) {
+  std::string t;
+  for (const DieChannel& c : d.channels)
+    t += fmt::format(
+        "[[thermal_condition]]   # taken for a cooling channel: water at 1 m/s, Dittus and Boelter\n"
+        "name = \"water_in_{0}\"\ngroup = \"{0}\"\nkind = \"film\"\ncoefficient = \"{1:g} W/m2/K\"\n"
+        "ambient = \"30 degC\"\n\n",
+        name_of(d, c), two_digits(film_of_water(c.diameter)));
+  return t;
+}
+
 /// The film on the free skin of a body: that of the air, or for a die that casts shot after shot that of its
 /// channels.
 std::string film_text(const Draft& d, const std::string& body) {
   const auto found = std::ranges::find(d.bodies, body, &DraftBody::name);
+  if (has_channels(d, body))
+    return fmt::format(
+        "[[thermal_condition]]   # air and radiation of a die at 250 degC\nname = \"air_on_{0}\"\n"
+        "group = \"{0}_free\"\nkind = \"film\"\ncoefficient = \"{1:g} W/m2/K\"\nambient = \"20 degC\"\n\n",
+        body, k_film_of_die);
   const bool cooled =
       d.shots && d.shots->cooling > d.film && found != d.bodies.end() && found->role == Role::die;
   const std::string source =
@@ -170,6 +212,10 @@ std::string interface_text(const Draft& d) {
 
 }  // namespace
 
+bool has_channels(const Draft& draft, const std::string& body) {
+  return std::ranges::count(draft.channels, body, &DieChannel::die) > 0;
+}
+
 std::string case_text(const Draft& d) {
   std::string t = fmt::format(
       "# Made by `solidus new`. Change what you know better; `solidus check` reads it.\n"
@@ -180,10 +226,12 @@ std::string case_text(const Draft& d) {
                  : "physics = \"heat\"   # the alloy has no elastic properties\n";
   t += "gravity = \"9.81 m/s2\"            # along -z\n\n";
   t += mesh_text(d);
+  t += channel_groups_text(d);
   t += time_text(d);
   for (const DraftBody& b : d.bodies) t += body_text(b, d.shots.has_value());
   t += interface_text(d);
   for (const std::string& body : d.films) t += film_text(d, body);
+  t += channel_films_text(d);
   if (d.shots) t += spray_text(d);
   for (const std::string& body : d.coupled ? d.symmetric : std::vector<std::string>{})
     t += fmt::format(

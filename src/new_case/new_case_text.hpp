@@ -9,6 +9,7 @@
 
 #include "case/case_spec.hpp"
 #include "mesh/hot_spots.hpp"
+#include "new_case/die_channels.hpp"
 
 namespace solidus::model {
 
@@ -77,8 +78,12 @@ struct Draft {
   std::vector<mesh::InscribedSphere> hot_spots;
   double end = 0, step = 0, every = 0;  ///< latest end, first step, between outputs [s]
   std::optional<DraftShots> shots;
+  std::vector<DieChannel> channels;
   std::vector<std::string> cavity;  ///< surfaces of the die that are free when the casting has left
 };
+
+/// Whether the drawing of a body has channels, which then take the heat that else a film on its outside does.
+bool has_channels(const Draft& draft, const std::string& body);
 
 std::string case_text(const Draft& draft);
 

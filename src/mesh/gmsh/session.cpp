@@ -21,6 +21,7 @@
 #include "mesh/gmsh/casting_mesh.hpp"
 #include "mesh/gmsh/closed_solids.hpp"
 #include "mesh/gmsh/curved_faces.hpp"
+#include "mesh/gmsh/drawn_faces.hpp"
 #include "mesh/gmsh/geometry_groups.hpp"
 #include "mesh/gmsh/session.hpp"
 #include "mesh/gmsh_elements.hpp"
@@ -358,6 +359,8 @@ RawMesh mesh_of_session(const MeshSource& source, bool has_geometry) {
   read_groups(source.path, index, mesh);
   if (has_geometry && mesh.dimension == 3 && source.element_order == 1)
     enclose_curved_volume(index, source.unit_in_metres, mesh);
+  if (has_geometry && mesh.dimension == 3)
+    mesh.drawn_faces = drawn_faces(index, k_smooth_bend, source.unit_in_metres);
   return mesh;
 }
 

@@ -13,12 +13,15 @@
 #include <sstream>
 
 #include "mesh/casting_geometry.hpp"
+#include "mesh/face_rules.hpp"
 #include "mesh/gmsh/curved_faces.hpp"
 #include "mesh/meshing_ways.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/raw_mesh.hpp"
+#include "mesh/skin.hpp"
 #include "sample_mesh.hpp"
 #include "system/errors.hpp"
+#include "system/log.hpp"
 
 namespace {
 
@@ -239,6 +242,42 @@ TEST_F(StepFile, FacesThatDoNotCloseToASolidAreToldOnceWithTheirOpenCurves) {
                         "one face only, the longest of 20 mm around (10, "));
   EXPECT_THAT(text, HasSubstr("a file with solids: close these openings in the CAD program"));
   EXPECT_EQ(text.find("in any of these ways"), std::string::npos);
+}
+
+/// A block with a bore along y whose halves are drawn apart, 30 × 20 × 30 mm, as a STEP file.
+std::string block_with_a_bore_in_two_halves() {
+  const std::string file = (std::filesystem::path(SOLIDUS_BINARY_DIR) / "bore_in_halves.step").string();
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::model::add("bore");
+  const int block = gmsh::model::occ::addBox(0, 0, 0, 30, 20, 30);
+  const int low = gmsh::model::occ::addCylinder(15, 0, 15, 0, 20, 0, 4, -1, std::numbers::pi);
+  const int high = gmsh::model::occ::addCylinder(15, 0, 15, 0, 20, 0, 4, -1, std::numbers::pi);
+  gmsh::model::occ::rotate({{3, high}}, 15, 0, 15, 0, 1, 0, std::numbers::pi);
+  gmsh::vectorpair cut;
+  std::vector<gmsh::vectorpair> map;
+  gmsh::model::occ::cut({{3, block}}, {{3, low}, {3, high}}, cut, map);
+  gmsh::model::occ::synchronize();
+  gmsh::write(file);
+  gmsh::finalize();
+  return file;
+}
+
+TEST(DrawnFaces, ABoreIsTakenWholeHoweverCoarseItsFacetsAndInHowManyPartsItIsDrawn) {
+  if (test::rank() > 0) GTEST_SKIP() << "files are read on process 0";
+  const std::string file = block_with_a_bore_in_two_halves();
+  constexpr double k_whole = 2 * std::numbers::pi * 4e-3 * 20e-3;
+  for (const double size : {2e-3, 12e-3}) {  // facets that meet at 30 and at 90 degrees
+    RawMesh mesh = read_mesh(file, k_mm, size);
+    validate_and_orient(mesh, file);
+    logging::clear_warnings();
+    add_faces_by_rule(mesh, {"body_1"}, {.name = "bore", .nearest = Point{19e-3, 10e-3, 15e-3}}, file);
+    add_faces_by_rule(mesh, {"body_1"}, {.name = "side", .nearest = Point{40e-3, 10e-3, 15e-3}}, file);
+    EXPECT_NEAR(area_of(mesh, "bore"), k_whole, 0.12 * k_whole)
+        << size;  // of a prism of four sides 10 % less
+    EXPECT_NEAR(area_of(mesh, "side"), 30e-3 * 20e-3, 1e-9) << size;
+    EXPECT_THAT(logging::warnings(), ::testing::IsEmpty());
+  }
 }
 
 }  // namespace
