@@ -23,14 +23,25 @@ constexpr double k_sunk = 3;
 /// Share of the largest distortion beyond which an overlap of two bodies is reported.
 constexpr double k_overlap = 0.05;
 
+/// A number with so many digits that count, without a power of ten where a person reads it more easily so:
+/// 140, not 1.4e+02.
+std::string digits(double value, int number) {
+  constexpr double k_powers_from = 1e6;
+  const double size = std::abs(value);
+  if (size < std::pow(10.0, number) || size >= k_powers_from) return fmt::format("{:.{}g}", value, number);
+  const double unit = std::pow(10.0, std::floor(std::log10(size)) + 1 - number);
+  return fmt::format("{:.0f}", unit * std::round(value / unit));
+}
+
 /// A value with its error where it has one: "36.7 ± 1.6 s (step 0.4, mesh 1.2)".
 /// @param factor  from SI to the unit shown
 std::string with_error(double value, const std::optional<ErrorBand>& error, double factor,
                        const std::string& unit) {
   const std::string space = unit.empty() ? "" : " ";
-  if (!error || !(error->total() > 0)) return fmt::format("{:.4g}{}{}", value * factor, space, unit);
-  return fmt::format("{:.4g} ± {:.2g}{}{} (step {:.2g}, mesh {:.2g})", value * factor,
-                     error->total() * factor, space, unit, error->step * factor, error->mesh * factor);
+  if (!error || !(error->total() > 0)) return digits(value * factor, 4) + space + unit;
+  return fmt::format("{} ± {}{}{} (step {}, mesh {})", digits(value * factor, 4),
+                     digits(error->total() * factor, 2), space, unit, digits(error->step * factor, 2),
+                     digits(error->mesh * factor, 2));
 }
 
 /// Values in the units that the user wants to read.
@@ -139,13 +150,13 @@ double error_of(const std::optional<ValueAt>& value) {
 /// The verdict on a riser that froze so much later than the part [s]. The times of both come of one mesh and
 /// one run and are wrong in the same sense: the larger of both errors is taken for that of their difference.
 std::string margin_text(double later, double error) {
-  const std::string band = error > 0 ? fmt::format(" ± {:.2g}", error) : "";
+  const std::string band = error > 0 ? " ± " + digits(error, 2) : "";
   if (std::abs(later) < error)
-    return fmt::format("froze {:.4g}{} s {} the part: too close to tell whether it fed to the end",
-                       std::abs(later), band, later > 0 ? "after" : "before");
-  return later > 0
-             ? fmt::format("outlived the part by {:.4g}{} s", later, band)
-             : fmt::format("froze {:.4g}{} s before the part: it could not feed to the end", -later, band);
+    return fmt::format("froze {}{} s {} the part: too close to tell whether it fed to the end",
+                       digits(std::abs(later), 4), band, later > 0 ? "after" : "before");
+  return later > 0 ? fmt::format("outlived the part by {}{} s", digits(later, 4), band)
+                   : fmt::format("froze {}{} s before the part: it could not feed to the end",
+                                 digits(-later, 4), band);
 }
 
 /// Says of each riser whether it fed the castings to the end.
@@ -238,6 +249,7 @@ std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, 
   for (const quantities::Quantity* field : coupling::all_fields()) {
     if (field->answer.empty()) continue;
     const std::string wanted = worst_of(*field);
+    const bool low = field->worst == quantities::Extreme::least;
     const auto f = std::find_if(found.begin(), found.end(), [&](const criteria::CriterionResult& finding) {
       return finding.name == wanted;
     });
@@ -252,6 +264,11 @@ std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, 
       value = *of_parts;
     std::string answer = with_error(value.value, value.error, field->shown().factor, printed(field->shown()));
     if (f->somewhere) answer += " " + format.place(value.where);
+    const auto share = std::ranges::find(found, criteria::beyond(*field), &criteria::CriterionResult::name);
+    if (field->threshold && share != found.end())
+      answer = fmt::format("{} {:g} in {} % of what was cast; {} {}", low ? "below" : "above",
+                           *field->threshold * field->shown().factor, digits(100 * share->value, 3),
+                           low ? "least" : "largest", answer);
     text += line(field->answer, answer);
   }
   return text;

@@ -58,6 +58,9 @@ TEST(ComparedAnswers, AreToldWithTheirError) {
   Answers a = off_by(0);
   a.castings[0].froze->error = ErrorBand{.step = 0.5, .mesh = 1.25};
   EXPECT_THAT(text(a, {}), HasSubstr("froze 100 ± 1.8 s (step 0.5, mesh 1.2) after pouring"));
+  a.castings[0].froze->value = 12345.6;
+  a.castings[0].froze->error = ErrorBand{.step = 130, .mesh = 14.2};
+  EXPECT_THAT(text(a, {}), HasSubstr("froze 12350 ± 140 s (step 130, mesh 14) after pouring"));
 }
 
 // A runner is poured as the part is, and nobody asks whether it is sound.
