@@ -42,6 +42,11 @@ inline std::string largest_of(const quantities::Quantity& field) {
   return std::string(field.name) + "_max";
 }
 
+/// Name of the share of the castings in which a field is beyond its threshold: "tearing_tendency_beyond".
+inline std::string beyond(const quantities::Quantity& field) {
+  return std::string(field.name) + "_beyond";
+}
+
 class Criterion {
  public:
   virtual ~Criterion() = default;

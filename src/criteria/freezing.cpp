@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "criteria/freezing_history.hpp"
-#include "criteria/gather.hpp"
 #include "criteria/quantities.hpp"
+#include "material/elasticity.hpp"
 
 namespace solidus::criteria {
 
@@ -14,12 +14,16 @@ using namespace freezing_history;
 
 namespace {
 
+/// Slots of times, and those of them at which the solid fraction passes a level.
+constexpr std::array k_times = {k_liquidus_at, k_evaluated_at,  k_solidified_at,
+                                k_healed_at,   k_vulnerable_at, k_safe_at};
+constexpr std::array<std::pair<Slot, double>, 3> k_fractions = {
+    {{k_healed_at, k_healed_from}, {k_vulnerable_at, k_vulnerable_from}, {k_safe_at, k_vulnerable_to}}};
+
 constexpr double k_mushy = 1, k_sharp = 2, k_waiting = 3;  // in k_mode; zero: not evaluated
 
 // Times of one front are equal but for rounding.
 constexpr double k_same_time = 1e-9;
-
-// Fields carry units that can be converted; this one has roots in it.
 
 double length(const mesh::Point& v) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -31,6 +35,41 @@ std::vector<char> freezing_bodies(const mesh::Mesh& mesh, const heat::NodalEntha
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
     chosen.push_back(storage.can_melt(static_cast<int>(b)) && (wanted.empty() || wanted[b] != 0) ? 1 : 0);
   return chosen;
+}
+
+/// The ratio of Clyne and Davies of a node; k_never where it started colder or froze at once.
+double vulnerable_share(const double* h) {
+  if (h[k_healed_at] < 0 || h[k_vulnerable_at] <= h[k_healed_at] || h[k_safe_at] < 0) return k_never;
+  return (h[k_safe_at] - h[k_vulnerable_at]) / (h[k_vulnerable_at] - h[k_healed_at]);
+}
+
+/// Of each body that expands and freezes over a range α L/ΔT_f, else zero [m/K²]: a body of the length L that
+/// cools with Ṫ while its ends are held strains a mush of the thickness ΔT_f/G, where all of its contraction
+/// goes, with the rate α Ṫ L G/ΔT_f. Collective.
+std::vector<double> held_mush(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage) {
+  const std::size_t n_bodies = mesh.bodies.size();
+  std::vector<mesh::Point> low(n_bodies), high(n_bodies);
+  for (std::size_t b = 0; b < n_bodies; ++b) low[b].fill(HUGE_VAL), high[b].fill(-HUGE_VAL);
+  for (const mesh::ElementBlock& block : mesh.blocks)
+    for (const Index node : block.nodes)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double x = mesh.x[static_cast<std::size_t>(node)][i];
+        const auto body = static_cast<std::size_t>(block.body);
+        low[body][i] = std::min(low[body][i], x), high[body][i] = std::max(high[body][i], x);
+      }
+  std::vector<double> held(n_bodies, 0.0);
+  for (std::size_t b = 0; b < n_bodies; ++b) {
+    double length = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      length = std::max(length, parallel::global_max(high[b][i]) + parallel::global_max(-low[b][i]));
+    const material::Material& material = storage.material(static_cast<int>(b));
+    const FreezingLevels levels = FreezingLevels::of(material);
+    if (!material.mechanical() || !levels.freezes || levels.liquidus <= levels.solidus) continue;
+    constexpr double k_directions = 3;  // of a volume
+    const double expansion = material::expansion_slope<double>(material, levels.solidus) / k_directions;
+    held[b] = expansion * length / (levels.liquidus - levels.solidus);
+  }
+  return held;
 }
 
 }  // namespace
@@ -58,11 +97,13 @@ Freezing::Freezing(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalE
                    FreezingOptions options)
     : mesh_(mesh),
       storage_(storage),
+      held_(held_mush(mesh, storage)),
       patches_(mesh, kind, freezing_bodies(mesh, storage, options.bodies)),
       ghosts_(mesh) {
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     const material::Material& material = storage.material(static_cast<int>(b));
     feeding_.push_back(FeedingLaw::of(material));
+    tearing_.push_back(TearingLaw::of(material));
     Levels& levels = levels_.emplace_back(Levels{FreezingLevels::of(material)});
     levels.evaluation = levels.solidus + options.evaluation * (levels.liquidus - levels.solidus);
     levels.at_end = levels.evaluation <= levels.solidus;
@@ -90,8 +131,7 @@ CriterionRecord Freezing::initial(const CriterionInput& start) const {
       k_name, {make_column(mesh_, "history", mesh::FieldPlace::node, k_width, 0)}, {{"frozen", k_row, {}}}};
   std::vector<double>& history = record.columns[0].values;
   for (std::size_t i = 0; i < mesh_.x.size(); ++i)
-    for (const Slot time : {k_liquidus_at, k_evaluated_at, k_solidified_at})
-      history[i * k_width + time] = k_never;
+    for (const Slot time : k_times) history[i * k_width + time] = k_never;
   // Nodes that start between liquidus and solidus freeze from the start on.
   for (const FreezingNode& who : nodes_) {
     const auto i = static_cast<std::size_t>(who.node);
@@ -117,13 +157,15 @@ void Freezing::follow(const FreezingNode& who, const Step& step, std::span<doubl
       h[k_liquidus_at] += step.next.time - h[k_solidified_at];
     } else {
       std::fill(h, h + k_width, 0.0);
-      h[k_evaluated_at] = k_never;
+      for (const Slot time : k_times) h[time] = k_never;
       h[k_liquidus_at] = after == 0 ? k_never : step.next.time;
     }
     h[k_solidified_at] = k_never;
     if (after == 0) return;
   }
   if (before == 1) return;
+  for (const auto& [slot, fraction] : k_fractions)
+    if (before < fraction && after >= fraction) h[slot] = step.time((fraction - before) / (after - before));
   if (before == 0 && after > 0)
     h[k_liquidus_at] = step.time(levels.begin(storage_, who.node, step.old, step.next));
   std::optional<double> evaluated;
@@ -299,11 +341,18 @@ std::vector<double> Freezing::front_speeds(std::span<const double> history) cons
   return slope;
 }
 
+/// The fields' marks for no value.
+std::array<double, Freezing::k_fields> Freezing::nothing_known() {
+  std::array<double, k_fields> marks{};
+  for (std::size_t f = 0; f < k_fields; ++f) marks[f] = fields::k_of_freezing[f]->no_value.value_or(0);
+  return marks;
+}
+
 std::array<double, Freezing::k_fields> Freezing::values_of(const FreezingNode& who,
                                                            std::span<const double> history,
                                                            double speed) const {
   const double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
-  if (h[k_solidified_at] < 0) return {k_never};
+  if (h[k_solidified_at] < 0) return nothing_known();
   const double time = h[k_solidified_at] - h[k_liquidus_at];
   const bool evaluated = h[k_evaluated_at] >= 0;  // else metal that was colder than T_e from the start
   const double gradient = evaluated ? h[k_gradient] : 0.0;
@@ -315,7 +364,15 @@ std::array<double, Freezing::k_fields> Freezing::values_of(const FreezingNode& w
   const std::optional<FeedingLaw>& feeding = feeding_[body];
   const double number = feeding ? feeding->number(ny, spacing) : 0.0;
   const double pores = number > 0 ? feeding->pore_fraction(number) : 0.0;
-  return {h[k_solidified_at], time, rate, gradient, speed, spacing, ny, number, pores};
+  const std::optional<TearingLaw>& tearing = tearing_[body];
+  double critical = k_never, tendency = k_never;
+  if (tearing && magnitude > 0 && rate > 0 && spacing > 0) {
+    const TearingLaw::Place place{magnitude, rate, spacing};
+    critical = tearing->critical_strain_rate(place);
+    if (held_[body] > 0) tendency = tearing->tendency(place, held_[body] * magnitude * rate);
+  }
+  return {h[k_solidified_at], time, rate, gradient, speed, spacing, ny, number, pores, critical, tendency,
+          vulnerable_share(h)};
 }
 
 std::span<const quantities::Quantity* const> Freezing::fields() const {
@@ -325,57 +382,13 @@ std::span<const quantities::Quantity* const> Freezing::fields() const {
 
 void Freezing::fill(const CriterionInput& /*now*/, const CriterionRecord& record,
                     std::span<const std::span<double>> values) const {
-  for (std::size_t f = 0; f < k_fields; ++f)
-    std::fill(values[f].begin(), values[f].end(), f == 0 ? k_never : 0.0);
+  for (std::size_t f = 0; f < k_fields; ++f) std::ranges::fill(values[f], nothing_known()[f]);
   const std::vector<double> speeds = front_speeds(record.columns[0].values);
   for (const FreezingNode& who : nodes_) {
     const auto of_node = values_of(who, record.columns[0].values, speeds[static_cast<std::size_t>(who.node)]);
     for (std::size_t f = 0; f < k_fields; ++f) values[f][static_cast<std::size_t>(who.node)] = of_node[f];
   }
   for (std::size_t f = 0; f < k_fields; ++f) ghosts_.update(values[f], 1);
-}
-
-std::vector<CriterionResult> Freezing::findings(const CriterionRecord& record) const {
-  // The least and the greatest value of every field over the nodes that have it, with the number of the node
-  // and its place.
-  struct Extreme {
-    double value = 0, number = -1;
-    mesh::Point where{};
-  };
-  std::array<Extreme, 2 * k_fields> own;
-  const auto take = [](Extreme& e, double value, double number, const mesh::Point& where, bool least) {
-    const bool better = e.number < 0 || (least ? value < e.value : value > e.value) ||
-                        (value == e.value && number < e.number);
-    if (better) e = {value, number, where};
-  };
-  const std::vector<double> speeds = front_speeds(record.columns[0].values);
-  for (const FreezingNode& who : nodes_) {
-    const auto i = static_cast<std::size_t>(who.node);
-    const auto of_node = values_of(who, record.columns[0].values, speeds[i]);
-    for (std::size_t f = 0; f < k_fields; ++f)
-      if (of_node[f] > 0)
-        for (std::size_t side = 0; side < 2; ++side)
-          take(own[2 * f + side], of_node[f], static_cast<double>(mesh_.input_node[i]), mesh_.x[i],
-               side == 0);
-  }
-  std::vector<double> mine;
-  for (const Extreme& e : own)
-    mine.insert(mine.end(), {e.value, e.number, e.where[0], e.where[1], e.where[2]});
-  const std::vector<double> all = gathered(mine);
-  std::array<Extreme, 2 * k_fields> best;
-  for (std::size_t k = 0; k < all.size() / 5; ++k) {
-    const double* const row = all.data() + 5 * k;
-    const std::size_t which = k % (2 * k_fields);
-    if (row[1] >= 0) take(best[which], row[0], row[1], {row[2], row[3], row[4]}, which % 2 == 0);
-  }
-  std::vector<CriterionResult> found;
-  for (std::size_t f = 0; f < k_fields; ++f)
-    for (std::size_t side = 0; side < 2; ++side)
-      if (const Extreme& e = best[2 * f + side]; e.number >= 0)
-        found.push_back(
-            {side == 0 ? least_of(*fields::k_of_freezing[f]) : largest_of(*fields::k_of_freezing[f]),
-             std::string(fields::k_of_freezing[f]->exact_unit()), e.value, true, e.where});
-  return found;
 }
 
 std::size_t Freezing::bytes() const {

@@ -32,6 +32,7 @@
 
 #include "criteria/criterion.hpp"
 #include "criteria/freezing_levels.hpp"
+#include "criteria/hot_tearing.hpp"
 #include "criteria/niyama.hpp"
 #include "criteria/patches.hpp"
 #include "heat/nodal_enthalpy.hpp"
@@ -101,7 +102,10 @@ class Freezing : public Criterion {
   /// The body by which an owned node is told: that of which it holds most; −1: none that freezes.
   int body_of(Index node, const std::vector<char>& chosen) const;
   std::vector<double> front_speeds(std::span<const double> history) const;
-  static constexpr std::size_t k_fields = 9;
+  static constexpr std::size_t k_fields = 12;
+  std::vector<CriterionResult> shares_beyond(const CriterionRecord& record,
+                                             std::span<const double> speeds) const;
+  static std::array<double, k_fields> nothing_known();
   static constexpr const char* k_name = "freezing";
   static constexpr int k_row = 5;  ///< of a LastMelt in the table "frozen"
   /// All fields of a node, in their order.
@@ -113,8 +117,10 @@ class Freezing : public Criterion {
   const heat::NodalEnthalpy& storage_;
   std::vector<Levels> levels_;                      ///< per body
   std::vector<std::optional<FeedingLaw>> feeding_;  ///< per body
-  std::vector<FreezingNode> nodes_;                 ///< owned
-  Patches patches_;                                 ///< lists of nodes within step() alone
+  std::vector<std::optional<TearingLaw>> tearing_;  ///< per body
+  std::vector<double> held_;  ///< per body: strain rate of its mush, if its ends were held, over G Ṫ [m/K²]
+  std::vector<FreezingNode> nodes_;  ///< owned
+  Patches patches_;                  ///< lists of nodes within step() alone
   parallel::GhostExchange ghosts_;
 };
 

@@ -15,6 +15,10 @@ enum Slot : std::size_t {
   k_gradient,   ///< [K/m]
   k_magnitude,  ///< mean of the magnitudes of the elements' gradients [K/m]
   k_mode,
+  // When the solid fraction passed 0.6, 0.9 and 0.99 (criteria/hot_tearing.hpp).
+  k_healed_at,
+  k_vulnerable_at,
+  k_safe_at,
   k_width,
   // Until T_e is reached, while the front passes: sums over time of gradient and magnitude behind it [K s/m],
   // and that time [s].

@@ -118,6 +118,48 @@ inline constexpr Quantity k_shrinkage_porosity{
     .pictured = true,
     .shown_as = quantities::k_percent};
 
+inline constexpr Quantity k_critical_strain_rate{
+    .name = "critical_strain_rate",
+    .unit = "1/s",
+    .label = "Critical strain rate",
+    .doc = "Strain rate across the mush above which a hot tear may open, by Rappaz, Drezet and Gremaud",
+    .group = quantities::Group::criteria,
+    .needs = {.heat = true, .melting = true},
+    .no_value = -1,
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::least,
+    .compared = true,
+    .shown_as = {"1/s", "1/s"}};
+
+inline constexpr Quantity k_tearing_tendency{
+    .name = "tearing_tendency",
+    .unit = "1",
+    .label = "Tearing tendency (ends held)",
+    .doc =
+        "Strain rate of the mush if the ends of the casting were held, over the critical one: below 1 it "
+        "does not tear",
+    .group = quantities::Group::criteria,
+    .needs = {.heat = true, .melting = true},
+    .no_value = -1,
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::greatest,
+    .headline = "Tearing tendency",
+    .answer = "tearing tendency, ends held",
+    .threshold = 1,
+    .compared = true,
+    .pictured = true};
+
+inline constexpr Quantity k_vulnerable_share{
+    .name = "vulnerable_share",
+    .unit = "1",
+    .label = "Cracking susceptibility (Clyne, Davies)",
+    .doc = "Time between solid fractions of 0.9 and 0.99 over that between 0.6 and 0.9, by Clyne and Davies",
+    .group = quantities::Group::criteria,
+    .needs = {.heat = true, .melting = true},
+    .no_value = -1,
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::greatest};
+
 inline constexpr Quantity k_liquid_pool{.name = "liquid_pool",
                                         .unit = "1",
                                         .label = "Pool of melt",
@@ -185,9 +227,9 @@ inline constexpr Quantity k_distortion{
 
 /// Fields of Freezing, in their order.
 inline constexpr std::array k_of_freezing = {
-    &k_solidified_at,     &k_local_solidification_time, &k_cooling_rate, &k_thermal_gradient,
-    &k_front_speed,       &k_secondary_arm_spacing,     &k_niyama,       &k_dimensionless_niyama,
-    &k_shrinkage_porosity};
+    &k_solidified_at,      &k_local_solidification_time, &k_cooling_rate,     &k_thermal_gradient,
+    &k_front_speed,        &k_secondary_arm_spacing,     &k_niyama,           &k_dimensionless_niyama,
+    &k_shrinkage_porosity, &k_critical_strain_rate,      &k_tearing_tendency, &k_vulnerable_share};
 
 /// Fields of Pools, in their order.
 inline constexpr std::array k_of_pools = {&k_liquid_pool, &k_pool_volume};

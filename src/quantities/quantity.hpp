@@ -72,6 +72,9 @@ struct Quantity {
   std::string_view headline = {};  ///< of the figures at the head of the report; empty: it is none
   /// Its worst value among the answers of a run, "longest local solidification time"; empty: it is none.
   std::string_view answer = {};
+  /// Beyond it, towards its worst end, a value is bad by the criterion itself: its answer tells the share of
+  /// the castings where it is. In the unit of values.
+  std::optional<double> threshold = {};
   Colours colours = Colours::sequential;
   /// Of contact: per area in contact, so that a surface that is covered in part carries it there alone.
   bool per_covered_area = false;

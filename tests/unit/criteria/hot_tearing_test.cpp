@@ -1,0 +1,66 @@
+/// Criteria of hot tearing against values that anyone can compute again: Al-4.5Cu by Scheil's equation, T_m =
+/// 660.4 °C, slope 3.4 K/%, k = 0.17, eutectic at 548.2 °C.
+#include "criteria/hot_tearing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace solidus::criteria {
+namespace {
+
+constexpr double k_melting = 660.4, k_liquidus = 660.4 - 3.4 * 4.5, k_eutectic = 548.2, k_partition = 0.17;
+
+/// The curve in straight pieces, with the eutectic as a jump at its low end.
+std::vector<std::pair<double, double>> scheil(int pieces) {
+  std::vector<std::pair<double, double>> curve = {{k_eutectic, 1.0}};
+  for (int i = 0; i <= pieces; ++i) {
+    const double t = std::lerp(k_eutectic, k_liquidus, static_cast<double>(i) / pieces);
+    curve.emplace_back(t, 1 - std::pow((k_melting - t) / (k_melting - k_liquidus), 1 / (k_partition - 1)));
+  }
+  return curve;
+}
+
+constexpr double k_shrinkage = 0.06, k_viscosity = 1e-3, k_drop = 2000;  // as of the authors
+
+TEST(HotTearing, RappazDrezetGremaudOfAlCu) {
+  const TearingLaw law(scheil(4000), k_shrinkage, k_viscosity, k_drop);
+  EXPECT_NEAR(law.a(), 2986.46, 0.02);
+  EXPECT_NEAR(law.b(), 415039.7, 2);
+  constexpr double k_gradient = 1e4, k_spacing = 100e-6;
+  const TearingLaw::Place fast{k_gradient, 1e-3 * k_gradient, k_spacing},
+      slow{k_gradient, 1e-4 * k_gradient, k_spacing};
+  EXPECT_NEAR(law.drop_of_shrinkage(fast), 322.54, 0.01);
+  EXPECT_NEAR(law.critical_strain_rate(fast), 0.021183, 1e-6);
+  EXPECT_NEAR(law.drop_of_shrinkage(slow), 32.25, 0.01);
+  EXPECT_NEAR(law.critical_strain_rate(slow), 0.024849, 1e-6);
+  EXPECT_NEAR(law.tendency(fast, law.critical_strain_rate(fast)), 1, 1e-12);
+  EXPECT_NEAR(law.tendency(slow, 0), 32.25 / k_drop, 1e-5);
+}
+
+TEST(HotTearing, ShrinkageAloneTearsWhereItTakesAllOfThePressure) {
+  const TearingLaw law(scheil(400), k_shrinkage, k_viscosity, k_drop);
+  const TearingLaw::Place fine{1e3, 10, 20e-6};
+  EXPECT_EQ(law.critical_strain_rate(fine), 0);
+  EXPECT_GT(law.tendency(fine, 0), 1);
+}
+
+TEST(HotTearing, TheRootIsWhereGrainsBridge) {
+  // f from 1 to 0 over 100 K: above the root at f = 0.98 A is 100 ∫ f²/(1 − f)² df = 100 (f + 2 ln(1 − f) +
+  // 1/(1 − f) − 1).
+  std::vector<std::pair<double, double>> line;
+  for (int i = 0; i <= 1000; ++i) line.emplace_back(0.1 * i, 1 - 1e-3 * i);
+  EXPECT_NEAR(TearingLaw(line, k_shrinkage, k_viscosity, k_drop).a(),
+              100 * (0.98 + 2 * std::log(0.02) + 50 - 1), 0.01);
+}
+
+TEST(HotTearing, KouOfAlCu) {
+  EXPECT_NEAR(kou_index(scheil(4000)), 1390.96, 0.1);
+  // Nothing is steep where all freezes at one temperature.
+  EXPECT_EQ(kou_index({{900, 1}, {900, 0}}), 0);
+}
+
+}  // namespace
+}  // namespace solidus::criteria
