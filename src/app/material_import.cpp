@@ -5,7 +5,8 @@
 #include <fstream>
 #include <optional>
 
-#include "app/verbs.hpp"
+#include "app/case_arguments.hpp"
+#include "app/material_import.hpp"
 #include "case/case_materials.hpp"
 #include "input/column_table.hpp"
 #include "input/units.hpp"

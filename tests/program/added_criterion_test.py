@@ -65,7 +65,7 @@ group = "lower"
 class AddedCriterion(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        cls.own, program.PROGRAM = program.PROGRAM, os.environ["SOLIDUS_WITH_CRITERION"]
+        cls.own, program.PROGRAM = program.PROGRAM, os.environ["SOLIDUS_WITH_ADDED_PARTS"]
 
     @classmethod
     def tearDownClass(cls):

@@ -4,8 +4,10 @@
 
 #include <optional>
 
+#include "app/case_arguments.hpp"
+#include "app/material_import.hpp"
 #include "app/material_tables.hpp"
-#include "app/verbs.hpp"
+#include "app/verb.hpp"
 #include "case/case_materials.hpp"
 #include "input/units.hpp"
 #include "material/designations.hpp"
@@ -112,9 +114,41 @@ std::string spreads(const material::MaterialSpreads& of) {
   return out.empty() ? "" : "Spread: half the width that holds 95 %\n" + out;
 }
 
-}  // namespace
+CLI::App* add_material_import(CLI::App& materials, MaterialImportArguments& arguments) {
+  CLI::App* verb = materials.add_subcommand(
+      "import",
+      "Make a material card from a table of Thermo-Calc, JMatPro or pycalphad's Scheil (CSV or JSON)");
+  verb->add_option("FILE", arguments.file, "The table")->required();
+  verb->add_option("-o,--output", arguments.output, "The material file to write; default: print it");
+  verb->add_option("--like", arguments.like, "A card for what the table lacks");
+  verb->add_option("--title", arguments.title, "What the material is, in one line");
+  verb->add_option("--source", arguments.source, "Where the table comes from; default: its name");
+  verb->add_option("--latent-heat", arguments.latent_heat,
+                   "For example \"390 kJ/kg\", for tables without enthalpy");
+  verb->add_option("--volume-change", arguments.volume_change, "On freezing, for example -0.045");
+  verb->add_option("--molar-mass", arguments.molar_mass, "For example \"27.1 g/mol\", for columns per mole");
+  verb->add_option("--column", arguments.columns,
+                   "Which column holds what: QUANTITY=HEADER or QUANTITY=HEADER:UNIT, "
+                   "for example \"enthalpy=HMR:J/mol\"")
+      ->allow_extra_args(false);
+  return verb;
+}
 
-ExitCode materials(const std::string& name, const std::string& output) {
+CLI::App* add_solidification(CLI::App& materials, SolidificationArguments& arguments) {
+  CLI::App* verb = materials.add_subcommand(
+      "scheil", "Print the solid fraction of an alloy by Scheil's equation or the lever rule");
+  verb->add_option("ALLOY", arguments.alloy, "Weight per cent, for example Al-9Si-3Cu-0.3Mg")->required();
+  verb->add_flag("--lever", arguments.lever, "The lever rule: full diffusion in the solid");
+  verb->add_option("--system", arguments.system, "A file with the liquidus; default: that of the library");
+  verb->add_option("--tolerance", arguments.tolerance,
+                   "Of the straight lines between the points; default 0.002");
+  verb->add_option("-o,--output", arguments.output, "A file; default: print it");
+  return verb;
+}
+
+/// @param name   a material of the library or a file; empty: the list
+/// @param output a folder for its tables (CSV); empty: none
+ExitCode list_materials(const std::string& name, const std::string& output) {
   const auto folders = model::material_folders();
   if (!name.empty()) {
     const Material material = material::find_material(name, folders);
@@ -135,6 +169,36 @@ ExitCode materials(const std::string& name, const std::string& output) {
     out += fmt::format("{:<28} {}\n", each, material::find_material(each, folders).title);
   print(out.empty() ? "The material library is empty.\n" : out);
   return k_done;
+}
+
+class Materials final : public Verb {
+ public:
+  explicit Materials(CLI::App& program)
+      : Verb(program, "materials", "List the material library, or print one material") {
+    command().add_option("NAME", name_, "A material of the library, or a material file");
+    command()
+        .add_option("-o,--output", output_, "Folder for tables of the properties and the flow curves (CSV)")
+        ->type_name("FOLDER");
+    import_ = add_material_import(command(), imported_);
+    scheil_ = add_solidification(command(), freezing_);
+  }
+  ExitCode run() override {
+    if (import_->parsed()) return import_material(imported_);
+    if (scheil_->parsed()) return solidification_path(freezing_);
+    return list_materials(name_, output_);
+  }
+
+ private:
+  std::string name_, output_;
+  MaterialImportArguments imported_;
+  SolidificationArguments freezing_;
+  CLI::App *import_ = nullptr, *scheil_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> materials_verb(CLI::App& program) {
+  return std::make_unique<Materials>(program);
 }
 
 }  // namespace solidus::app

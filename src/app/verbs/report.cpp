@@ -6,7 +6,9 @@
 #include <span>
 #include <utility>
 
-#include "app/verbs.hpp"
+#include "app/case_arguments.hpp"
+#include "app/report_page.hpp"
+#include "app/verb.hpp"
 #include "case/case_materials.hpp"
 #include "material/library.hpp"
 #include "results/report/report_page.hpp"
@@ -72,19 +74,42 @@ Json::Array cards(const fs::path& folder) {
 
 }  // namespace
 
-ExitCode write_report(const ReportArguments& arguments) {
+void write_report(const std::vector<std::string>& folders, const std::string& output) {
   std::vector<report::ReportedRun> runs;
-  for (const std::string& folder : arguments.folders) {
+  for (const std::string& folder : folders) {
     runs.push_back({folder});
     if (fs::exists(fs::path(folder) / "case.toml")) runs.back().materials = cards(folder);
   }
-  const fs::path page = arguments.output.empty() ? fs::path(arguments.folders.front()) / "report.html"
-                                                 : fs::path(arguments.output);
+  const fs::path page = output.empty() ? fs::path(folders.front()) / "report.html" : fs::path(output);
   const report::WrittenReport written = report::write_report(runs, page);
   for (const std::string& note : written.notes) std::cerr << "solidus: " << note << "\n";
   print(fmt::format("Report in {} ({:.1f} MB); it opens in any browser\n", page.lexically_normal().string(),
                     1e-6 * static_cast<double>(written.bytes)));
-  return k_done;
+}
+
+namespace {
+
+class Report final : public Verb {
+ public:
+  explicit Report(CLI::App& program)
+      : Verb(program, "report", "Write what runs left as one page that opens in any browser") {
+    command().add_option("RUN", folders_, "Folders of results; two are shown side by side")->required();
+    command().add_option("-o,--output", output_, "The page; default report.html in the first folder");
+  }
+  ExitCode run() override {
+    write_report(folders_, output_);
+    return k_done;
+  }
+
+ private:
+  std::vector<std::string> folders_;
+  std::string output_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> report_verb(CLI::App& program) {
+  return std::make_unique<Report>(program);
 }
 
 }  // namespace solidus::app

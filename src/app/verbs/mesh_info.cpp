@@ -9,8 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/case_arguments.hpp"
 #include "app/python_tools.hpp"
-#include "app/verbs.hpp"
+#include "app/verb.hpp"
 #include "build/case_file.hpp"
 #include "build/geometry_bodies.hpp"
 #include "build/mesh_input.hpp"
@@ -86,8 +87,8 @@ void write_faces(const RawMesh& mesh, const std::vector<mesh::SkinPatch>& patche
   results::write_file(folder / k_faces, mesh::to_vtk(patches));
 }
 
-}  // namespace
-
+/// @param unit      of the lengths of a mesh file; empty: what the file says, else m
+/// @param pictures  folder for pictures of the faces by number; empty: none
 ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit,
                    const std::filesystem::path& pictures) {
   std::string text;
@@ -108,6 +109,39 @@ ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit,
   print(text);
   if (pictures.empty()) return k_done;
   return run_python("faces", {(pictures / k_faces).string()});
+}
+
+class MeshInfo final : public Verb {
+ public:
+  explicit MeshInfo(CLI::App& program)
+      : Verb(program, "mesh-info", "Report groups, sizes and quality of a mesh") {
+    command().add_option("CASE", arguments_.path, "A mesh file, or a case")->required();
+    command()
+        .add_option("--set", arguments_.set, "Change a key of the case")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command()
+        .add_option("--unit", unit_,
+                    "Unit of length of a mesh file, for example mm; default what the file says, else m")
+        ->type_name("UNIT");
+    command()
+        .add_option(
+            "--pictures", pictures_,
+            "Folder for pictures of every body's faces by their numbers, and for faces.vtk (ParaView)")
+        ->type_name("FOLDER");
+    add_trust(command(), arguments_.trust_script);
+  }
+  ExitCode run() override { return mesh_info(arguments_, unit_, pictures_); }
+
+ private:
+  CaseArguments arguments_;
+  std::string unit_, pictures_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> mesh_info_verb(CLI::App& program) {
+  return std::make_unique<MeshInfo>(program);
 }
 
 }  // namespace solidus::app

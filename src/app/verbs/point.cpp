@@ -7,8 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "app/case_arguments.hpp"
 #include "app/places.hpp"
-#include "app/verbs.hpp"
+#include "app/verb.hpp"
 #include "case/case_materials.hpp"
 #include "case/overrides.hpp"
 #include "material/external_law.hpp"
@@ -180,7 +181,13 @@ void write_curve(const Curve& curve, const point::History& history, const fs::pa
 }
 
 /// Reads the point file, and loads the laws from outside of its materials.
-PointCase load_point_case(const CaseArguments& arguments, const fs::path& file) {
+struct PointArguments {
+  std::string path;              ///< a point file, or a folder with a point.toml
+  std::vector<std::string> set;  ///< "path=value"
+  std::string output;            ///< results folder; empty: by the file
+};
+
+PointCase load_point_case(const PointArguments& arguments, const fs::path& file) {
   if (processes::count() > 1)
     throw InputError({}, "a point runs on one process", "solidus point without mpirun");
   Value document = load_document(file);
@@ -193,14 +200,12 @@ PointCase load_point_case(const CaseArguments& arguments, const fs::path& file) 
   return point_case;
 }
 
-fs::path point_file(const CaseArguments& arguments) {
+fs::path point_file(const PointArguments& arguments) {
   const fs::path file = arguments.path;
   return fs::is_directory(file) ? file / "point.toml" : file;
 }
 
-}  // namespace
-
-ExitCode run_point(const CaseArguments& arguments) {
+ExitCode run_point(const PointArguments& arguments) {
   const fs::path file = point_file(arguments);
   const PointCase point_case = load_point_case(arguments, file);
   const fs::path folder = arguments.output.empty() ? results_root() / results::default_run_folder(file)
@@ -230,7 +235,8 @@ ExitCode run_point(const CaseArguments& arguments) {
   return k_cannot_continue;
 }
 
-ExitCode check_point_laws(const CaseArguments& arguments) {
+/// The laws of a point file, checked along its histories (point/check_law.hpp); exit code 1 where one fails.
+ExitCode check_point_laws(const PointArguments& arguments) {
   const fs::path file = point_file(arguments);
   const PointCase point_case = load_point_case(arguments, file);
   bool passed = true;
@@ -245,6 +251,36 @@ ExitCode check_point_laws(const CaseArguments& arguments) {
   }
   print(text);
   return passed ? k_done : k_bad_input;
+}
+
+class Point final : public Verb {
+ public:
+  explicit Point(CLI::App& program)
+      : Verb(program, "point",
+             "Take a point of a material through a history of strain, stress and temperature") {
+    command().add_option("CASE", arguments_.path, "A point file, or a folder with a point.toml")->required();
+    command()
+        .add_option("--set", arguments_.set, "Change a key, for example --set temperature=\"300 degC\"")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command()
+        .add_option("-o,--output", arguments_.output, "Folder of the results; default results/FOLDER/FILE")
+        ->type_name("FOLDER");
+    add_trust_laws(command());
+    command().add_flag("--check-law", check_law_,
+                       "Check the law along the history instead: tangent, energy, isotropy, repetition");
+  }
+  ExitCode run() override { return check_law_ ? check_point_laws(arguments_) : run_point(arguments_); }
+
+ private:
+  PointArguments arguments_;
+  bool check_law_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> point_verb(CLI::App& program) {
+  return std::make_unique<Point>(program);
 }
 
 }  // namespace solidus::app

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 
-#include "app/verbs.hpp"
+#include "app/case_arguments.hpp"
+#include "app/verb.hpp"
 #include "build/case_layers.hpp"
 
 namespace solidus::app {
+
+namespace {
 
 ExitCode list_variants(const std::string& path) {
   const model::CaseName name = model::case_named(path);
@@ -23,6 +26,24 @@ ExitCode list_variants(const std::string& path) {
                                  : fmt::format("{:<{}}  {}\n", variant.name, widest, variant.title);
   print(out);
   return k_done;
+}
+
+class Variants final : public Verb {
+ public:
+  explicit Variants(CLI::App& program)
+      : Verb(program, "variants", "List the variants of a case, which run as CASE:VARIANT") {
+    command().add_option("CASE", path_, "A case file, or a folder with a case.toml")->required();
+  }
+  ExitCode run() override { return list_variants(path_); }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> variants_verb(CLI::App& program) {
+  return std::make_unique<Variants>(program);
 }
 
 }  // namespace solidus::app

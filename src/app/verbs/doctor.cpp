@@ -12,9 +12,10 @@
 #include <system_error>
 #include <thread>
 
+#include "app/case_arguments.hpp"
 #include "app/child_process.hpp"
 #include "app/python_tools.hpp"
-#include "app/verbs.hpp"
+#include "app/verb.hpp"
 #include "case/case_materials.hpp"
 #include "material/library.hpp"
 #include "mesh/raw_mesh.hpp"
@@ -180,9 +181,9 @@ std::string line(const Finding& finding, bool colours) {
   return fmt::format("{}  {:<10} {}\n", painted(word, colour, colours), finding.subject, finding.text);
 }
 
-}  // namespace
-
-ExitCode doctor() {
+/// Tries what runs need of the machine (reader of meshes, materials, room for results, several processes,
+/// Python for pictures) and prints a line for each. k_bad_input where no run is possible.
+ExitCode examine() {
   if (processes::count() > 1) throw InputError({}, "this verb runs on one process", "solidus without mpirun");
   const bool colours = has_colours(STDOUT_FILENO);
   print(fmt::format("Solidus {}, {}\n", program_version(), program_path().string()));
@@ -195,6 +196,19 @@ ExitCode doctor() {
   }
   print(ready ? "Cases can be run here.\n" : "Cases cannot be run here: see what fails.\n");
   return ready ? k_done : k_bad_input;
+}
+
+class Doctor final : public Verb {
+ public:
+  explicit Doctor(CLI::App& program)
+      : Verb(program, "doctor", "Say what this machine lacks for runs, several processes and pictures") {}
+  ExitCode run() override { return examine(); }
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> doctor_verb(CLI::App& program) {
+  return std::make_unique<Doctor>(program);
 }
 
 }  // namespace solidus::app

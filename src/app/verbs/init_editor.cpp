@@ -7,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/verbs.hpp"
+#include "app/case_arguments.hpp"
+#include "app/verb.hpp"
 #include "case/case_keys.hpp"
 #include "input/key_docs.hpp"
 #include "material/library.hpp"
@@ -78,8 +79,7 @@ bool ours(const fs::path& file) {
   return std::getline(in, line) && line.starts_with(k_marker);
 }
 
-}  // namespace
-
+/// Writes schemas and rules for editors into a folder; empty: the present one.
 ExitCode init_editor(const std::string& wanted) {
   const fs::path folder = wanted.empty() ? fs::path(".") : fs::path(wanted);
   if (!fs::is_directory(folder))
@@ -114,6 +114,24 @@ ExitCode init_editor(const std::string& wanted) {
       "Open this folder in VS Code with the extension Even Better TOML (tamasfe.even-better-toml), or in an\n"
       "editor with the language server Taplo: keys are completed, explained and checked as you type.\n");
   return k_done;
+}
+
+class InitEditor final : public Verb {
+ public:
+  explicit InitEditor(CLI::App& program)
+      : Verb(program, "init-editor", "Write schemas and rules with which editors check and complete cases") {
+    command().add_option("FOLDER", folder_, "Folder of the cases; default the present one");
+  }
+  ExitCode run() override { return init_editor(folder_); }
+
+ private:
+  std::string folder_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> init_editor_verb(CLI::App& program) {
+  return std::make_unique<InitEditor>(program);
 }
 
 }  // namespace solidus::app

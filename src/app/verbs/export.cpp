@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "app/verbs.hpp"
+#include "app/case_arguments.hpp"
+#include "app/verb.hpp"
 #include "results/med.hpp"
 #include "results/report/report_page.hpp"
 #include "results/vtkhdf.hpp"
@@ -18,6 +19,14 @@
 namespace solidus::app {
 
 namespace {
+
+struct ExportArguments {
+  std::string folder;                         ///< of a run
+  std::string calculix, abaqus, vtkhdf, med;  ///< file to write, exactly one of them
+  bool deformed = false;                      ///< coordinates with the displacement
+  bool temperature_history = false;           ///< the temperatures of all times as a load
+  bool trust_script = false;                  ///< as of CaseArguments
+};
 
 ExitCode export_fields(const ExportArguments& arguments) {
   if (arguments.deformed || arguments.temperature_history)
@@ -41,8 +50,6 @@ ExitCode export_fields(const ExportArguments& arguments) {
   say(results::write_med(folder / "fields.pvd", bodies, file));
   return k_done;
 }
-
-}  // namespace
 
 ExitCode export_state(const ExportArguments& arguments) {
   const auto formats = {&arguments.abaqus, &arguments.calculix, &arguments.vtkhdf, &arguments.med};
@@ -73,6 +80,42 @@ ExitCode export_state(const ExportArguments& arguments) {
         "  only contact held a part: {} further degrees of freedom hold its rigid motions in the file\n",
         report.supports));
   return k_done;
+}
+
+class Export final : public Verb {
+ public:
+  explicit Export(CLI::App& program)
+      : Verb(program, "export",
+             "Write what a run left for another program: its end as the "
+             "start of a structural analysis, or its fields") {
+    ExportArguments& a = arguments_;
+    command().add_option("FOLDER", a.folder, "Folder of the run's results")->required();
+    command()
+        .add_option("--calculix", a.calculix, "File for CalculiX: stress at every point")
+        ->type_name("FILE");
+    command().add_option("--abaqus", a.abaqus, "File for Abaqus: stress of the elements")->type_name("FILE");
+    command()
+        .add_option("--vtkhdf", a.vtkhdf, "One file with the fields of all times, for ParaView 5.12 or newer")
+        ->type_name("FILE");
+    command()
+        .add_option("--med", a.med, "One file with the fields of all times, for Salome and code_aster")
+        ->type_name("FILE");
+    command().add_flag("--deformed", a.deformed, "Deformed instead of nominal coordinates");
+    command().add_flag("--temperature-history", a.temperature_history,
+                       "With --calculix or --abaqus: the temperatures of all times as the load, no stress");
+    add_trust(command(), a.trust_script);
+    add_trust_laws(command());
+  }
+  ExitCode run() override { return export_state(arguments_); }
+
+ private:
+  ExportArguments arguments_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> export_verb(CLI::App& program) {
+  return std::make_unique<Export>(program);
 }
 
 }  // namespace solidus::app

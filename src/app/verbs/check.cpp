@@ -2,7 +2,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/verbs.hpp"
+#include "app/case_arguments.hpp"
+#include "app/verb.hpp"
 #include "case/stage_input.hpp"
 #include "run/session.hpp"
 
@@ -51,9 +52,7 @@ std::string stage_lines(const model::CaseSpec& spec) {
   return out;
 }
 
-}  // namespace
-
-ExitCode check(const CaseArguments& arguments) {
+ExitCode check_case(const CaseArguments& arguments) {
   const model::Case c = load_case(arguments);
   const model::CaseSpec& spec = c.spec;
   const model::CheckedRun checked = model::check_run(c);
@@ -76,6 +75,26 @@ ExitCode check(const CaseArguments& arguments) {
                                           *spec.time.step);
   print(out + "\nThe case is in order.\n");
   return k_done;
+}
+
+class Check final : public Verb {
+ public:
+  explicit Check(CLI::App& program) : Verb(program, "check", "Check a case: everything but solving") {
+    add_case(command(), arguments_);
+    add_physics(command(), arguments_);
+    add_trust(command(), arguments_.trust_script);
+    add_trust_laws(command());
+  }
+  ExitCode run() override { return check_case(arguments_); }
+
+ private:
+  CaseArguments arguments_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> check_verb(CLI::App& program) {
+  return std::make_unique<Check>(program);
 }
 
 }  // namespace solidus::app

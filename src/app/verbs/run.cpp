@@ -8,9 +8,11 @@
 #include <iostream>
 #include <optional>
 
+#include "app/case_arguments.hpp"
 #include "app/places.hpp"
+#include "app/report_page.hpp"
 #include "app/signals.hpp"
-#include "app/verbs.hpp"
+#include "app/verb.hpp"
 #include "app/watch.hpp"
 #include "build/mechanics_input.hpp"
 #include "build/time_input.hpp"
@@ -28,8 +30,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+struct RunArguments : CaseArguments {
+  std::string output;        ///< results folder; empty: by the case
+  bool progress_bar = true;  ///< on a terminal
+  bool restart = false;      ///< go on from the checkpoint
+  bool profile = false;      ///< show at the end where the time went
+  bool watch = false;        ///< serve the report while the run goes on
+  bool report = false;       ///< write the report at the end
+  bool sure = false;         ///< compare with runs beside it for the errors of the answers
+};
+
 /// -o, else the case's own wish (seen from the present folder), else results/CASE/VARIANT.
-fs::path results_folder(const CaseArguments& arguments, const model::Case& c) {
+fs::path results_folder(const RunArguments& arguments, const model::Case& c) {
   if (!arguments.output.empty()) return arguments.output;
   if (c.spec.output.folder) return *c.spec.output.folder;
   return results_root() / results::default_run_folder(c.file, c.variant);
@@ -42,7 +54,7 @@ std::string shown_path(const fs::path& folder) {
 }
 
 /// Runs the case, and what --sure asks for beside it.
-model::RunResult run_all(const CaseArguments& arguments, const model::Case& c,
+model::RunResult run_all(const RunArguments& arguments, const model::Case& c,
                          const model::RunOptions& options) {
   std::optional<results::Summary> summary;
   double displacement_error = 0;
@@ -68,9 +80,7 @@ model::RunResult run_all(const CaseArguments& arguments, const model::Case& c,
   return {};
 }
 
-}  // namespace
-
-ExitCode run(const CaseArguments& arguments) {
+ExitCode run_case(const RunArguments& arguments) {
   const model::Case c = load_case(arguments);
   if (arguments.sure && c.spec.time.steady)
     throw InputError(c.spec.time.where, "--sure compares answers of a transient run, and this case is steady",
@@ -92,7 +102,7 @@ ExitCode run(const CaseArguments& arguments) {
   const model::RunResult result = run_all(arguments, c, options);
   if (watch) watch->finish();
   note_folder(options.folder);  // a run that stopped is drawn as far as it came
-  if (arguments.report && rank == 0) write_report({.folders = {options.folder.string()}, .output = {}});
+  if (arguments.report && rank == 0) write_report({options.folder.string()}, {});
   if (!result.finished) {
     if (rank == 0)
       std::cerr << painted("solidus:", Colour::red, has_colours(STDERR_FILENO)) << " " << result.reason
@@ -104,6 +114,44 @@ ExitCode run(const CaseArguments& arguments) {
       "Results in {}.{}\n", folder,
       arguments.report ? std::string() : fmt::format(" Next: solidus report {0}; solidus plot {0}", folder)));
   return k_done;
+}
+
+class Run final : public Verb {
+ public:
+  explicit Run(CLI::App& program) : Verb(program, "run", "Run a case") {
+    RunArguments& a = arguments_;
+    add_case(command(), a);
+    command()
+        .add_option("-o,--output", a.output, "Folder of the results; default results/CASE/VARIANT")
+        ->type_name("FOLDER");
+    command().add_flag_callback(
+        "--no-progress", [&a] { a.progress_bar = false; }, "Print plain lines, also on a terminal");
+    command().add_flag("--restart", a.restart,
+                       "Continue a run that was stopped, from its checkpoint in the folder of the results");
+    command().add_flag("--profile", a.profile,
+                       "Print at the end where the wall time went (always in summary.json)");
+    command().add_flag(
+        "--report", a.report,
+        "Write report.html, a page for the browser, into the folder of the results at the end");
+    command().add_flag("--watch", a.watch,
+                       "Show the report while the run goes on, at an address of this machine alone");
+    command().add_flag("--sure", a.sure,
+                       "Run it twice more, with longer steps and with larger elements, for the errors of the "
+                       "answers; half to one and a half times its time again");
+    add_physics(command(), a);
+    add_trust(command(), a.trust_script);
+    add_trust_laws(command());
+  }
+  ExitCode run() override { return run_case(arguments_); }
+
+ private:
+  RunArguments arguments_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> run_verb(CLI::App& program) {
+  return std::make_unique<Run>(program);
 }
 
 }  // namespace solidus::app

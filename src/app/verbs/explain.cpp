@@ -5,8 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include "app/verbs.hpp"
+#include "app/case_arguments.hpp"
+#include "app/declared_files.hpp"
+#include "app/verb.hpp"
 #include "coupling/all_fields.hpp"
+#include "input/key_docs.hpp"
 #include "input/keys.hpp"
 #include "mechanics/quantities.hpp"
 #include "quantities/names.hpp"
@@ -112,8 +115,10 @@ std::string json_of_fields() {
   return document.text();
 }
 
-}  // namespace
+enum class ExplainedAs { text, manual, json };
 
+/// The fields that a run can have (coupling/all_fields.hpp).
+/// @param field  one of them; empty: all
 ExitCode explain_fields(const std::string& field, ExplainedAs form) {
   if (!field.empty()) {
     const Quantity* known = coupling::find_field(field);
@@ -127,6 +132,40 @@ ExitCode explain_fields(const std::string& field, ExplainedAs form) {
                                       : list_of_fields());
   }
   return k_done;
+}
+
+class Explain final : public Verb {
+ public:
+  explicit Explain(CLI::App& program)
+      : Verb(program, "explain", "Explain a key of the case file, or list all") {
+    command().add_option("KEY", key_, "For example time.step");
+    command().add_flag("--manual", manual_, "The reference manual of all keys, in Markdown");
+    CLI::Option* of_fields =
+        command().add_flag("--fields", fields_, "Fields of results instead of keys; KEY is one of them");
+    command().add_flag("--json", json_, "With --fields: for other programs")->needs(of_fields);
+    file_.add_options(command());
+    for (const char* other : {"--material", "--point"}) of_fields->excludes(command().get_option(other));
+  }
+  ExitCode run() override {
+    if (fields_)
+      return explain_fields(key_, json_     ? ExplainedAs::json
+                                  : manual_ ? ExplainedAs::manual
+                                            : ExplainedAs::text);
+    const ChosenFile::Declared of = file_.declared();
+    print(manual_ ? reference_manual(of.keys, of.reference) : solidus::explain(of.keys, key_));
+    return k_done;
+  }
+
+ private:
+  std::string key_;
+  bool manual_ = false, fields_ = false, json_ = false;
+  ChosenFile file_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> explain_verb(CLI::App& program) {
+  return std::make_unique<Explain>(program);
 }
 
 }  // namespace solidus::app

@@ -1,0 +1,80 @@
+/// The verb `new`: from a geometry to a case.
+#include <fmt/format.h>
+
+#include "app/case_arguments.hpp"
+#include "app/verb.hpp"
+#include "new_case/new_case.hpp"
+
+namespace solidus::app {
+
+namespace {
+
+struct NewArguments {
+  std::string geometry, alloy, folder, symmetry, riser;
+  std::string process = "sand", unit;
+  std::vector<std::string> as;  ///< "NAME=role"
+  double fineness = 1;
+  int shots = 0;  ///< zero: not given
+};
+
+ExitCode new_case(const NewArguments& arguments) {
+  model::NewCaseOptions options;
+  options.geometry = arguments.geometry;
+  options.process = arguments.process;
+  options.alloy = arguments.alloy;
+  options.unit = arguments.unit;
+  options.symmetry = arguments.symmetry;
+  options.as = arguments.as;
+  options.folder = arguments.folder;
+  options.fineness = arguments.fineness;
+  options.shots = arguments.shots;
+  if (!arguments.riser.empty() && arguments.riser != "auto")
+    throw InputError({"--riser"}, fmt::format("'{}' is no riser", arguments.riser), "--riser auto");
+  options.riser = arguments.riser == "auto";
+  if (!(options.fineness >= 0.3 && options.fineness <= 5))
+    throw InputError({"--fineness"}, fmt::format("{:g} is out of range", options.fineness), "0.3 to 5");
+  const model::NewCaseReport report = model::make_new_case(options);
+  print(fmt::format("{}\nWritten to {}. Next: solidus check {}; solidus run --heat-only {}\n", report.text,
+                    report.file.string(), report.file.parent_path().string(),
+                    report.file.parent_path().string()));
+  return k_done;
+}
+
+class New final : public Verb {
+ public:
+  explicit New(CLI::App& program)
+      : Verb(program, "new", "Make a case that runs from the geometry of a casting") {
+    NewArguments& a = arguments_;
+    command().add_option("PART", a.geometry, "A STEP, BREP, IGES or STL file, or a mesh")->required();
+    command().add_option("--alloy", a.alloy,
+                         "What is cast, always needed: an alloy of `solidus materials`, or a file");
+    command().add_option("--process", a.process, "sand, shell, gravity_die or high_pressure; default sand");
+    command()
+        .add_option("--shots", a.shots,
+                    "Castings in a row into one die, which stays warm; for gravity_die and high_pressure")
+        ->check(CLI::Range(1, 10000))
+        ->type_name("N");
+    command().add_option("--riser", a.riser, "auto: put a riser on the thickest place");
+    command().add_option("--symmetry", a.symmetry, "x, y or z: keep half of the part, below its middle");
+    command()
+        .add_option("--as", a.as, "What a body of the file is, NAME=ROLE, for example --as Box_2=chill")
+        ->allow_extra_args(false);
+    command().add_option("--unit", a.unit,
+                         "Unit of length of the file; default what STEP and IGES files say, else mm");
+    command().add_option("--fineness", a.fineness,
+                         "So many times as many elements along each edge; default 1");
+    command().add_option("-o,--output", a.folder, "Folder for the case; default the file's name, here");
+  }
+  ExitCode run() override { return new_case(arguments_); }
+
+ private:
+  NewArguments arguments_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> new_case_verb(CLI::App& program) {
+  return std::make_unique<New>(program);
+}
+
+}  // namespace solidus::app
