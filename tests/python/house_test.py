@@ -1,0 +1,52 @@
+"""The figures of the sources: what the scanner counts, and that it reads all of them."""
+
+import unittest
+
+from solidus_docs import house, links
+
+TEXT = '''
+namespace solidus {
+// class NotThis { void f(); };
+class Small final : public Base {
+ public:
+  explicit Small(int a) : a_(a) { use("{"); }
+  int twice() const { return 2 * a_; }
+  void set(int a);
+
+ private:
+  void hidden();
+  int a_, b_ = 0;
+  std::map<int, int> both_{};
+};
+struct Data {
+  double x = 0;
+  double y = 0;
+};
+template <class T>
+int count(const T& list) {
+  if (list.empty()) {
+    return 0;
+  }
+  const auto f = [&](int i) { return i; };
+  return f(1);
+}
+}  // namespace solidus
+'''
+
+
+class House(unittest.TestCase):
+    def test_counts_methods_members_and_lines(self):
+        functions, classes = house.scan(TEXT, "text.hpp")
+        self.assertEqual([(c.name, c.methods, c.members) for c in classes], [("Data", 0, 2), ("Small", 3, 3)][::-1])
+        self.assertEqual({f.name: f.lines for f in functions}, {"Small": 1, "twice": 1, "count": 7})
+
+    def test_reads_all_rooms(self):
+        found = house.house(links.ROOT)
+        self.assertEqual(set(found.rooms), {path.name for path in (links.ROOT / "src").iterdir() if path.is_dir()})
+        text = house.text_of(found)
+        self.assertIn("functions, the median has", text)
+        self.assertIn("classes,", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
