@@ -63,6 +63,13 @@ TEST(ComparedAnswers, AreToldWithTheirError) {
   EXPECT_THAT(text(a, {}), HasSubstr("froze 12350 ± 140 s (step 130, mesh 14) after pouring"));
 }
 
+TEST(Answers, OfACriterionWithAThresholdTellTheShareThatIsBeyond) {
+  const std::string told = text(off_by(0), {{"tearing_tendency_max", "1", 276.6, true, {}},
+                                            {"tearing_tendency_beyond", "1", 0.25, false, {}}});
+  EXPECT_THAT(told, HasSubstr("tearing tendency, ends held         above 1 in 25 % of what was cast; largest "
+                              "276.6 at (0, 0, 0) m"));
+}
+
 // A runner is poured as the part is, and nobody asks whether it is sound.
 TEST(Soundness, IsToldBodyByBodyAndOfThePartsAlone) {
   Answers a;
