@@ -81,8 +81,8 @@ TEST_F(WayTooLong, IsEndedAndAnotherOneGivesTheMesh) {
   write("part.stl", box_of_triangles());
   mesh::KeptMesh kept;
   kept.leave_to_direct_ways(1);
-  const mesh::CastingGeometry geometry{
-      .sizes = {{.body = "part", .size = 5 * k_mm, .smallest = 5 * k_mm, .across = 0}}};
+  mesh::CastingGeometry geometry;
+  geometry.sizes = {{.body = "part", .size = 5 * k_mm, .smallest = 5 * k_mm, .across = 0}};
   const mesh::RawMesh mesh =
       mesh::mesh_casting({.path = (folder_ / "part.stl").string(), .unit_in_metres = k_mm}, geometry);
   EXPECT_THAT(progress_, Contains(HasSubstr("took longer than 1 s and was ended; another way is tried")));
