@@ -15,7 +15,7 @@ enum Slot : std::size_t {
   k_gradient,   ///< [K/m]
   k_magnitude,  ///< mean of the magnitudes of the elements' gradients [K/m]
   k_mode,
-  // When the solid fraction passed 0.6, 0.9 and 0.99 (criteria/hot_tearing.hpp).
+  // When the solid fraction passed 0.4, 0.9 and 0.99 (criteria/hot_tearing.hpp).
   k_healed_at,
   k_vulnerable_at,
   k_safe_at,

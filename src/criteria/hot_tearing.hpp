@@ -14,7 +14,7 @@
 /// isothermal change. Validity: columnar freezing, strain across the direction of growth.
 ///
 /// *Clyne and Davies.* t_V/t_R, the time between f = 0.9 and 0.99, when melt no longer heals a strain, over
-/// that between 0.6 and 0.9, when it still does.
+/// that between 0.4 and 0.9, when it still does.
 ///
 /// *Kou.* |dT/d√f| near the end of freezing, here from f = 0.87 to the root: the steeper, the longer grains
 /// stay apart while they contract.
@@ -35,7 +35,7 @@ namespace solidus::criteria {
 
 /// Solid fractions at which grains bridge, and between which the ratio of Clyne and Davies takes its times.
 inline constexpr double k_bridged = 0.98;
-inline constexpr double k_healed_from = 0.6, k_vulnerable_from = 0.9, k_vulnerable_to = 0.99;
+inline constexpr double k_healed_from = 0.4, k_vulnerable_from = 0.9, k_vulnerable_to = 0.99;
 
 /// What an alloy says of the strain rate that its melt can feed.
 class TearingLaw {

@@ -153,7 +153,7 @@ inline constexpr Quantity k_vulnerable_share{
     .name = "vulnerable_share",
     .unit = "1",
     .label = "Cracking susceptibility (Clyne, Davies)",
-    .doc = "Time between solid fractions of 0.9 and 0.99 over that between 0.6 and 0.9, by Clyne and Davies",
+    .doc = "Time between solid fractions of 0.9 and 0.99 over that between 0.4 and 0.9, by Clyne and Davies",
     .group = quantities::Group::criteria,
     .needs = {.heat = true, .melting = true},
     .no_value = -1,

@@ -53,5 +53,47 @@ TEST(HotTearing, RanksAlloysAsFoundriesDo) {
   }
 }
 
+const std::string k_linear_alloy = R"(title = "An alloy that freezes evenly over its range"
+[density]
+value = "2500 kg/m3"
+source = "made"
+[conductivity]
+value = "1000 W/m/K"
+source = "made"
+[specific_heat]
+value = "1000 J/kg/K"
+source = "made"
+[[phase_change]]
+name = "solidification"
+solidification = true
+latent_heat = "400 kJ/kg"
+volume_change = -0.05
+source = "made"
+[phase_change.fraction]
+kind = "table"
+temperatures = ["600 degC", "500 degC"]
+fractions = [0, 1]
+)";
+
+// A small block that loses heat at an even rate has an enthalpy, and with these data a solid fraction, that
+// is linear in time: 0.09 of the time of freezing over 0.5 of it.
+TEST(HotTearing, ClyneAndDaviesOfAnEvenFreezing) {
+  k_here.write("linear.toml", k_linear_alloy);
+  std::string text =
+      "title = \"A drop\"\n[analysis]\nkind = \"plane_strain\"\nphysics = \"heat\"\n[mesh]\nshape = "
+      "\"block\"\nelement "
+      "= \"quad4\"\n[mesh.block]\nsize = [\"1 mm\", \"1 mm\"]\ndivisions = [1, 1]\n[time]\nend = \"15 "
+      "s\"\nstep = "
+      "\"0.1 s\"\n[[body]]\nname = \"block\"\nmaterial = \"linear.toml\"\ninitial_temperature = \"620 "
+      "degC\"\n[[probe]]\nname = \"share\"\nfield = \"vulnerable_share\"\nkind = \"mean\"\ngroup = "
+      "\"block\"\nunit = \"1\"\n";
+  for (const char* side : {"x_min", "x_max", "y_min", "y_max"})
+    text += std::string("[[thermal_condition]]\nname = \"") + side + "\"\ngroup = \"" + side +
+            "\"\nkind = \"flux\"\nflux = \"-25000 W/m2\"\n";
+  const CaseRun run = k_here.run("drop", text, {});
+  ASSERT_TRUE(run.finished) << run.reason;
+  EXPECT_NEAR(run.history.at("share[1]").back(), 0.09 / 0.5, 1e-3);
+}
+
 }  // namespace
 }  // namespace solidus
