@@ -1,4 +1,4 @@
-/// What several verbs take on the command line: a case with changes, and what the user trusts.
+/// Arguments that several verbs share: a case with changes of its keys, and what the user trusts.
 #pragma once
 
 #include <string>

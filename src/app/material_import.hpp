@@ -1,4 +1,4 @@
-/// What `materials import` and `materials scheil` do.
+/// The work of the verbs `materials import` and `materials scheil`.
 #pragma once
 
 #include <string>

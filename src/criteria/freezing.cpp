@@ -43,9 +43,9 @@ double vulnerable_share(const double* h) {
   return (h[k_safe_at] - h[k_vulnerable_at]) / (h[k_vulnerable_at] - h[k_healed_at]);
 }
 
-/// Of each body that expands and freezes over a range α L/ΔT_f, else zero [m/K²]: a body of the length L that
-/// cools with Ṫ while its ends are held strains a mush of the thickness ΔT_f/G, where all of its contraction
-/// goes, with the rate α Ṫ L G/ΔT_f. Collective.
+/// α L/ΔT_f of each body that expands and freezes over a range, zero of the others [m/K²]. A body of the
+/// length L that cools with Ṫ while its ends are held strains a mush of the thickness ΔT_f/G with the rate α
+/// Ṫ L G/ΔT_f, if all of its contraction goes there. Collective.
 std::vector<double> held_mush(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage) {
   const std::size_t n_bodies = mesh.bodies.size();
   std::vector<mesh::Point> low(n_bodies), high(n_bodies);

@@ -1,4 +1,4 @@
-/// What the criteria of freezing tell at the end of a run.
+/// Findings of the criteria of freezing at the end of a run.
 #include "criteria/freezing.hpp"
 #include "criteria/freezing_history.hpp"
 #include "criteria/gather.hpp"
@@ -6,7 +6,8 @@
 
 namespace solidus::criteria {
 
-/// Of each field with a threshold the share of the volume that has the field in which it is beyond.
+/// The share of the volume in which a field is beyond its threshold, for each field with one; the volume is
+/// that which has a value of the field.
 std::vector<CriterionResult> Freezing::shares_beyond(const CriterionRecord& record,
                                                      std::span<const double> speeds) const {
   std::vector<CriterionResult> shares;

@@ -14,7 +14,7 @@
 /// isothermal change. Validity: columnar freezing, strain across the direction of growth.
 ///
 /// *Clyne and Davies.* t_V/t_R, the time between f = 0.9 and 0.99, when melt no longer heals a strain, over
-/// that between 0.4 and 0.9, when it still does.
+/// that between 0.4 and 0.9, when it still does; fractions as public implementations take them.
 ///
 /// *Kou.* |dT/d√f| near the end of freezing, here from f = 0.87 to the root: the steeper, the longer grains
 /// stay apart while they contract.
@@ -37,7 +37,7 @@ namespace solidus::criteria {
 inline constexpr double k_bridged = 0.98;
 inline constexpr double k_healed_from = 0.4, k_vulnerable_from = 0.9, k_vulnerable_to = 0.99;
 
-/// What an alloy says of the strain rate that its melt can feed.
+/// The strain rate that the melt of an alloy can feed, from its freezing curve, viscosity and shrinkage.
 class TearingLaw {
  public:
   /// @param curve      (T [K], f) from low to high temperature

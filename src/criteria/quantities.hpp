@@ -136,8 +136,8 @@ inline constexpr Quantity k_tearing_tendency{
     .unit = "1",
     .label = "Tearing tendency (ends held)",
     .doc =
-        "Strain rate of the mush if the ends of the casting were held, over the critical one: below 1 it "
-        "does not tear",
+        "Drop of the melt's pressure if the ends of the casting were held and all of it cooled as this place "
+        "does, over the critical one: above 1 a tear may open",
     .group = quantities::Group::criteria,
     .needs = {.heat = true, .melting = true},
     .no_value = -1,

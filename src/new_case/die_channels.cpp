@@ -18,6 +18,8 @@ namespace {
 using mesh::Point;
 using mesh::SkinFace;
 
+constexpr double k_viscosity = 0.80e-6;  ///< ν of water at 30 °C [m²/s]
+
 /// The faces of a skin that a surface group holds.
 std::vector<const SkinFace*> faces_in(const mesh::RawGroup& group, const std::vector<SkinFace>& skin) {
   std::unordered_set<mesh::FaceKey, mesh::FaceKeyHash> keys;
@@ -96,6 +98,7 @@ DieChannel bore(const std::vector<const SkinFace*>& part, double radius) {
 std::vector<DieChannel> die_channels(const mesh::RawMesh& mesh, const std::string& die,
                                      const std::string& free, const std::vector<std::string>& shared) {
   constexpr double k_slender = 2;  // a channel is so many times as long as it is wide; a hollow is not
+  constexpr double k_narrowest = 4e-3, k_widest = 25e-3;  // [m]
   const std::vector<SkinFace> skin = mesh::skin_of(mesh, die);
   const std::vector<const SkinFace*> faces = faces_in(mesh.groups.at(free), skin);
   const mesh::SmoothParts parts = mesh::smooth_parts(faces, mesh::k_smooth_bend, mesh.drawn_faces);
@@ -109,7 +112,9 @@ std::vector<DieChannel> die_channels(const mesh::RawMesh& mesh, const std::strin
     });
     if (opens) continue;
     DieChannel channel = bore(part, radius_of(*part.front(), mesh.drawn_faces));
-    if (!(channel.diameter > 0) || channel.length < k_slender * channel.diameter) continue;
+    if (channel.diameter < k_narrowest || channel.diameter > k_widest ||
+        channel.length < k_slender * channel.diameter)
+      continue;
     channel.die = die;
     channels.push_back(channel);
   }
@@ -117,10 +122,14 @@ std::vector<DieChannel> die_channels(const mesh::RawMesh& mesh, const std::strin
   return channels;
 }
 
+double speed_of_water(double diameter) {
+  constexpr double k_usual = 1, k_turbulent = 1e4;
+  return std::max(k_usual, k_turbulent * k_viscosity / diameter);
+}
+
 double film_of_water(double diameter) {
-  // Of water at 30 °C: k [W/(m K)], ν [m²/s], Pr; at 1 m/s.
-  constexpr double k_conductivity = 0.615, k_viscosity = 0.80e-6, k_prandtl = 5.4, k_speed = 1;
-  const double reynolds = k_speed * diameter / k_viscosity;
+  constexpr double k_conductivity = 0.615, k_prandtl = 5.4;  // at 30 °C
+  const double reynolds = speed_of_water(diameter) * diameter / k_viscosity;
   return 0.023 * std::pow(reynolds, 0.8) * std::pow(k_prandtl, 0.4) * k_conductivity / diameter;
 }
 

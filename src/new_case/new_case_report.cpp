@@ -1,9 +1,11 @@
 #include "new_case/new_case_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "case/roles.hpp"
 #include "mesh/casting_geometry.hpp"
@@ -120,20 +122,23 @@ std::string overlap_text(const DraftEstimate& estimate) {
 
 /// The channels of a die; empty where its drawing has none.
 std::string channels_text(const Draft& draft, const std::string& die) {
-  std::string widths;
+  std::set<std::string> widths;
   int number = 0;
+  double speed = 0;
   for (const DieChannel& c : draft.channels) {
     if (c.die != die) continue;
-    const std::string width = fmt::format("{:.3g}", 1e3 * c.diameter);
-    if (widths.find(width) == std::string::npos) widths += (number > 0 ? ", " : "") + width;
+    widths.insert(fmt::format("{:.3g}", 1e3 * c.diameter));
+    speed = std::max(speed, speed_of_water(c.diameter));
     ++number;
   }
   if (number == 0) return "";
   return fmt::format(
-      "\n  channels    {} bore{} of {} mm in {}, with water at 30 degC and 1 m/s: an estimate. A hole that "
-      "is "
-      "no channel: delete its [[thermal_condition]] water_in_{}_channel_…",
-      number, number > 1 ? "s" : "", widths, die, die);
+      "\n  channels    {} bore{} of {} mm in {}, with water at 30 degC and {}{:.2g} m/s, and the outside of "
+      "the "
+      "die cooled by air alone: estimates. A hole that is no channel: delete its [[thermal_condition]] "
+      "water_in_{}_channel_…",
+      number, number > 1 ? "s" : "", fmt::join(widths, ", "), die, speed > 1 && number > 1 ? "1 to " : "",
+      speed, die);
 }
 
 }  // namespace

@@ -155,10 +155,10 @@ std::string channel_films_text(const Draft& d) {
   std::string t;
   for (const DieChannel& c : d.channels)
     t += fmt::format(
-        "[[thermal_condition]]   # taken for a cooling channel: water at 1 m/s, Dittus and Boelter\n"
+        "[[thermal_condition]]   # taken for a cooling channel: water at {2:.2g} m/s, Dittus and Boelter\n"
         "name = \"water_in_{0}\"\ngroup = \"{0}\"\nkind = \"film\"\ncoefficient = \"{1:g} W/m2/K\"\n"
         "ambient = \"30 degC\"\n\n",
-        name_of(d, c), two_digits(film_of_water(c.diameter)));
+        name_of(d, c), two_digits(film_of_water(c.diameter)), speed_of_water(c.diameter));
   return t;
 }
 

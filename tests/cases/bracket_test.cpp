@@ -59,7 +59,11 @@ TEST(Bracket, TakesFewIterationsWithAnIterativeSolverToo) {
   ASSERT_TRUE(run.finished) << run.reason;
   EXPECT_LE(mean(run.steps.at("mechanics_iterations[1]")), 5.5);                     // measured: 4.8
   EXPECT_LE(std::ranges::max(run.steps.at("mechanics_linear_iterations[1]")), 800);  // 620
-  EXPECT_LE(mean(run.steps.at("rejected[1]")), 0.02);  // one of 58 steps, too long by its heat
+  // The first step has the size that the case asks for, and may be too long by its heat; no other one is
+  // tried in vain.
+  const std::vector<double>& rejected = run.steps.at("rejected[1]");
+  EXPECT_LE(rejected.front(), 1);
+  EXPECT_EQ(std::count_if(rejected.begin() + 1, rejected.end(), [](double tries) { return tries > 0; }), 0);
 }
 
 /// Heat alone, nothing set but the data of the case. Returns when 99 % of the part are solid [s].

@@ -260,6 +260,54 @@ TEST(NewCase, TheWayOfMeshingThatACaseNamesIsTheOnlyOne) {
   EXPECT_THROW(mesh::mesh_casting(source, geometry), solidus::InputError);
 }
 
+/// A plate of 60 x 40 x 10 mm in a die of 100 x 80 x 50 mm with a bore of 10 mm along x, 13 mm below the
+/// plate.
+std::filesystem::path die_with_a_bore() {
+  fs::create_directories(root());
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::model::add("die with a bore");
+  namespace occ = gmsh::model::occ;
+  const int plate = occ::addBox(20, 20, 25, 60, 40, 10), die = occ::addBox(0, 0, 0, 100, 80, 50),
+            bore = occ::addCylinder(0, 40, 12, 100, 0, 0, 5);
+  gmsh::vectorpair all;
+  std::vector<gmsh::vectorpair> map;
+  occ::cut({{3, die}}, {{3, plate}}, all, map, -1, true, false);
+  const gmsh::vectorpair hollow = all;
+  occ::cut(hollow, {{3, bore}}, all, map);
+  occ::synchronize();
+  gmsh::write((root() / "die_with_a_bore.step").string());
+  gmsh::finalize();
+  return root() / "die_with_a_bore.step";
+}
+
+TEST(NewCase, ADrawnDieWithABoreHasWaterInItAndAirOutside) {
+  solidus::model::NewCaseOptions options;
+  options.geometry = die_with_a_bore();
+  options.alloy = "aluminium_alsi7mg";
+  options.process = "gravity_die";
+  options.as = {"body_1=casting", "body_2=die"};
+  options.fineness = 0.5;
+  options.shots = 3;
+  options.folder = root() / "die_with_a_bore";
+  fs::remove_all(options.folder);
+  const solidus::model::NewCaseReport report = solidus::model::make_new_case(options);
+  EXPECT_THAT(report.text, HasSubstr("1 bore of 10 mm in "));
+  EXPECT_THAT(report.text, HasSubstr("the outside of the die cooled by air alone"));
+  EXPECT_THAT(report.text,
+              Not(HasSubstr("W/m2/K outside the die take")));  // the lumped film of a die without
+  const solidus::model::Case c = solidus::model::load_case(report.file, {}, solidus::model::Physics::heat);
+  const auto film_on = [&](const std::string& group) {
+    for (const auto& condition : c.spec.thermal_conditions)
+      if (condition.group == group) return condition;
+    throw std::runtime_error("no film on " + group);
+  };
+  EXPECT_THAT(film_on("body_2_channel_1").name, HasSubstr("water"));
+  EXPECT_THAT(film_on("body_2_free").name, HasSubstr("air"));
+  const solidus::model::CheckedRun checked = solidus::model::check_run(c);
+  EXPECT_GT(checked.overview.bodies.size(), 1U);
+}
+
 TEST(NewCase, SaysThatAPartIsNotSymmetric) {
   solidus::model::NewCaseOptions options;
   options.geometry = hollow_box();

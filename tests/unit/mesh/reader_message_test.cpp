@@ -10,6 +10,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "mesh/parametric_meshes.hpp"
@@ -60,10 +61,16 @@ TEST(ReaderMessage, ARequestArrivesAsItWas) {
 TEST(ReaderMessage, AMeshArrivesAsItWas) {
   RawMesh mesh = make_block({{1, 2}, {}, {3, 4}}, Shape::quad8);
   mesh.centre_of_volume = Point{0.5, 1, 0};
+  mesh.drawn_faces = {{{{-1, 0, 1, 2}, {0, 1, 2, 3}}, 0.004}, {{{-1, 3, 4, 5}}, 0}};
   Pipe pipe;
   put_mesh(mesh, pipe.put);
   const RawMesh back = take_mesh(pipe.take, 1e9);
   EXPECT_EQ(back.centre_of_volume, mesh.centre_of_volume);
+  ASSERT_EQ(back.drawn_faces.size(), 2u);
+  for (std::size_t f = 0; f < 2; ++f) {
+    EXPECT_EQ(back.drawn_faces[f].facets, mesh.drawn_faces[f].facets);
+    EXPECT_EQ(back.drawn_faces[f].radius, mesh.drawn_faces[f].radius);
+  }
   EXPECT_EQ(back.dimension, mesh.dimension);
   EXPECT_EQ(back.x, mesh.x);
   EXPECT_EQ(back.input_node, mesh.input_node);
@@ -95,9 +102,24 @@ TEST(ReaderMessage, WhatIsNoMeshIsRefused) {
   EXPECT_THROW(take_mesh(wrong.take, 1e9), std::runtime_error) << "a node that is not there";
 }
 
+TEST(ReaderMessage, AFaceOfADrawingThatIsNoneIsRefused) {
+  const double no_number = std::numeric_limits<double>::quiet_NaN();
+  for (const DrawnFace& wrong :
+       {DrawnFace{{}, 0}, DrawnFace{{{-1, 0, 1, 1000}}, 0}, DrawnFace{{{-2, 0, 1, 2}}, 0},
+        DrawnFace{{{-1, 0, 1, 2}}, -1}, DrawnFace{{{-1, 0, 1, 2}}, no_number}}) {
+    RawMesh mesh = make_block({{1, 2}, {}, {3, 4}}, Shape::quad4);
+    mesh.drawn_faces = {wrong};
+    Pipe pipe;
+    put_mesh(mesh, pipe.put);
+    EXPECT_THROW(take_mesh(pipe.take, 1e9), std::runtime_error);
+  }
+}
+
 TEST(ReaderMessage, ADamagedByteNeverTakesTheProgramDown) {
   Pipe good;
-  put_mesh(make_block({{1, 2}, {}, {3, 4}}, Shape::quad4), good.put);
+  RawMesh whole = make_block({{1, 2}, {}, {3, 4}}, Shape::quad4);
+  whole.drawn_faces = {{{{-1, 0, 1, 2}}, 0.004}};
+  put_mesh(whole, good.put);
   for (std::size_t i = 0; i < good.bytes.size(); i += 3) {
     Pipe damaged;
     damaged.bytes = good.bytes;

@@ -2,8 +2,12 @@
 #include <gmsh.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "mesh/face_rules.hpp"
 #include "mesh/raw_mesh.hpp"
@@ -73,6 +77,37 @@ TEST(DieChannels, HaveTheFilmOfTurbulentWater) {
   // Re = 12 500 at 10 mm, Nu = 0.023 · 12500^0.8 · 5.4^0.4 = 85.6.
   EXPECT_NEAR(model::film_of_water(10e-3), 85.6 * 0.615 / 10e-3, 5);
   EXPECT_NEAR(model::film_of_water(20e-3) / model::film_of_water(10e-3), 0.8706, 1e-3);  // 2^−0.2
+  // In a narrow one as much faster as makes Re = 10 000.
+  EXPECT_DOUBLE_EQ(model::speed_of_water(8e-3), 1);
+  EXPECT_DOUBLE_EQ(model::speed_of_water(4e-3), 2);
+  EXPECT_NEAR(model::film_of_water(4e-3), 0.023 * std::pow(1e4, 0.8) * std::pow(5.4, 0.4) * 0.615 / 4e-3, 5);
+}
+
+TEST(DieChannels, AreAsWideAsChannelsAreMade) {
+  const std::string file = (std::filesystem::path(SOLIDUS_BINARY_DIR) / "block_with_odd_bores.step").string();
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::model::add("block");
+  namespace occ = gmsh::model::occ;
+  const int block = occ::addBox(0, 0, 0, 100, 60, 60);
+  gmsh::vectorpair cut, bores;
+  std::vector<gmsh::vectorpair> map;
+  for (const auto& [x, diameter] : {std::pair{10, 3.0}, {25, 5.0}, {45, 24.0}, {80, 28.0}})
+    bores.emplace_back(3, occ::addCylinder(x, 0, 30, 0, 60, 0, diameter / 2));
+  occ::cut({{3, block}}, bores, cut, map);
+  occ::synchronize();
+  gmsh::write(file);
+  gmsh::finalize();
+  mesh::RawMesh mesh = mesh::read_mesh(file, k_mm, 6e-3);
+  mesh::validate_and_orient(mesh, file);
+  mesh::add_faces_by_rule(mesh, {"body_1"}, {.name = "free", .owner = "body_1"}, file);
+  std::vector<double> widths;
+  for (const model::DieChannel& channel : model::die_channels(mesh, "body_1", "free", {}))
+    widths.push_back(1e3 * channel.diameter);
+  std::ranges::sort(widths);
+  ASSERT_EQ(widths.size(), 2U);
+  EXPECT_NEAR(widths[0], 5, 1e-6);
+  EXPECT_NEAR(widths[1], 24, 1e-6);
 }
 
 }  // namespace
