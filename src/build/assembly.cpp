@@ -115,7 +115,14 @@ void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_te
                                                              std::move(options), contributions);
   a.phases.mechanics = a.mechanics.get();
   a.coherency = std::make_unique<coupling::Coherency>(a.mesh, a.materials, a.mechanics->active());
-  if (a.coherency->melts()) a.phases.coherency = a.coherency.get();
+  if (!a.coherency->melts()) return;
+  a.phases.coherency = a.coherency.get();
+  std::vector<std::string> in_contact;
+  for (const auto& pair : a.contacts)
+    for (const std::string& surface : {pair->spec().slave, pair->spec().master})
+      if (surface != pair->spec().master || !pair->spec().rigid_master) in_contact.push_back(surface);
+  a.skin = std::make_unique<coupling::SkinShare>(a.mesh, spec.analysis.kind, in_contact, *a.coherency);
+  if (a.skin->any()) a.phases.skin = a.skin.get();
 }
 
 void build_heat(const CaseSpec& spec, const InitialTemperatures& start, Assembly& a) {

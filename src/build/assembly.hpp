@@ -22,6 +22,7 @@ struct Assembly {
   std::unique_ptr<mechanics::StructuralHeat> structural;
   std::unique_ptr<heat::ThermalPhase> heat;
   std::unique_ptr<coupling::Coherency> coherency;  ///< null: nothing that deforms melts
+  std::unique_ptr<coupling::SkinShare> skin;       ///< the same
   std::unique_ptr<criteria::Criteria> criteria;    ///< null: nothing is followed
   coupling::Phases phases;
   coupling::State initial;

@@ -28,6 +28,7 @@ void check_limits(const TimeSpec& t, const CaseSpec& spec) {
     refuse(t, t.error_control != ErrorControl::predictor, "error_control", needs, "adaptive = true");
     refuse(t, errors, error_key, needs, "adaptive = true");
     refuse(t, t.solid_fraction_change.has_value(), "solid_fraction_change", needs, "adaptive = true");
+    refuse(t, t.skin_change.has_value(), "skin_change", needs, "adaptive = true");
   }
   refuse(t, errors && t.error_control == ErrorControl::none, error_key, "with error_control = \"none\"",
          "error_control = \"predictor\" or \"doubling\"");
@@ -36,10 +37,13 @@ void check_limits(const TimeSpec& t, const CaseSpec& spec) {
            "displacement_error");
     refuse(t, t.solid_fraction_change.has_value(), "solid_fraction_change", "in an analysis without heat",
            "displacement_error");
+    refuse(t, t.skin_change.has_value(), "skin_change", "in an analysis without heat", "displacement_error");
   }
   refuse(t, !spec.has_mechanics() && t.displacement_error, "displacement_error",
          "in an analysis without mechanics", "temperature_error");
   refuse(t, !spec.has_mechanics() && t.stress_error, "stress_error", "in an analysis without mechanics",
+         "temperature_error");
+  refuse(t, !spec.has_mechanics() && t.skin_change, "skin_change", "in an analysis without mechanics",
          "temperature_error");
 }
 
@@ -69,6 +73,7 @@ coupling::StepOptions step_options(const TimeSpec& t, double step) {
   options.limits.temperature = t.temperature_error.value_or(1.0);
   options.limits.stress = t.stress_error.value_or(0.005);
   options.limits.solid_fraction = t.solid_fraction_change.value_or(0.1);
+  options.limits.skin = t.skin_change.value_or(0.08);
   return options;
 }
 

@@ -162,7 +162,7 @@ struct TimeSpec {
   coupling::ErrorControl error_control = coupling::ErrorControl::predictor;
   std::optional<double> temperature_error, displacement_error;  ///< local, of a step [K], [m]
   std::optional<double> stress_error;                           ///< local, share of the stress [1]
-  std::optional<double> solid_fraction_change;                  ///< in a step
+  std::optional<double> solid_fraction_change, skin_change;     ///< in a step [1]
   SourceLocation where;
 };
 

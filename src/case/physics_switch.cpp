@@ -134,7 +134,8 @@ std::string switch_physics(Value& document, Physics physics) {
       removal.key(body, "initial_velocity", of);
     }
   if (Value* time = document.find("time"); time != nullptr)
-    for (const char* key : {"displacement_error", "stress_error"}) removal.key(*time, key, "[time]");
+    for (const char* key : {"displacement_error", "stress_error", "skin_change"})
+      removal.key(*time, key, "[time]");
   take_out_of_probes(document, removal);
   take_out_of_output(document, removal);
   return removal.text();

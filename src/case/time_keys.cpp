@@ -45,9 +45,7 @@ Section<TimeSpec> time_keys() {
       .difference()
       .doc(
           "Error of a run with adaptive steps that is left to their size, root mean square over the body "
-          "where it is largest; where bodies deform also the fourth root of the mean fourth power over "
-          "1.6. "
-          "Without it 1 K.");
+          "where it is largest. Without it 1 K.");
   s.quantity("displacement_error", &TimeSpec::displacement_error, "m")
       .positive()
       .doc(
@@ -62,6 +60,12 @@ Section<TimeSpec> time_keys() {
   s.key("solid_fraction_change", &TimeSpec::solid_fraction_change)
       .range(1e-4, 1)
       .doc("Change in an adaptive step of the solid share of the volume that can melt; without it 0.1.");
+  s.key("skin_change", &TimeSpec::skin_change)
+      .range(1e-3, 1)
+      .doc(
+          "Share of a skin in contact that may become coherent in an adaptive step, where bodies deform; "
+          "without "
+          "it 0.08.");
   s.quantity("min_step", &TimeSpec::min_step, "s")
       .positive()
       .doc(

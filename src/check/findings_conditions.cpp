@@ -283,6 +283,10 @@ void tolerance(const CaseSpec& spec, const Assembly& a, Findings& findings) {
     findings.push_back({false, spec.time.where,
                         fmt::format("{:.0f} % of the casting may freeze in one step", 100 * change),
                         "time.solid_fraction_change of 0.02 to 0.2"});
+  if (const double change = spec.time.skin_change.value_or(0); spec.time.adaptive && change > 0.5)
+    findings.push_back({false, spec.time.where,
+                        fmt::format("{:.0f} % of a skin may let go of its wall in one step", 100 * change),
+                        "time.skin_change of 0.02 to 0.2"});
   constexpr double k_least_motion = 1e-8, k_most_motion = 5e-3;  // [m]
   if (const double allowed = spec.time.displacement_error.value_or(k_most_motion);
       allowed < k_least_motion || allowed > k_most_motion)

@@ -129,17 +129,6 @@ double BodyNorm::operator()(std::span<const double> values, std::span<const char
   return largest(square);
 }
 
-double BodyNorm::of_fourth_power(std::span<const double> values) const {
-  if (values.empty()) return 0;
-  std::vector<double> fourth(n_bodies_, 0.0);
-  for (const Share& share : shares_) {
-    const double v = values[static_cast<std::size_t>(share.node)];
-    fourth[static_cast<std::size_t>(share.body)] += share.weight * v * v * v * v;
-  }
-  for (double& f : fourth) f = std::sqrt(parallel::global_sum(f));
-  return largest(fourth);
-}
-
 double BodyNorm::largest(const std::vector<double>& squares) const {
   double largest = 0;
   for (const double square : squares) {

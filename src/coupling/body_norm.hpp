@@ -22,12 +22,6 @@ class BodyNorm {
   /// The same norm over the nodes that count; the others are zero, but their volume counts in the mean.
   /// @param counts [local node]; empty: all do
   double operator()(std::span<const double> values, std::span<const char> counts) const;
-  /// The mean of the fourth power in place of the square: max_b (Σ_i w_ib v_i⁴ / Σ_i w_ib)^¼ of values with
-  /// one component. It counts what is large in a small part of a body, such as its skin or a corner: in five
-  /// per cent of the volume an error of 1 K is 0.22 K in the mean square and 0.47 K here, and unlike the
-  /// largest value of a node it has a limit with the mesh. Collective.
-  /// @param values  [local node]; empty: zero
-  double of_fourth_power(std::span<const double> values) const;
   /// The same as the first of what is left of a displacement when the rigid motion that fits it best is taken
   /// away from every body: a translation and a small rotation, in plane strain about z; along the axis where
   /// the analysis is axisymmetric. Fitted to the nodes that count. Collective.

@@ -15,10 +15,6 @@ std::vector<double> difference(const std::vector<double>& from, const std::vecto
   return result;
 }
 
-/// By what the mean of the fourth power of an error may exceed that of its square where bodies deform: the
-/// largest for which the gaps of fifteen castings stay within 5 % (docs/theory/step_and_mesh.md).
-constexpr double k_peak = 1.6;
-
 /// The least number of steps of a run whose errors are allowed to add up.
 constexpr double k_steps = 50;
 
@@ -50,11 +46,6 @@ double ErrorEstimate::size_of_displacement(std::span<const double> error,
   return displacement_ == Displacement::motion ? norm_(error, counts) : norm_.of_distortion(error, counts);
 }
 
-double ErrorEstimate::size_of_temperature(std::span<const double> error) const {
-  if (phases_ == nullptr || phases_->mechanics == nullptr) return norm_(error);
-  return std::max(norm_(error), norm_.of_fourth_power(error) / k_peak);
-}
-
 bool ErrorEstimate::measures(const heat::StageFlows& flows) const {
   return phases_ != nullptr && phases_->heat != nullptr && flows.known();
 }
@@ -72,11 +63,15 @@ double ErrorEstimate::lasting(double mean, double before, double change) const {
 double ErrorEstimate::temperature_predictor(const State& old, const State& now, double dt, const Rates& rates,
                                             const heat::StageFlows& flows) const {
   if (!measures(flows) || rates.heat_flow.empty())
-    return size_of_temperature(
+    return norm_(
         half_of_what_was_not_predicted(old.heat.temperature, now.heat.temperature, dt, rates.temperature));
   const std::vector<double> error = phases_->heat->time_error(now.heat, flows, rates.heat_flow);
-  return std::max(size_of_temperature(error),
-                  lasting(norm_.mean(error), rates.changed, change_of(old, now, flows)));
+  return std::max(norm_(error), lasting(norm_.mean(error), rates.changed, change_of(old, now, flows)));
+}
+
+double ErrorEstimate::skin_change(const State& old, const State& now) const {
+  if (phases_ == nullptr || phases_->skin == nullptr || phases_->heat == nullptr) return 0;
+  return phases_->skin->change(coherency(old), coherency(now));
 }
 
 double ErrorEstimate::displacement_predictor(const State& old, const State& now, double dt,
@@ -101,7 +96,7 @@ double ErrorEstimate::stress_predictor(const State& old, const State& now, doubl
 
 LocalError ErrorEstimate::doubling(const State& old, const State& whole, const State& halves,
                                    const Rates& rates, double dt, const heat::StageFlows& flows) const {
-  double in_heat = size_of_temperature(difference(whole.heat.temperature, halves.heat.temperature));
+  double in_heat = norm_(difference(whole.heat.temperature, halves.heat.temperature));
   if (measures(flows))
     in_heat = std::max(in_heat, lasting(norm_.mean(phases_->heat->change_in_kelvin(whole.heat, halves.heat)),
                                         rates.changed, change_of(old, halves, flows)));
@@ -113,7 +108,7 @@ LocalError ErrorEstimate::doubling(const State& old, const State& whole, const S
   return {in_heat,
           size_of_displacement(difference(whole.mechanics.displacement, halves.mechanics.displacement),
                                casting(coherency(old))),
-          in_stress};
+          in_stress, skin_change(old, halves)};
 }
 
 Rates ErrorEstimate::rates_of(const State& old, const State& now, double dt,

@@ -12,10 +12,6 @@
 /// so that the sum of all ε̄ stays about ε however many steps there are. What else there is of δ is levelled
 /// or dies away with the transient that made it.
 ///
-/// Where bodies deform, ‖δ‖ is the larger of the mean square and of the mean of the fourth power divided by
-/// 1.6 (BodyNorm::of_fourth_power): gaps and stresses are made by the skin, a small part of the body in which
-/// the error of the first seconds is largest (docs/theory/step_and_mesh.md).
-///
 /// Else, and for the displacement: backward Euler commits the local error ½ Δt² ÿ. Two ways to measure it:
 ///
 /// predictor   the solution less its extrapolation y_n + Δt ẏ_n, where ẏ_n = (y_n − y_{n−1})/Δt_n is what
@@ -57,6 +53,7 @@ struct LocalError {
   double temperature = 0;   ///< [K]; with the lasting part, see above
   double displacement = 0;  ///< [m]
   double stress = 0;        ///< of the deviatoric stress of a body [1]
+  double skin = 0;          ///< the change of the coherent share of a skin (SkinShare), which is no error [1]
 };
 
 /// Whether the error of a displacement is that of the distortion of bodies, or of their whole motion.
@@ -82,6 +79,9 @@ class ErrorEstimate {
                                const heat::StageFlows& flows) const;
   /// The same of the displacement [m].
   double displacement_predictor(const State& old, const State& now, double dt, const Rates& rates) const;
+  /// The change of the coherent share of skins in contact from `old` to `now` [1]; zero where none melts or
+  /// no heat is exchanged. `now` need not be deformed yet.
+  double skin_change(const State& old, const State& now) const;
   /// That of the stress of what creeps, as a share [1]; zero where nothing does or the rate is not known.
   double stress_predictor(const State& old, const State& now, double dt, const Rates& rates) const;
   /// The error of the two `halves` of a step, by comparison with the `whole`. Both start from `old` and take
@@ -100,7 +100,6 @@ class ErrorEstimate {
   bool measures(const heat::StageFlows& flows) const;
   std::vector<double> coherency(const State& state) const;
   std::span<const double> temperature(const State& state) const;
-  double size_of_temperature(std::span<const double> error) const;
   double size_of_displacement(std::span<const double> error, std::span<const char> counts) const;
   double lasting(double mean, double before, double change) const;
 

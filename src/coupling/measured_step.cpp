@@ -15,16 +15,22 @@ MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double ti
     return taken;
   }
   std::optional<double> conducted;
+  double skin = 0;
   const HeatJudge stop = [&](const State& warm, const heat::StageFlows& flows) {
     conducted = estimate_->temperature_predictor(old, warm, dt, rates_, flows);
-    return too_long({*conducted, 0});
+    skin = estimate_->skin_change(old, warm);
+    return too_long({.temperature = *conducted, .skin = skin});
   };
-  Taken taken{scheme_.advance_unless(old, trial, time, dt, stop), {conducted.value_or(0), 0}};
+  Taken taken{scheme_.advance_unless(old, trial, time, dt, stop),
+              {.temperature = conducted.value_or(0), .skin = skin}};
   if (!taken.effort) return taken;
   const heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
   taken.error.displacement = estimate_->displacement_predictor(old, trial, dt, rates_);
   taken.error.stress = estimate_->stress_predictor(old, trial, dt, rates_);
-  if (!conducted) taken.error.temperature = estimate_->temperature_predictor(old, trial, dt, rates_, flows);
+  if (!conducted) {
+    taken.error.temperature = estimate_->temperature_predictor(old, trial, dt, rates_, flows);
+    taken.error.skin = estimate_->skin_change(old, trial);
+  }
   next_rates_ = estimate_->rates_of(old, trial, dt, flows);
   next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);
   return taken;

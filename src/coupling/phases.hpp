@@ -7,6 +7,7 @@
 #include "contact/pair.hpp"
 #include "coupling/coherency.hpp"
 #include "coupling/observer.hpp"
+#include "coupling/skin_share.hpp"
 #include "coupling/state.hpp"
 #include "criteria/criteria.hpp"
 #include "heat/thermal_phase.hpp"
@@ -22,6 +23,7 @@ struct Phases {
   std::vector<contact::ContactPair*> contacts;
   const criteria::Criteria* criteria = nullptr;  ///< criteria that State::criteria belongs to; null: none
   const Coherency* coherency = nullptr;          ///< null: nothing that deforms melts
+  const SkinShare* skin = nullptr;               ///< null: no surface in contact melts
   std::vector<double> temperature;               ///< [K], [local node]: of a mechanical phase alone
   std::optional<double> ambient_temperature;     ///< Θ_a of 2.24 [K]; absent: 𝓛 is not followed
 

@@ -46,8 +46,9 @@ struct SchemeContext {
   bool inertia = false;
   bool rubs = false;            ///< there is friction
   bool slides_in_heat = false;  ///< the thermal phase returns the traction of friction too (5.40-5.51)
-  /// Something that deforms melts in the run, or yields while temperatures differ: it keeps the strain that it
-  /// gets at the temperature of a step, also when that was not its own. Not known before materials are read.
+  /// Something that deforms melts in the run, or yields while temperatures differ: it keeps the strain that
+  /// it gets at the temperature of a step, also when that was not its own. Not known before materials are
+  /// read.
   bool keeps_strain = false;
   mechanics::TimeIntegration integration = mechanics::TimeIntegration::backward_euler;  ///< of flow
 

@@ -24,7 +24,7 @@ constexpr double k_solid = 1 - 1e-12;
 /// A state whose change cannot be measured is none to go on from. The same on every process.
 void require_numbers(const StepMeasure& measure) {
   if (std::isfinite(measure.temperature_error + measure.displacement_error + measure.stress_error +
-                    measure.solid_fraction_change))
+                    measure.solid_fraction_change + measure.skin_change))
     return;
   throw StepRejected("coupling: the error of the step is not a number", {}, Failure::divergence);
 }
@@ -352,6 +352,7 @@ Simulation::Try Simulation::try_step(Progress& p) {
       of_error.temperature_error = error.temperature;
       of_error.displacement_error = error.displacement;
       of_error.stress_error = error.stress;
+      of_error.skin_change = error.skin;
       return of_error;
     };
     const MeasuredStep::Taken taken =

@@ -42,6 +42,7 @@ Strictest strictest(const StepLimits& limits, const StepMeasure& measure) {
          limits.inertia ? k_tolerated : k_tolerated_displacement);
     look("stress error", "", measure.stress_error, limits.stress, 2, k_tolerated);
   }
+  look("coherent skin", "", measure.skin_change, limits.skin, 1, k_tolerated);
   look("solid fraction", "", measure.solid_fraction_change, limits.solid_fraction, 1, k_tolerated);
   return result;
 }

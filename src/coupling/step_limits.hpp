@@ -16,6 +16,8 @@ struct StepLimits {
   bool inertia = false;         ///< displacements are integrated in time, as temperatures are
   double stress = 0.005;        ///< local error per step, as a share of the stress [1]
 
+  double skin = 0.08;  ///< change per step of the coherent share of a skin in contact [1]
+
   bool operator==(const StepLimits&) const = default;
 };
 
@@ -25,6 +27,7 @@ struct StepMeasure {
   double temperature_error = 0, displacement_error = 0;  ///< [K], [m]; zero where nothing measures them
   double stress_error = 0;                               ///< [1]; zero where nothing creeps
   double solid_fraction_change = 0;
+  double skin_change = 0;    ///< largest change of the coherent share of a skin (coupling/skin_share.hpp)
   bool ended_early = false;  ///< turns of contact did not settle (contact/augmented_lagrangian.hpp)
 };
 

@@ -136,6 +136,24 @@ std::string rod_of_zinc() {
                   {"[\"0 mm\", \"20 mm\"]", "[\"0 mm\", \"15 mm\"]"}});
 }
 
+/// A coarse pot of zinc in a die that takes much heat: its skin forms within some steps, and what metal
+/// contracts while it lets go is a large part of the gap.
+std::string pot_of_zinc() {
+  return changed({{"element = \"tri3\"", "element = \"quad4\""},
+                  {"radius = \"20 mm\"", "radius = \"18 mm\""},
+                  {"height = \"40 mm\"", "height = \"24 mm\""},
+                  {"mould_wall = \"25 mm\"", "mould_wall = \"15 mm\""},
+                  {"mould_bottom = \"25 mm\"", "mould_bottom = \"15 mm\""},
+                  {"mould_height = \"70 mm\"", "mould_height = \"39 mm\""},
+                  {"element_size = \"2.5 mm\"", "element_size = \"3 mm\""},
+                  {"mould_element_size = \"5 mm\"", "mould_element_size = \"3 mm\""},
+                  {"aluminium_alsi7mg", "zinc_zamak5"},
+                  {"680 degC", "430 degC"},
+                  {"200 degC", "150 degC"},
+                  {"conductance = \"3000", "conductance = \"8000"},
+                  {"[\"0 mm\", \"20 mm\"]", "[\"0 mm\", \"12 mm\"]"}});
+}
+
 /// A disc of bronze in a mould of copper: a long freezing range, and a gap that is half a millimetre wide.
 std::string disc_of_bronze() {
   return changed({{"radius = \"20 mm\"", "radius = \"60 mm\""},
@@ -326,6 +344,16 @@ TEST(CoupledSteps, AStripInADieFreezesAtTheSameTimeWithTheSameGapWhateverTheStep
     EXPECT_NEAR(a.solid_after, 22.26, 0.02 * 22.26 + a.half_step) << step;
     EXPECT_NEAR(a.gap, 256.1, 0.03 * 256.1) << step;
   }
+}
+
+TEST(CoupledSteps, ASkinOfZincLetsGoOfItsDieAsWithShortSteps) {
+  // Steps of 0.03 s: 39.8 s and 389.4 µm. Steps that do not see the skin let go are off by 4 % in both.
+  const Answers a = answers("zinc_pot", pot_of_zinc(), {"time.adaptive=true"});
+  EXPECT_NEAR(a.solid_after, 39.78, 0.01 * 39.78 + a.half_step);
+  EXPECT_NEAR(a.gap, 389.4, 0.02 * 389.4);
+  const Answers coarse =
+      answers("zinc_pot_coarse", pot_of_zinc(), {"time.adaptive=true", "time.skin_change=1"});
+  EXPECT_GT(std::abs(coarse.gap - 389.4), std::abs(a.gap - 389.4));
 }
 
 TEST(CoupledSteps, AQuarterOfABarIsTheWholeBar) {

@@ -36,7 +36,7 @@ std::string error(const std::string& time, const std::string& physics = "thermom
 TEST(TimeKeys, LimitsOfAdaptiveStepsMeanNothingWithoutThem) {
   for (const char* key :
        {"max_step = \"2 s\"", "temperature_error = \"1 K\"", "displacement_error = \"1 um\"",
-        "solid_fraction_change = 0.2", "error_control = \"doubling\""}) {
+        "solid_fraction_change = 0.2", "skin_change = 0.1", "error_control = \"doubling\""}) {
     const std::string text = error(key);
     EXPECT_THAT(text, HasSubstr("means nothing without adaptive = true")) << key;
     EXPECT_THAT(text, HasSubstr(std::string(key).substr(0, std::string(key).find(' ')))) << key;
@@ -54,6 +54,8 @@ TEST(TimeKeys, LimitsOfFieldsThatAreNotSolvedForAreRefused) {
   EXPECT_THAT(error("adaptive = true\nsolid_fraction_change = 0.1", "mechanics"), HasSubstr("without heat"));
   EXPECT_THAT(error("adaptive = true\ndisplacement_error = \"1 um\"", "heat"),
               HasSubstr("without mechanics"));
+  EXPECT_THAT(error("adaptive = true\nskin_change = 0.1", "mechanics"), HasSubstr("without heat"));
+  EXPECT_THAT(error("adaptive = true\nskin_change = 0.1", "heat"), HasSubstr("without mechanics"));
 }
 
 TEST(TimeKeys, SizesThatContradictEachOtherAreRefused) {
@@ -72,6 +74,8 @@ TEST(TimeKeys, WhatIsNotGivenHasItsDefault) {
   EXPECT_EQ(limits.control, coupling::ErrorControl::predictor);
   EXPECT_DOUBLE_EQ(limits.temperature, 1.0);
   EXPECT_DOUBLE_EQ(limits.solid_fraction, 0.1);
+  EXPECT_DOUBLE_EQ(limits.skin, 0.08);
+  EXPECT_DOUBLE_EQ(time_options(spec("adaptive = true\nskin_change = 0.3")).step.limits.skin, 0.3);
   EXPECT_DOUBLE_EQ(displacement_error(c.time, std::vector<double>{0.0, 0.2, 0.5}), 6e-5);
   EXPECT_GT(displacement_error(c.time, std::vector<double>{0.0}), 1);  // heat alone
   EXPECT_DOUBLE_EQ(displacement_error(spec("adaptive = true\ndisplacement_error = \"3 um\"").time,

@@ -158,6 +158,20 @@ TEST(StepLimits, WhatIsNotANumberExceedsThem) {
   EXPECT_EQ(worst.name, "temperature error");
 }
 
+TEST(StepLimits, ASkinThatLetsGoBoundsAStepInProportion) {
+  solidus::coupling::StepMeasure measure;
+  solidus::coupling::StepLimits limits;
+  limits.control = solidus::coupling::ErrorControl::none;  // it is no error
+  limits.skin = 0.08;
+  measure.skin_change = 0.16;
+  const auto worst = strictest(limits, measure);
+  EXPECT_EQ(worst.name, "coherent skin");
+  EXPECT_TRUE(worst.exceeded);
+  EXPECT_DOUBLE_EQ(worst.factor, 0.4);  // a fifth below the limit
+  measure.skin_change = 0.1;
+  EXPECT_FALSE(strictest(limits, measure).exceeded);
+}
+
 TEST(StepLimits, ADisplacementThatIsNotIntegratedInTimeMayMissMoreBeforeItsStepIsRepeated) {
   StepMeasure measure = iterations(3);
   solidus::coupling::StepLimits limits;
