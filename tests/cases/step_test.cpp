@@ -201,7 +201,12 @@ TEST(NewCase, WhereAPartIsThickestBesideThePlaneOfSymmetryEachHalfHasARiser) {
   options.folder = root() / "dumbbell";
   fs::remove_all(options.folder);
   const solidus::model::NewCaseReport report = solidus::model::make_new_case(options);
-  EXPECT_THAT(report.text, HasSubstr("60 mm beside the plane of symmetry: there is a riser on each half"));
+  // Where exactly is a matter of the mesh, and so of the version of Gmsh.
+  const std::string before = "the part is thickest ";
+  const std::size_t found = report.text.find(before);
+  ASSERT_NE(found, std::string::npos) << report.text;
+  EXPECT_NEAR(std::stod(report.text.substr(found + before.size())), 60, 0.5);
+  EXPECT_THAT(report.text, HasSubstr(" mm beside the plane of symmetry: there is a riser on each half"));
   const solidus::model::Case c = solidus::model::load_case(report.file, {}, solidus::model::Physics::heat);
   const solidus::model::RiserBlockSpec& riser = *c.spec.mesh.riser;
   EXPECT_NEAR(riser.foot[1], -0.06, 1e-3);
