@@ -1,7 +1,8 @@
-"""python -m solidus_release BUILD FOLDER: fills a folder with what is handed out of a build of the preset `portable`.
+"""python -m solidus_release BUILD RELEASES: fills RELEASES/VERSION with what is handed out of a build of the preset `portable`.
 
-The packages of Debian that `cpack` made in BUILD/packages, the archive, its bill of materials, the notes, and SHA256SUMS of all. Packages
-of other releases of Debian that were laid into the folder stay and are summed too. SOURCE_DATE_EPOCH is the date of all files.
+The packages of Debian that `cpack` made in BUILD/packages, the archive with its bill of materials where this is the Debian on which it
+is made, the notes, and SHA256SUMS of all. Packages that another release of Debian has made of the same commit and that were laid into the
+folder stay and are summed too. SOURCE_DATE_EPOCH is the date of all files. It prints the folder.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from pathlib import Path
 import platform
 import shutil
 import subprocess
+import sys
 
 from . import archive
 from .notes import ROOT
@@ -27,37 +29,57 @@ def checksums(folder: Path) -> str:
     return "".join(lines)
 
 
-def fill(build: Path, folder: Path, epoch: int) -> None:
-    """Makes the files of a release.
+def version_of(package: Path) -> str:
+    """The version in the name of a package: solidus_0.2.0-1~deb12_amd64.deb has 0.2.0. Empty where it is no such name."""
+    parts = package.name.split("_")
+    return parts[1].rpartition("-")[0] if len(parts) == 3 else ""
+
+
+def fill(build: Path, releases: Path, epoch: int) -> Path:
+    """Makes the files of a release in a folder that is called as its version, which is returned.
 
     build : folder of the build, with packages/
-    folder : for the files; made where it is not there
+    releases : where the folder is made, unless it is there; it may hold packages that another Debian has made of the same commit
     epoch : their date, seconds since 1970
     """
-    folder.mkdir(parents=True, exist_ok=True)
     text = subprocess.run([build / "solidus", "--version"], check=True, capture_output=True, text=True).stdout
     version = text.split()[-1]
+    folder = releases / version
+    folder.mkdir(parents=True, exist_ok=True)
+    for package in sorted(folder.glob("*.deb")):
+        if version_of(package) != version:
+            raise SystemExit(f"{package} is of another version than {version}; what lies there is handed out with it")
     for package in sorted(build.glob("packages/*.deb")):
         shutil.copyfile(package, folder / package.name)
+    system = platform.freedesktop_os_release()
+    if (system["ID"], system.get("VERSION_ID")) == ("debian", archive.DEBIAN):
+        pack_archive(build, folder, version, epoch)
+    else:
+        print(f"no archive: it is made on Debian {archive.DEBIAN}, and this is {system['PRETTY_NAME']}. Lay the packages into the folder "
+              "of the same version there", file=sys.stderr)
+    notes = ROOT / "docs/releases" / f"{version.split('+')[0]}.md"
+    shutil.copyfile(notes, folder / f"solidus-{version}-notes.md")
+    (folder / "SHA256SUMS").write_text(checksums(folder))
+    return folder
+
+
+def pack_archive(build: Path, folder: Path, version: str, epoch: int) -> None:
+    """Makes the archive of a build and its bill of materials."""
     name = f"solidus-{version}-x86_64"
     tree = build / "archive" / name
     shutil.rmtree(tree.parent, ignore_errors=True)
     tree.parent.mkdir()
-    release = platform.freedesktop_os_release()["VERSION_ID"]
-    bill = archive.make_tree(build, tree, version, release, epoch)
+    bill = archive.make_tree(build, tree, version, archive.DEBIAN, epoch)
     (folder / f"{name}.spdx.json").write_text(bill)
     archive.compress(tree, folder / f"{name}.tar.zst", epoch)
     shutil.rmtree(tree.parent)
-    notes = ROOT / "docs/releases" / f"{version.split('+')[0]}.md"
-    shutil.copyfile(notes, folder / f"solidus-{version}-notes.md")
-    (folder / "SHA256SUMS").write_text(checksums(folder))
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m solidus_release", description=__doc__.split("\n")[0])
     parser.add_argument("build", type=Path)
-    parser.add_argument("folder", type=Path)
+    parser.add_argument("releases", type=Path)
     arguments = parser.parse_args()
     if "SOURCE_DATE_EPOCH" not in os.environ:
         parser.error("SOURCE_DATE_EPOCH is not set: the date of the files, seconds since 1970")
-    fill(arguments.build, arguments.folder, int(os.environ["SOURCE_DATE_EPOCH"]))
+    print(fill(arguments.build, arguments.releases, int(os.environ["SOURCE_DATE_EPOCH"])))

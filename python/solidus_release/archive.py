@@ -14,6 +14,7 @@ import subprocess
 from . import bill_of_materials, libraries
 
 HERE = Path(__file__).resolve().parent
+DEBIAN = "12"  # the release that it is made on: parts of its Open MPI 4 are named below
 PROGRAMS = Path("libexec/solidus/programs")
 # Where each program is called, which finds its data from there.
 CALLED_AT = {"solidus": "bin", "mpirun": "bin", "solidus-reader": "libexec/solidus"}

@@ -1,5 +1,6 @@
 """What is handed out: licences in the words of SPDX, a bill of materials, notes, archives of the same bytes."""
 
+import io
 import json
 import os
 from pathlib import Path
@@ -7,9 +8,10 @@ import re
 import shutil
 import tempfile
 import unittest
+from unittest import mock
 
 from solidus_release import archive, bill_of_materials, licences, notes
-from solidus_release.__main__ import checksums
+from solidus_release.__main__ import checksums, fill
 
 ROOT = Path(__file__).resolve().parents[2]
 VERSION = re.search(r"project\(solidus VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
@@ -98,6 +100,55 @@ class Notes(unittest.TestCase):
     def test_the_version_stands_in_one_place(self):
         self.assertNotRegex((ROOT / "CITATION.cff").read_text(), r"(?m)^version:")
         self.assertNotIn(VERSION, (ROOT / "pyproject.toml").read_text())
+
+
+class Folder(unittest.TestCase):
+    """What a release is made of, with a build that has packages of one Debian and a program that says its version."""
+
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.version = f"{VERSION}+20261129.0123456"
+        (self.folder / "build/packages").mkdir(parents=True)
+        (self.folder / "build/packages" / f"solidus_{self.version}-1~deb13_amd64.deb").write_text("thirteen")
+        program = self.folder / "build/solidus"
+        program.write_text(f"#!/bin/sh\necho Solidus {self.version}\n")
+        program.chmod(0o755)
+        self.place = self.folder / "releases" / self.version
+
+    def fill(self, number):
+        system = {"ID": "debian", "VERSION_ID": number, "PRETTY_NAME": f"Debian {number}"}
+        with mock.patch("platform.freedesktop_os_release", return_value=system), \
+                mock.patch("solidus_release.archive.make_tree", return_value="bill") as make_tree, \
+                mock.patch("solidus_release.archive.compress", lambda tree, file, epoch: file.write_text("packed")), \
+                mock.patch("sys.stderr", io.StringIO()) as said:
+            make_tree.side_effect = lambda build, tree, *rest: tree.mkdir() or "bill"
+            made = fill(self.folder / "build", self.folder / "releases", 86400)
+        self.assertEqual(made, self.place)
+        return sorted(file.name for file in made.iterdir()), said.getvalue()
+
+    def test_it_is_called_as_the_version_and_takes_packages_of_another_debian_that_lie_there(self):
+        self.place.mkdir(parents=True)
+        (self.place / f"solidus_{self.version}-1~deb12_amd64.deb").write_text("twelve")
+        names, said = self.fill("13")
+        self.assertEqual(names, sorted(["SHA256SUMS", f"solidus-{self.version}-notes.md", f"solidus_{self.version}-1~deb12_amd64.deb",
+                                        f"solidus_{self.version}-1~deb13_amd64.deb"]))
+        self.assertIn(f"no archive: it is made on Debian {archive.DEBIAN}, and this is Debian 13", said)
+        self.assertEqual([line.split("  ")[1] for line in (self.place / "SHA256SUMS").read_text().splitlines()],
+                         [name for name in names if name != "SHA256SUMS"])
+
+    def test_the_archive_is_made_on_one_release_of_debian(self):
+        names, said = self.fill(archive.DEBIAN)
+        self.assertEqual(said, "")
+        self.assertLessEqual({f"solidus-{self.version}-x86_64.tar.zst", f"solidus-{self.version}-x86_64.spdx.json"}, set(names))
+
+    def test_packages_of_another_version_are_not_handed_out_with_it(self):
+        for name in (f"solidus_{VERSION}+20261128.fedcba9-1~deb12_amd64.deb", "something.deb"):
+            self.place.mkdir(parents=True, exist_ok=True)
+            (self.place / name).write_text("old")
+            with self.assertRaisesRegex(SystemExit, "is of another version"):
+                self.fill("12")
+            (self.place / name).unlink()
 
 
 class Archives(unittest.TestCase):
