@@ -268,7 +268,8 @@ class Cancellation(McpTest):
         self.long_run(client)
         self.assertEqual(client.close(), 0)
         self.assertEqual(self.summary(self.room / "long")["outcome"], "stopped: as asked")
-        self.assertEqual(list(self.temporary.iterdir()), [])  # nothing is left of it
+        left = [file.name for file in self.temporary.iterdir() if not file.name.startswith("ompi.")]
+        self.assertEqual(left, [])  # Open MPI 5 keeps an empty folder that all processes of a user share
 
 
 class Confinement(McpTest):
