@@ -46,10 +46,11 @@ def fill(build: Path, releases: Path, epoch: int) -> Path:
     version = text.split()[-1]
     folder = releases / version
     folder.mkdir(parents=True, exist_ok=True)
-    for package in sorted(folder.glob("*.deb")):
+    made = sorted(build.glob("packages/*.deb"))
+    for package in [*sorted(folder.glob("*.deb")), *made]:
         if version_of(package) != version:
-            raise SystemExit(f"{package} is of another version than {version}; what lies there is handed out with it")
-    for package in sorted(build.glob("packages/*.deb")):
+            raise SystemExit(f"{package} is of another version than {version}, with which it would be handed out")
+    for package in made:
         shutil.copyfile(package, folder / package.name)
     system = platform.freedesktop_os_release()
     if (system["ID"], system.get("VERSION_ID")) == ("debian", archive.DEBIAN):

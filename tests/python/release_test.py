@@ -143,12 +143,13 @@ class Folder(unittest.TestCase):
         self.assertLessEqual({f"solidus-{self.version}-x86_64.tar.zst", f"solidus-{self.version}-x86_64.spdx.json"}, set(names))
 
     def test_packages_of_another_version_are_not_handed_out_with_it(self):
-        for name in (f"solidus_{VERSION}+20261128.fedcba9-1~deb12_amd64.deb", "something.deb"):
-            self.place.mkdir(parents=True, exist_ok=True)
-            (self.place / name).write_text("old")
-            with self.assertRaisesRegex(SystemExit, "is of another version"):
-                self.fill("12")
-            (self.place / name).unlink()
+        self.place.mkdir(parents=True)
+        for place in (self.place, self.folder / "build/packages"):
+            for name in (f"solidus_{VERSION}+20261128.fedcba9-1~deb12_amd64.deb", "something.deb"):
+                (place / name).write_text("old")
+                with self.assertRaisesRegex(SystemExit, "is of another version"):
+                    self.fill("12")
+                (place / name).unlink()
 
 
 class Archives(unittest.TestCase):
