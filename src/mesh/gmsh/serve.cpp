@@ -3,6 +3,7 @@
 #include <sys/prctl.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <optional>
@@ -17,6 +18,27 @@
 #include "system/version.hpp"
 
 namespace solidus::mesh {
+
+namespace {
+
+double memory_limit = 0;    ///< of this process [bytes]; 0: none
+bool answer_begun = false;  ///< nothing else may be said then
+
+/// Says that memory ran out where a library has ended the process for it, which it does not say to us:
+/// libgomp, with which Gmsh 4.13 of Debian 13 computes, calls exit(1) where it gets none.
+void tell_memory_at_exit() {
+  if (answer_begun || !(memory_limit > 0)) return;
+  // A script can end the process as well: then there is memory to be had.
+  void* volatile some = std::malloc(static_cast<std::size_t>(memory_limit / 8));
+  if (some != nullptr) return;
+  try {
+    const ReaderAnswer answer = ReaderAnswer::memory;
+    put_all(k_answer_descriptor, &answer, sizeof answer);
+  } catch (const MessageError&) {  // NOLINT: nobody listens any more
+  }
+}
+
+}  // namespace
 
 void serve_request() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -38,6 +60,8 @@ void serve_request() {
   double memory = 0;
   take(&memory, sizeof memory);
   sandbox::limit_memory(memory);
+  memory_limit = memory;
+  std::atexit(tell_memory_at_exit);
   if (!source.trust_script) sandbox::forbid_all_but_reading();
   listen_to_outlook([&](const MeshingOutlook& outlook) {
     say(ReaderAnswer::outlook);
@@ -45,6 +69,7 @@ void serve_request() {
   });
   try {
     const RawMesh mesh = read_mesh_here(source, casting ? &*casting : nullptr);
+    answer_begun = true;
     say(ReaderAnswer::mesh);
     put_mesh(mesh, put);
   } catch (const UnusableGeometry& error) {
