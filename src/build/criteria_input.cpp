@@ -1,12 +1,45 @@
 #include "build/criteria_input.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "build/cast_bodies.hpp"
+#include "build/mechanics_input.hpp"
 #include "criteria/criteria.hpp"
 #include "criteria/criterion_kind.hpp"
 
 namespace solidus::model {
+
+namespace {
+
+/// The direction against gravity, also where its magnitude is zero, as it is with heat alone.
+std::array<double, 3> upward(const AnalysisSpec& analysis) {
+  AnalysisSpec unit = analysis;
+  unit.gravity = 1;
+  std::array<double, 3> up = gravity(unit);
+  for (double& component : up) component = -component;
+  return up;
+}
+
+criteria::FeedingOptions feeding_options(const CaseSpec& spec,
+                                         const std::vector<material::Material>& materials,
+                                         const std::vector<InitialTemperatureRange>& start) {
+  criteria::FeedingOptions options{.bodies = followed_bodies(spec, materials, start),
+                                   .risers = std::vector<char>(spec.bodies.size(), 0),
+                                   .up = upward(spec.analysis),
+                                   .vented = spec.feeding.vented,
+                                   .covered = spec.feeding.covered};
+  for (const results::CastBody& cast : cast_bodies(spec, materials, start))
+    if (cast.feeds) options.risers[static_cast<std::size_t>(cast.body)] = 1;
+  for (const ContactSpec& contact : spec.contacts)
+    for (const std::string& side : contact.sides()) options.touched.insert(side);
+  for (const ThermalConditionSpec& condition : spec.thermal_conditions)
+    options.cooled.insert(condition.group);
+  return options;
+}
+
+}  // namespace
 
 std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const mesh::Mesh& mesh,
                                                   const std::vector<material::Material>& materials,
@@ -25,14 +58,17 @@ std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const me
       .followed = followed_bodies(spec, materials, start),
       .evaluation = spec.criteria.evaluation,
       .feeding_limit = spec.criteria.feeding_limit,
-      .feeders = spec.criteria.feeders};
+      .feeders = spec.criteria.feeders,
+      .feeding = spec.feeding.follow,
+      .feeding_options = feeding_options(spec, materials, start)};
   auto all = std::make_unique<criteria::Criteria>(phases.heat);
   for (const auto& kind : criteria::criterion_kinds()) {
     try {
       if (std::unique_ptr<criteria::Criterion> criterion = kind->make(context))
         all->add(std::move(criterion));
     } catch (const InputError& error) {
-      throw InputError(spec.criteria.where, error.what(),
+      const bool of_feeding = std::string_view(error.what()).starts_with("feeding.");
+      throw InputError(of_feeding ? spec.feeding.where : spec.criteria.where, error.what(),
                        "groups of the mesh: `solidus mesh-info` lists them");
     }
   }

@@ -30,6 +30,7 @@ Section<CouplingSpec> coupling_keys();
 Section<ProbeSpec> probe_keys();
 Section<ProfileSpec> profile_keys();
 Section<CriteriaSpec> criteria_keys();
+Section<FeedingSpec> feeding_keys();
 Section<OutputSpec> output_keys();
 
 }  // namespace solidus::model

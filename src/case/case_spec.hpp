@@ -383,6 +383,13 @@ struct CriteriaSpec {
   SourceLocation where;
 };
 
+/// Feeding with heat alone (criteria/feeding.hpp).
+struct FeedingSpec {
+  bool follow = true;
+  std::vector<std::string> vented, covered;  ///< groups of the mesh
+  SourceLocation where;
+};
+
 struct CaseSpec {
   std::string title;
   std::vector<std::string> include;  ///< resolved by load_case: empty afterwards
@@ -404,6 +411,7 @@ struct CaseSpec {
   std::vector<ProbeSpec> probes;
   std::vector<ProfileSpec> profiles;
   CriteriaSpec criteria;
+  FeedingSpec feeding;
   OutputSpec output;
   VarySpec vary;
   SpreadSpec spread;

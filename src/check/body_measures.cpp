@@ -7,9 +7,9 @@
 #include <numbers>
 #include <span>
 
-#include "check/boundary_faces.hpp"
 #include "mesh/block_geometry.hpp"
 #include "mesh/block_part.hpp"
+#include "mesh/body_faces.hpp"
 #include "mesh/quadrature.hpp"
 #include "parallel/parallel.hpp"
 
@@ -51,11 +51,11 @@ double area_of(const mesh::Mesh& mesh, std::span<const Index> vertices, Analysis
 
 /// Adds the skins, and the areas that bodies share.
 void measure_skins(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<BodyMeasures>& bodies) {
-  each_boundary_face(mesh, [&](const BoundaryFace& face, std::span<const BoundaryFace> same) {
+  mesh::each_body_face(mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
     const double area = area_of(mesh, face.vertices(), kind);
     BodyMeasures& body = bodies[static_cast<std::size_t>(face.body)];
     body.skin += area;
-    for (const BoundaryFace& other : same)
+    for (const mesh::BodyFace& other : same)
       if (other.body != face.body) body.shared[static_cast<std::size_t>(other.body)] += area;
   });
 }

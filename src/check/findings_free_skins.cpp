@@ -12,8 +12,8 @@
 
 #include "build/body_input.hpp"
 #include "build/mechanics_input.hpp"
-#include "check/boundary_faces.hpp"
 #include "check/findings.hpp"
+#include "mesh/body_faces.hpp"
 #include "mesh/skin.hpp"
 #include "parallel/parallel.hpp"
 
@@ -51,9 +51,9 @@ void melts_open_below(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   const std::array<double, 3> g = gravity(spec.analysis);
   const double size = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
   if (!(size > 0) || m.pours.empty() || spec.contacts.empty()) return;
-  const auto covered = face_keys(a.mesh, covered_surfaces(spec));
+  const auto covered = mesh::body_face_keys(a.mesh, covered_surfaces(spec));
   Facing up, down;
-  each_boundary_face(a.mesh, [&](const BoundaryFace& face, std::span<const BoundaryFace> same) {
+  mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
     if (!m.is_poured(static_cast<std::size_t>(face.body))) return;
     std::vector<mesh::Point> corners;
     for (const Index node : face.vertices()) corners.push_back(a.mesh.x[static_cast<std::size_t>(node)]);

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "build/mechanics_input.hpp"
-#include "check/boundary_faces.hpp"
 #include "check/findings.hpp"
+#include "mesh/body_faces.hpp"
 #include "mesh/skin.hpp"
 #include "parallel/parallel.hpp"
 
@@ -48,8 +48,9 @@ std::map<std::size_t, OpenSkin> open_skins(const CaseSpec& spec, const Assembly&
     cooled.insert(c.group);
     if (c.kind == ThermalConditionSpec::Kind::temperature) held.insert(c.group);  // as of an inlet
   }
-  const auto held_faces = face_keys(a.mesh, held), cooled_faces = face_keys(a.mesh, cooled);
-  each_boundary_face(a.mesh, [&](const BoundaryFace& face, std::span<const BoundaryFace> same) {
+  const auto held_faces = mesh::body_face_keys(a.mesh, held),
+             cooled_faces = mesh::body_face_keys(a.mesh, cooled);
+  mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
     const auto found = skins.find(static_cast<std::size_t>(face.body));
     if (found == skins.end()) return;
     std::vector<mesh::Point> corners;

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "check/boundary_faces.hpp"
 #include "check/findings.hpp"
+#include "mesh/body_faces.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::model {
@@ -55,13 +55,13 @@ std::vector<Condition> conditions_of_surfaces(const CaseSpec& spec) {
 
 void find_partly_in_contact(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   for (const Condition& condition : conditions_of_surfaces(spec)) {
-    const auto faces = face_keys(a.mesh, {condition.group});
+    const auto faces = mesh::body_face_keys(a.mesh, {condition.group});
     const double all = parallel::global_sum(static_cast<double>(faces.size()));
     if (!(all > 0)) continue;
     for (const ContactSpec& contact : spec.contacts) {
       if ((condition.of_heat && !contact.heat) || !share_a_stage(*condition.stages, contact.stages)) continue;
       const std::array<std::string, 2> sides = contact.sides();
-      const auto in_contact = face_keys(a.mesh, {sides[0], sides[1]});
+      const auto in_contact = mesh::body_face_keys(a.mesh, {sides[0], sides[1]});
       const double shared = parallel::global_sum(static_cast<double>(
           std::ranges::count_if(faces, [&](const auto& face) { return in_contact.contains(face); })));
       if (!(shared > 0) || shared == all) continue;

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "check/boundary_faces.hpp"
 #include "check/findings.hpp"
+#include "mesh/body_faces.hpp"
 #include "mesh/skin.hpp"
 #include "parallel/parallel.hpp"
 
@@ -26,10 +26,10 @@ std::set<Key> faces_with_a_role(const CaseSpec& spec, const mesh::Mesh& mesh) {
   for (const ContactSpec& contact : spec.contacts)
     for (const std::string& side : contact.sides()) groups.insert(side);
   for (const ThermalConditionSpec& condition : spec.thermal_conditions) groups.insert(condition.group);
-  return face_keys(mesh, groups);
+  return mesh::body_face_keys(mesh, groups);
 }
 
-mesh::SkinFace measured(const mesh::Mesh& mesh, const BoundaryFace& face) {
+mesh::SkinFace measured(const mesh::Mesh& mesh, const mesh::BodyFace& face) {
   std::vector<mesh::Point> corners;
   for (const Index node : face.vertices()) corners.push_back(mesh.x[static_cast<std::size_t>(node)]);
   return mesh::face_through(std::move(corners));
@@ -41,7 +41,7 @@ using Skins = std::vector<std::vector<mesh::SkinFace>>;  ///< [body][face], of t
 Skins bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
   const std::set<Key> roles = faces_with_a_role(spec, a.mesh);
   Skins skins(spec.bodies.size());
-  each_boundary_face(a.mesh, [&](const BoundaryFace& face, std::span<const BoundaryFace> same) {
+  mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
     const auto body = static_cast<std::size_t>(face.body);
     if (same.size() == 1 && m.is_poured(body) && !roles.contains(face.key))
       skins[body].push_back(measured(a.mesh, face));
@@ -51,7 +51,7 @@ Skins bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m)
 
 Skins all_skins(const CaseSpec& spec, const Assembly& a) {
   Skins skins(spec.bodies.size());
-  each_boundary_face(a.mesh, [&](const BoundaryFace& face, std::span<const BoundaryFace>) {
+  mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace>) {
     skins[static_cast<std::size_t>(face.body)].push_back(measured(a.mesh, face));
   });
   return skins;

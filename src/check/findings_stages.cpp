@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "build/body_input.hpp"
-#include "check/boundary_faces.hpp"
 #include "check/findings.hpp"
+#include "mesh/body_faces.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::model {
@@ -82,8 +82,8 @@ double share_left_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasu
     if (m.contacts[c].slave_body == static_cast<int>(body)) sides.insert(m.contacts[c].slave);
     if (m.contacts[c].master_body == static_cast<int>(body)) sides.insert(m.contacts[c].master);
   }
-  const auto all = face_keys(a.mesh, sides);
-  const auto cooled = face_keys(a.mesh, cooled_surfaces(spec, a, stage));
+  const auto all = mesh::body_face_keys(a.mesh, sides);
+  const auto cooled = mesh::body_face_keys(a.mesh, cooled_surfaces(spec, a, stage));
   const double n = parallel::global_sum(static_cast<double>(all.size()));
   const double left = parallel::global_sum(static_cast<double>(
       std::ranges::count_if(all, [&](const auto& face) { return !cooled.contains(face); })));

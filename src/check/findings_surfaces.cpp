@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "build/body_input.hpp"
-#include "check/boundary_faces.hpp"
 #include "check/findings.hpp"
 #include "input/units.hpp"
+#include "mesh/body_faces.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::model {
@@ -84,7 +84,7 @@ void films_in_one_place(const CaseSpec& spec, const mesh::Mesh& mesh, Findings& 
     return c.coefficient.table.value(0) * c.factor.table.value(0);
   };
   for (std::size_t i = 0; i < films.size(); ++i) {
-    const auto faces = face_keys(mesh, {films[i]->group});
+    const auto faces = mesh::body_face_keys(mesh, {films[i]->group});
     const double all = parallel::global_sum(static_cast<double>(faces.size()));
     for (std::size_t k = 0; k < i; ++k) {
       const double one = strength(*films[i]), other = strength(*films[k]);
@@ -92,7 +92,7 @@ void films_in_one_place(const CaseSpec& spec, const mesh::Mesh& mesh, Findings& 
       if (films[i]->group == films[k]->group || !share_a_stage(films[i]->stages, films[k]->stages) ||
           std::min(one, other) < k_little * std::max(one, other))
         continue;
-      const auto others = face_keys(mesh, {films[k]->group});
+      const auto others = mesh::body_face_keys(mesh, {films[k]->group});
       const double shared = parallel::global_sum(static_cast<double>(
           std::ranges::count_if(faces, [&](const auto& face) { return others.contains(face); })));
       if (!(shared > 0)) continue;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "criteria/criterion.hpp"
+#include "criteria/feeding_graph.hpp"
 #include "heat/thermal_phase.hpp"
 #include "material/material.hpp"
 
@@ -31,6 +32,8 @@ struct CriterionContext {
   std::vector<char> followed;                        ///< bodies that are poured or may melt, [body]
   double evaluation, feeding_limit;                  ///< criteria.evaluation and criteria.feeding_limit
   std::vector<std::string> feeders;                  ///< groups of the mesh
+  bool feeding = false;                              ///< feeding.follow
+  FeedingOptions feeding_options = {};
 };
 
 class CriterionKind {

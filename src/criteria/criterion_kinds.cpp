@@ -1,5 +1,6 @@
 /// The criteria that every program has, in the order of the reference page.
 #include "criteria/criterion_kind.hpp"
+#include "criteria/feeding.hpp"
 #include "criteria/freezing.hpp"
 #include "criteria/pools.hpp"
 #include "criteria/quantities.hpp"
@@ -38,6 +39,16 @@ struct PoolsKind {
   }
 };
 
+/// Of runs with heat alone: with mechanics, mixed elements feed and open pores.
+struct FeedingKind {
+  static constexpr auto fields = criteria::fields::k_of_feeding;
+  std::unique_ptr<Criterion> make(const CriterionContext& c) const {
+    if (c.heat == nullptr || c.mechanics || !c.feeding) return nullptr;
+    if (!Feeding::has_shrinkage(c.materials, c.followed)) return nullptr;
+    return std::make_unique<Feeding>(c.mesh, c.kind, c.heat->storage(), c.feeding_options);
+  }
+};
+
 struct StrainKind {
   static constexpr auto fields = criteria::fields::k_of_strain;
   std::unique_ptr<Criterion> make(const CriterionContext& c) const {
@@ -54,6 +65,7 @@ std::vector<std::unique_ptr<const CriterionKind>>& criterion_kinds() {
     all.push_back(std::make_unique<CriterionKindOf<FreezingKind>>());
     all.push_back(std::make_unique<CriterionKindOf<ResolutionKind>>());
     all.push_back(std::make_unique<CriterionKindOf<PoolsKind>>());
+    all.push_back(std::make_unique<CriterionKindOf<FeedingKind>>());
     all.push_back(std::make_unique<CriterionKindOf<StrainKind>>());
     return all;
   }();

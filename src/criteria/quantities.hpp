@@ -225,6 +225,34 @@ inline constexpr Quantity k_distortion{
     .compared = true,
     .pictured = true};
 
+inline constexpr Quantity k_emptied{
+    .name = "emptied",
+    .unit = "1",
+    .label = "Emptied (pipe, cavity)",
+    .doc = "Share of the room around a node that metal has left: pipe, sink, cavity",
+    .group = quantities::Group::criteria,
+    .needs = {.heat = true, .melting = true},
+    .kept = quantities::Kept::every,
+    .worst = quantities::Extreme::greatest,
+    .compared = true,
+    .pictured = true,
+    .shown_as = quantities::k_percent};
+
+inline constexpr Quantity k_unfed_pores{.name = "unfed_pores",
+                                        .unit = "1",
+                                        .label = "Pores (feeding)",
+                                        .doc =
+                                            "Pores between dendrites that melt did not reach, as a share of "
+                                            "the room around a node",
+                                        .group = quantities::Group::criteria,
+                                        .needs = {.heat = true, .melting = true},
+                                        .kept = quantities::Kept::every,
+                                        .worst = quantities::Extreme::greatest,
+                                        .headline = "Pores (feeding)",
+                                        .compared = true,
+                                        .pictured = true,
+                                        .shown_as = quantities::k_percent};
+
 /// Fields of Freezing, in their order.
 inline constexpr std::array k_of_freezing = {
     &k_solidified_at,      &k_local_solidification_time, &k_cooling_rate,     &k_thermal_gradient,
@@ -233,6 +261,9 @@ inline constexpr std::array k_of_freezing = {
 
 /// Fields of Pools, in their order.
 inline constexpr std::array k_of_pools = {&k_liquid_pool, &k_pool_volume};
+
+/// Fields of Feeding, in their order.
+inline constexpr std::array k_of_feeding = {&k_emptied, &k_unfed_pores};
 
 /// Fields of StrainCriteria, in their order.
 inline constexpr std::array k_of_strain = {&k_strain_in_liquid, &k_strain_since_coherency, &k_brittle_strain,

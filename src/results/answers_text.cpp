@@ -274,6 +274,43 @@ std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, 
   return text;
 }
 
+/// Pipes, cavities, sinks and pores of feeding with heat alone.
+std::string feeding_lines(const std::vector<criteria::CriterionResult>& found, const Answers& answers,
+                          const Formatter& format) {
+  const auto result = [&](const std::string& name) {
+    const auto f = std::ranges::find(found, name, &criteria::CriterionResult::name);
+    return f == found.end() ? nullptr : &*f;
+  };
+  const criteria::CriterionResult* room = result("feeding_room");
+  if (room == nullptr || !(room->value > 0)) return "";
+  const auto share = [&](double volume) {
+    return digits(100 * volume / room->value, 3) + " % of what was cast";
+  };
+  std::string text;
+  for (int k = 1; const criteria::CriterionResult* pipe = result(fmt::format("pipe_{}_volume", k)); ++k) {
+    const auto of_pipe = [&](const char* what) { return result(fmt::format("pipe_{}_{}", k, what))->value; };
+    const auto body = std::ranges::find(answers.castings, static_cast<int>(of_pipe("body")),
+                                        [](const CastAnswer& a) { return a.cast.body; });
+    const std::string name = body == answers.castings.end() ? "casting" : body->cast.name;
+    text += line(fmt::format("pipe in '{}'", name),
+                 fmt::format("{}, {} deep {}; {} of '{}' are left below it", format.volume(pipe->value),
+                             format.length(of_pipe("depth")), format.place(pipe->where),
+                             format.length(std::max(0.0, of_pipe("left"))), name));
+  }
+  for (int k = 1; const criteria::CriterionResult* cavity = result(fmt::format("cavity_{}_volume", k)); ++k)
+    text += line("cavity", fmt::format("{} {}", format.volume(cavity->value), format.place(cavity->where)));
+  constexpr double k_told = 1e-5;  // of what was cast
+  if (const double sink = result("feeding_sink")->value; sink > k_told * room->value)
+    text += line("sinks of the soft skin", fmt::format("{}, {}", format.volume(sink), share(sink)));
+  if (const criteria::CriterionResult* densest = result("feeding_densest_pores")) {
+    const double pores = result("feeding_pores")->value;
+    text += line("pores that melt did not feed",
+                 fmt::format("{}, {}; the densest, {:.3g} %, {}", format.volume(pores), share(pores),
+                             100 * densest->value, format.place(densest->where)));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string text(const Answers& a, const std::vector<criteria::CriterionResult>& criteria,
@@ -290,7 +327,7 @@ std::string text(const Answers& a, const std::vector<criteria::CriterionResult>&
   if (const std::optional<double> share = poured_share_of_parts(a))
     text += line("yield", fmt::format("{:.3g} % of what is poured is part", 100 * *share));
   if (a.pools) text += line("pools of melt cut off", pools_text(*a.pools, format));
-  if (!a.castings.empty()) text += criteria_lines(criteria, a, format);
+  if (!a.castings.empty()) text += criteria_lines(criteria, a, format) + feeding_lines(criteria, a, format);
   if (a.pores)
     text += line("shrinkage that nothing fed (pores)",
                  fmt::format("{} of the casting; the densest, {:.3g} %, {}",

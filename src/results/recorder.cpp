@@ -6,6 +6,7 @@
 #include "coupling/all_fields.hpp"
 #include "coupling/energy_scale.hpp"
 #include "coupling/internal_energy.hpp"
+#include "criteria/quantities.hpp"
 #include "results/output_error.hpp"
 #include "results/stress_jump.hpp"
 #include "results/vtkhdf.hpp"
@@ -76,6 +77,11 @@ bool samples_criteria(const Probe& probe, const std::vector<const quantities::Qu
       probe);
 }
 
+/// Whether a criterion of the run shows a field.
+bool follows(const coupling::Phases& phases, const quantities::Quantity& field) {
+  return phases.criteria != nullptr && std::ranges::count(phases.criteria->fields(), &field) > 0;
+}
+
 bool samples_criteria(const coupling::Phases& phases, const std::vector<Probe>& probes) {
   if (phases.criteria == nullptr) return false;
   const std::vector<const quantities::Quantity*> fields = phases.criteria->fields();
@@ -129,6 +135,10 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
       pools_.emplace(folder.pools(), options_.continue_from
                                          ? std::optional(options_.continue_from->state.time)
                                          : std::nullopt);
+    if (follows(phases, criteria::fields::k_emptied))
+      feeding_.emplace(folder.feeding(), options_.continue_from
+                                             ? std::optional(options_.continue_from->state.time)
+                                             : std::nullopt);
     if (options_.shots && phases.heat != nullptr)
       shots_.emplace(folder.shots(), options_.continue_from
                                          ? std::optional(options_.continue_from->state.time)
@@ -329,6 +339,7 @@ void Recorder::add_history_row(const coupling::State& state) {
 void Recorder::add_pools(const coupling::State& state) {
   on_first_process([&] {
     if (pools_) pools_->add(state);
+    if (feeding_) feeding_->add(state);
   });
 }
 

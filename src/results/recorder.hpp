@@ -12,6 +12,7 @@
 #include "results/answer_errors.hpp"
 #include "results/answers.hpp"
 #include "results/checkpoint.hpp"
+#include "results/feeding_table.hpp"
 #include "results/field_output.hpp"
 #include "results/pool_table.hpp"
 #include "results/probes.hpp"
@@ -98,13 +99,14 @@ class Recorder : public coupling::Observer {
   bool criteria_probed_ = false;             ///< a probe samples a field of a criterion
   std::optional<CsvTable> history_, steps_;  // on process 0
   std::optional<PoolTable> pools_;           // on process 0, where pools are followed
+  std::optional<FeedingTable> feeding_;      // on process 0, where feeding is followed
   std::optional<ShotTable> shots_;           // on process 0, in a run with shots
   std::optional<Progress> progress_;         // on process 0
   std::vector<double> last_row_;
   LastStep last_step_;
-  int stage_ = 0, cycle_ = 0;  ///< of the last row, as in StepRecord
-  int shot_ = 0;               ///< as in State
-  double since_pouring_ = 0;   ///< [s]
+  int stage_ = 0, cycle_ = 0;              ///< of the last row, as in StepRecord
+  int shot_ = 0;                           ///< as in State
+  double since_pouring_ = 0;               ///< [s]
   std::array<double, 2> largest_error_{};  ///< Answers::step_error
   double seconds_heat_ = 0, seconds_mechanics_ = 0, seconds_output_ = 0, began_ = 0;
 };

@@ -23,6 +23,7 @@ bool is_finished(const std::filesystem::path& folder);
 /// history.csv   probes and globals     steps.csv  every step     summary.json  how it went
 /// fields.pvd    the fields over time   fields/    the field files   checkpoint/  to go on from
 /// pools.csv     pools of melt, where something can freeze
+/// feeding.csv   where the metal that shrinks took its volume from, with heat alone
 /// report.html   the page that `solidus report` wrote; a new run takes it away
 /// ```
 class RunFolder {
@@ -43,6 +44,7 @@ class RunFolder {
   std::filesystem::path history() const { return root_ / "history.csv"; }
   std::filesystem::path steps() const { return root_ / "steps.csv"; }
   std::filesystem::path pools() const { return root_ / "pools.csv"; }
+  std::filesystem::path feeding() const { return root_ / "feeding.csv"; }
   std::filesystem::path shots() const { return root_ / "shots.csv"; }
   std::filesystem::path summary() const { return root_ / "summary.json"; }
   std::filesystem::path collection() const { return root_ / "fields.pvd"; }

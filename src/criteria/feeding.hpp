@@ -1,0 +1,124 @@
+/// Feeding with heat alone: where the metal that shrinks takes its volume from (docs/theory/feeding.md).
+///
+/// Metal is balanced around each node (feeding_nodes.hpp): it fills the room that is not empty, V_i F_i, with
+/// n_i = F_i/v_i (metal_volume.hpp). Until its last melt freezes it stays full:
+///
+///   - a node of a pool, metal below coherency that is connected, takes what it needs from the pool;
+///   - mush beyond coherency is fed through its dendrites (mush_flow.hpp) and gets pores where melt does not
+///     come through, or where no pool is connected;
+///   - a pool sinks at its surface that is open to the atmosphere: a pipe. Without one it draws in the skin
+///     that is still soft: a sink. Behind a coherent skin it leaves a cavity below its highest point. All
+///     three empty from the top down (feeding_levels.hpp).
+///
+/// Solid metal contracts at the expense of the outside. So at all times
+///
+///   pipe + sink + cavity + pores + outside = contraction of melt, of freezing and of solid
+///
+/// whose left side is a sum over the state and whose right side is summed over the steps, metal that moves
+/// from v_i to v_j included. Metal is neither lost nor made.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "criteria/connectivity.hpp"
+#include "criteria/criterion.hpp"
+#include "criteria/feeding_graph.hpp"
+#include "criteria/feeding_nodes.hpp"
+#include "criteria/mush_flow.hpp"
+#include "heat/nodal_enthalpy.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::criteria {
+
+struct DrainedNode;
+struct PoolLevel;
+
+/// Volumes of a run so far [m³], in two dimensions per depth or revolution.
+struct FeedingTotals {
+  double room = 0;                                                ///< of the castings as poured
+  double melt = 0, freezing = 0, solid = 0;                       ///< contractions
+  double pipe = 0, sink = 0, cavity = 0, pores = 0, outside = 0;  ///< what they took their volume from
+  /// What is left of the balance, as a share of the room.
+  double defect() const {
+    return room > 0 ? (pipe + sink + cavity + pores + outside - melt - freezing - solid) / room : 0;
+  }
+};
+
+/// A hole that is connected.
+struct FeedingHole {
+  enum class Kind { pipe, cavity };
+  Kind kind = Kind::pipe;
+  double volume = 0;    ///< [m³]
+  mesh::Point where{};  ///< of a pipe its lowest place, of a cavity its middle [m]
+  double depth = 0;     ///< of a pipe from the highest open place of its body to its lowest place [m]
+  double left = 0;      ///< of a pipe from there to the lowest place of its body [m]
+  int body = -1;        ///< that has its lowest place
+};
+
+class Feeding : public Criterion {
+ public:
+  static constexpr const char* k_name = "feeding";
+  /// @param storage  of the thermal phase; kept by reference, as the mesh is
+  Feeding(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalEnthalpy& storage,
+          const FeedingOptions& options);
+  /// Whether a material that is followed changes its volume; else there is nothing to feed.
+  static bool has_shrinkage(const std::vector<material::Material>& materials,
+                            const std::vector<char>& followed);
+
+  CriterionRecord initial(const CriterionInput& start) const override;
+  CriterionRecord restart(const CriterionRecord& before, const CriterionInput& start) const override;
+  void step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) override;
+  std::span<const quantities::Quantity* const> fields() const override;
+  void fill(const CriterionInput& now, const CriterionRecord& record,
+            std::span<const std::span<double>> values) const override;
+  std::vector<CriterionResult> findings(const CriterionRecord& record) const override;
+  std::size_t bytes() const override;
+
+  static FeedingTotals totals(const CriterionRecord& record);
+
+ private:
+  struct Step;
+  double room(std::size_t node) const;
+  const MetalVolume& metal_of(std::size_t node) const {
+    return *metals_[static_cast<std::size_t>(body_[node])];
+  }
+  void measure(const CriterionInput& old, const CriterionInput& next, Step& step) const;
+  void feed(Step& step) const;
+  void leave_out_absent(Step& step) const;
+  void find_pools(Step& step) const;
+  void feed_mush(Step& step) const;
+  void share_among_pools(Step& step, const std::vector<double>& from_pool, const std::vector<int>& region,
+                         std::size_t n_regions) const;
+  static void open_pores(Step& step, std::size_t node, double metal);
+  /// The share of a room that can leave a node.
+  static double movable(const Step& step, std::size_t node);
+  static double reached_at_first(const Step& step, std::size_t node);
+  void drain(Step& step) const;
+  static void leave_unfed(Step& step, std::vector<double> missing);
+  void refill(Step& step) const;
+  std::vector<double> drain_from(Step& step, std::vector<double>& reached, const std::vector<double>& asked,
+                                 bool at_surface) const;
+  bool spread(const Step& step, const std::vector<PoolLevel>& level, std::vector<double>& reached) const;
+  static void empty(Step& step, const DrainedNode& d, double gain, bool at_surface);
+  void commit(Step& step, FeedingTotals& totals) const;
+  /// Pipes and cavities, the largest first of each kind, without those that are next to nothing.
+  std::vector<FeedingHole> holes(const CriterionRecord& record) const;
+  /// The lowest place of a body and its highest open one, along `up` [m].
+  std::array<double, 2> extent_of(int body) const;
+  CriterionResult densest_pores(const CriterionRecord& record) const;
+
+  const mesh::Mesh& mesh_;
+  const heat::NodalEnthalpy& storage_;
+  std::vector<char> followed_;  ///< [body]
+  std::array<double, 3> up_;
+  parallel::GhostExchange ghosts_;
+  Connectivity connectivity_;
+  FeedingGraph graph_;
+  std::vector<std::optional<MetalVolume>> metals_;  ///< [body], of those that are followed
+  std::vector<MushLaw> laws_;                       ///< [body]
+  std::vector<int> body_;  ///< [local node]: that of which it holds most among them, else −1
+};
+
+}  // namespace solidus::criteria

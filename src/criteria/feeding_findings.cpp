@@ -1,0 +1,150 @@
+// What Feeding tells at the end of a run: holes with their places, and the volumes of the balance.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "criteria/feeding.hpp"
+#include "criteria/feeding_step.hpp"
+#include "criteria/gather.hpp"
+
+namespace solidus::criteria {
+
+namespace {
+
+constexpr std::size_t k_told = 3;        ///< holes of each kind
+constexpr double k_least_hole = 1e-6;    ///< of the room of the castings
+constexpr double k_part_of_hole = 0.02;  ///< of its room that a node must have lost to connect a hole
+
+/// What one process knows of a hole, as a row of numbers.
+struct Part {
+  double label = 0, volume = 0;
+  mesh::Point moment{};  ///< volume times place [m⁴]
+  double bottom = std::numeric_limits<double>::max();
+  mesh::Point lowest{};
+  double body = -1;
+  static constexpr std::size_t k_width = 10;
+};
+
+void add(std::map<double, Part>& parts, const Part& other) {
+  Part& part = parts.try_emplace(other.label, Part{.label = other.label}).first->second;
+  part.volume += other.volume;
+  for (std::size_t d = 0; d < 3; ++d) part.moment[d] += other.moment[d];
+  if (other.bottom >= part.bottom) return;
+  part.bottom = other.bottom;
+  part.lowest = other.lowest;
+  part.body = other.body;
+}
+
+std::map<double, Part> of_all_processes(const std::map<double, Part>& own) {
+  std::vector<double> rows;
+  for (const auto& [label, p] : own)
+    rows.insert(rows.end(), {label, p.volume, p.moment[0], p.moment[1], p.moment[2], p.bottom, p.lowest[0],
+                             p.lowest[1], p.lowest[2], p.body});
+  const std::vector<double> all = gathered(std::span<const double>(rows));
+  std::map<double, Part> parts;
+  for (std::size_t i = 0; i + Part::k_width <= all.size(); i += Part::k_width) {
+    const double* r = all.data() + i;
+    add(parts, {r[0], r[1], {r[2], r[3], r[4]}, r[5], {r[6], r[7], r[8]}, r[9]});
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
+  CriterionRecord copy{record.name, record.columns, {}};
+  const FeedingRows rows(copy.columns[0].values);
+  const double room = totals(record).room;
+  std::vector<FeedingHole> found;
+  for (const auto kind : {FeedingHole::Kind::pipe, FeedingHole::Kind::cavity}) {
+    const auto lost = [&](std::size_t i) {
+      return kind == FeedingHole::Kind::pipe ? rows(i, k_pipe) : rows(i, k_cavity);
+    };
+    std::vector<char> inside(mesh_.x.size());
+    for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = lost(i) > k_part_of_hole;
+    const ConnectedParts parts = connectivity_.parts(inside);
+    std::map<double, Part> own;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i) {
+      if (inside[i] == 0) continue;
+      Part part{.label = parts.label[i], .volume = rows(i, k_room) * lost(i)};
+      for (std::size_t d = 0; d < 3; ++d) part.moment[d] = part.volume * mesh_.x[i][d];
+      const double drained = std::clamp(rows(i, k_drained), 0.0, 1.0);
+      part.bottom = graph_.high(i) - drained * (graph_.high(i) - graph_.low(i));
+      part.lowest = mesh_.x[i];
+      const double height = mesh_.x[i][0] * up_[0] + mesh_.x[i][1] * up_[1] + mesh_.x[i][2] * up_[2];
+      for (std::size_t d = 0; d < 3; ++d) part.lowest[d] += (part.bottom - height) * up_[d];
+      part.body = body_[i];
+      add(own, part);
+    }
+    for (const auto& [label, part] : of_all_processes(own)) {
+      if (!(part.volume > k_least_hole * room)) continue;
+      FeedingHole hole{.kind = kind, .volume = part.volume, .body = static_cast<int>(part.body)};
+      for (std::size_t d = 0; d < 3; ++d) hole.where[d] = part.moment[d] / part.volume;
+      if (kind == FeedingHole::Kind::pipe) {
+        hole.where = part.lowest;
+        const auto [bottom, top] = extent_of(hole.body);
+        hole.depth = top - part.bottom;
+        hole.left = part.bottom - bottom;
+      }
+      found.push_back(hole);
+    }
+  }
+  std::ranges::stable_sort(found, [](const FeedingHole& a, const FeedingHole& b) {
+    return a.kind != b.kind ? a.kind < b.kind : a.volume > b.volume;
+  });
+  return found;
+}
+
+std::array<double, 2> Feeding::extent_of(int body) const {
+  double low = std::numeric_limits<double>::max(), open = -low;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i) {
+    if (body_[i] != body) continue;
+    const double height = mesh_.x[i][0] * up_[0] + mesh_.x[i][1] * up_[1] + mesh_.x[i][2] * up_[2];
+    low = std::min(low, height);
+    if (graph_.vented(i)) open = std::max(open, height);
+  }
+  return {parallel::global_min(low), parallel::global_max(open)};
+}
+
+std::vector<CriterionResult> Feeding::findings(const CriterionRecord& record) const {
+  const FeedingTotals t = totals(record);
+  std::vector<CriterionResult> found{
+      {"feeding_pipe", "m3", t.pipe, false, {}},     {"feeding_sink", "m3", t.sink, false, {}},
+      {"feeding_cavity", "m3", t.cavity, false, {}}, {"feeding_pores", "m3", t.pores, false, {}},
+      {"feeding_room", "m3", t.room, false, {}},     {"feeding_defect", "1", t.defect(), false, {}}};
+  std::array<std::size_t, 2> told{};
+  for (const FeedingHole& hole : holes(record)) {
+    const bool pipe = hole.kind == FeedingHole::Kind::pipe;
+    const std::size_t number = ++told[pipe ? 0 : 1];
+    if (number > k_told) continue;
+    const std::string name = (pipe ? "pipe_" : "cavity_") + std::to_string(number);
+    found.push_back({name + "_volume", "m3", hole.volume, true, hole.where});
+    if (!pipe) continue;
+    found.push_back({name + "_depth", "m", hole.depth, true, hole.where});
+    found.push_back({name + "_left", "m", hole.left, true, hole.where});
+    found.push_back({name + "_body", "1", static_cast<double>(hole.body), false, {}});
+  }
+  if (t.pores > k_least_hole * t.room) found.push_back(densest_pores(record));
+  return found;
+}
+
+CriterionResult Feeding::densest_pores(const CriterionRecord& record) const {
+  CriterionRecord copy{record.name, record.columns, {}};
+  const FeedingRows rows(copy.columns[0].values);
+  std::vector<double> own;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i)
+    if (rows(i, k_room) > 0 && (own.empty() || rows(i, k_pores) > own[0]))
+      own = {rows(i, k_pores), mesh_.x[i][0], mesh_.x[i][1], mesh_.x[i][2]};
+  const std::vector<double> all = gathered(std::span<const double>(own));
+  CriterionResult densest{"feeding_densest_pores", "1", 0, true, {}};
+  for (std::size_t k = 0; k + 4 <= all.size(); k += 4) {
+    if (all[k] <= densest.value) continue;
+    densest.value = all[k];
+    densest.where = {all[k + 1], all[k + 2], all[k + 3]};
+  }
+  return densest;
+}
+
+}  // namespace solidus::criteria

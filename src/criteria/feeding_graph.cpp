@@ -1,0 +1,188 @@
+#include "criteria/feeding_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "mesh/block_geometry.hpp"
+#include "mesh/body_faces.hpp"
+#include "system/errors.hpp"
+
+namespace solidus::criteria {
+
+namespace {
+
+double along(const mesh::Point& x, const std::array<double, 3>& up) {
+  return x[0] * up[0] + x[1] * up[1] + x[2] * up[2];
+}
+
+/// The area of a face times its outward normal, of its first vertices.
+mesh::Point area_vector(const mesh::Mesh& mesh, std::span<const Index> vertices) {
+  const auto x = [&](std::size_t k) { return mesh.x[static_cast<std::size_t>(vertices[k])]; };
+  if (vertices.size() == 2) return {x(1)[1] - x(0)[1], x(0)[0] - x(1)[0], 0};
+  const std::size_t last = vertices.size() - 1;
+  mesh::Point a{}, b{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    a[i] = vertices.size() == 4 ? x(2)[i] - x(0)[i] : x(1)[i] - x(0)[i];
+    b[i] = vertices.size() == 4 ? x(3)[i] - x(1)[i] : x(last)[i] - x(0)[i];
+  }
+  return {(a[1] * b[2] - a[2] * b[1]) / 2, (a[2] * b[0] - a[0] * b[2]) / 2, (a[0] * b[1] - a[1] * b[0]) / 2};
+}
+
+/// The nodes of groups, [local node].
+std::vector<char> nodes_of(const mesh::Mesh& mesh, const std::vector<std::string>& groups, const char* key) {
+  std::vector<char> marked(mesh.x.size(), 0);
+  for (const std::string& group : groups) {
+    const auto nodes = mesh.node_sets.find(group);
+    if (nodes == mesh.node_sets.end())
+      throw InputError({}, std::string("feeding.") + key + ": the mesh has no group '" + group + "'");
+    for (const Index node : nodes->second) marked[static_cast<std::size_t>(node)] = 1;
+  }
+  return marked;
+}
+
+}  // namespace
+
+FeedingGraph::FeedingGraph(const mesh::Mesh& mesh, AnalysisKind kind, const FeedingOptions& options)
+    : low_(mesh.x.size(), 0.0),
+      high_(mesh.x.size(), 0.0),
+      skin_(mesh.x.size(), 0),
+      vented_(mesh.x.size(), 0) {
+  connect(mesh, kind, options.bodies);
+  measure(mesh, options);
+  mark(mesh, options);
+}
+
+// Entries of all elements are listed by their first node, then those of the same pair are added up.
+void FeedingGraph::connect(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<char>& bodies) {
+  const auto owned = static_cast<std::size_t>(mesh.n_owned_nodes);
+  std::vector<std::size_t> entries(owned + 1, 0);
+  const auto each_block = [&](const auto& visit) {
+    for (const mesh::ElementBlock& block : mesh.blocks)
+      if (bodies[static_cast<std::size_t>(block.body)] != 0) visit(block);
+  };
+  each_block([&](const mesh::ElementBlock& block) {
+    const int n = mesh::node_count(block.shape);
+    for (const Index node : block.nodes)
+      if (node < mesh.n_owned_nodes)
+        entries[static_cast<std::size_t>(node) + 1] += static_cast<std::size_t>(n - 1);
+  });
+  std::partial_sum(entries.begin(), entries.end(), entries.begin());
+  neighbours_.resize(entries.back());
+  std::vector<std::size_t> next(entries.begin(), entries.end() - 1);
+  each_block([&](const mesh::ElementBlock& block) {
+    const mesh::BlockGeometry g(
+        mesh, block, kind,
+        mesh::order(block.shape) == 1 ? mesh::nodal_rule(block.shape) : mesh::stiffness_rule(block.shape));
+    const int n = g.n_nodes;
+    std::vector<Lane> factor(static_cast<std::size_t>(n * n));
+    for (Index batch = 0; batch < g.n_batches; ++batch) {
+      std::fill(factor.begin(), factor.end(), Lane(0.0));
+      for (int q = 0; q < g.n_points; ++q) {
+        const Lane* gradients = g.gradients_at(batch, q);
+        const Lane weight = g.weight_at(batch, q);
+        for (int a = 0; a < n; ++a)
+          for (int b = 0; b < n; ++b)
+            for (int d = 0; d < g.dim; ++d)
+              factor[static_cast<std::size_t>(a * n + b)] -=
+                  weight * gradients[a * g.dim + d] * gradients[b * g.dim + d];
+      }
+      for (Index lane = 0; lane < k_lanes && batch * k_lanes + lane < block.size(); ++lane) {
+        const Index* nodes = block.element(batch * k_lanes + lane);
+        for (int a = 0; a < n; ++a) {
+          if (nodes[a] >= mesh.n_owned_nodes) continue;
+          for (int b = 0; b < n; ++b)
+            if (a != b)
+              neighbours_[next[static_cast<std::size_t>(nodes[a])]++] = {
+                  nodes[b],
+                  static_cast<float>(factor[static_cast<std::size_t>(a * n + b)][static_cast<int>(lane)])};
+        }
+      }
+    }
+  });
+  start_.assign(owned + 1, 0);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < owned; ++i) {
+    start_[i] = kept;
+    const auto first = neighbours_.begin() + static_cast<std::ptrdiff_t>(entries[i]),
+               last = neighbours_.begin() + static_cast<std::ptrdiff_t>(entries[i + 1]);
+    std::stable_sort(first, last, [](const Neighbour& a, const Neighbour& b) { return a.node < b.node; });
+    for (auto entry = first; entry != last; ++entry) {
+      if (kept > start_[i] && neighbours_[kept - 1].node == entry->node)
+        neighbours_[kept - 1].factor += entry->factor;
+      else
+        neighbours_[kept++] = *entry;
+    }
+    for (std::size_t k = start_[i]; k < kept; ++k)
+      neighbours_[k].factor = std::max(neighbours_[k].factor, 0.0F);
+  }
+  start_[owned] = kept;
+  neighbours_.resize(kept);
+  neighbours_.shrink_to_fit();
+}
+
+void FeedingGraph::measure(const mesh::Mesh& mesh, const FeedingOptions& options) {
+  for (std::size_t i = 0; i < mesh.x.size(); ++i) low_[i] = high_[i] = along(mesh.x[i], options.up);
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (options.bodies[static_cast<std::size_t>(block.body)] == 0) continue;
+    const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
+    const auto n_vertices = static_cast<std::size_t>(mesh::vertex_count(block.shape));
+    for (Index e = 0; e < block.size(); ++e) {
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      const std::span<const Index> nodes{block.element(e), n};
+      for (const Index node : nodes.first(n_vertices)) {
+        const double height = along(mesh.x[static_cast<std::size_t>(node)], options.up);
+        low = std::min(low, height);
+        high = std::max(high, height);
+      }
+      for (std::size_t a = 0; a < n; ++a) {
+        const auto i = static_cast<std::size_t>(nodes[a]);
+        const double height = along(mesh.x[i], options.up);
+        const double part = n > n_vertices && a < n_vertices ? 0.25 : 0.5;
+        low_[i] = std::min(low_[i], height - part * (height - low));
+        high_[i] = std::max(high_[i], height + part * (high - height));
+      }
+    }
+  }
+}
+
+// A face of the outside of all followed bodies. It is open where groups say so, or where it faces up and
+// nothing else stands there; it is skin where it is open or where heat leaves.
+void FeedingGraph::mark(const mesh::Mesh& mesh, const FeedingOptions& options) {
+  constexpr double k_upward = 0.5;  // of the normal along `up`
+  const std::vector<char> vented = nodes_of(mesh, options.vented, "vented"),
+                          covered = nodes_of(mesh, options.covered, "covered");
+  const auto touched = mesh::body_face_keys(mesh, options.touched),
+             cooled = mesh::body_face_keys(mesh, options.cooled);
+  const bool risers = std::ranges::find(options.risers, 1) != options.risers.end();
+  const auto is_followed = [&](const mesh::BodyFace& face) {
+    return options.bodies[static_cast<std::size_t>(face.body)] != 0;
+  };
+  mesh::each_body_face_at_owned(mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
+    if (!is_followed(face) || std::ranges::count_if(same, is_followed) > 1) return;
+    const mesh::Point area = area_vector(mesh, face.vertices());
+    const double size = std::sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+    const bool against_wall = same.size() > 1 || touched.contains(face.key);
+    const bool upward = along(area, options.up) > k_upward * size && !against_wall &&
+                        (!risers || options.risers[static_cast<std::size_t>(face.body)] != 0);
+    const auto all = [&](const std::vector<char>& marked) {
+      return std::ranges::all_of(face.vertices(),
+                                 [&](Index node) { return marked[static_cast<std::size_t>(node)] != 0; });
+    };
+    const bool open = (options.vented.empty() ? upward : all(vented)) && !all(covered);
+    const bool skin = open || against_wall || cooled.contains(face.key);
+    for (const Index node : face.all_nodes()) {
+      if (skin) skin_[static_cast<std::size_t>(node)] = 1;
+      if (open) vented_[static_cast<std::size_t>(node)] = 1;
+    }
+  });
+}
+
+std::size_t FeedingGraph::bytes() const {
+  return start_.capacity() * sizeof start_[0] + neighbours_.capacity() * sizeof neighbours_[0] +
+         (low_.capacity() + high_.capacity()) * sizeof(double) + skin_.capacity() + vented_.capacity();
+}
+
+}  // namespace solidus::criteria
