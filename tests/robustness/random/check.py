@@ -14,6 +14,7 @@ import time
 from pathlib import Path
 
 DEFECT, DEFECT_AT_LOOSE_TOLERANCES = 1e-8, 1e-5  # of the first law, of the scale that the program names
+FED = 1e-8  # of the room of the castings
 MUCH = 10  # times what residuals explain of the functional
 LAW_CLOSES = ("energy", None)  # structural_heating with which the scheme closes the first law
 
@@ -82,7 +83,7 @@ class Runner:
             return "stopped", said[1] if said else log[-200:]
         if code != 0:
             return "broken", f"exit code {code}: {log[-300:]}"
-        for invariant in (no_nan, first_law, bounds, functional):
+        for invariant in (no_nan, first_law, bounds, functional, feeding):
             reason = invariant(case, folder / "whole", log)
             if reason:
                 return "broken", reason
@@ -168,8 +169,19 @@ def functional(case, results, log):
     return said[0][:120] if grown else ""
 
 
+def feeding(case, results, log):
+    """What shrinks is what pipes, sinks, cavities, pores and the outside have got, to 1e-8 of the castings."""
+    table = results / "feeding.csv"
+    if not table.exists():
+        return ""
+    header, *values = rows(table)
+    defect = max(abs(float(row[header.index("balance_defect[1]")])) for row in values)
+    return "" if defect <= FED else f"the balance of feeding is off by {defect:.2g}"
+
+
 def different(one, other):
-    for name in ("history.csv", "fields.pvd"):
+    tables = [name for name in ("history.csv", "feeding.csv", "fields.pvd") if (one / name).exists()]
+    for name in tables:
         if (one / name).read_bytes() != (other / name).read_bytes():
             return f"{name} differs after a restart"
     here = sorted(p.name for p in (one / "fields").iterdir())
