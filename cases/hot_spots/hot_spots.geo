@@ -6,7 +6,7 @@
 //   |            +------------+      |
 //   |            +------------+      |
 //   +------------+            +------+
-DefineConstant[ size = 3 ];
+DefineConstant[ size = {3, Name "size"} ];
 SetFactory("OpenCASCADE");
 Rectangle(1) = {0, 0, 0, 60, 40};
 Rectangle(2) = {60, 14, 0, 80, 12};

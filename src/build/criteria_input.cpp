@@ -22,7 +22,7 @@ std::array<double, 3> upward(const AnalysisSpec& analysis) {
   return up;
 }
 
-criteria::FeedingOptions feeding_options(const CaseSpec& spec,
+criteria::FeedingOptions feeding_options(const CaseSpec& spec, const mesh::Mesh& mesh,
                                          const std::vector<material::Material>& materials,
                                          const std::vector<InitialTemperatureRange>& start) {
   criteria::FeedingOptions options{.bodies = followed_bodies(spec, materials, start),
@@ -30,6 +30,10 @@ criteria::FeedingOptions feeding_options(const CaseSpec& spec,
                                    .up = upward(spec.analysis),
                                    .vented = spec.feeding.vented,
                                    .covered = spec.feeding.covered};
+  // A surface that feeds is an open one.
+  if (options.vented.empty())
+    for (const std::string& feeder : spec.criteria.feeders)
+      if (mesh.surfaces.contains(feeder)) options.vented.push_back(feeder);
   for (const results::CastBody& cast : cast_bodies(spec, materials, start))
     if (cast.feeds) options.risers[static_cast<std::size_t>(cast.body)] = 1;
   for (const ContactSpec& contact : spec.contacts)
@@ -60,7 +64,7 @@ std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const me
       .feeding_limit = spec.criteria.feeding_limit,
       .feeders = spec.criteria.feeders,
       .feeding = spec.feeding.follow,
-      .feeding_options = feeding_options(spec, materials, start)};
+      .feeding_options = feeding_options(spec, mesh, materials, start)};
   auto all = std::make_unique<criteria::Criteria>(phases.heat);
   for (const auto& kind : criteria::criterion_kinds()) {
     try {

@@ -52,7 +52,7 @@ struct FeedingHole {
   Kind kind = Kind::pipe;
   double volume = 0;    ///< [m³]
   mesh::Point where{};  ///< of a pipe its lowest place, of a cavity its middle [m]
-  double depth = 0;     ///< of a pipe from the highest open place of its body to its lowest place [m]
+  double depth = 0;     ///< of a pipe from its highest to its lowest place [m]
   double left = 0;      ///< of a pipe from there to the lowest place of its body [m]
   int body = -1;        ///< that has its lowest place
 };
@@ -105,8 +105,8 @@ class Feeding : public Criterion {
   void commit(Step& step, FeedingTotals& totals) const;
   /// Pipes and cavities, the largest first of each kind, without those that are next to nothing.
   std::vector<FeedingHole> holes(const CriterionRecord& record) const;
-  /// The lowest place of a body and its highest open one, along `up` [m].
-  std::array<double, 2> extent_of(int body) const;
+  /// The height of the lowest place of a body [m].
+  double lowest_of(int body) const;
   CriterionResult densest_pores(const CriterionRecord& record) const;
 
   const mesh::Mesh& mesh_;

@@ -23,14 +23,16 @@ struct Part {
   mesh::Point moment{};  ///< volume times place [m⁴]
   double bottom = std::numeric_limits<double>::max();
   mesh::Point lowest{};
-  double body = -1;
-  static constexpr std::size_t k_width = 10;
+  double body = -1;  ///< that has the lowest place
+  double top = std::numeric_limits<double>::lowest();
+  static constexpr std::size_t k_width = 11;
 };
 
 void add(std::map<double, Part>& parts, const Part& other) {
   Part& part = parts.try_emplace(other.label, Part{.label = other.label}).first->second;
   part.volume += other.volume;
   for (std::size_t d = 0; d < 3; ++d) part.moment[d] += other.moment[d];
+  part.top = std::max(part.top, other.top);
   if (other.bottom >= part.bottom) return;
   part.bottom = other.bottom;
   part.lowest = other.lowest;
@@ -41,12 +43,12 @@ std::map<double, Part> of_all_processes(const std::map<double, Part>& own) {
   std::vector<double> rows;
   for (const auto& [label, p] : own)
     rows.insert(rows.end(), {label, p.volume, p.moment[0], p.moment[1], p.moment[2], p.bottom, p.lowest[0],
-                             p.lowest[1], p.lowest[2], p.body});
+                             p.lowest[1], p.lowest[2], p.body, p.top});
   const std::vector<double> all = gathered(std::span<const double>(rows));
   std::map<double, Part> parts;
   for (std::size_t i = 0; i + Part::k_width <= all.size(); i += Part::k_width) {
     const double* r = all.data() + i;
-    add(parts, {r[0], r[1], {r[2], r[3], r[4]}, r[5], {r[6], r[7], r[8]}, r[9]});
+    add(parts, {r[0], r[1], {r[2], r[3], r[4]}, r[5], {r[6], r[7], r[8]}, r[9], r[10]});
   }
   return parts;
 }
@@ -72,6 +74,7 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
       for (std::size_t d = 0; d < 3; ++d) part.moment[d] = part.volume * mesh_.x[i][d];
       const double drained = std::clamp(rows(i, k_drained), 0.0, 1.0);
       part.bottom = graph_.high(i) - drained * (graph_.high(i) - graph_.low(i));
+      part.top = graph_.high(i);
       part.lowest = mesh_.x[i];
       const double height = mesh_.x[i][0] * up_[0] + mesh_.x[i][1] * up_[1] + mesh_.x[i][2] * up_[2];
       for (std::size_t d = 0; d < 3; ++d) part.lowest[d] += (part.bottom - height) * up_[d];
@@ -84,9 +87,8 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
       for (std::size_t d = 0; d < 3; ++d) hole.where[d] = part.moment[d] / part.volume;
       if (kind == FeedingHole::Kind::pipe) {
         hole.where = part.lowest;
-        const auto [bottom, top] = extent_of(hole.body);
-        hole.depth = top - part.bottom;
-        hole.left = part.bottom - bottom;
+        hole.depth = part.top - part.bottom;
+        hole.left = part.bottom - lowest_of(hole.body);
       }
       found.push_back(hole);
     }
@@ -97,15 +99,12 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
   return found;
 }
 
-std::array<double, 2> Feeding::extent_of(int body) const {
-  double low = std::numeric_limits<double>::max(), open = -low;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i) {
-    if (body_[i] != body) continue;
-    const double height = mesh_.x[i][0] * up_[0] + mesh_.x[i][1] * up_[1] + mesh_.x[i][2] * up_[2];
-    low = std::min(low, height);
-    if (graph_.vented(i)) open = std::max(open, height);
-  }
-  return {parallel::global_min(low), parallel::global_max(open)};
+double Feeding::lowest_of(int body) const {
+  double low = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i)
+    if (body_[i] == body)
+      low = std::min(low, mesh_.x[i][0] * up_[0] + mesh_.x[i][1] * up_[1] + mesh_.x[i][2] * up_[2]);
+  return parallel::global_min(low);
 }
 
 std::vector<CriterionResult> Feeding::findings(const CriterionRecord& record) const {
