@@ -8,6 +8,7 @@
 
 #include "mesh/block_geometry.hpp"
 #include "mesh/body_faces.hpp"
+#include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::criteria {
@@ -178,6 +179,17 @@ void FeedingGraph::mark(const mesh::Mesh& mesh, const FeedingOptions& options) {
       if (open) vented_[static_cast<std::size_t>(node)] = 1;
     }
   });
+  const parallel::GhostExchange ghosts(mesh);
+  std::vector<double> marks(2 * mesh.x.size());
+  for (std::size_t i = 0; i < mesh.x.size(); ++i) {
+    marks[2 * i] = skin_[i];
+    marks[2 * i + 1] = vented_[i];
+  }
+  ghosts.update(marks, 2);
+  for (std::size_t i = 0; i < mesh.x.size(); ++i) {
+    skin_[i] = marks[2 * i] != 0;
+    vented_[i] = marks[2 * i + 1] != 0;
+  }
 }
 
 std::size_t FeedingGraph::bytes() const {

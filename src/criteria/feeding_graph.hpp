@@ -59,7 +59,7 @@ class FeedingGraph {
   std::vector<std::size_t> start_;  ///< [owned node], one more at the end
   std::vector<Neighbour> neighbours_;
   std::vector<double> low_, high_;   ///< [local node], exact for owned ones
-  std::vector<char> skin_, vented_;  ///< [local node], exact for owned ones
+  std::vector<char> skin_, vented_;  ///< [local node]
 };
 
 }  // namespace solidus::criteria

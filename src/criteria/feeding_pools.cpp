@@ -70,6 +70,14 @@ void Feeding::find_pools(Step& step) const {
       return emptied_through(static_cast<std::size_t>(n.node), kind);
     });
   };
+  // A single node of a corner that stays hot is no skin that gives way.
+  const auto gives_way = [&](std::size_t i) {
+    return graph_.skin(i) &&
+           std::ranges::any_of(graph_.around(static_cast<Index>(i)), [&](const FeedingGraph::Neighbour& n) {
+             const auto j = static_cast<std::size_t>(n.node);
+             return step.inside[j] != 0 && graph_.skin(j);
+           });
+  };
   const std::size_t owned = step.demands.size();
   step.by_air.assign(step.inside.size(), 0.0);
   step.by_skin.assign(step.inside.size(), 0.0);
@@ -77,7 +85,7 @@ void Feeding::find_pools(Step& step) const {
   for (std::size_t i = 0; i < owned; ++i) {
     if (step.inside[i] == 0) continue;
     step.by_air[i] = reached(i, graph_.vented(i), k_pipe) ? 1.0 : 0.0;
-    step.by_skin[i] = reached(i, graph_.skin(i), k_sink) ? 1.0 : 0.0;
+    step.by_skin[i] = reached(i, gives_way(i), k_sink) ? 1.0 : 0.0;
     if (step.by_air[i] != 0) open.push_back(parts.label[i]);
     if (step.by_skin[i] != 0) soft_skin.push_back(parts.label[i]);
   }

@@ -29,8 +29,9 @@ class MetalVolume {
   /// Where the last melt has just frozen.
   VolumeParts solid() const { return solid_; }
   /// The share of the metal around a node that moves with the melt, by its solid fraction: one below
-  /// coherency and zero from there on. Where a change at one temperature passes coherency, metal is either
-  /// before it or solid, and the share falls in proportion from the one to the other.
+  /// coherency and zero from there on. Where a change at one temperature passes coherency (pure metals,
+  /// eutectics), conduction makes a front of it: metal is either before it or solid, and the share falls in
+  /// proportion from the one to the other.
   double mobile_share(double solid_fraction) const {
     if (solid_fraction <= mobile_to_) return 1;
     if (solid_fraction >= held_from_) return 0;

@@ -302,6 +302,10 @@ std::string feeding_lines(const std::vector<criteria::CriterionResult>& found, c
   constexpr double k_told = 1e-5;  // of what was cast
   if (const double sink = result("feeding_sink")->value; sink > k_told * room->value)
     text += line("sinks of the soft skin", fmt::format("{}, {}", format.volume(sink), share(sink)));
+  if (const double swollen = -result("feeding_sink")->value - result("feeding_pipe")->value;
+      swollen > k_told * room->value)
+    text += line("melt that swells", fmt::format("{} more than its room, {}: it rises, or the mould yields",
+                                                 format.volume(swollen), share(swollen)));
   if (const criteria::CriterionResult* densest = result("feeding_densest_pores")) {
     const double pores = result("feeding_pores")->value;
     text += line("pores that melt did not feed",
