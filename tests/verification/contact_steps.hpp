@@ -74,7 +74,7 @@ struct ContactSteps {
         temperature(mesh.x.size(), 300.0),
         phase(mesh, kind, materials, temperature, std::move(conditions), with_symmetry(options, pair),
               {&term}),
-        phases{nullptr, &phase, nullptr, {&pair}, nullptr, nullptr, {}, {}},
+        phases{.mechanics = &phase, .contacts = {&pair}, .temperature = {}, .ambient_temperature = {}},
         state(phase.initial_state()) {}
   ContactSteps(const ContactSteps&) = delete;
 
