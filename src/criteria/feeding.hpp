@@ -48,13 +48,13 @@ struct FeedingTotals {
 
 /// A hole that is connected.
 struct FeedingHole {
-  enum class Kind { pipe, cavity };
+  enum class Kind { pipe, cavity, sink };
   Kind kind = Kind::pipe;
   double volume = 0;    ///< [m³]
-  mesh::Point where{};  ///< of a pipe its lowest place, of a cavity its middle [m]
+  mesh::Point where{};  ///< of a pipe its lowest place, of others their middle [m]
   double depth = 0;     ///< of a pipe from its highest to its lowest place [m]
   double left = 0;      ///< of a pipe from there to the lowest place of its body [m]
-  int body = -1;        ///< that has its lowest place
+  int body = -1;        ///< that has its lowest place, of others the node that lost most
 };
 
 class Feeding : public Criterion {
@@ -103,7 +103,7 @@ class Feeding : public Criterion {
   bool spread(const Step& step, const std::vector<PoolLevel>& level, std::vector<double>& reached) const;
   static void empty(Step& step, const DrainedNode& d, double gain, bool at_surface);
   void commit(Step& step, FeedingTotals& totals) const;
-  /// Pipes and cavities, the largest first of each kind, without those that are next to nothing.
+  /// Pipes, cavities and sinks, the largest first of each kind, without those that are next to nothing.
   std::vector<FeedingHole> holes(const CriterionRecord& record) const;
   /// The height of the lowest place of a body [m].
   double lowest_of(int body) const;

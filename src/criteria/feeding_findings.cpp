@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "criteria/feeding.hpp"
 #include "criteria/feeding_step.hpp"
@@ -21,9 +22,11 @@ constexpr double k_part_of_hole = 0.02;  ///< of its room that a node must have 
 struct Part {
   double label = 0, volume = 0;
   mesh::Point moment{};  ///< volume times place [m⁴]
-  double bottom = std::numeric_limits<double>::max();
-  mesh::Point lowest{};
-  double body = -1;  ///< that has the lowest place
+  /// By what a place of it stands out: of a pipe how low it is, as minus the height of its bottom [m], else
+  /// how much it has lost [m³].
+  double rank = std::numeric_limits<double>::lowest();
+  mesh::Point place{};  ///< that stands out most
+  double body = -1;     ///< that has this place
   double top = std::numeric_limits<double>::lowest();
   static constexpr std::size_t k_width = 11;
 };
@@ -33,17 +36,17 @@ void add(std::map<double, Part>& parts, const Part& other) {
   part.volume += other.volume;
   for (std::size_t d = 0; d < 3; ++d) part.moment[d] += other.moment[d];
   part.top = std::max(part.top, other.top);
-  if (other.bottom >= part.bottom) return;
-  part.bottom = other.bottom;
-  part.lowest = other.lowest;
+  if (other.rank <= part.rank) return;
+  part.rank = other.rank;
+  part.place = other.place;
   part.body = other.body;
 }
 
 std::map<double, Part> of_all_processes(const std::map<double, Part>& own) {
   std::vector<double> rows;
   for (const auto& [label, p] : own)
-    rows.insert(rows.end(), {label, p.volume, p.moment[0], p.moment[1], p.moment[2], p.bottom, p.lowest[0],
-                             p.lowest[1], p.lowest[2], p.body, p.top});
+    rows.insert(rows.end(), {label, p.volume, p.moment[0], p.moment[1], p.moment[2], p.rank, p.place[0],
+                             p.place[1], p.place[2], p.body, p.top});
   const std::vector<double> all = gathered(std::span<const double>(rows));
   std::map<double, Part> parts;
   for (std::size_t i = 0; i + Part::k_width <= all.size(); i += Part::k_width) {
@@ -60,10 +63,10 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
   const FeedingRows rows(copy.columns[0].values);
   const double room = totals(record).room;
   std::vector<FeedingHole> found;
-  for (const auto kind : {FeedingHole::Kind::pipe, FeedingHole::Kind::cavity}) {
-    const auto lost = [&](std::size_t i) {
-      return kind == FeedingHole::Kind::pipe ? rows(i, k_pipe) : rows(i, k_cavity);
-    };
+  using Kind = FeedingHole::Kind;
+  for (const auto& [kind, number] :
+       {std::pair{Kind::pipe, k_pipe}, std::pair{Kind::cavity, k_cavity}, std::pair{Kind::sink, k_sink}}) {
+    const auto lost = [&rows, number = number](std::size_t i) { return rows(i, number); };
     std::vector<char> inside(mesh_.x.size());
     for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = lost(i) > k_part_of_hole;
     const ConnectedParts parts = connectivity_.parts(inside);
@@ -72,23 +75,27 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
       if (inside[i] == 0) continue;
       Part part{.label = parts.label[i], .volume = rows(i, k_room) * lost(i)};
       for (std::size_t d = 0; d < 3; ++d) part.moment[d] = part.volume * mesh_.x[i][d];
-      const double drained = std::clamp(rows(i, k_drained), 0.0, 1.0);
-      part.bottom = graph_.high(i) - drained * (graph_.high(i) - graph_.low(i));
+      part.rank = part.volume;
+      part.place = mesh_.x[i];
       part.top = graph_.high(i);
-      part.lowest = mesh_.x[i];
-      const double height = mesh_.x[i][0] * up_[0] + mesh_.x[i][1] * up_[1] + mesh_.x[i][2] * up_[2];
-      for (std::size_t d = 0; d < 3; ++d) part.lowest[d] += (part.bottom - height) * up_[d];
       part.body = body_[i];
+      if (kind == Kind::pipe) {
+        const double drained = std::clamp(rows(i, k_drained), 0.0, 1.0);
+        const double bottom = graph_.high(i) - drained * (graph_.high(i) - graph_.low(i));
+        const double height = mesh_.x[i][0] * up_[0] + mesh_.x[i][1] * up_[1] + mesh_.x[i][2] * up_[2];
+        for (std::size_t d = 0; d < 3; ++d) part.place[d] += (bottom - height) * up_[d];
+        part.rank = -bottom;
+      }
       add(own, part);
     }
     for (const auto& [label, part] : of_all_processes(own)) {
       if (!(part.volume > k_least_hole * room)) continue;
       FeedingHole hole{.kind = kind, .volume = part.volume, .body = static_cast<int>(part.body)};
       for (std::size_t d = 0; d < 3; ++d) hole.where[d] = part.moment[d] / part.volume;
-      if (kind == FeedingHole::Kind::pipe) {
-        hole.where = part.lowest;
-        hole.depth = part.top - part.bottom;
-        hole.left = part.bottom - lowest_of(hole.body);
+      if (kind == Kind::pipe) {
+        hole.where = part.place;
+        hole.depth = part.top + part.rank;
+        hole.left = -part.rank - lowest_of(hole.body);
       }
       found.push_back(hole);
     }
@@ -113,17 +120,17 @@ std::vector<CriterionResult> Feeding::findings(const CriterionRecord& record) co
       {"feeding_pipe", "m3", t.pipe, false, {}},     {"feeding_sink", "m3", t.sink, false, {}},
       {"feeding_cavity", "m3", t.cavity, false, {}}, {"feeding_pores", "m3", t.pores, false, {}},
       {"feeding_room", "m3", t.room, false, {}},     {"feeding_defect", "1", t.defect(), false, {}}};
-  std::array<std::size_t, 2> told{};
+  constexpr std::array<const char*, 3> k_names{"pipe_", "cavity_", "sink_"};  // in the order of the kinds
+  std::array<std::size_t, 3> told{};
   for (const FeedingHole& hole : holes(record)) {
-    const bool pipe = hole.kind == FeedingHole::Kind::pipe;
-    const std::size_t number = ++told[pipe ? 0 : 1];
-    if (number > k_told) continue;
-    const std::string name = (pipe ? "pipe_" : "cavity_") + std::to_string(number);
+    const auto kind = static_cast<std::size_t>(hole.kind);
+    if (++told[kind] > k_told) continue;
+    const std::string name = k_names[kind] + std::to_string(told[kind]);
     found.push_back({name + "_volume", "m3", hole.volume, true, hole.where});
-    if (!pipe) continue;
+    found.push_back({name + "_body", "1", static_cast<double>(hole.body), false, {}});
+    if (hole.kind != FeedingHole::Kind::pipe) continue;
     found.push_back({name + "_depth", "m", hole.depth, true, hole.where});
     found.push_back({name + "_left", "m", hole.left, true, hole.where});
-    found.push_back({name + "_body", "1", static_cast<double>(hole.body), false, {}});
   }
   if (t.pores > k_least_hole * t.room) found.push_back(densest_pores(record));
   return found;

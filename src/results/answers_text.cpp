@@ -286,22 +286,32 @@ std::string feeding_lines(const std::vector<criteria::CriterionResult>& found, c
   const auto share = [&](double volume) {
     return digits(100 * volume / room->value, 3) + " % of what was cast";
   };
+  const auto body_of = [&](const std::string& hole) -> std::string {
+    const auto body = std::ranges::find(answers.castings, static_cast<int>(result(hole + "_body")->value),
+                                        [](const CastAnswer& a) { return a.cast.body; });
+    return body == answers.castings.end() ? "casting" : body->cast.name;
+  };
+  const auto places = [&](const char* kind) {
+    std::string lines;
+    for (int k = 1; const criteria::CriterionResult* hole = result(fmt::format("{}_{}_volume", kind, k)); ++k)
+      lines += line(fmt::format("{} in '{}'", kind, body_of(fmt::format("{}_{}", kind, k))),
+                    fmt::format("{} {}", format.volume(hole->value), format.place(hole->where)));
+    return lines;
+  };
   std::string text;
   for (int k = 1; const criteria::CriterionResult* pipe = result(fmt::format("pipe_{}_volume", k)); ++k) {
     const auto of_pipe = [&](const char* what) { return result(fmt::format("pipe_{}_{}", k, what))->value; };
-    const auto body = std::ranges::find(answers.castings, static_cast<int>(of_pipe("body")),
-                                        [](const CastAnswer& a) { return a.cast.body; });
-    const std::string name = body == answers.castings.end() ? "casting" : body->cast.name;
+    const std::string name = body_of(fmt::format("pipe_{}", k));
     text += line(fmt::format("pipe in '{}'", name),
                  fmt::format("{}, {} deep {}; {} of '{}' are left below it", format.volume(pipe->value),
                              format.length(of_pipe("depth")), format.place(pipe->where),
                              format.length(std::max(0.0, of_pipe("left"))), name));
   }
-  for (int k = 1; const criteria::CriterionResult* cavity = result(fmt::format("cavity_{}_volume", k)); ++k)
-    text += line("cavity", fmt::format("{} {}", format.volume(cavity->value), format.place(cavity->where)));
+  text += places("cavity");
   constexpr double k_told = 1e-5;  // of what was cast
   if (const double sink = result("feeding_sink")->value; sink > k_told * room->value)
-    text += line("sinks of the soft skin", fmt::format("{}, {}", format.volume(sink), share(sink)));
+    text += line("sinks of the soft skin", fmt::format("{}, {}", format.volume(sink), share(sink))) +
+            places("sink");
   if (const double swollen = -result("feeding_sink")->value - result("feeding_pipe")->value;
       swollen > k_told * room->value)
     text += line("melt that swells", fmt::format("{} more than its room, {}: it rises, or the mould yields",
