@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mesh/cgal/short_edges.hpp"
@@ -41,6 +42,22 @@ void remesh(TriangleSurface& surface, double size, double angle) {
   collapse_short_edges(surface, k_short * size, sharp);
 }
 
+/// A new skin of one shell. Triangles as large as the wall is thick cut through the other side of a wall or
+/// of a narrow round: where a new skin crosses itself, smaller ones are tried, and in the end the wrap as it
+/// is, which never does.
+/// @param size  of edges, in units of the file
+TriangleSurface new_skin(const TriangleSurface& facets, const SkinRemeshing& how, double size) {
+  constexpr std::array<double, 3> k_shares{1, 0.5, 0.25};
+  TriangleSurface wrap, skin;
+  for (const double share : k_shares) {
+    if (how.wraps) wrap = wrapped_surface(facets, share * size);
+    skin = how.wraps ? wrap : facets;
+    remesh(skin, share * size, how.angle);
+    if (first_crossing(skin).empty()) return skin;
+  }
+  return how.wraps ? wrap : skin;
+}
+
 /// The largest distance of the corners of a surface, and of the middles of its triangles, from another one.
 double distance_from(const TriangleSurface& from, const TriangleSurface& to) {
   Tree tree(to.faces().begin(), to.faces().end(), to);
@@ -70,8 +87,7 @@ RemeshedSkin remeshed_skin(const ClosedShells& all, const SkinRemeshing& how, co
   SkinDeviation& d = made.deviation;
   for (std::size_t s = 0; s < all.shells.size(); ++s) {
     const TriangleSurface facets = surface_of(all, all.shells[s]);
-    TriangleSurface skin = how.wraps ? wrapped_surface(facets, how.sizes[s]) : facets;
-    remesh(skin, how.sizes[s], how.angle);
+    const TriangleSurface skin = new_skin(facets, how, how.sizes[s]);
     const double sign = all.shells[s].depth % 2 == 0 ? 1 : -1;
     d.facets_volume += sign * std::abs(PMP::volume(facets));
     d.volume += sign * std::abs(PMP::volume(skin));
