@@ -66,7 +66,7 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
   using Kind = FeedingHole::Kind;
   for (const auto& [kind, number] :
        {std::pair{Kind::pipe, k_pipe}, std::pair{Kind::cavity, k_cavity}, std::pair{Kind::sink, k_sink}}) {
-    const auto lost = [&rows, number = number](std::size_t i) { return rows(i, number); };
+    const auto lost = [&rows, lost_by = number](std::size_t i) { return rows(i, lost_by); };
     std::vector<char> inside(mesh_.x.size());
     for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = lost(i) > k_part_of_hole;
     const ConnectedParts parts = connectivity_.parts(inside);

@@ -229,7 +229,7 @@ inline constexpr Quantity k_emptied{
     .name = "emptied",
     .unit = "1",
     .label = "Emptied (pipe, cavity)",
-    .doc = "Share of the room around a node that metal has left: pipe, sink, cavity",
+    .doc = "Share of the room around a node that metal has left, with heat alone: pipe, sink, cavity",
     .group = quantities::Group::criteria,
     .needs = {.heat = true, .melting = true},
     .kept = quantities::Kept::every,
@@ -243,7 +243,7 @@ inline constexpr Quantity k_unfed_pores{.name = "unfed_pores",
                                         .label = "Pores (feeding)",
                                         .doc =
                                             "Pores between dendrites that melt did not reach, as a share of "
-                                            "the room around a node",
+                                            "the room around a node, with heat alone",
                                         .group = quantities::Group::criteria,
                                         .needs = {.heat = true, .melting = true},
                                         .kept = quantities::Kept::every,
