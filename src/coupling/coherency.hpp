@@ -36,7 +36,8 @@ class Coherency {
 
   /// Whether a body that deforms can melt. The same on every process.
   bool melts() const { return melts_; }
-  /// Whether a node, local, is of such a body.
+  /// Whether a node, local, is of such a body as far as the elements of this process tell: all of an owned
+  /// node.
   bool melts(Index node) const { return material_[static_cast<std::size_t>(node)] != nullptr; }
   /// 1/f_c of every node, [local node], ghosts up to date; one where nothing melts. Where bodies share a node
   /// the least.

@@ -4,11 +4,17 @@
 #include <cmath>
 
 #include "contact/surface.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
 
 SkinShare::SkinShare(const mesh::Mesh& mesh, AnalysisKind kind, std::span<const std::string> surfaces,
                      const Coherency& coherency) {
+  // Of a node of a replicated surface only its owner is sure to have the elements that tell whether it melts.
+  std::vector<double> melts(mesh.x.size());
+  for (std::size_t i = 0; i < melts.size(); ++i)
+    melts[i] = coherency.melts(static_cast<Index>(i)) ? 1.0 : 0.0;
+  parallel::GhostExchange(mesh).update(melts, 1);
   for (const std::string& name : surfaces) {
     // Each node of a face has an equal part of its area, in axisymmetry of what it sweeps. Faces come in the
     // same order on every process (ContactSurface), and so do the sums.
@@ -20,7 +26,7 @@ SkinShare::SkinShare(const mesh::Mesh& mesh, AnalysisKind kind, std::span<const 
       const std::span<const Index> nodes = surface.nodes(f);
       const double part = face.measure() / static_cast<double>(nodes.size());
       for (std::size_t a = 0; a < nodes.size(); ++a) {
-        if (!coherency.melts(nodes[a])) continue;
+        if (melts[static_cast<std::size_t>(nodes[a])] == 0) continue;
         parts.push_back(
             {nodes[a], kind == AnalysisKind::axisymmetric ? part * std::abs(face.x[a][0]) : part});
         area += parts.back().share;
