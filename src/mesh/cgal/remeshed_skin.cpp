@@ -42,20 +42,28 @@ void remesh(TriangleSurface& surface, double size, double angle) {
   collapse_short_edges(surface, k_short * size, sharp);
 }
 
-/// A new skin of one shell. Triangles as large as the wall is thick cut through the other side of a wall or
-/// of a narrow round: where a new skin crosses itself, smaller ones are tried, and in the end the wrap as it
-/// is, which never does.
+/// Whether a skin encloses what the facets do, to k_skin_tolerance.
+bool keeps_volume(const TriangleSurface& skin, const TriangleSurface& facets) {
+  const double wanted = std::abs(PMP::volume(facets));
+  return std::abs(std::abs(PMP::volume(skin)) - wanted) <= k_skin_tolerance * wanted;
+}
+
+/// A new skin of one shell. Triangles that are long beside a wall cut through it, or off a part of its round:
+/// where a new skin crosses itself or loses volume, smaller ones are tried, and in the end the wrap as it is,
+/// which never crosses itself.
 /// @param size  of edges, in units of the file
 TriangleSurface new_skin(const TriangleSurface& facets, const SkinRemeshing& how, double size) {
   constexpr std::array<double, 3> k_shares{1, 0.5, 0.25};
   TriangleSurface wrap, skin;
+  bool crosses = false;
   for (const double share : k_shares) {
     if (how.wraps) wrap = wrapped_surface(facets, share * size);
     skin = how.wraps ? wrap : facets;
     remesh(skin, share * size, how.angle);
-    if (first_crossing(skin).empty()) return skin;
+    crosses = !first_crossing(skin).empty();
+    if (!crosses && keeps_volume(skin, facets)) break;
   }
-  return how.wraps ? wrap : skin;
+  return how.wraps && crosses ? wrap : skin;
 }
 
 /// The largest distance of the corners of a surface, and of the middles of its triangles, from another one.

@@ -59,6 +59,27 @@ Triangles cylinder_of_needles(int sides, double radius, double height) {
   return triangles;
 }
 
+/// A tube about z.
+Triangles tube(int sides, double outer, double inner, double height) {
+  Triangles triangles;
+  const auto rim = [&](int i, double radius, double z) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    return Point{radius * std::cos(angle), radius * std::sin(angle), z};
+  };
+  const auto square = [&](const Point& a, const Point& b, const Point& c, const Point& d) {
+    triangles.push_back({a, b, c});
+    triangles.push_back({a, c, d});
+  };
+  for (int i = 0; i < sides; ++i) {
+    const int j = i + 1 == sides ? 0 : i + 1;
+    square(rim(i, outer, 0), rim(j, outer, 0), rim(j, outer, height), rim(i, outer, height));
+    square(rim(j, inner, 0), rim(i, inner, 0), rim(i, inner, height), rim(j, inner, height));
+    square(rim(i, inner, 0), rim(j, inner, 0), rim(j, outer, 0), rim(i, outer, 0));
+    square(rim(j, inner, height), rim(i, inner, height), rim(i, outer, height), rim(j, outer, height));
+  }
+  return triangles;
+}
+
 /// A box whose middle of the top is drawn down through its bottom: it is closed, and crosses itself.
 Triangles box_that_crosses_itself() {
   Triangles triangles = box({0, 0, 0}, {40, 40, 20});
@@ -124,6 +145,15 @@ TEST(RemeshedSkin, ABoxKeepsItsVolumeAndACavityIsTakenOff) {
   ASSERT_EQ(skin.shells.shells.size(), 2U);
   EXPECT_EQ(skin.shells.shells[1].depth, 1);
   EXPECT_THAT(deviation_text(skin, 1e-3), HasSubstr("it encloses 88 cm3 ("));
+}
+
+// Edges of 16 mm lie 1.6 mm within the round, and the wall is 0.8 mm thick.
+TEST(RemeshedSkin, OfAThinWallHasShorterEdgesWhereLongOnesWouldSpoilIt) {
+  const ClosedShells thin = shells_of({{"", tube(120, 20, 19.2, 40)}});
+  const RemeshedSkin skin = remeshed_skin(thin, {.sizes = {16}}, "part.stl");
+  const SkinDeviation& d = skin.deviation;
+  EXPECT_NEAR(d.volume, d.facets_volume, k_skin_tolerance * d.facets_volume);
+  EXPECT_LT(d.distance, 0.8);
 }
 
 TEST(RemeshedSkin, WhatCrossesItselfIsNamedWithItsPlaceAndWrapped) {
