@@ -22,9 +22,16 @@ material::Material metal(bool freezes) {
   return m;
 }
 
-/// Four quads along x, whose bottom is in contact.
+/// Four quads along x, whose bottom every process has.
+mesh::Mesh whole_bottom() {
+  mesh::RawMesh raw = test::make_raw({.shape = mesh::Shape::quad4, .cells = {4, 1, 1}, .size = {4, 1, 1}});
+  mesh::validate_and_orient(raw, "lattice");
+  return mesh::distribute(raw, {"body"}, {"bottom"});
+}
+
+/// A strip whose bottom is in contact.
 struct Strip {
-  mesh::Mesh mesh = test::make_mesh({.shape = mesh::Shape::quad4, .cells = {4, 1, 1}, .size = {4, 1, 1}});
+  mesh::Mesh mesh = whole_bottom();
   std::vector<material::Material> materials;
   coupling::Coherency coherency;
   std::vector<std::string> surfaces{"bottom"};
