@@ -32,6 +32,8 @@ void check_limits(const TimeSpec& t, const CaseSpec& spec) {
   }
   refuse(t, errors && t.error_control == ErrorControl::none, error_key, "with error_control = \"none\"",
          "error_control = \"predictor\" or \"doubling\"");
+  refuse(t, t.skin_change && t.error_control == ErrorControl::none, "skin_change",
+         "with error_control = \"none\"", "error_control = \"predictor\" or \"doubling\"");
   if (!spec.has_heat()) {
     refuse(t, t.temperature_error.has_value(), "temperature_error", "in an analysis without heat",
            "displacement_error");
@@ -73,7 +75,7 @@ coupling::StepOptions step_options(const TimeSpec& t, double step) {
   options.limits.temperature = t.temperature_error.value_or(1.0);
   options.limits.stress = t.stress_error.value_or(0.005);
   options.limits.solid_fraction = t.solid_fraction_change.value_or(0.1);
-  options.limits.skin = t.skin_change.value_or(0.08);
+  options.limits.skin = t.skin_change.value_or(coupling::StepLimits{}.skin);
   return options;
 }
 

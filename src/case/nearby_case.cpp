@@ -72,7 +72,8 @@ NearbyCase longer_steps(const CaseSpec& spec, double displacement_error) {
     }
     if (spec.has_heat() && spec.has_mechanics())
       made.overrides.push_back(
-          fmt::format("time.skin_change={}", std::min(1.0, k_steps * t.skin_change.value_or(0.08))));
+          fmt::format("time.skin_change={}",
+                      std::min(1.0, k_steps * t.skin_change.value_or(coupling::StepLimits{}.skin))));
     if (spec.has_mechanics()) {
       made.overrides.push_back(fmt::format("time.displacement_error={} m", k_errors * displacement_error));
       made.overrides.push_back(

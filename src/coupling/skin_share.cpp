@@ -10,7 +10,8 @@ namespace solidus::coupling {
 
 SkinShare::SkinShare(const mesh::Mesh& mesh, AnalysisKind kind, std::span<const std::string> surfaces,
                      const Coherency& coherency) {
-  // Of a node of a replicated surface only its owner is sure to have the elements that tell whether it melts.
+  // A process may have a node of a replicated surface without its elements, which tell whether it melts: the
+  // owner of the node says so.
   std::vector<double> melts(mesh.x.size());
   for (std::size_t i = 0; i < melts.size(); ++i)
     melts[i] = coherency.melts(static_cast<Index>(i)) ? 1.0 : 0.0;

@@ -39,7 +39,7 @@ struct PoolsKind {
   }
 };
 
-/// Of runs with heat alone: with mechanics, mixed elements feed and open pores.
+/// Feeding with heat alone. With mechanics, mixed elements feed and open pores.
 struct FeedingKind {
   static constexpr auto fields = criteria::fields::k_of_feeding;
   std::unique_ptr<Criterion> make(const CriterionContext& c) const {

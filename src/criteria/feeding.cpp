@@ -92,8 +92,8 @@ CriterionRecord Feeding::restart(const CriterionRecord& before, const CriterionI
       rows(i, k_thermal) = volume.thermal;
       rows(i, k_phase) = volume.phase;
     }
-    // What comes takes on the volume of what is there, which freezes it: the balance knows no other metal
-    // here.
+    // Metal that is poured beside it takes on the volume of the metal that is there, as if it froze at once:
+    // the balance has one volume a node.
     const double present = 1 + rows(i, k_thermal) + rows(i, k_phase);
     for (const FeedingNumber number : {k_metal, k_drained, k_pipe, k_sink, k_cavity, k_pores})
       rows(i, number) *= kept;
@@ -130,8 +130,8 @@ void Feeding::measure(const CriterionInput& old, const CriterionInput& next, Ste
     const MetalVolume& metal = metal_of(i);
     const double before = old.solid_fraction[i], after = next.solid_fraction[i];
     const double full = step.rows.fill(i);
-    // What froze before its melt sank is solid and asks for nothing; the curve of freezing does not know it,
-    // so what it asks for comes without resistance from the pool that the melt sank into.
+    // Metal that froze before the melt around it sank is solid and asks for nothing. The curve of freezing
+    // does not know that, so the node takes what it asks for from the pool, without resistance.
     step.solid[i] = step.rows(i, k_drained) < 1 - k_nothing ? (before + after) / 2 : 0;
     step.mobile[i] = (metal.mobile_share(before) + metal.mobile_share(after)) / 2;
     const bool frozen = before >= 1 && after >= 1;

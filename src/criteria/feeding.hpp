@@ -40,7 +40,7 @@ struct FeedingTotals {
   double room = 0;                                                ///< of the castings as poured
   double melt = 0, freezing = 0, solid = 0;                       ///< contractions
   double pipe = 0, sink = 0, cavity = 0, pores = 0, outside = 0;  ///< what they took their volume from
-  /// What is left of the balance, as a share of the room.
+  /// The difference of both sides of the balance, as a share of the room.
   double defect() const {
     return room > 0 ? (pipe + sink + cavity + pores + outside - melt - freezing - solid) / room : 0;
   }

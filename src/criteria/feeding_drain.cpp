@@ -45,7 +45,7 @@ void Feeding::drain(Step& step) const {
   leave_unfed(step, std::move(asked));
 }
 
-// What a pool has not got opens pores in itself.
+// A pool whose holes cannot give all that it is asked for opens pores among its own nodes.
 void Feeding::leave_unfed(Step& step, std::vector<double> missing) {
   if (std::ranges::none_of(missing, [](double metal) { return metal > 0; })) return;
   std::vector<double> own(missing.size(), 0.0);

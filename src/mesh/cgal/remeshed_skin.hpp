@@ -36,9 +36,11 @@ struct RemeshedSkin {
   SkinDeviation deviation;
 };
 
-/// New triangles for all shells; edges of a shell that would cross itself are shorter than asked for, down to
-/// a quarter. @param path  for messages Throws InputError where the new skin crosses itself all the same,
-/// with the place, and where it encloses another volume than the facets by more than k_skin_tolerance.
+/// New triangles for all shells; edges of a shell that would cross itself, or lose volume, are shorter than
+/// asked for, down to a quarter.
+/// @param path  for messages
+/// Throws InputError where the new skin crosses itself all the same, with the place, and where it encloses
+/// another volume than the facets by more than k_skin_tolerance.
 RemeshedSkin remeshed_skin(const ClosedShells& all, const SkinRemeshing& how, const std::string& path);
 
 /// "a new skin of 14826 triangles encloses 212.6 cm3 (-0.4 % of theirs) …" @param unit [m]

@@ -55,6 +55,8 @@ TEST(TimeKeys, LimitsOfFieldsThatAreNotSolvedForAreRefused) {
   EXPECT_THAT(error("adaptive = true\ndisplacement_error = \"1 um\"", "heat"),
               HasSubstr("without mechanics"));
   EXPECT_THAT(error("adaptive = true\nskin_change = 0.1", "mechanics"), HasSubstr("without heat"));
+  EXPECT_THAT(error("adaptive = true\nerror_control = \"none\"\nskin_change = 0.1"),
+              HasSubstr("with error_control"));
   EXPECT_THAT(error("adaptive = true\nskin_change = 0.1", "heat"), HasSubstr("without mechanics"));
 }
 
