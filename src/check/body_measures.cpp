@@ -33,8 +33,9 @@ const mesh::Point& at(const mesh::Mesh& mesh, Index node) {
   return mesh.x[static_cast<std::size_t>(node)];
 }
 
-/// Length or area by the vertices, per metre of thickness or over the revolution.
-double area_of(const mesh::Mesh& mesh, std::span<const Index> vertices, AnalysisKind kind) {
+}  // namespace
+
+double skin_area(const mesh::Mesh& mesh, std::span<const Index> vertices, AnalysisKind kind) {
   const mesh::Point& a = at(mesh, vertices[0]);
   const mesh::Point& b = at(mesh, vertices[1]);
   if (vertices.size() == 2)
@@ -49,23 +50,24 @@ double area_of(const mesh::Mesh& mesh, std::span<const Index> vertices, Analysis
   return area;
 }
 
+double element_volume(const mesh::BlockGeometry& geometry, Index element) {
+  double volume = 0;
+  for (int p = 0; p < geometry.n_points; ++p)
+    volume += geometry.weight_at(element / k_lanes, p)[element % k_lanes];
+  return volume;
+}
+
+namespace {
+
 /// Adds the skins, and the areas that bodies share.
 void measure_skins(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<BodyMeasures>& bodies) {
   mesh::each_body_face(mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
-    const double area = area_of(mesh, face.vertices(), kind);
+    const double area = skin_area(mesh, face.vertices(), kind);
     BodyMeasures& body = bodies[static_cast<std::size_t>(face.body)];
     body.skin += area;
     for (const mesh::BodyFace& other : same)
       if (other.body != face.body) body.shared[static_cast<std::size_t>(other.body)] += area;
   });
-}
-
-/// Volume of an element [m³].
-double volume_of(const mesh::BlockGeometry& geometry, Index element) {
-  double volume = 0;
-  for (int p = 0; p < geometry.n_points; ++p)
-    volume += geometry.weight_at(element / k_lanes, p)[element % k_lanes];
-  return volume;
 }
 
 /// Calls visit(p, q) for the edges of an element, from vertex p to vertex q: twice where two of its faces
@@ -90,7 +92,7 @@ void measure_part(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Element
                   BodyMeasures& body, double& edges, double& n_edges) {
   const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
   for (Index e = 0; e < block.n_counted; ++e) {
-    body.volume += volume_of(geometry, e);
+    body.volume += element_volume(geometry, e);
     const Index* const nodes = block.element(e);
     double shortest = std::numeric_limits<double>::max(), longest = 0;
     each_edge(block.shape, [&](int p, int q) {
@@ -179,7 +181,7 @@ double share_between(const mesh::Mesh& mesh, AnalysisKind kind, int body, const 
     mesh::for_parts(block, [&](const mesh::ElementBlock& part, Index) {
       const mesh::BlockGeometry geometry(mesh, part, kind, mesh::stiffness_rule(part.shape));
       for (Index e = 0; e < part.n_counted; ++e) {
-        const double volume = volume_of(geometry, e);
+        const double volume = element_volume(geometry, e);
         const Index* nodes = part.element(e);
         all += volume;
         if (std::all_of(nodes, nodes + mesh::node_count(part.shape),

@@ -1,8 +1,10 @@
 /// Volumes, skins and sizes of elements of the bodies of a case, over all processes.
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "mesh/block_geometry.hpp"
 #include "mesh/mesh.hpp"
 #include "numbers/types.hpp"
 
@@ -24,6 +26,12 @@ struct BodyMeasures {
 
 /// [body]. Collective. In bounded memory: faces are looked at a part at a time.
 std::vector<BodyMeasures> measure_bodies(const mesh::Mesh& mesh, AnalysisKind kind);
+
+/// Length or area of a face by its vertices, per metre of thickness or over the revolution [m²].
+double skin_area(const mesh::Mesh& mesh, std::span<const Index> vertices, AnalysisKind kind);
+
+/// Volume of an element of a geometry [m³].
+double element_volume(const mesh::BlockGeometry& geometry, Index element);
 
 /// The share of a body's volume in elements all of whose nodes are marked: they reach from skin to skin where
 /// the nodes of the skin are. Collective.

@@ -20,8 +20,9 @@ struct Pour {
   std::size_t body = 0;
   double cooled_area = 0;  ///< A: skin that a contact, film, radiation, shared face or temperature cools [m²]
   double depth = 0;        ///< greatest distance of a node from the cooled skin [m]
-  double spanned = 0;      ///< share of its volume in elements that reach from cooled skin to cooled skin
-  double conductance = 0;  ///< mean over A at the start, closed [W/(m² K)]; zero: nothing cools
+  double local_modulus = 0;  ///< V/A around the place of that depth; zero: not known [m]
+  double spanned = 0;        ///< share of its volume in elements that reach from cooled skin to cooled skin
+  double conductance = 0;    ///< mean over A at the start, closed [W/(m² K)]; zero: nothing cools
   /// The reason why there is no estimate; empty: there is one.
   std::string no_estimate;
   FreezingEstimate freezing;         ///< with the heat of what is poured with it

@@ -162,6 +162,7 @@ results::PourOverview pour_overview(const CaseSpec& spec, const Assembly& a, con
   p.no_estimate = pour.no_estimate;
   if (!p.no_estimate.empty()) return p;
   p.modulus = body.volume / pour.cooled_area;
+  p.local_modulus = pour.local_modulus;
   p.depth = pour.depth;
   p.elements_across = pour.depth / body.mean_edge;
   const double k = metal.conductivity.value(p.solidus);

@@ -11,8 +11,8 @@ namespace {
 
 constexpr int k_metal_cells = 16, k_mould_cells = 24;
 constexpr double k_mould_growth = 1.2;  // of its cells outward
-/// A bar: the thick place of a casting of several thicknesses, beside whose walls no mould cools it.
-constexpr double k_thick_place = 2;
+/// A bar: the thick place of a casting of several thicknesses, beside whose walls no mould cools it; a ball.
+constexpr double k_bar = 2, k_ball = 3;
 
 /// A cell of the line: joined to `parent` alone, which comes later in the list. The last is the metal's skin.
 struct Cell {
@@ -32,7 +32,8 @@ struct Cell {
 class Line {
  public:
   explicit Line(const FreezingProblem& problem) : problem_(problem), metal_(problem.metal->enthalpy()) {
-    exponent_ = std::clamp(problem.depth / problem.modulus, 1.0, k_thick_place);
+    exponent_ =
+        std::clamp(problem.depth / problem.modulus, 1.0, std::clamp(problem.roundness, k_bar, k_ball));
     radius_ = std::max(problem.depth, problem.modulus);
     for (const MouldSide& mould : problem.moulds) curves_.push_back(mould.material->enthalpy());
     for (const PouredNeighbour& other : problem.neighbours) curves_.push_back(other.metal->enthalpy());

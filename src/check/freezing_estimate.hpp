@@ -3,18 +3,19 @@
 ///
 ///   t = C (V/A)²
 ///
-/// V [m³] volume of the metal, A [m²] its cooled skin. C [s/m²] is not a number from a book: the freezing of
-/// a plate, cylinder or ball with the same V/A, and with the casting's greatest depth R below the cooled
-/// skin, is computed in one dimension,
+/// V [m³] volume of the metal, A [m²] its cooled skin, of the thickest place of the casting with the metal
+/// around it that heat reaches until it is solid (check/local_shape.hpp), or of all of it. C [s/m²] is not a
+/// number from a book: the freezing of a plate, cylinder or ball with the same V/A, and with the depth R of
+/// that place below the cooled skin, is computed in one dimension,
 ///
 ///   ∂h/∂t = r^(1−n) ∂/∂r ( r^(n−1) k(Θ) ∂Θ/∂r ),   n = R A/V between 1 (plate) and 2
 ///
-/// (a bar; where R A/V is larger the casting has a thick place, which freezes last and counts as a bar: where
-/// walls meet it no mould cools it), with the enthalpy h(Θ) of the material, beside it every mould that the
-/// skin faces as a shell of its volume, with the conductance of the contact (and the gap that the metal's own
-/// shrinkage opens where contact may open), films, radiation and fluxes as they are. So C holds superheat,
-/// latent heat, the mould's √(k ρ C) and its finite thickness, the resistance of the interface and that of
-/// the metal, whichever governs.
+/// (a bar; where R A/V is larger walls meet, beside which no mould cools the place, unless it is round
+/// itself: then up to 3, a ball), with the enthalpy h(Θ) of the material, beside it every mould that the skin
+/// faces as shells of its volume, by how much of it there is behind each third of the skin, with the
+/// conductance of the contact (and the gap that the metal's own shrinkage opens where contact may open),
+/// films, radiation and fluxes as they are. So C holds superheat, latent heat, the mould's √(k ρ C) and its
+/// finite thickness, the resistance of the interface and that of the metal, whichever governs.
 ///
 /// A larger body behind a mould, such as the sand around a sleeve or a chill, takes heat as a half space
 /// does. Metal that is poured with it and shares faces with it, as a casting does with its riser, is a fin on
@@ -22,10 +23,8 @@
 /// evenly over its volume. So a riser gives heat to the casting below it, and the casting is liquid where it
 /// meets the riser until its fin is solid there.
 ///
-/// The estimate neglects the exchange of heat between thick and thin places of one body, smaller bodies
-/// behind a mould, and the flow of metal, and it takes the mould of a hollow wall to widen outward as that of
-/// a bar does. Measured: 0.6 to 1.3 of the runs of fifteen castings and risers, 0.48 of a fan in a die, 1.5
-/// beside a sleeve that burns (docs/guide/findings.md).
+/// The estimate neglects smaller bodies behind a mould, the flow of metal and heat that goes along the mould.
+/// Measured: docs/guide/findings.md.
 ///
 /// Source: N. Chvorinov, "Theorie der Erstarrung von Gussstücken", Die Giesserei 27 (1940) 177–186, 201–208,
 /// 222–225.
@@ -79,6 +78,7 @@ struct FreezingProblem {
   std::vector<MouldSide> moulds;
   std::vector<OpenSide> open;
   std::vector<PouredNeighbour> neighbours;
+  double roundness = 2;  ///< R A/V close to that place: 3 in a ball, less where walls meet
 };
 
 struct FreezingEstimate {

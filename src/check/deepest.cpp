@@ -1,0 +1,67 @@
+#include "check/deepest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "build/skin_measures.hpp"
+#include "check/cooled_skin.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+double squared(const mesh::Point& a, const mesh::Point& b) {
+  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+  return x * x + y * y + z * z;
+}
+
+/// Of many places the first, the one nearest to their middle, and the one furthest from the first.
+std::vector<mesh::Point> few_of(const std::vector<mesh::Point>& places) {
+  if (places.size() < 2) return places;
+  mesh::Point middle{};
+  for (const mesh::Point& place : places)
+    for (std::size_t d = 0; d < 3; ++d) middle[d] += place[d] / static_cast<double>(places.size());
+  const auto by_distance = [](const mesh::Point& from) {
+    return [from](const mesh::Point& place) { return squared(place, from); };
+  };
+  std::vector<mesh::Point> few{places.front(), *std::ranges::min_element(places, {}, by_distance(middle)),
+                               *std::ranges::max_element(places, {}, by_distance(places.front()))};
+  if (few[1] == few[0]) few.erase(few.begin() + 1);
+  return few;
+}
+
+}  // namespace
+
+Deepest deepest_below(const mesh::Mesh& mesh, std::size_t body, const std::vector<mesh::Point>& cloud) {
+  constexpr std::size_t k_most_nodes = 20000, k_most_points = 50000;
+  constexpr double k_as_deep = 0.9;
+  const std::vector<char> of_body = nodes_of(mesh, body);
+  std::vector<std::size_t> nodes;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh.n_owned_nodes); ++i)
+    if (of_body[i] != 0) nodes.push_back(i);
+  const std::size_t every = 1 + nodes.size() / k_most_nodes, stride = 1 + cloud.size() / k_most_points;
+  double deepest = 0;    // squared, as all of these
+  std::size_t hint = 0;  // the point that was near the node before
+  std::vector<std::pair<double, std::size_t>> deep;
+  for (std::size_t n = 0; n < nodes.size() && !cloud.empty(); n += every) {
+    const mesh::Point& x = mesh.x[nodes[n]];
+    const double least = k_as_deep * k_as_deep * deepest;
+    double nearest = squared(x, cloud[hint]);
+    // A node that is much nearer than the deepest so far is not deep.
+    for (std::size_t i = 0; i < cloud.size() && nearest > least; i += stride)
+      if (const double here = squared(x, cloud[i]); here < nearest) nearest = here, hint = i;
+    deepest = std::max(deepest, nearest);
+    if (nearest > least) deep.emplace_back(nearest, nodes[n]);
+  }
+  deepest = parallel::global_max(deepest);
+  std::erase_if(deep, [&](const auto& one) { return one.first < k_as_deep * k_as_deep * deepest; });
+  std::ranges::stable_sort(deep, std::greater<>(), [](const auto& one) { return one.first; });
+  std::vector<mesh::Point> places;
+  for (const auto& one : deep) places.push_back(mesh.x[one.second]);
+  return {std::sqrt(deepest), few_of(gather(places))};
+}
+
+}  // namespace solidus::model
