@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import logging
-import shutil
 import signal
 import subprocess
 import tempfile
@@ -17,7 +16,7 @@ from typing import IO, Any
 
 from . import verbs
 from .case import Case, physics_option, with_keys
-from .errors import ProgramMissing, RunInterrupted
+from .errors import RunInterrupted
 
 logger = logging.getLogger("solidus_casting")
 
@@ -112,9 +111,7 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
         command += ["--sure"] if sure else []
         command += ["--", *options] if options else []
         if processes > 1:
-            if shutil.which("mpirun") is None:
-                raise ProgramMissing("several processes need mpirun, which is not on the PATH (Debian's openmpi-bin)")
-            command = ["mpirun", "-n", str(processes), "--bind-to", "none", "--oversubscribe", *command]
+            command = [verbs.launcher(), "-n", str(processes), "--bind-to", "none", "--oversubscribe", *command]
         return _Child(command, case, None if output is None else Path(output).absolute(), note, processes > 1,
                       progress, stop).wait()
 

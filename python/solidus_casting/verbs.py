@@ -44,6 +44,17 @@ def program() -> Path:
                          "name it. Looked for: " + ", ".join(str(path) for path in tried))
 
 
+def launcher() -> str:
+    """Returns the ``mpirun`` that starts several processes of the program: the one beside it, which an archive brings, else
+    that of the ``PATH``. Raises :class:`ProgramMissing`."""
+    beside = program().resolve().with_name("mpirun")
+    if beside.is_file():
+        return str(beside)
+    if shutil.which("mpirun") is None:
+        raise ProgramMissing("several processes need mpirun, which is not on the PATH (Debian's openmpi-bin)")
+    return "mpirun"
+
+
 def environment(extra: Mapping[str, str] | None = None) -> dict[str, str]:
     """The environment of a child: one thread a process unless the caller says otherwise."""
     settings = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "NO_COLOR": "1"}

@@ -8,11 +8,16 @@ loader=$root/lib/solidus/ld-linux-x86-64.so.2
 program=$root/libexec/solidus/programs/@NAME@
 
 if ! "$loader" --verify "$program" 2>/dev/null; then
-  echo "$name: this machine ($(uname -sm)) cannot start $program: the archive is for Linux on x86-64, and must lie whole in a folder that is not mounted with noexec" >&2
+  echo "$name: this machine ($(uname -srm)) cannot start $program: the archive is for Linux from 3.2 on with x86-64, and must lie whole in a folder that is not mounted with noexec" >&2
   exit 1
 fi
 if [ -n "$OMPI_COMM_WORLD_SIZE" ] && [ "$OPAL_PREFIX" != "$root/lib/openmpi" ]; then
   echo "$name: this mpirun is not the one that the archive brings: start it with $root/bin/mpirun" >&2
+  exit 1
+fi
+
+if [ @NAME@ = mpirun ] && ! [ -w "${TMPDIR:-/tmp}" ]; then
+  echo "$name: '${TMPDIR:-/tmp}' cannot be written, where processes find each other: TMPDIR=FOLDER names another folder" >&2
   exit 1
 fi
 

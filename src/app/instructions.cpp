@@ -28,7 +28,9 @@ void say(const char* text) {
     say(" ");
     say(k_names[i]);
   }
-  say("\n  build it on this machine, or once for both: ./dev build portable (build/portable/solidus)\n");
+  say("\n  build it on this machine: ./dev build; what ./dev build portable makes, as for the packages and "
+      "the\n"
+      "  archive, runs on every processor of 2013 or later with AVX2\n");
   _exit(1);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <optional>
@@ -54,6 +55,11 @@ ExitCode guarded(const std::function<ExitCode()>& verb) {
     return fail(interrupted() ? k_interrupted : k_cannot_continue, error.what());
   } catch (const std::bad_alloc&) {
     return fail(k_cannot_continue, "the memory is exhausted; use a coarser mesh or more processes");
+  } catch (const std::filesystem::filesystem_error& error) {
+    // What the system refuses: of functions that name no path it is the present folder, which is gone.
+    const std::string path = error.path1().string();
+    return fail(k_bad_input,
+                fmt::format("{}: {}", path.empty() ? "the present folder" : path, error.code().message()));
   } catch (const std::exception& error) {
     // PETSc reads options late, when a solver is made; an option that it does not know is the user's error.
     if (std::string_view(error.what()).find("SetFromOptions") != std::string_view::npos)

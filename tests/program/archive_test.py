@@ -64,6 +64,18 @@ class Archive(ProgramTest):
         self.assertEqual(foreign.returncode, 1)
         self.assertIn(f"start it with {mpirun}", foreign.stderr)
 
+        # Without a folder for temporary files Open MPI would tell so on a page.
+        untold = self.run_alone(mpirun, "-n", "2", program, "--version", TMPDIR="/no/folder")
+        self.assertEqual(untold.returncode, 1)
+        self.assertEqual(untold.stderr, "mpirun: '/no/folder' cannot be written, where processes find each other: TMPDIR=FOLDER names another "
+                                        "folder\n")
+
+        # The Python package starts processes by the mpirun of the archive, whatever the PATH has.
+        script = ("import solidus_casting as sc; "
+                  f"print(sc.run({str(case)!r}, 'driven', processes=2).summary['processes'])")
+        driven = self.run_alone("/usr/bin/python3", "-c", script, PYTHONPATH=str(self.root / "share/solidus/python"))
+        self.assertEqual((driven.returncode, driven.stdout), (0, "2\n"), driven.stderr)
+
         # A file that was cut off is named.
         real = self.root / "libexec/solidus/programs/solidus"
         whole = real.rename(real.with_name("whole"))

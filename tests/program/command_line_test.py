@@ -256,6 +256,16 @@ class CommandLine(ProgramTest):
         self.assertEqual(refused.returncode, 1)
         self.assertIn("is yours", refused.stderr)
         self.assertEqual((self.folder / ".taplo.toml").read_text(), "# mine\n")
+        self.write("full/.solidus", "a file where the folder would be made")
+        refused = solidus("init-editor", "full", cwd=self.folder)
+        self.assertEqual(refused.returncode, 1)
+        self.assertRegex(refused.stderr, r"^solidus: full/\.solidus: cannot make this folder: \w[^\n]*\n  the folder of your cases")
+
+    def test_a_present_folder_that_is_gone_is_named(self):
+        command = f"mkdir gone && cd gone && rmdir ../gone && exec '{PROGRAM}' run '{SOURCES}/cases/hot_spots'"
+        refused = subprocess.run(["sh", "-c", command], cwd=self.folder, text=True, capture_output=True, timeout=120)
+        self.assertEqual(refused.returncode, 1, refused.stderr)
+        self.assertIn("solidus: the present folder: No such file or directory\n", refused.stderr)
 
     def test_colours_are_for_terminals_and_no_color_is_heeded(self):
         wrong = [PROGRAM, "run", "nowhere"]

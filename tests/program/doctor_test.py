@@ -33,6 +33,14 @@ class Doctor(ProgramTest):
         self.assertEqual(said["processes"][0], "lacks")
         self.assertIn("do not find each other", said["processes"][1])
 
+    def test_folders_that_cannot_be_written_are_told_from_those_that_runs_need(self):
+        nowhere = self.write("home", "a file where a folder would be")
+        said = self.found(self.done("doctor", env={"TMPDIR": str(nowhere), "HOME": str(nowhere)}))
+        self.assertEqual((said["meshes"][0], said["pictures"][0]), ("works", "works"), said)
+        self.assertRegex(said["pictures"][1], r"^works  pictures   Python \d")
+        if said["processes"][0] != "works":  # Open MPI 4 needs the folder that TMPDIR names
+            self.assertIn(f"'{nowhere}' cannot be written: TMPDIR=FOLDER", said["processes"][1])
+
     def test_a_python_without_numpy_is_named_with_its_last_words(self):
         python = self.write("python", "#!/bin/sh\necho No module named numpy >&2\nexit 1\n")
         python.chmod(0o755)

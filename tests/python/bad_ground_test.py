@@ -62,6 +62,13 @@ class BadGround(unittest.TestCase):
         self.assertEqual(said.returncode, 1)
         self.assertEqual(said.stderr, "dev: NP=2 needs mpirun, which is not there (Debian's openmpi-bin)\n")
 
+    def test_dev_names_the_folder_for_temporary_files_that_processes_lack(self):
+        (self.tools / "mpirun").symlink_to("/bin/true")
+        said = self.dev("run", "cases/hot_spots", NP="2", SOLIDUS_PROGRAM="/bin/false", TMPDIR="/no/folder")
+        self.assertEqual(said.returncode, 1)
+        self.assertEqual(said.stderr, "dev: NP=2 needs a folder for temporary files, and '/no/folder' cannot be written: TMPDIR=FOLDER names "
+                                      "another one\n")
+
     def test_dev_says_that_a_tree_cannot_be_written(self):
         tree = self.folder / "tree"
         tree.mkdir()

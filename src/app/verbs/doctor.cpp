@@ -22,6 +22,7 @@
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 #include "system/program_path.hpp"
+#include "system/temporary_folder.hpp"
 #include "system/terminal.hpp"
 #include "system/version.hpp"
 
@@ -59,8 +60,8 @@ Finding look_for_materials() {
 /// A folder for temporary files that is removed again.
 class TemporaryFolder {
  public:
-  /// Throws std::filesystem::filesystem_error where none can be made.
-  TemporaryFolder() : path_((fs::temp_directory_path() / "solidus_doctor_XXXXXX").string()) {
+  /// Makes it in an existing folder. Throws std::filesystem::filesystem_error where that cannot be done.
+  explicit TemporaryFolder(const fs::path& in) : path_((in / "solidus_doctor_XXXXXX").string()) {
     if (mkdtemp(path_.data()) == nullptr)
       throw fs::filesystem_error("a temporary folder", path_,
                                  std::error_code(errno, std::generic_category()));
@@ -79,11 +80,18 @@ class TemporaryFolder {
 
 constexpr std::string_view k_no_gmsh = "not in this build";
 
-/// Reads a square: one that Gmsh meshes where it is there, else two triangles.
+/// Reads a square: one that Gmsh meshes where it is there, else two triangles. Without a folder for the file
+/// that it would read, nothing is known about the reader, which runs need no such folder for.
 Finding try_reader() {
   const bool gmsh = SOLIDUS_GMSH_VERSION != k_no_gmsh;
+  const std::string temporary = writable_temporary_folder();
+  if (temporary.empty())
+    return {"meshes", Kind::optional_missing,
+            fmt::format("not tried: no folder for temporary files can be written, neither '{}' nor another; "
+                        "TMPDIR=FOLDER names one",
+                        temporary_folder())};
   try {
-    const TemporaryFolder folder;
+    const TemporaryFolder folder(temporary);
     const std::string file = (folder.path() / (gmsh ? "square.geo" : "square.inp")).string();
     std::ofstream(file) << (gmsh ? "Point(1) = {0, 0, 0};\nl[] = Extrude {1, 0, 0} { Point{1}; };\n"
                                    "s[] = Extrude {0, 1, 0} { Curve{l[1]}; };\nMesh.MeshSizeMax = 0.5;\n"
@@ -97,15 +105,18 @@ Finding try_reader() {
     return {"meshes", Kind::missing, error.what()};
   } catch (const fs::filesystem_error& error) {
     return {"meshes", Kind::missing,
-            fmt::format("a file was to be read from a temporary folder: {}; TMPDIR=FOLDER names another",
-                        error.what())};
+            fmt::format("a file was to be read from '{}': {}; TMPDIR=FOLDER names another folder",
+                        error.path1().string(), error.code().message())};
   }
 }
 
 Finding look_at_present_folder() {
   std::error_code error;
   const fs::path here = fs::current_path(error);
-  if (!error && access(here.c_str(), W_OK | X_OK) == 0)
+  if (error)
+    return {"results", Kind::optional_missing,
+            fmt::format("the present folder: {}: change to another one", error.message())};
+  if (access(here.c_str(), W_OK | X_OK) == 0)
     return {"results", Kind::works, fmt::format("'{}' takes them", here.string())};
   return {
       "results", Kind::optional_missing,
@@ -126,10 +137,13 @@ std::string reason(const ChildOutcome& outcome) {
   return fmt::format("exit code {}: {}", outcome.code, text);
 }
 
-/// The advice where mpirun does not start processes.
-std::string advice(const fs::path& launcher) {
+/// The advice where mpirun does not start processes, or is not there.
+std::string advice(const fs::path& launcher, bool there) {
   if (geteuid() == 0 && std::getenv("OMPI_ALLOW_RUN_AS_ROOT") == nullptr)
     return "root has to allow it: OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1";
+  if (there && access(temporary_folder().c_str(), W_OK | X_OK) != 0)
+    return fmt::format("'{}' cannot be written: TMPDIR=FOLDER names another folder for its temporary files",
+                       temporary_folder());
   if (launcher.has_parent_path()) return "TMPDIR=FOLDER names another folder for its temporary files";
   return "it is in the package openmpi-bin of Debian";
 }
@@ -153,7 +167,7 @@ Finding try_two_processes() {
                               "program; runs on one process work",
                               launcher.string())
                 : fmt::format("'{}' does not start them ({}); runs on one process work; {}",
-                              launcher.string(), reason(outcome), advice(launcher))};
+                              launcher.string(), reason(outcome), advice(launcher, outcome.failure.empty()))};
 }
 
 Finding try_python() {
@@ -165,7 +179,8 @@ Finding try_python() {
                       "print(f'Python {sys.version.split()[0]}, numpy {numpy.__version__}, matplotlib "
                       "{matplotlib.__version__}', end='')"},
                      k_patience);
-  if (outcome.code == 0) return {"pictures", Kind::works, outcome.said};
+  // matplotlib tells before it what it warns of, as of a home that cannot be written.
+  if (outcome.code == 0) return {"pictures", Kind::works, outcome.said.substr(outcome.said.rfind('\n') + 1)};
   return {
       "pictures", Kind::optional_missing,
       fmt::format("plot, compare, study and uncertain need '{}' with numpy and matplotlib ({}); run, new and "

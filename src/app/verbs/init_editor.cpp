@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -79,6 +80,15 @@ bool ours(const fs::path& file) {
   return std::getline(in, line) && line.starts_with(k_marker);
 }
 
+/// Makes a folder with those above it. Throws results::OutputError where that cannot be done.
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw results::OutputError(folder.string(), "cannot make this folder: " + error.message(),
+                               "the folder of your cases is named behind the verb");
+}
+
 /// Writes schemas and rules for editors into a folder; empty: the present one.
 ExitCode init_editor(const std::string& wanted) {
   const fs::path folder = wanted.empty() ? fs::path(".") : fs::path(wanted);
@@ -90,7 +100,7 @@ ExitCode init_editor(const std::string& wanted) {
                      "to add these rules to it yourself:\n" + taplo_rules(folder));
   std::string said;
   results::on_first_process([&] {
-    fs::create_directories(folder / ".solidus");
+    make_folder(folder / ".solidus");
     const std::vector<std::pair<std::string, std::string>> files = {
         {".solidus/case.schema.json", json_schema(model::case_keys().info(), "Solidus case")},
         {".solidus/variants.schema.json", k_variants_schema},
@@ -104,7 +114,7 @@ ExitCode init_editor(const std::string& wanted) {
     // VS Code proposes the extension; a list that is there already is the user's.
     const fs::path extensions = folder / ".vscode/extensions.json";
     if (!fs::exists(extensions)) {
-      fs::create_directories(extensions.parent_path());
+      make_folder(extensions.parent_path());
       results::write_file(extensions, "{\n  \"recommendations\": [\"tamasfe.even-better-toml\"]\n}\n");
       said += "  " + extensions.lexically_normal().string() + "\n";
     }
