@@ -15,6 +15,11 @@ target_compile_definitions(solidus_options INTERFACE OMPI_SKIP_MPICXX)
 if(SOLIDUS_MARCH)
   target_compile_options(solidus_options INTERFACE -march=${SOLIDUS_MARCH})
 endif()
+# What is handed out names no folder of the machine that built it: the same commit gives the same bytes wherever it lies. (In
+# CMAKE_CXX_FLAGS a folder with a blank in its name would be two words.)
+if(NOT SOLIDUS_KNOWS_SOURCES)
+  add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
+endif()
 if(SOLIDUS_SANITIZE)
   # clang inlines nothing at -O1 that need not be; -O2 takes a tenth longer to compile.
   target_compile_options(solidus_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
