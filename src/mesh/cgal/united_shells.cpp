@@ -4,6 +4,9 @@
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/intersection.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
+#if __has_include(<CGAL/Polygon_mesh_processing/intersection_polylines.h>)  // from CGAL 6.2 on
+#include <CGAL/Polygon_mesh_processing/intersection_polylines.h>
+#endif
 #include <fmt/format.h>
 
 #include <algorithm>
