@@ -139,13 +139,16 @@ std::string reason(const ChildOutcome& outcome) {
 
 /// The advice where mpirun does not start processes, or is not there.
 std::string advice(const fs::path& launcher, bool there) {
+  std::string text;
   if (geteuid() == 0 && std::getenv("OMPI_ALLOW_RUN_AS_ROOT") == nullptr)
-    return "root has to allow it: OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1";
+    text = "root has to allow it: OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1";
   if (there && access(temporary_folder().c_str(), W_OK | X_OK) != 0)
-    return fmt::format("'{}' cannot be written: TMPDIR=FOLDER names another folder for its temporary files",
-                       temporary_folder());
-  if (launcher.has_parent_path()) return "TMPDIR=FOLDER names another folder for its temporary files";
-  return "it is in the package openmpi-bin of Debian";
+    text +=
+        fmt::format("{}'{}' cannot be written: TMPDIR=FOLDER names another folder for its temporary files",
+                    text.empty() ? "" : "; ", temporary_folder());
+  if (!text.empty()) return text;
+  return launcher.has_parent_path() ? "TMPDIR=FOLDER names another folder for its temporary files"
+                                    : "it is in the package openmpi-bin of Debian";
 }
 
 /// Two processes of one run print its versions once; two that do not find each other print them twice.
