@@ -1,5 +1,7 @@
 /// Paths on which temperature matters: a bar of σ_y(Θ) whose ends are held, heating by plastic shear, cooling
 /// by elastic strain, and the three models of the liquid on the way from melt to solid.
+#include <algorithm>
+
 #include "material/hardening.hpp"
 #include "material/laws/perzyna.hpp"
 #include "point_paths.hpp"
