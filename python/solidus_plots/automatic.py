@@ -5,8 +5,9 @@ import tomllib
 
 import numpy as np
 
-from solidus_plots import fields, hot_spots
+from solidus_plots import fields, hot_spots, xray
 from solidus_plots.cells import VOLUME
+from solidus_plots.moments import nodes_of
 from solidus_plots.overview import Case
 
 NIYAMA = 0.775  # sqrt(K s)/mm
@@ -131,7 +132,15 @@ def plan(run, times, summary, history, results, wishes):
     for field in fields.known():
         if field.group == "criteria" and field.pictured and field.name not in considered and field.name in written:
             _add_criterion(field, grid, mask, add)
+    if kind != "plane_strain" and kind != "plane_stress" and any(values[mask_of].any() for values, mask_of in _holes(grid, mask)):
+        sheets.append({"file": "overview_xray", "kind": "xray", "times": [last], "bodies": cast, "title": "As on a radiograph"})
     return case, sheets
+
+
+def _holes(grid, mask):
+    """Fields of holes with the nodes and the cells that count."""
+    at_nodes, of_cells = xray.holes(grid)
+    return (at_nodes, nodes_of(grid, mask)), (of_cells, mask)
 
 
 def _add_criterion(field, grid, mask, add):
@@ -139,7 +148,16 @@ def _add_criterion(field, grid, mask, add):
     at_nodes = field.name in grid.point_data
     values = grid.point_data[field.name] if at_nodes else grid.cell_data[field.name][mask]
     if np.isfinite(field.with_value(values)).any() and np.any(values):
-        add(field.name, title=field.label, unit=field.shown, timeless=True, **({} if field.no_value != 0 else {"above": 0}))
+        add(field.name, title=field.label, unit=field.shown, timeless=True, **({} if field.no_value != 0 else {"above": 0}),
+            **_beyond(field))
+
+
+def _beyond(field):
+    """Colours that tell what is beyond a threshold: extremes at a thermal centre are hundreds of times as large."""
+    if field.threshold is None:
+        return {}
+    limit = field.threshold * field.factor
+    return {"range": [0, 2 * limit], "contours": [limit], "remark": f"threshold {limit:g}: beyond it lies what is bad"}
 
 
 def _melt(grid, mask):

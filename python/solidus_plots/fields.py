@@ -26,6 +26,7 @@ class Field:
     group: str
     worst: str  # "none", "least", "greatest"
     answer: str  # its worst value among the answers of a run; empty: it is none
+    threshold: float | None  # beyond it, towards the worst end, a value is bad by the criterion itself
     no_value: float | None  # the mark for "nothing to say"
     colours: str
     compared: bool
@@ -54,7 +55,7 @@ class Field:
 def _read(row):
     root = row.get("root_unit", "")
     return Field(row["name"], row["label"], root.replace("^", "") or row["unit"], row["group"], row["worst"],
-                 row.get("answer", ""), row.get("no_value"), row["colours"], row["compared"], row["pictured"], bool(root),
+                 row.get("answer", ""), row.get("threshold"), row.get("no_value"), row["colours"], row["compared"], row["pictured"], bool(root),
                  row["shown"]["unit"], row["shown"]["factor"], row["shown"]["offset"])
 
 

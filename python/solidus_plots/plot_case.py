@@ -11,7 +11,7 @@ import os
 from pathlib import Path
 import sys
 
-from solidus_plots import automatic, curves, fields, graphs, maps, measured, overview, point, sections, style, surfaces
+from solidus_plots import automatic, curves, fields, graphs, maps, measured, overview, point, sections, style, surfaces, xray
 from solidus_plots.history import read_table
 from solidus_plots.moments import Moments
 from solidus_plots.plots_file import Mistake, find_spec, read_spec, star
@@ -22,6 +22,8 @@ from solidus_plots.vtu import ResultError, read_collection
 # Pictures of fields and what draws them.
 FIELD_PICTURES = {"maps": maps.field_maps, "deformed": maps.deformed_mesh, "sections": sections.draw,
                   "surfaces": surfaces.draw}
+# Those that every run gets.
+OVERVIEWS = {"overview": overview.draw, "xray": xray.draw}
 
 
 def histories(compare, part, results):
@@ -86,7 +88,7 @@ def draw_fields(spec, wishes, results, summary, history, folder, problems):
     case, sheets = None, []
     if wishes.get("draw", True) and len(times):
         case, sheets = automatic.plan(run, times, summary, history, results, wishes)
-        tasks += [("overview", sheet) for sheet in sheets]
+        tasks += [(sheet.get("kind", "overview"), sheet) for sheet in sheets]
     files = []
     if not tasks:
         return files
@@ -120,8 +122,8 @@ def _draw_field(task):
     kind, picture = task
     _run.missing.clear()
     try:
-        if kind == "overview":
-            return overview.draw(picture, _run, _case, _folder), list(_run.missing)
+        if kind in OVERVIEWS:
+            return OVERVIEWS[kind](picture, _run, _case, _folder), list(_run.missing)
         return FIELD_PICTURES[kind](picture, _run, _folder), list(_run.missing)
     except (ResultError, ValueError) as error:
         return [], [*_run.missing, str(error)]
