@@ -22,6 +22,15 @@ std::array<double, 3> upward(const AnalysisSpec& analysis) {
   return up;
 }
 
+/// That of the case, else of the mould that gives way most.
+double mould_rigidity(const CaseSpec& spec, const std::vector<material::Material>& materials) {
+  if (spec.feeding.mould_rigidity) return *spec.feeding.mould_rigidity;
+  double least = 1;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+    if (spec.bodies[b].role == Role::mould) least = std::min(least, materials[b].casting.rigidity);
+  return least;
+}
+
 criteria::FeedingOptions feeding_options(const CaseSpec& spec, const mesh::Mesh& mesh,
                                          const std::vector<material::Material>& materials,
                                          const std::vector<InitialTemperatureRange>& start) {
@@ -29,7 +38,11 @@ criteria::FeedingOptions feeding_options(const CaseSpec& spec, const mesh::Mesh&
                                    .risers = std::vector<char>(spec.bodies.size(), 0),
                                    .up = upward(spec.analysis),
                                    .vented = spec.feeding.vented,
-                                   .covered = spec.feeding.covered};
+                                   .covered = spec.feeding.covered,
+                                   .mould_rigidity = mould_rigidity(spec, materials),
+                                   .gas = {.follow = spec.gas.follow,
+                                           .content = spec.gas.content,
+                                           .ambient_pressure = spec.gas.ambient_pressure}};
   // A surface that feeds is an open one.
   if (options.vented.empty())
     for (const std::string& feeder : spec.criteria.feeders)

@@ -183,8 +183,14 @@ std::string material_text(const material::Material& m) {
   for (const double number :
        {m.casting.coherency_fraction, m.casting.brittle_range[0], m.casting.brittle_range[1],
         m.casting.arm_spacing.value_or(0), m.casting.arm_spacing_exponent,
-        m.casting.melt_viscosity.value_or(0), m.casting.critical_pressure_drop, m.casting.pore_tension})
+        m.casting.melt_viscosity.value_or(0), m.casting.critical_pressure_drop, m.casting.pore_tension,
+        m.casting.crack_strain.value_or(0), m.casting.crack_rate_exponent, m.casting.crack_range_exponent,
+        m.casting.rigidity})
     hash.add(number);
+  if (m.gas)
+    for (const double number : {m.gas->melt[0], m.gas->melt[1], m.gas->solid[0], m.gas->solid[1],
+                                m.gas->content, m.gas->surface_tension})
+      hash.add(number);
   return fmt::format("{} ({:016x})", m.name, hash.value());
 }
 

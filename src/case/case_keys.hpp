@@ -31,6 +31,7 @@ Section<ProbeSpec> probe_keys();
 Section<ProfileSpec> profile_keys();
 Section<CriteriaSpec> criteria_keys();
 Section<FeedingSpec> feeding_keys();
+Section<GasSpec> gas_keys();
 Section<OutputSpec> output_keys();
 
 }  // namespace solidus::model

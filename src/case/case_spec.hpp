@@ -387,7 +387,15 @@ struct CriteriaSpec {
 struct FeedingSpec {
   bool follow = true;
   std::vector<std::string> vented, covered;  ///< groups of the mesh
+  std::optional<double> mould_rigidity;      ///< absent: that of the moulds' cards
   SourceLocation where;
+};
+
+/// Gas in the melt (criteria/gas_pores.hpp).
+struct GasSpec {
+  bool follow = true;
+  std::optional<double> content;  ///< of all melts with gas on their card [m³/kg]; absent: that of the cards
+  double ambient_pressure = 0;    ///< [Pa]
 };
 
 struct CaseSpec {
@@ -412,6 +420,7 @@ struct CaseSpec {
   std::vector<ProfileSpec> profiles;
   CriteriaSpec criteria;
   FeedingSpec feeding;
+  GasSpec gas;
   OutputSpec output;
   VarySpec vary;
   SpreadSpec spread;

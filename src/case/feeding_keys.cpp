@@ -22,7 +22,34 @@ Section<FeedingSpec> feeding_keys() {
   s.key("covered", &F::covered)
       .initially(Value::list())
       .doc("Groups of the mesh at which melt is not open, whatever they are otherwise.");
+  s.key("mould_rigidity", &F::mould_rigidity)
+      .range(0, 1)
+      .doc(
+          "The share of the expansion of graphite that the mould holds, so that it feeds the casting; to the "
+          "rest its wall gives way. Absent: the least of the rigidity of the moulds' cards, 1 without a "
+          "mould.");
   s.place(&F::where);
+  return s;
+}
+
+Section<GasSpec> gas_keys() {
+  Section<GasSpec> s("gas",
+                     "Gas in the melt, and the pores that it makes, where a card has [gas] "
+                     "(docs/guide/gas.md).");
+  s.key("follow", &GasSpec::follow)
+      .initially(true)
+      .doc("Follow gas where criteria are followed and the material of a casting has [gas].");
+  s.quantity("content", &GasSpec::content, "m3/kg")
+      .at_least(0)
+      .doc(
+          "Gas in the melt as it is poured, volume at standard state per mass: \"0.15 cm3/(100 g)\". Absent: "
+          "that of the card, which is a usual one.");
+  s.quantity("ambient_pressure", &GasSpec::ambient_pressure, "Pa")
+      .initially("101325 Pa")
+      .positive()
+      .doc(
+          "Of the surroundings in which the casting freezes: a vacuum test has 80 mbar, an autoclave 10 "
+          "bar.");
   return s;
 }
 

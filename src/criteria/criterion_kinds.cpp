@@ -2,6 +2,8 @@
 #include "criteria/criterion_kind.hpp"
 #include "criteria/feeding.hpp"
 #include "criteria/freezing.hpp"
+#include "criteria/gas_pores.hpp"
+#include "criteria/mush_strain.hpp"
 #include "criteria/pools.hpp"
 #include "criteria/quantities.hpp"
 #include "criteria/resolution.hpp"
@@ -39,13 +41,25 @@ struct PoolsKind {
   }
 };
 
+bool follows_feeding(const CriterionContext& c) {
+  return c.heat != nullptr && !c.mechanics && c.feeding && Feeding::has_shrinkage(c.materials, c.followed);
+}
+
 /// Feeding with heat alone. With mechanics, mixed elements feed and open pores.
 struct FeedingKind {
   static constexpr auto fields = criteria::fields::k_of_feeding;
   std::unique_ptr<Criterion> make(const CriterionContext& c) const {
-    if (c.heat == nullptr || c.mechanics || !c.feeding) return nullptr;
-    if (!Feeding::has_shrinkage(c.materials, c.followed)) return nullptr;
+    if (!follows_feeding(c)) return nullptr;
     return std::make_unique<Feeding>(c.mesh, c.kind, c.heat->storage(), c.feeding_options);
+  }
+};
+
+/// Gas where feeding does not follow it.
+struct GasKind {
+  static constexpr auto fields = criteria::fields::k_of_gas;
+  std::unique_ptr<Criterion> make(const CriterionContext& c) const {
+    if (c.heat == nullptr || follows_feeding(c)) return nullptr;
+    return GasPores::make(c.mesh, c.heat->storage(), c.followed, c.feeding_options.gas);
   }
 };
 
@@ -54,6 +68,15 @@ struct StrainKind {
   std::unique_ptr<Criterion> make(const CriterionContext& c) const {
     if (!c.mechanics) return nullptr;
     return std::make_unique<StrainCriteria>(c.mesh, c.kind, c.materials, c.temperature);
+  }
+};
+
+/// Hot tears of the strain that mush takes.
+struct MushStrainKind {
+  static constexpr auto fields = criteria::fields::k_of_mush_strain;
+  std::unique_ptr<Criterion> make(const CriterionContext& c) const {
+    if (!c.mechanics || c.heat == nullptr || !MushStrain::has_something_to_say(c.materials)) return nullptr;
+    return std::make_unique<MushStrain>(c.mesh, c.kind, c.materials);
   }
 };
 
@@ -66,7 +89,9 @@ std::vector<std::unique_ptr<const CriterionKind>>& criterion_kinds() {
     all.push_back(std::make_unique<CriterionKindOf<ResolutionKind>>());
     all.push_back(std::make_unique<CriterionKindOf<PoolsKind>>());
     all.push_back(std::make_unique<CriterionKindOf<FeedingKind>>());
+    all.push_back(std::make_unique<CriterionKindOf<GasKind>>());
     all.push_back(std::make_unique<CriterionKindOf<StrainKind>>());
+    all.push_back(std::make_unique<CriterionKindOf<MushStrainKind>>());
     return all;
   }();
   return kinds;

@@ -1,5 +1,6 @@
 #include "criteria/element_strain.hpp"
 
+#include <array>
 #include <utility>
 
 namespace solidus::criteria {
@@ -17,9 +18,11 @@ ElementStrain::ElementStrain(const mesh::Mesh& mesh, const mesh::ElementBlock& b
   gradient_.assign(entries * dim, Lane(0.0));
   hoop_.assign(axisymmetric_ ? entries : 0, Lane(0.0));
   share_.assign(entries, Lane(0.0));
+  volume_.assign(static_cast<std::size_t>(n_batches_), Lane(0.0));
   for (Index batch = 0; batch < n_batches_; ++batch) {
     Lane volume(0.0);
     for (int q = 0; q < g.n_points; ++q) volume += g.weight_at(batch, q);
+    volume_[static_cast<std::size_t>(batch)] = volume;
     const std::size_t first = static_cast<std::size_t>(batch) * n;
     for (std::size_t q = 0; q < points; ++q) {
       // Padding has no volume.
@@ -75,9 +78,20 @@ Lane ElementStrain::mean(std::span<const double> nodal, Index batch) const {
   return mean;
 }
 
+Lane ElementStrain::gradient(std::span<const double> nodal, Index batch) const {
+  const auto dim = static_cast<std::size_t>(dim_);
+  const std::size_t first = static_cast<std::size_t>(batch) * static_cast<std::size_t>(n_nodes_);
+  std::array<Lane, 3> sum{Lane(0.0), Lane(0.0), Lane(0.0)};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(n_nodes_); ++a) {
+    const Lane value = gather(nodal, nodes(batch) + a * k_lanes, 1, 0);
+    for (std::size_t i = 0; i < dim; ++i) sum[i] += value * gradient_[(first + a) * dim + i];
+  }
+  return sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+}
+
 std::size_t ElementStrain::bytes() const {
   return nodes_.capacity() * sizeof(Index) +
-         (gradient_.capacity() + hoop_.capacity() + share_.capacity()) * sizeof(Lane);
+         (gradient_.capacity() + hoop_.capacity() + share_.capacity() + volume_.capacity()) * sizeof(Lane);
 }
 
 }  // namespace solidus::criteria

@@ -21,6 +21,10 @@ class ElementStrain {
   Sym<Lane> strain(std::span<const double> displacement, Index batch) const;
   /// The mean of a nodal field, [local node].
   Lane mean(std::span<const double> nodal, Index batch) const;
+  /// The magnitude of the mean gradient of a nodal field, [local node].
+  Lane gradient(std::span<const double> nodal, Index batch) const;
+  /// [m³], zero of padding; in two dimensions per depth, with an axis of the whole revolution.
+  const Lane& volume(Index batch) const { return volume_[static_cast<std::size_t>(batch)]; }
   std::size_t bytes() const;
 
  private:
@@ -35,6 +39,7 @@ class ElementStrain {
   PackVector<Lane> gradient_;  ///< mean of ∂N_a/∂x_i, [batch][node][dim] [1/m]
   PackVector<Lane> hoop_;      ///< mean of N_a/r, [batch][node] [1/m]; axisymmetric only
   PackVector<Lane> share_;     ///< mean of N_a, [batch][node]
+  PackVector<Lane> volume_;    ///< [batch]
 };
 
 }  // namespace solidus::criteria

@@ -11,19 +11,22 @@ namespace solidus::criteria {
 
 namespace {
 
-constexpr int k_row = 9;
+constexpr int k_row = 11;
 
 CriterionColumn empty_column(const mesh::Mesh& mesh) {
   return make_column(mesh, "metal", mesh::FieldPlace::node, static_cast<int>(k_feeding_numbers));
 }
+
+/// Fields of a run with gas.
+constexpr std::array k_with_gas = {&fields::k_emptied, &fields::k_unfed_pores, &fields::k_gas_pores};
 
 FeedingRows rows_of(CriterionRecord& record) {
   return FeedingRows(record.columns[0].values);
 }
 
 void put(const FeedingTotals& t, CriterionRecord& record) {
-  record.tables[0].values = {t.room, t.melt,   t.freezing, t.solid,  t.pipe,
-                             t.sink, t.cavity, t.pores,    t.outside};
+  record.tables[0].values = {t.room,   t.melt,  t.freezing, t.solid, t.pipe, t.sink,
+                             t.cavity, t.pores, t.outside,  t.gas,   t.wall};
 }
 
 }  // namespace
@@ -37,11 +40,13 @@ Feeding::Feeding(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalEnt
       ghosts_(mesh),
       connectivity_(mesh, ghosts_, options.bodies),
       graph_(mesh, kind, options),
+      rigidity_(options.mould_rigidity),
       body_(mesh.x.size(), -1) {
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     const material::Material& material = storage.material(static_cast<int>(b));
     laws_.emplace_back(material);
     metals_.push_back(followed_[b] != 0 ? std::optional<MetalVolume>(material) : std::nullopt);
+    gas_.push_back(followed_[b] != 0 ? GasLaw::of(material, options.gas) : std::nullopt);
   }
   std::vector<double> body(mesh.x.size(), -1);
   for (Index i = 0; i < mesh.n_owned_nodes; ++i) {
@@ -95,7 +100,7 @@ CriterionRecord Feeding::restart(const CriterionRecord& before, const CriterionI
     // Metal that is poured beside it takes on the volume of the metal that is there, as if it froze at once:
     // the balance has one volume a node.
     const double present = 1 + rows(i, k_thermal) + rows(i, k_phase);
-    for (const FeedingNumber number : {k_metal, k_drained, k_pipe, k_sink, k_cavity, k_pores})
+    for (const FeedingNumber number : {k_metal, k_drained, k_pipe, k_sink, k_cavity, k_pores, k_gas, k_wall})
       rows(i, number) *= kept;
     rows(i, k_metal) += (1 - kept) / present;
     rows(i, k_room) = now;
@@ -110,7 +115,7 @@ CriterionRecord Feeding::restart(const CriterionRecord& before, const CriterionI
 
 FeedingTotals Feeding::totals(const CriterionRecord& record) {
   const std::vector<double>& v = record.tables[0].values;
-  return {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]};
+  return {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], v[10]};
 }
 
 void Feeding::step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) {
@@ -129,15 +134,20 @@ void Feeding::measure(const CriterionInput& old, const CriterionInput& next, Ste
     const bool owned = i < step.demands.size();
     const MetalVolume& metal = metal_of(i);
     const double before = old.solid_fraction[i], after = next.solid_fraction[i];
-    const double full = step.rows.fill(i);
+    const bool frozen = before >= 1 && after >= 1, stands = step.rows(i, k_drained) < 1 - k_nothing;
     // Metal that froze before the melt around it sank is solid and asks for nothing. The curve of freezing
     // does not know that, so the node takes what it asks for from the pool, without resistance.
-    step.solid[i] = step.rows(i, k_drained) < 1 - k_nothing ? (before + after) / 2 : 0;
+    step.solid[i] = stands ? (before + after) / 2 : 0;
     step.mobile[i] = (metal.mobile_share(before) + metal.mobile_share(after)) / 2;
-    const bool frozen = before >= 1 && after >= 1;
-    step.soft[i] = !frozen && full > k_nothing;
-    step.inside[i] =
-        step.soft[i] != 0 && metal.mobile_share(before) > 0 && step.rows(i, k_drained) < 1 - k_nothing;
+    step.soft[i] = !frozen && step.rows.fill(i) > k_nothing;
+    step.inside[i] = step.soft[i] != 0 && metal.mobile_share(before) > 0 && stands;
+    if (!frozen && stands) {
+      constexpr double k_mean = 0.5;  // of a step in which it begins to freeze
+      double& time = step.rows(i, k_freezing);
+      time = after > 0 ? time + (before > 0 ? 1 : k_mean) * step.dt : 0;
+      if (step.inside[i] != 0) blow(i, step);
+      step.rows(i, k_wall) += wall_yields(i, old, next, step);
+    }
     if (!owned) continue;
     FeedingDemand& demand = step.demands[i];
     demand.present = room(i) > 0.5 * step.rows(i, k_room);
@@ -146,6 +156,7 @@ void Feeding::measure(const CriterionInput& old, const CriterionInput& next, Ste
     demand.after = metal.at(next.heat.temperature[i], plateau_share(next, i));
     demand.fed = after < 1 ? demand.after : frozen ? demand.before : metal.solid();
     if (step.soft[i] == 0) continue;
+    const double full = step.rows.fill(i);
     demand.metal = full / demand.fed.total() - step.rows(i, k_metal);
     step.melts = true;
   }
@@ -154,8 +165,8 @@ void Feeding::measure(const CriterionInput& old, const CriterionInput& next, Ste
 // Contraction up to the end of freezing is of the metal that was there, contraction after it of what is there
 // now. Metal that has moved takes on the volume of the metal where it went.
 void Feeding::commit(Step& step, FeedingTotals& totals) const {
-  std::array<double, 8> sums{};
-  auto& [melt, freezing, solid, pipe, sink, cavity, pores, outside] = sums;
+  std::array<double, 10> sums{};
+  auto& [melt, freezing, solid, pipe, sink, cavity, pores, outside, gas, wall] = sums;
   const FeedingRows& rows = step.rows;
   for (std::size_t i = 0; i < step.demands.size(); ++i) {
     const double v = rows(i, k_room);
@@ -173,6 +184,8 @@ void Feeding::commit(Step& step, FeedingTotals& totals) const {
     sink += v * rows(i, k_sink);
     cavity += v * rows(i, k_cavity);
     pores += v * rows(i, k_pores);
+    gas += v * rows(i, k_gas);
+    wall += v * rows(i, k_wall);
     outside += v * (rows.fill(i) - rows(i, k_metal) * (1 + rows(i, k_thermal) + rows(i, k_phase)));
   }
   processes::sum(sums);
@@ -184,10 +197,12 @@ void Feeding::commit(Step& step, FeedingTotals& totals) const {
   totals.cavity = cavity;
   totals.pores = pores;
   totals.outside = outside;
+  totals.gas = gas;
+  totals.wall = wall;
 }
 
 std::span<const quantities::Quantity* const> Feeding::fields() const {
-  return fields::k_of_feeding;
+  return has_gas() ? std::span<const quantities::Quantity* const>(k_with_gas) : fields::k_of_feeding;
 }
 
 void Feeding::fill(const CriterionInput& /*now*/, const CriterionRecord& record,
@@ -197,6 +212,7 @@ void Feeding::fill(const CriterionInput& /*now*/, const CriterionRecord& record,
   for (std::size_t i = 0; i < mesh_.x.size(); ++i) {
     values[0][i] = std::clamp(rows.emptied(i), 0.0, 1.0);
     values[1][i] = rows(i, k_pores);
+    if (has_gas()) values[2][i] = rows(i, k_gas);
   }
 }
 

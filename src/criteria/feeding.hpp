@@ -10,14 +10,18 @@
 ///     that is still soft: a sink. Behind a coherent skin it leaves a cavity below its highest point. All
 ///     three empty from the top down (feeding_levels.hpp).
 ///
-/// Solid metal contracts at the expense of the outside. So at all times
+/// Gas that does not stay in solution takes room of its own (gas_law.hpp): melt has to give way to it, and
+/// mush that shrinks draws its pores larger before others open. Graphite that expands feeds, but for the
+/// share that the wall of the mould gives way to. Solid metal contracts at the expense of the outside. So at
+/// all times
 ///
-///   pipe + sink + cavity + pores + outside = contraction of melt, of freezing and of solid
+///   pipe + sink + cavity + pores + gas − wall + outside = contraction of melt, of freezing and of solid
 ///
 /// whose left side is a sum over the state and whose right side is summed over the steps, metal that moves
 /// from v_i to v_j included. Metal is neither lost nor made.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -40,9 +44,12 @@ struct FeedingTotals {
   double room = 0;                                                ///< of the castings as poured
   double melt = 0, freezing = 0, solid = 0;                       ///< contractions
   double pipe = 0, sink = 0, cavity = 0, pores = 0, outside = 0;  ///< what they took their volume from
+  double gas = 0;                                                 ///< pores of gas
+  double wall = 0;  ///< by which the wall of the mould has given way: the castings hold more by it
   /// The difference of both sides of the balance, as a share of the room.
   double defect() const {
-    return room > 0 ? (pipe + sink + cavity + pores + outside - melt - freezing - solid) / room : 0;
+    const double taken = pipe + sink + cavity + pores + gas - wall + outside;
+    return room > 0 ? (taken - melt - freezing - solid) / room : 0;
   }
 };
 
@@ -81,10 +88,25 @@ class Feeding : public Criterion {
  private:
   struct Step;
   double room(std::size_t node) const;
+  bool has_gas() const {
+    return std::ranges::any_of(gas_, [](const std::optional<GasLaw>& law) { return law.has_value(); });
+  }
   const MetalVolume& metal_of(std::size_t node) const {
     return *metals_[static_cast<std::size_t>(body_[node])];
   }
   void measure(const CriterionInput& old, const CriterionInput& next, Step& step) const;
+  void blow(std::size_t node, Step& step) const;
+  double wall_yields(std::size_t node, const CriterionInput& old, const CriterionInput& next,
+                     const Step& step) const;
+  /// A line through the present gas of a node.
+  struct GasLine {
+    double pressure = 0, slope = 0;  ///< of the melt [Pa], of the share of the room [1/Pa]
+  };
+  GasLine gas_line(const Step& step, std::size_t node) const;
+  static void grow_gas(Step& step, std::size_t node, const GasLine& line, double pressure);
+  void draw_gas(Step& step, std::size_t node) const;
+  double most_drop(const Step& step, std::size_t node) const;
+  void open_in_mush(Step& step, std::size_t node, double metal, double drop) const;
   void feed(Step& step) const;
   void leave_out_absent(Step& step) const;
   void find_pools(Step& step) const;
@@ -118,6 +140,8 @@ class Feeding : public Criterion {
   FeedingGraph graph_;
   std::vector<std::optional<MetalVolume>> metals_;  ///< [body], of those that are followed
   std::vector<MushLaw> laws_;                       ///< [body]
+  std::vector<std::optional<GasLaw>> gas_;          ///< [body]
+  double rigidity_;                                 ///< of the mould
   std::vector<int> body_;  ///< [local node]: that of which it holds most among them, else −1
 };
 

@@ -1,6 +1,7 @@
 // What Feeding tells at the end of a run: holes with their places, and the volumes of the balance.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "criteria/feeding.hpp"
 #include "criteria/feeding_step.hpp"
+#include "criteria/gas_pores.hpp"
 #include "criteria/gather.hpp"
 
 namespace solidus::criteria {
@@ -120,6 +122,17 @@ std::vector<CriterionResult> Feeding::findings(const CriterionRecord& record) co
       {"feeding_pipe", "m3", t.pipe, false, {}},     {"feeding_sink", "m3", t.sink, false, {}},
       {"feeding_cavity", "m3", t.cavity, false, {}}, {"feeding_pores", "m3", t.pores, false, {}},
       {"feeding_room", "m3", t.room, false, {}},     {"feeding_defect", "1", t.defect(), false, {}}};
+  if (t.wall != 0) found.push_back({"feeding_wall", "m3", t.wall, false, {}});
+  if (has_gas()) {
+    CriterionRecord copy{record.name, record.columns, {}};
+    const FeedingRows rows(copy.columns[0].values);
+    std::vector<double> pores, rooms;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i) {
+      pores.push_back(rows(i, k_gas));
+      rooms.push_back(rows(i, k_room));
+    }
+    std::ranges::move(gas_findings(mesh_, pores, rooms), std::back_inserter(found));
+  }
   constexpr std::array<const char*, 3> k_names{"pipe_", "cavity_", "sink_"};  // in the order of the kinds
   std::array<std::size_t, 3> told{};
   for (const FeedingHole& hole : holes(record)) {

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "criteria/gas_law.hpp"
 #include "mesh/mesh.hpp"
 #include "numbers/types.hpp"
 
@@ -28,8 +29,10 @@ struct FeedingOptions {
   std::array<double, 3> up{0, 1, 0};  ///< of length one
   std::vector<std::string> vented = {};   ///< groups of the mesh that are open; empty: what faces up
   std::vector<std::string> covered = {};  ///< groups of the mesh that are not open
-  std::set<std::string> touched = {};     ///< surfaces in contact with a mould
-  std::set<std::string> cooled = {};      ///< surfaces with a condition of heat
+  double mould_rigidity = 1;              ///< share of the expansion of graphite that feeds
+  GasOptions gas = {};
+  std::set<std::string> touched = {};  ///< surfaces in contact with a mould
+  std::set<std::string> cooled = {};   ///< surfaces with a condition of heat
 };
 
 class FeedingGraph {

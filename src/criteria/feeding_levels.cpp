@@ -17,7 +17,7 @@ struct Search {
   bool found = true;
 };
 
-constexpr double k_exact = 1e-13;
+constexpr double k_level_found = 1e-13;
 constexpr int k_most_trials = 100;
 
 }  // namespace
@@ -60,7 +60,7 @@ std::vector<PoolLevel> find_levels(std::span<const DrainedNode> nodes, std::span
       const double excess = sums[p] - metal[p];
       levels[p] = {s.level, sums[p]};
       const bool at_bottom = trial == 0 && excess <= 0, at_top = s.level >= s.above && excess >= 0;
-      if (std::abs(excess) <= k_exact * metal[p] || at_bottom || at_top) {
+      if (std::abs(excess) <= k_level_found * metal[p] || at_bottom || at_top) {
         s.found = true;
         continue;
       }

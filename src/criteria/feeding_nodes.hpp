@@ -8,7 +8,7 @@
 
 namespace solidus::criteria {
 
-/// Numbers of a row, all but the first and the last as shares of the first.
+/// Numbers of a row, as shares of the first where they have no unit.
 enum FeedingNumber : std::size_t {
   k_room,     ///< volume of the casting around the node [m³]; zero: none
   k_metal,    ///< metal, by its volume as melt at the reference temperature
@@ -19,6 +19,9 @@ enum FeedingNumber : std::size_t {
   k_sink,      ///< emptied behind a skin that was drawn in
   k_cavity,    ///< emptied inside
   k_pores,     ///< between the dendrites
+  k_gas,       ///< gas pores (gas_law.hpp)
+  k_wall,      ///< room that the wall of the mould has given way to
+  k_freezing,  ///< time since the metal began to freeze [s]
   k_pressure,  ///< of the melt in mush, without its weight, from that of the pools on [Pa]
   k_feeding_numbers
 };
@@ -34,7 +37,9 @@ class FeedingRows {
     return (*this)(node, k_pipe) + (*this)(node, k_sink) + (*this)(node, k_cavity);
   }
   /// The share of the room that metal should fill.
-  double fill(std::size_t node) const { return 1 - emptied(node) - (*this)(node, k_pores); }
+  double fill(std::size_t node) const {
+    return 1 - emptied(node) - (*this)(node, k_pores) - (*this)(node, k_gas) + (*this)(node, k_wall);
+  }
 
  private:
   std::span<double> values_;

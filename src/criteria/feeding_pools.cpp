@@ -111,7 +111,8 @@ void Feeding::feed_mush(Step& step) const {
   const std::size_t owned = step.demands.size();
   bool mush = false;
   for (std::size_t i = 0; i < owned; ++i)
-    mush = mush || (step.soft[i] != 0 && step.pool[i] < 0 && step.demands[i].metal != 0);
+    mush = mush || (step.soft[i] != 0 && step.pool[i] < 0 &&
+                    (step.demands[i].metal != 0 || gas_[static_cast<std::size_t>(body_[i])]));
   if (!parallel::any_process(mush)) return;
   const ConnectedParts parts = connectivity_.parts(step.soft);
   std::vector<double> own;
@@ -120,7 +121,8 @@ void Feeding::feed_mush(Step& step) const {
   const std::vector<double> fed = all_numbers(std::move(own));
   std::vector<int> region(step.soft.size(), -1);
   std::vector<MushPlace> place(step.soft.size(), MushPlace::none);
-  std::vector<double> flow(owned, 0.0);
+  std::vector<double> flow(owned, 0.0), gives(owned, 0.0), drop(owned, 0.0);
+  std::vector<GasLine> gas(owned);
   for (std::size_t i = 0; i < place.size(); ++i) {
     if (step.soft[i] == 0) continue;
     region[i] = place_in(fed, parts.label[i]);
@@ -128,9 +130,14 @@ void Feeding::feed_mush(Step& step) const {
   }
   std::vector<double> pressure(place.size());
   for (std::size_t i = 0; i < place.size(); ++i) pressure[i] = step.rows(i, k_pressure);
-  for (std::size_t i = 0; i < owned; ++i)
-    if (place[i] == MushPlace::mush)
-      flow[i] = step.rows(i, k_room) * step.demands[i].metal * step.demands[i].fed.total() / step.dt;
+  for (std::size_t i = 0; i < owned; ++i) {
+    if (place[i] != MushPlace::mush) continue;
+    flow[i] = step.rows(i, k_room) * step.demands[i].metal * step.demands[i].fed.total() / step.dt;
+    gas[i] = gas_line(step, i);
+    gives[i] = -step.rows(i, k_room) * gas[i].slope / step.dt;
+    flow[i] -= gives[i] * gas[i].pressure;
+    drop[i] = most_drop(step, i);
+  }
   const MushResult result = flow_through_mush(graph_, ghosts_, laws_,
                                               {.place = place,
                                                .pool = step.pool,
@@ -138,18 +145,23 @@ void Feeding::feed_mush(Step& step) const {
                                                .solid = step.solid,
                                                .temperature = step.temperature,
                                                .flow = flow,
+                                               .gives = gives,
+                                               .drop = drop,
                                                .n_pools = step.pools.size()},
                                               pressure);
   for (std::size_t i = 0; i < owned; ++i) {
-    step.rows(i, k_pressure) = pressure[i];
     FeedingDemand& demand = step.demands[i];
+    step.rows(i, k_pressure) = pressure[i];
+    if (place[i] == MushPlace::mush) grow_gas(step, i, gas[i], pressure[i]);
+    if (place[i] == MushPlace::none && step.soft[i] != 0) draw_gas(step, i);
     if (step.soft[i] == 0 || step.pool[i] >= 0) continue;
     if (place[i] == MushPlace::none)
       open_pores(step, i, std::max(0.0, demand.metal));
     else if (result.pores[i] > 0)
-      open_pores(step, i,
-                 std::min(std::max(0.0, demand.metal),
-                          result.pores[i] * step.dt / (step.rows(i, k_room) * demand.fed.total())));
+      open_in_mush(step, i,
+                   std::min(std::max(0.0, demand.metal),
+                            result.pores[i] * step.dt / (step.rows(i, k_room) * demand.fed.total())),
+                   drop[i]);
     if (place[i] == MushPlace::none) demand.metal = 0;
   }
   share_among_pools(step, result.from_pool, region, fed.size());

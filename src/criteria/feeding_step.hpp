@@ -34,6 +34,7 @@ struct Feeding::Step {
       : rows(rows_),
         dt(next.time - old.time),
         temperature(next.heat.temperature),
+        solid_after(next.solid_fraction),
         demands(static_cast<std::size_t>(mesh.n_owned_nodes)),
         solid(mesh.x.size(), 1.0),
         mobile(mesh.x.size(), 0.0),
@@ -45,14 +46,14 @@ struct Feeding::Step {
   }
 
   FeedingRows rows;
-  double dt;  ///< [s]
-  std::span<const double> temperature;
-  std::vector<FeedingDemand> demands;   ///< [owned node]
-  bool melts = false;                   ///< a node of this process may need metal
-  std::vector<double> solid, mobile;    ///< means of the step
-  std::vector<char> soft;               ///< its metal is not solid all the time
-  std::vector<char> inside;             ///< in a pool at the start of the step
-  std::vector<int> pool;                ///< number in `pools`; −1: none
+  double dt;                                         ///< [s]
+  std::span<const double> temperature, solid_after;  ///< at the end of the step
+  std::vector<FeedingDemand> demands;                ///< [owned node]
+  bool melts = false;                                ///< a node of this process may need metal
+  std::vector<double> solid, mobile;                 ///< means of the step
+  std::vector<char> soft;                            ///< its metal is not solid all the time
+  std::vector<char> inside;                          ///< in a pool at the start of the step
+  std::vector<int> pool;                             ///< number in `pools`; −1: none
   std::vector<double> by_air, by_skin;  ///< one where air, or a skin, reaches a node of a pool [owned node]
   FeedingPools pools;
   std::vector<double> metal_before;  ///< [owned node]

@@ -104,6 +104,9 @@ Freezing::Freezing(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalE
     const material::Material& material = storage.material(static_cast<int>(b));
     feeding_.push_back(FeedingLaw::of(material));
     tearing_.push_back(TearingLaw::of(material));
+    kou_.push_back(material.solidification() != nullptr
+                       ? kou_index(material.solidification()->fraction.points())
+                       : k_never);
     Levels& levels = levels_.emplace_back(Levels{FreezingLevels::of(material)});
     levels.evaluation = levels.solidus + options.evaluation * (levels.liquidus - levels.solidus);
     levels.at_end = levels.evaluation <= levels.solidus;
@@ -371,8 +374,19 @@ std::array<double, Freezing::k_fields> Freezing::values_of(const FreezingNode& w
     critical = tearing->critical_strain_rate(place);
     if (held_[body] > 0) tendency = tearing->tendency(place, held_[body] * magnitude * rate);
   }
-  return {h[k_solidified_at], time, rate, gradient, speed, spacing, ny, number, pores, critical, tendency,
-          vulnerable_share(h)};
+  return {h[k_solidified_at],
+          time,
+          rate,
+          gradient,
+          speed,
+          spacing,
+          ny,
+          number,
+          pores,
+          critical,
+          tendency,
+          vulnerable_share(h),
+          h[k_healed_at] >= 0 ? kou_[body] : k_never};
 }
 
 std::span<const quantities::Quantity* const> Freezing::fields() const {

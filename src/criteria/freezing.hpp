@@ -102,7 +102,7 @@ class Freezing : public Criterion {
   /// The body by which an owned node is told: that of which it holds most; −1: none that freezes.
   int body_of(Index node, const std::vector<char>& chosen) const;
   std::vector<double> front_speeds(std::span<const double> history) const;
-  static constexpr std::size_t k_fields = 12;
+  static constexpr std::size_t k_fields = 13;
   std::vector<CriterionResult> shares_beyond(const CriterionRecord& record,
                                              std::span<const double> speeds) const;
   static std::array<double, k_fields> nothing_known();
@@ -118,6 +118,7 @@ class Freezing : public Criterion {
   std::vector<Levels> levels_;                      ///< per body
   std::vector<std::optional<FeedingLaw>> feeding_;  ///< per body
   std::vector<std::optional<TearingLaw>> tearing_;  ///< per body
+  std::vector<double> kou_;                         ///< per body: Kou's index [K]
   std::vector<double> held_;  ///< per body: strain rate of its mush, if its ends were held, over G Ṫ [m/K²]
   std::vector<FreezingNode> nodes_;  ///< owned
   Patches patches_;                  ///< lists of nodes within step() alone

@@ -83,17 +83,23 @@ double TearingLaw::critical_strain_rate(const Place& place) const {
   return left * place.gradient / (resistance(place) * (1 + shrinkage_) * b_);
 }
 
-double kou_index(const Curve& curve) {
-  constexpr double k_from = 0.87;
+double root_of(const Curve& curve) {
   const Curve mush = mush_of(curve);
-  if (mush.size() < 2 || mush.front().second <= k_from) return 0;
-  const auto colder = [](const std::pair<double, double>& point) { return point.second > k_from; };
-  const auto above = std::partition_point(mush.begin(), mush.end(), colder);
-  if (above == mush.end()) return 0;
-  const auto& [low, more] = *(above - 1);
-  const auto& [high, less] = *above;
-  const double from = std::lerp(low, high, (more - k_from) / (more - less));
-  return (from - mush.front().first) / (std::sqrt(mush.front().second) - std::sqrt(k_from));
+  return mush.empty() ? 1 : mush.front().second;
+}
+
+double kou_index(const Curve& curve, double from, double to) {
+  const Curve mush = mush_of(curve);
+  if (mush.size() < 2 || mush.front().second <= from) return 0;
+  to = std::min(to, mush.front().second);
+  const auto temperature = [&](double fraction) {
+    const auto above = std::partition_point(mush.begin() + 1, mush.end() - 1,
+                                            [=](const auto& point) { return point.second > fraction; });
+    const auto& [low, more] = *(above - 1);
+    const auto& [high, less] = *above;
+    return more > less ? std::lerp(low, high, (more - fraction) / (more - less)) : low;
+  };
+  return (temperature(from) - temperature(to)) / (std::sqrt(to) - std::sqrt(from));
 }
 
 }  // namespace solidus::criteria

@@ -17,7 +17,8 @@
 /// that between 0.4 and 0.9, when it still does; fractions as public implementations take them.
 ///
 /// *Kou.* |dT/d√f| near the end of freezing, here from f = 0.87 to the root: the steeper, the longer grains
-/// stay apart while they contract.
+/// stay apart while they contract. Zero where an isothermal change bridges them before. The path of a node is
+/// the curve of its card, if it froze along it from 0.4 on.
 ///
 /// Sources: M. Rappaz, J.-M. Drezet, M. Gremaud, A new hot-tearing criterion, Metall. Mater. Trans. A 30
 /// (1999) 449–455. T. W. Clyne, G. J. Davies, The influence of composition on solidification cracking
@@ -73,7 +74,10 @@ class TearingLaw {
   double a_ = 0, b_ = 0, shrinkage_, viscosity_, pressure_drop_;
 };
 
-/// |dT/d√f| between f = 0.87 and the root [K]; zero where f jumps over that.
-double kou_index(const std::vector<std::pair<double, double>>& curve);
+/// The solid fraction of the root: 0.98, or where the range ends before an isothermal change.
+double root_of(const std::vector<std::pair<double, double>>& curve);
+
+/// |dT/d√f| between two solid fractions, no further than the root [K]; zero where f jumps over the first.
+double kou_index(const std::vector<std::pair<double, double>>& curve, double from = 0.87, double to = 1);
 
 }  // namespace solidus::criteria

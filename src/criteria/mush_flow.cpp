@@ -56,6 +56,7 @@ class Equations {
         edges_.push_back({j, conductance});
         diagonal += conductance;
       }
+      if (!input.gives.empty()) diagonal += input.gives[i];
       start_.push_back(edges_.size());
       diagonal_.push_back(diagonal);
     }
@@ -72,7 +73,8 @@ class Equations {
       balance();
       bool changed = false;
       for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const bool low = held_[k] == 0 && pressure_[rows_[k]] < -critical(k) * (1 + k_slack);
+        const bool low =
+            held_[k] == 0 && pressure_[rows_[k]] < -critical(k) - k_slack * std::abs(critical(k));
         // Let go of only while few rounds have gone by: then the set can but grow, and ends.
         const bool fed = held_[k] != 0 && diagonal_[k] > 0 && round < k_most_rounds / 2 && pores(k) < 0;
         if (low) hold(k);
@@ -94,6 +96,7 @@ class Equations {
 
   MushLaw::End end(std::size_t node) const { return {input_.solid[node], input_.temperature[node]}; }
   double critical(std::size_t k) const {
+    if (!input_.drop.empty()) return input_.drop[rows_[k]];
     return laws_[static_cast<std::size_t>(input_.body[rows_[k]])].critical_drop();
   }
   void hold(std::size_t k) {

@@ -1,11 +1,12 @@
 /// Melt that flows through mush to where it shrinks, and pores where it does not get there.
 ///
-///   Σ_j c_ij (P_j − P_i) = Q_i − R_i,   P_i ≥ −ΔP_cr,   R_i ≥ 0,   R_i (P_i + ΔP_cr) = 0
+///   Σ_j c_ij (P_j − P_i) = Q_i + K_i P_i − R_i,   P_i ≥ −ΔP_cr,   R_i ≥ 0,   R_i (P_i + ΔP_cr) = 0
 ///
 /// P [Pa] the pressure of the melt, its weight left out, zero in pools; Q [m³/s] what the metal around a node
-/// needs; R [m³/s] the pores that open, from the critical drop ΔP_cr of the material on
-/// (material/casting.hpp). c_ij = g_ij K̃_ij/μ with g of the graph (feeding_graph.hpp) and the law of Darcy,
-/// Blake and Kozeny (material/permeability.hpp), whose resistance is integrated along the edge:
+/// needs, K [m³/(Pa s)] not below zero by how much less it needs as gas in it expands; R [m³/s] the pores
+/// that open, from the critical drop ΔP_cr of the material on (material/casting.hpp). c_ij = g_ij K̃_ij/μ with
+/// g of the graph (feeding_graph.hpp) and the law of Darcy, Blake and Kozeny (material/permeability.hpp),
+/// whose resistance is integrated along the edge:
 ///
 ///   μ/K̃ = s² (180 μ/λ₂²) ∫ max(f, 1/4)²/(1 − f)³ df/(f_j − f_i)
 ///
@@ -48,7 +49,9 @@ struct MushInput {
   std::span<const int> body;            ///< [local node]: whose law holds
   std::span<const double> solid;        ///< mean solid fraction of the step, [local node]
   std::span<const double> temperature;  ///< [K], [local node]
-  std::span<const double> flow;         ///< Q [m³/s], [owned node]
+  std::span<const double> flow;         ///< Q [m³/s] where P = 0, [owned node]
+  std::span<const double> gives = {};   ///< K [m³/(Pa s)], [owned node]; empty: zero
+  std::span<const double> drop = {};    ///< ΔP_cr [Pa], [owned node]; empty: those of the materials
   std::size_t n_pools = 0;
 };
 

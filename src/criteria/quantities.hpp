@@ -253,11 +253,80 @@ inline constexpr Quantity k_unfed_pores{.name = "unfed_pores",
                                         .pictured = true,
                                         .shown_as = quantities::k_percent};
 
+inline constexpr Quantity k_gas_pores{.name = "gas_pores",
+                                      .unit = "1",
+                                      .label = "Gas pores",
+                                      .doc =
+                                          "Pores of gas that came out of solution as the metal froze, as a "
+                                          "share of the room around a node",
+                                      .group = quantities::Group::criteria,
+                                      .needs = {.heat = true, .melting = true},
+                                      .kept = quantities::Kept::every,
+                                      .worst = quantities::Extreme::greatest,
+                                      .headline = "Gas pores",
+                                      .compared = true,
+                                      .pictured = true,
+                                      .shown_as = quantities::k_percent};
+
+inline constexpr Quantity k_kou_index{
+    .name = "kou_index",
+    .unit = "K",
+    .label = "Kou's index",
+    .doc =
+        "Slope of the temperature over the root of the solid fraction near the end of freezing, by Kou: the "
+        "steeper, the longer grains stay apart while they contract",
+    .group = quantities::Group::criteria,
+    .needs = {.heat = true, .melting = true},
+    .no_value = -1,
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::greatest,
+    .answer = "Kou's index",
+    .shown_as = {"K", "K"}};
+
+inline constexpr Quantity k_strained_tendency{.name = "strained_tendency",
+                                              .unit = "1",
+                                              .label = "Tearing tendency (strain taken)",
+                                              .doc =
+                                                  "Drop of the melt's pressure at the strain rate that the "
+                                                  "mush takes, over the critical one: above 1 a "
+                                                  "tear may open",
+                                              .group = quantities::Group::criteria,
+                                              .place = quantities::Place::element,
+                                              .needs = {.heat = true, .mechanics = true, .melting = true},
+                                              .no_value = -1,
+                                              .kept = quantities::Kept::last,
+                                              .worst = quantities::Extreme::greatest,
+                                              .headline = "Tearing tendency (strain)",
+                                              .answer = "tearing tendency, strain taken",
+                                              .threshold = 1,
+                                              .compared = true,
+                                              .pictured = true};
+
+inline constexpr Quantity k_cracking_index{.name = "cracking_index",
+                                           .unit = "1",
+                                           .label = "Cracking index (Won, Yeo)",
+                                           .doc =
+                                               "Strain taken in the brittle range of solid fractions over "
+                                               "the critical one of Won, Yeo, Seol and Oh: "
+                                               "above 1 an internal crack may form",
+                                           .group = quantities::Group::criteria,
+                                           .place = quantities::Place::element,
+                                           .needs = {.heat = true, .mechanics = true, .melting = true},
+                                           .no_value = -1,
+                                           .kept = quantities::Kept::last,
+                                           .worst = quantities::Extreme::greatest,
+                                           .headline = "Cracking index",
+                                           .answer = "cracking index, strain taken",
+                                           .threshold = 1,
+                                           .compared = true,
+                                           .pictured = true};
+
 /// Fields of Freezing, in their order.
 inline constexpr std::array k_of_freezing = {
     &k_solidified_at,      &k_local_solidification_time, &k_cooling_rate,     &k_thermal_gradient,
     &k_front_speed,        &k_secondary_arm_spacing,     &k_niyama,           &k_dimensionless_niyama,
-    &k_shrinkage_porosity, &k_critical_strain_rate,      &k_tearing_tendency, &k_vulnerable_share};
+    &k_shrinkage_porosity, &k_critical_strain_rate,      &k_tearing_tendency, &k_vulnerable_share,
+    &k_kou_index};
 
 /// Fields of Pools, in their order.
 inline constexpr std::array k_of_pools = {&k_liquid_pool, &k_pool_volume};
@@ -265,8 +334,14 @@ inline constexpr std::array k_of_pools = {&k_liquid_pool, &k_pool_volume};
 /// Fields of Feeding, in their order.
 inline constexpr std::array k_of_feeding = {&k_emptied, &k_unfed_pores};
 
+/// Fields of GasPores, and further ones of Feeding where there is gas.
+inline constexpr std::array k_of_gas = {&k_gas_pores};
+
 /// Fields of StrainCriteria, in their order.
 inline constexpr std::array k_of_strain = {&k_strain_in_liquid, &k_strain_since_coherency, &k_brittle_strain,
                                            &k_distortion};
+
+/// Fields of MushStrain, in their order.
+inline constexpr std::array k_of_mush_strain = {&k_strained_tendency, &k_cracking_index};
 
 }  // namespace solidus::criteria::fields

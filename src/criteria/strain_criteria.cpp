@@ -1,12 +1,10 @@
 #include "criteria/strain_criteria.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "criteria/quantities.hpp"
+#include "criteria/strain_lanes.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
@@ -15,50 +13,8 @@ namespace solidus::criteria {
 namespace {
 
 enum Columns : std::size_t { k_at_coherency, k_brittle, k_displacement };
-constexpr std::size_t k_tensor = 6;
-
-/// Eight elements of a column of tensors from `first` on; lanes beyond `count` are zero.
-Sym<Lane> load(const std::vector<double>& column, std::size_t first, int count) {
-  Sym<Lane> a;
-  for (int lane = 0; lane < count; ++lane)
-    for (std::size_t i = 0; i < k_tensor; ++i)
-      a.c[i].set(lane, column[(first + static_cast<std::size_t>(lane)) * k_tensor + i]);
-  return a;
-}
-
-void store(const Sym<Lane>& a, std::size_t first, int count, std::vector<double>& column) {
-  for (int lane = 0; lane < count; ++lane)
-    for (std::size_t i = 0; i < k_tensor; ++i)
-      column[(first + static_cast<std::size_t>(lane)) * k_tensor + i] = a.c[i][lane];
-}
-
-Sym<double> tensor(const std::vector<double>& column, std::size_t element) {
-  Sym<double> a;
-  std::copy_n(column.begin() + static_cast<std::ptrdiff_t>(element * k_tensor), k_tensor, a.c.begin());
-  return a;
-}
-
-/// The share of a step in which a fraction that runs evenly from `from` to `to` is within [low, high).
-Lane share_within(const Lane& from, const Lane& to, double low, double high) {
-  const Lane least = min(from, to), most = max(from, to), path = most - least;
-  const Lane inside = max(min(most, Lane(high)) - max(least, Lane(low)), Lane(0.0));
-  const Lane resting = select((least >= Lane(low)) & (least < Lane(high)), Lane(1.0), Lane(0.0));
-  const LaneMask moves = path > Lane(0.0);
-  return select(moves, inside / select(moves, path, Lane(1.0)), resting);
-}
-
 Lane equivalent(const Sym<Lane>& strain) {
   return sqrt(Lane(2.0 / 3.0) * dot(dev(strain), dev(strain)));
-}
-
-/// The largest principal value of a deviator, 2 √(J₂/3) cos θ with cos 3θ = (3√3/2) J₃/J₂^(3/2).
-double largest_principal(const Sym<double>& e) {
-  const double j2 = 0.5 * dot(e, e);
-  if (j2 == 0) return 0;
-  const double j3 = e[0] * (e[1] * e[2] - e[4] * e[4]) - e[3] * (e[3] * e[2] - e[4] * e[5]) +
-                    e[5] * (e[3] * e[4] - e[1] * e[5]);
-  const double cosine = std::clamp(1.5 * std::numbers::sqrt3 * j3 / (j2 * std::sqrt(j2)), -1.0, 1.0);
-  return 2 * std::sqrt(j2 / 3) * std::cos(std::acos(cosine) / 3);
 }
 
 /// The body of every local node; of ghosts from their owners, which hold all of a node's elements.
@@ -154,13 +110,14 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
         if (from[lane] < block.casting->coherency_fraction)
           for (const Index node : block.nodes_of(batch * k_lanes + lane))
             soft[static_cast<std::size_t>(node)] = 1;
-      Sym<Lane> reference = load(at_coherency, first, count), sum = load(brittle, first, count);
+      Sym<Lane> reference = load_tensors(at_coherency, k_tensor, first, count),
+                sum = load_tensors(brittle, k_tensor, first, count);
       for (std::size_t i = 0; i < k_tensor; ++i) {
         reference.c[i] = select(melt, strain.c[i], reference.c[i]);
         sum.c[i] = select(melt, Lane(0.0), sum.c[i] + share * increment.c[i]);
       }
-      store(reference, first, count, at_coherency);
-      store(sum, first, count, brittle);
+      store_tensors(reference, k_tensor, first, count, at_coherency);
+      store_tensors(sum, k_tensor, first, count, brittle);
     }
   }
   std::vector<double>& displacement = record.columns[k_displacement].values;
@@ -181,14 +138,15 @@ void StrainCriteria::fill(const CriterionInput& now, const CriterionRecord& reco
     for (Index batch = 0; batch < block.strain.n_batches(); ++batch) {
       const std::size_t first = block.first + static_cast<std::size_t>(batch) * k_lanes;
       const int count = std::min<int>(k_lanes, block.strain.n_elements() - batch * k_lanes);
-      const Sym<Lane> reference = load(record.columns[k_at_coherency].values, first, count);
+      const Sym<Lane> reference = load_tensors(record.columns[k_at_coherency].values, k_tensor, first, count);
       const Lane in_liquid = equivalent(reference),
                  since = equivalent(block.strain.strain(u, batch) - reference);
       for (int lane = 0; lane < count; ++lane) {
         const std::size_t element = first + static_cast<std::size_t>(lane);
         values[0][element] = in_liquid[lane];
         values[1][element] = since[lane];
-        values[2][element] = largest_principal(tensor(record.columns[k_brittle].values, element));
+        values[2][element] =
+            largest_principal(tensor_at(record.columns[k_brittle].values.data() + element * k_tensor));
       }
     }
 
@@ -208,7 +166,8 @@ std::vector<CriterionResult> StrainCriteria::findings(const CriterionRecord& rec
   std::size_t element = 0;
   for (const mesh::ElementBlock& block : mesh_.blocks)
     for (Index e = 0; e < block.size(); ++e, ++element) {
-      const double value = largest_principal(tensor(record.columns[k_brittle].values, element));
+      const double value =
+          largest_principal(tensor_at(record.columns[k_brittle].values.data() + element * k_tensor));
       if (e >= block.n_counted || value <= mine) continue;
       mine = value;
       finding.where = {};

@@ -71,6 +71,7 @@ constexpr std::array k_dimensions{
     Dimension{"K", "a temperature", "20 degC"},
     Dimension{"kg", "a mass", "2 kg"},
     Dimension{"kg/m3", "a density", "7800 kg/m3"},
+    Dimension{"m3/kg", "a volume of gas per mass", "0.15 cm3/(100 g)"},
     Dimension{"m/s", "a velocity", "10 mm/s"},
     Dimension{"m/s2", "an acceleration", "9.81 m/s2"},
     Dimension{"N", "a force", "3.92 kN"},

@@ -15,6 +15,16 @@ struct Casting {
   /// Solid fractions between which it cracks rather than strains, and no melt heals it.
   std::array<double, 2> brittle_range = {0.90, 0.99};
 
+  /// Critical strain in the brittle range, ε_c = φ/(ε̇^m ΔT_B^n) with its strain rate ε̇ [1/s] and width ΔT_B
+  /// [K] (criteria/mush_strain.hpp). Absent: not known; fitted to carbon steels φ = 0.02821.
+  std::optional<double> crack_strain;    ///< φ
+  double crack_rate_exponent = 0.3131;   ///< m
+  double crack_range_exponent = 0.8638;  ///< n
+
+  /// Of a mould: the share of the expansion of graphite that it holds, so that it feeds; the wall gives way
+  /// to the rest (criteria/feeding.hpp).
+  double rigidity = 1;
+
   /// Tension of metal below coherency at which pores open in it, counted from the atmosphere [Pa]
   /// (mechanics/pores.hpp): next to none, for cast metal holds films of oxide and gas that open at once.
   double pore_tension = 100;

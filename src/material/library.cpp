@@ -19,6 +19,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The change of volume that a file gives or that comes of its [graphite].
+double volume_change_of(const Material& material, const PhaseChangeData& data) {
+  if (!data.graphite) return data.volume_change;
+  if (!material.graphite)
+    throw InputError(data.where,
+                     "the phase change '" + data.name + "' is graphite, and there is no [graphite]",
+                     "carbon and silicon there, or volume_change here without graphite = true");
+  if (data.volume_change != 0)
+    throw InputError(data.where, "the volume_change of '" + data.name + "' comes of [graphite]",
+                     "leave one of them out");
+  return material.graphite->volume_change();
+}
+
 void add_phase_change(Material& material, const PhaseChangeData& data) {
   for (const PhaseChange& other : material.phase_changes) {
     if (other.name == data.name)
@@ -30,8 +43,8 @@ void add_phase_change(Material& material, const PhaseChangeData& data) {
           "at most one has solidification = true");
   }
   try {
-    material.phase_changes.push_back(
-        {data.name, data.fraction.law->curve(), data.latent_heat, data.volume_change, data.solidification});
+    material.phase_changes.push_back({data.name, data.fraction.law->curve(), data.latent_heat,
+                                      volume_change_of(material, data), data.solidification, data.graphite});
   } catch (const std::invalid_argument& error) {
     throw InputError(data.fraction.where,
                      "the fraction of the phase change '" + data.name + "': " + error.what());
@@ -223,6 +236,8 @@ Material make_material(std::string name, const MaterialData& data) {
   m.conductivity = note("conductivity", data.conductivity);
   m.specific_heat = note("specific_heat", data.specific_heat);
   m.specific_heat_at = data.specific_heat_at;
+  m.graphite = data.graphite;
+  m.gas = data.gas;
   for (const PhaseChangeData& change : data.phase_changes) add_phase_change(m, change);
 
   const bool elastic[] = {data.young_modulus.has_value(), data.poisson_ratio.has_value(),
@@ -246,6 +261,8 @@ Material make_material(std::string name, const MaterialData& data) {
         {"twice_shear_viscosity", "not given: chosen by the program for the body and the step", 0, 0});
   if (data.plasticity) add_flow(m, *data.plasticity);
   add_casting(m, data);
+  if (m.gas && !m.gas->source.empty()) m.notes.push_back({"gas", m.gas->source, 0, 0});
+  if (m.graphite && !m.graphite->source.empty()) m.notes.push_back({"graphite", m.graphite->source, 0, 0});
   if (data.external) add_external(m, *data.external);
   check_liquid_model(m, data);
   check_heat_of_expansion(m, data);

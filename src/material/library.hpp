@@ -30,7 +30,9 @@ struct FractionData {
 struct PhaseChangeData {
   std::string name;
   FractionData fraction;
-  double latent_heat = 0, volume_change = 0;  ///< [J/kg], 1
+  double latent_heat = 0;  ///< [J/kg]
+  double volume_change = 0;
+  bool graphite = false;  ///< its volume_change comes of [graphite]
   bool solidification = false;
   std::string source;
   SourceLocation where;
@@ -57,6 +59,8 @@ struct MaterialData {
   std::optional<FlowData> plasticity;
   std::optional<ExternalData> external;
   Casting casting;
+  std::optional<Gas> gas;
+  std::optional<Graphite> graphite;
   MaterialSpreads spread;
   SourceLocation where;
 };

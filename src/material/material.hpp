@@ -9,6 +9,8 @@
 #include "material/casting.hpp"
 #include "material/enthalpy.hpp"
 #include "material/flow.hpp"
+#include "material/gas.hpp"
+#include "material/graphite.hpp"
 #include "material/phase_change.hpp"
 #include "numbers/table.hpp"
 #include "numbers/types.hpp"
@@ -49,7 +51,9 @@ struct Material {
   std::optional<Flow> flow;        ///< absent: the solid is elastic
   /// The law of the solid from a shared object, instead of `flow`; null: the laws of the program.
   std::shared_ptr<const ExternalLaw> external;
-  Casting casting;  ///< for criteria; no law uses it
+  Casting casting;                   ///< for criteria; no law uses it
+  std::optional<Gas> gas;            ///< absent: none is known of
+  std::optional<Graphite> graphite;  ///< absent: none precipitates, or the card gives its volume itself
 
   std::vector<PropertyNote> notes;
 

@@ -28,6 +28,11 @@ Section<PhaseChangeData> phase_change_keys() {
       .initially(0.0)
       .range(-0.5, 0.5)
       .doc("Relative volume change on cooling through the whole change: negative shrinks, positive expands.");
+  s.key("graphite", &PhaseChangeData::graphite)
+      .initially(false)
+      .doc(
+          "It is the precipitation of graphite, whose volume_change is computed of [graphite] and is not "
+          "given.");
   s.section("fraction", &PhaseChangeData::fraction, fraction_keys());
   s.key("source", &PhaseChangeData::source).initially("").doc("Where the data come from.");
   s.place(&PhaseChangeData::where);
@@ -56,6 +61,26 @@ Section<Casting> casting_keys() {
       .initially(Value::list({0.90, 0.99}))
       .range(0, 1)
       .doc("Solid fractions between which strain tears the metal open and no melt heals it.");
+  s.key("crack_strain", &Casting::crack_strain)
+      .range(1e-6, 10)
+      .doc(
+          "phi in the critical strain of the brittle range, phi/(rate^m width^n), rate in 1/s and width in K "
+          "(Won, Yeo, Seol and Oh 2000; 0.02821 of carbon steels). Without it there is no cracking_index.");
+  s.key("crack_rate_exponent", &Casting::crack_rate_exponent)
+      .initially(0.3131)
+      .range(0, 2)
+      .doc("m of the same law.");
+  s.key("crack_range_exponent", &Casting::crack_range_exponent)
+      .initially(0.8638)
+      .range(0, 2)
+      .doc("n of the same law.");
+  s.key("rigidity", &Casting::rigidity)
+      .initially(1.0)
+      .range(0, 1)
+      .doc(
+          "Of a mould: the share of the expansion of graphite that it holds, so that it feeds the casting; "
+          "to "
+          "the rest its wall gives way. feeding.mould_rigidity of a case goes before it.");
   s.quantity("arm_spacing", &Casting::arm_spacing, "m")
       .positive()
       .doc(
@@ -81,6 +106,58 @@ Section<Casting> casting_keys() {
           "The drop of the melt's pressure at which pores form: in dimensionless_niyama, and in mush "
           "(pore_fraction).");
   s.key("source", &Casting::source).initially("").doc("Where the data come from.");
+  return s;
+}
+
+Section<Gas> gas_keys() {
+  Section<Gas> s("gas", "Gas of two atoms in solution, for gas pores (docs/theory/gas.md).");
+  s.key("name", &Gas::name).doc("Which gas it is, for people: hydrogen, nitrogen.");
+  s.key("melt", &Gas::melt)
+      .range(-1e5, 1e5)
+      .doc(
+          "a and b [K] of the solubility in the melt at one atmosphere, log10(S) = a - b/T with S in cm3 at "
+          "standard state per 100 g of metal.");
+  s.key("solid", &Gas::solid).range(-1e5, 1e5).doc("The same of the solid.");
+  s.quantity("content", &Gas::content, "m3/kg")
+      .at_least(0)
+      .doc(
+          "What the melt usually holds when it is poured, volume of gas at standard state (0 degC, 101325 "
+          "Pa) "
+          "per mass; gas.content of a case goes before it.");
+  s.quantity("surface_tension", &Gas::surface_tension, "N/m")
+      .at_least(0)
+      .doc(
+          "Of the melt against the gas: a pore between dendrites has half of secondary_arm_spacing as its "
+          "radius and is held shut by twice the tension over the radius.");
+  s.key("source", &Gas::source).initially("").doc("Where the data come from.");
+  return s;
+}
+
+Section<Graphite> graphite_keys() {
+  Section<Graphite> s("graphite",
+                      "Carbon and silicon of an iron, and the graphite of them (docs/theory/graphite.md).");
+  s.key("carbon", &Graphite::carbon).range(2.1, 5).doc("In mass per cent.");
+  s.key("silicon", &Graphite::silicon).range(0, 6).doc("In mass per cent.");
+  s.choice("rule", &Graphite::rule,
+           {{"lever", Graphite::Rule::lever, "all carbon beyond what austenite of the eutectic holds"},
+            {"scheil", Graphite::Rule::scheil,
+             "that of the eutectic alone, of which less is left beside primary austenite that keeps its "
+             "carbon"}})
+      .initially("lever")
+      .doc("How much graphite there is when the last melt freezes.");
+  s.choice("form", &Graphite::form,
+           {{"flake", Graphite::Form::flake, "grey iron"},
+            {"compacted", Graphite::Form::compacted, "vermicular, compacted iron"},
+            {"nodular", Graphite::Form::nodular, "spheroidal graphite, ductile iron"}})
+      .doc(
+          "What it looks like. Flakes grow in touch with the melt, which they squeeze through the mush; "
+          "nodules grow within shells of austenite, which push the mould's wall: of their expansion a wall "
+          "that yields takes more (docs/theory/graphite.md).");
+  s.key("expansion", &Graphite::expansion)
+      .initially(0.032)
+      .range(0, 0.1)
+      .doc("Relative volume that one mass per cent of graphite adds as it precipitates.");
+  s.key("source", &Graphite::source).initially("").doc("Where the data come from.");
   return s;
 }
 
@@ -184,6 +261,8 @@ Section<MaterialData> material_keys() {
   s.section("plasticity", &MaterialData::plasticity, flow_section());
   s.section("external", &MaterialData::external, external_section());
   s.section("casting", &MaterialData::casting, casting_keys());
+  s.section("gas", &MaterialData::gas, gas_keys());
+  s.section("graphite", &MaterialData::graphite, graphite_keys());
   s.section("spread", &MaterialData::spread, material_spread_keys());
   s.place(&MaterialData::where);
   return s;

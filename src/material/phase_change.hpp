@@ -77,6 +77,7 @@ struct PhaseChange {
   double volume_change =
       0;  ///< ΔV/V of the transformation on cooling: negative shrinks (aluminium), positive expands
   bool solidification = false;  ///< its fraction is the solid fraction f_S of 2.65; at most one per material
+  bool graphite = false;        ///< it is the precipitation of graphite
 };
 
 }  // namespace solidus::material

@@ -263,7 +263,13 @@ std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, 
         of_parts && field == &criteria::fields::k_niyama)
       value = *of_parts;
     std::string answer = with_error(value.value, value.error, field->shown().factor, printed(field->shown()));
-    if (f->somewhere) answer += " " + format.place(value.where);
+    const auto other =
+        std::ranges::find(found, low ? criteria::largest_of(*field) : criteria::least_of(*field),
+                          &criteria::CriterionResult::name);
+    if (other != found.end() && other->value == f->value && field->threshold == std::nullopt)
+      answer += " everywhere";
+    else if (f->somewhere)
+      answer += " " + format.place(value.where);
     const auto share = std::ranges::find(found, criteria::beyond(*field), &criteria::CriterionResult::name);
     if (field->threshold && share != found.end())
       answer = fmt::format("{} {:g} in {} % of what was cast; {} {}", low ? "below" : "above",
@@ -271,6 +277,28 @@ std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, 
                            low ? "least" : "largest", answer);
     text += line(field->answer, answer);
   }
+  return text;
+}
+
+/// Pores of gas, and by how much the mould gave way to graphite.
+std::string gas_lines(const std::vector<criteria::CriterionResult>& found, const Formatter& format) {
+  const auto result = [&](const std::string& name) {
+    const auto f = std::ranges::find(found, name, &criteria::CriterionResult::name);
+    return f == found.end() ? nullptr : &*f;
+  };
+  std::string text;
+  const criteria::CriterionResult* room = result("gas_pores_room");
+  const criteria::CriterionResult* densest = result(criteria::largest_of(criteria::fields::k_gas_pores));
+  if (room != nullptr && room->value > 0 && densest != nullptr) {
+    const double volume = result("gas_pores_volume")->value;
+    text += line("gas pores", volume > 0
+                                  ? fmt::format("{}, {} % of what was cast; the densest, {:.3g} %, {}",
+                                                format.volume(volume), digits(100 * volume / room->value, 3),
+                                                100 * densest->value, format.place(densest->where))
+                                  : std::string("none: the gas stays in solution"));
+  }
+  if (const criteria::CriterionResult* wall = result("feeding_wall"))
+    text += line("mould gives way to graphite", format.volume(wall->value));
   return text;
 }
 
@@ -341,7 +369,9 @@ std::string text(const Answers& a, const std::vector<criteria::CriterionResult>&
   if (const std::optional<double> share = poured_share_of_parts(a))
     text += line("yield", fmt::format("{:.3g} % of what is poured is part", 100 * *share));
   if (a.pools) text += line("pools of melt cut off", pools_text(*a.pools, format));
-  if (!a.castings.empty()) text += criteria_lines(criteria, a, format) + feeding_lines(criteria, a, format);
+  if (!a.castings.empty())
+    text += criteria_lines(criteria, a, format) + feeding_lines(criteria, a, format) +
+            gas_lines(criteria, format);
   if (a.pores)
     text += line("shrinkage that nothing fed (pores)",
                  fmt::format("{} of the casting; the densest, {:.3g} %, {}",

@@ -18,6 +18,8 @@ std::vector<CsvColumn> feeding_columns() {
           {"sink", "m3"},
           {"cavity", "m3"},
           {"pores", "m3"},
+          {"gas", "m3"},
+          {"wall", "m3"},
           {"outside", "m3"},
           {"balance_defect", "1"}};
 }
@@ -41,8 +43,8 @@ void FeedingTable::add(const coupling::State& state) {
   const criteria::CriterionRecord* record = feeding_of(state);
   if (record == nullptr) return;
   const criteria::FeedingTotals t = criteria::Feeding::totals(*record);
-  const std::vector<double> row = {state.time, t.melt,   t.freezing, t.solid,   t.pipe,
-                                   t.sink,     t.cavity, t.pores,    t.outside, t.defect()};
+  const std::vector<double> row = {state.time, t.melt,  t.freezing, t.solid, t.pipe,    t.sink,
+                                   t.cavity,   t.pores, t.gas,      t.wall,  t.outside, t.defect()};
   table_.add(row);
 }
 

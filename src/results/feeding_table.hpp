@@ -10,8 +10,9 @@
 namespace solidus::results {
 
 /// One row a step, volumes since pouring in m³ (in two dimensions per depth or revolution): the contractions
-/// of melt, of freezing and of solid; pipe, sink, cavity and pores, and what the outside has lost by the
-/// contraction of solid metal; the defect of this balance as a share of the castings. One process writes it.
+/// of melt, of freezing and of solid; pipe, sink, cavity, pores and gas, by how much the wall of the mould
+/// gave way, and what the outside has lost by the contraction of solid metal; the defect of this balance as a
+/// share of the castings. One process writes it.
 class FeedingTable {
  public:
   /// @param from  the run goes on from this time [s]

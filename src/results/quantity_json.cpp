@@ -36,6 +36,7 @@ Json json(const quantities::Quantity& q) {
   text("worst", name(q.worst));
   text("headline", q.headline);
   text("answer", q.answer);
+  if (q.threshold) json.add("threshold", *q.threshold);
   text("colours", name(q.colours));
   json.add("compared", q.compared).add("pictured", q.pictured).add("shown", unit_json(q.shown()));
   return json;

@@ -10,7 +10,7 @@ namespace solidus::results {
 ///
 ///   {"name": "niyama", "unit": "1", "root_unit": "K^0.5 s^0.5/m", "label": …, "group": "criteria",
 ///    "rank": "scalar", "place": "node", "no_value": 0, "written": "always", "worst": "least",
-///    "headline": …, "colours": "sequential", "compared": true, "pictured": true,
+///    "headline": …, "threshold": 1, "colours": "sequential", "compared": true, "pictured": true,
 ///    "shown": {"unit": "K0.5 s0.5/mm", "text": "√(K s)/mm", "factor": 0.001, "offset": 0}}
 ///
 /// without the members that a row leaves empty.

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "criteria/mush_strain.hpp"
+
 namespace solidus::criteria {
 namespace {
 
@@ -58,8 +60,28 @@ TEST(HotTearing, TheRootIsWhereGrainsBridge) {
 
 TEST(HotTearing, KouOfAlCu) {
   EXPECT_NEAR(kou_index(scheil(4000)), 1390.96, 0.1);
+  constexpr double k_near = 1e-4;
+  EXPECT_NEAR(kou_index(scheil(40000), 0.87 - k_near, 0.87 + k_near), 990.93, 0.5);
+  EXPECT_NEAR(kou_index(scheil(40000), 0.90 - k_near, 0.90 + k_near), 1629.0, 1);
   // Nothing is steep where all freezes at one temperature.
   EXPECT_EQ(kou_index({{900, 1}, {900, 0}}), 0);
+}
+
+// Scheil's curve ends at the eutectic, where grains bridge at once.
+TEST(HotTearing, TheRootOfAnAlloyWithEutecticIsWhereThatBegins) {
+  EXPECT_NEAR(root_of(scheil(4000)),
+              1 - std::pow((k_melting - k_eutectic) / (k_melting - k_liquidus), 1 / (k_partition - 1)), 1e-9);
+}
+
+TEST(HotTearing, CriticalStrainOfWonYeoSeolOh) {
+  material::Casting steel;
+  steel.crack_strain = 0.02821;
+  const struct {
+    double width, rate, strain;
+  } rows[] = {{10, 1e-4, 0.069024}, {10, 1e-3, 0.033566}, {10, 1e-2, 0.016323},
+              {30, 1e-4, 0.026722}, {30, 1e-3, 0.012995}, {30, 1e-2, 0.006319}};
+  for (const auto& row : rows)
+    EXPECT_NEAR(critical_crack_strain(steel, row.rate, row.width), row.strain, 1e-6) << row.width;
 }
 
 }  // namespace

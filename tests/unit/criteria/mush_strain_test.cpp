@@ -1,0 +1,131 @@
+/// Hot tears by the strain that mush takes, of a block that cools and is stretched evenly.
+#include "criteria/mush_strain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../mechanics/lattice.hpp"
+
+namespace solidus::criteria {
+namespace {
+
+using mesh::Point;
+using mesh::Shape;
+
+constexpr double k_solidus = 800, k_liquidus = 900;                // [K]
+constexpr double k_gradient = 20, k_cooling = 0.5, k_rate = 1e-4;  // [K/m], [K/s], [1/s]
+constexpr double k_time = 400, k_step = 0.1;                       // [s]
+
+material::Material metal() {
+  material::Material m;
+  m.name = "metal";
+  m.phase_changes.push_back({.name = "freezing",
+                             .fraction = material::PhaseFraction::linear(k_solidus, k_liquidus),
+                             .volume_change = -0.05,
+                             .solidification = true});
+  m.casting.arm_spacing = 10e-6;
+  m.casting.melt_viscosity = 1e-3;
+  m.casting.crack_strain = 0.02821;
+  return m;
+}
+
+/// Fields at the end of freezing.
+struct Values {
+  std::vector<double> tendency, cracking;
+  std::vector<CriterionResult> findings;
+};
+
+Values freeze(const std::vector<material::Material>& materials, AnalysisKind kind, Shape shape, double rate) {
+  const mesh::Mesh mesh = test::make_mesh({.shape = shape, .cells = {3, 2, 2}, .distortion = 0.1});
+  MushStrain criterion(mesh, kind, materials);
+  const auto components = static_cast<std::size_t>(displacement_components(kind));
+  struct Moment {
+    heat::ThermalState heat;
+    mechanics::MechanicalState mechanics;
+    std::vector<double> plateau;
+  };
+  const auto at = [&](double time) {
+    Moment m;
+    m.plateau.assign(mesh.x.size(), 1.0);
+    for (const Point& x : mesh.x) {
+      m.heat.temperature.push_back(910 + k_gradient * x[0] - k_cooling * time);
+      const double e = rate * time;
+      const Point u{e * x[0], kind == AnalysisKind::solid ? -0.5 * e * x[1] : -e * x[1], -0.5 * e * x[2]};
+      m.mechanics.displacement.insert(m.mechanics.displacement.end(), u.begin(),
+                                      u.begin() + static_cast<std::ptrdiff_t>(components));
+    }
+    return m;
+  };
+  Moment now = at(0);
+  const auto input = [](double time, const Moment& m) {
+    return CriterionInput{time, m.heat, m.mechanics, {}, m.plateau};
+  };
+  CriterionRecord record = criterion.initial(input(0, now));
+  const int steps = static_cast<int>(std::lround(k_time / k_step));
+  for (int k = 1; k <= steps; ++k) {
+    Moment next = at(k * k_step);
+    criterion.step(input((k - 1) * k_step, now), input(k * k_step, next), record);
+    now = std::move(next);
+  }
+  std::size_t cells = 0;
+  for (const mesh::ElementBlock& block : mesh.blocks) cells += static_cast<std::size_t>(block.size());
+  Values values{std::vector<double>(cells), std::vector<double>(cells), criterion.findings(record)};
+  const std::vector<std::span<double>> spans{values.tendency, values.cracking};
+  criterion.fill(input(k_time, now), record, spans);
+  return values;
+}
+
+const std::vector<std::pair<AnalysisKind, Shape>> k_kinds{{AnalysisKind::plane_strain, Shape::quad4},
+                                                          {AnalysisKind::plane_strain, Shape::tri6},
+                                                          {AnalysisKind::solid, Shape::tet4},
+                                                          {AnalysisKind::solid, Shape::hex8}};
+
+TEST(MushStrain, IsWhatRappazDrezetGremaudSayAtTheRateThatIsTaken) {
+  const std::vector<material::Material> materials{metal()};
+  const double spacing = *materials[0].casting.secondary_arm_spacing((k_liquidus - k_solidus) / k_cooling);
+  const TearingLaw law = *TearingLaw::of(materials[0]);
+  for (const auto& [kind, shape] : k_kinds) {
+    const double expected = law.tendency({k_gradient, k_cooling, spacing}, k_rate);
+    for (const double value : freeze(materials, kind, shape, k_rate).tendency)
+      EXPECT_NEAR(value / expected, 1, 0.02);
+    const double still = law.tendency({k_gradient, k_cooling, spacing}, 0);
+    for (const double value : freeze(materials, kind, shape, 0).tendency) EXPECT_NEAR(value / still, 1, 0.02);
+  }
+}
+
+TEST(MushStrain, IsWhatWonYeoSeolOhSay) {
+  const std::vector<material::Material> materials{metal()};
+  // From f = 0.90 to 0.99, a width of 9 K.
+  const double strain = k_rate * 9 / k_cooling;
+  const double expected = strain / critical_crack_strain(materials[0].casting, k_rate, 9);
+  for (const auto& [kind, shape] : k_kinds) {
+    const Values values = freeze(materials, kind, shape, k_rate);
+    for (const double value : values.cracking) EXPECT_NEAR(value / expected, 1, 0.02);
+    for (const CriterionResult& result : values.findings)
+      if (result.name == "cracking_index_max") EXPECT_NEAR(result.value / expected, 1, 0.02);
+    for (const double value : freeze(materials, kind, shape, 0).cracking) EXPECT_EQ(value, 0);
+  }
+}
+
+TEST(MushStrain, TellsTheShareBeyondTheThreshold) {
+  const std::vector<material::Material> materials{metal()};
+  const auto share = [&](double rate) {
+    for (const CriterionResult& result : freeze(materials, AnalysisKind::solid, Shape::hex8, rate).findings)
+      if (result.name == "cracking_index_beyond") return result.value;
+    return -1.0;
+  };
+  EXPECT_EQ(share(k_rate), 0);
+  EXPECT_NEAR(share(100 * k_rate), 1, 1e-12);
+}
+
+TEST(MushStrain, SaysNothingOfMaterialsWithoutData) {
+  material::Material silent = metal();
+  silent.casting.crack_strain.reset();
+  silent.casting.arm_spacing.reset();
+  EXPECT_FALSE(MushStrain::has_something_to_say({silent}));
+  EXPECT_TRUE(MushStrain::has_something_to_say({metal()}));
+}
+
+}  // namespace
+}  // namespace solidus::criteria
