@@ -25,6 +25,9 @@ enum MushNumber : std::size_t {
   k_mush_numbers
 };
 
+/// Mean solid fractions from here on are one but for rounding.
+constexpr double k_frozen = 1 - 1e-9;
+
 /// Gradient and cooling are taken over this last part of the way to the root at least.
 constexpr double k_near_root = 0.8;
 
@@ -121,7 +124,8 @@ void MushStrain::step(const CriterionInput& old, const CriterionInput& next, Cri
       const std::size_t first = block.first + static_cast<std::size_t>(batch) * k_lanes;
       const int count = std::min<int>(k_lanes, block.strain.n_elements() - batch * k_lanes);
       bool freezes = false;
-      for (int lane = 0; lane < count; ++lane) freezes = freezes || from[lane] < 1 || to[lane] < 1;
+      for (int lane = 0; lane < count; ++lane)
+        freezes = freezes || from[lane] < k_frozen || to[lane] < k_frozen;
       if (!freezes) continue;
       const Lane near_root = share_within(from, to, near, block.root),
                  straining = coherent < block.root ? share_within(from, to, coherent, block.root) : Lane(0.0),
@@ -149,7 +153,7 @@ void MushStrain::step(const CriterionInput& old, const CriterionInput& next, Cri
         add(column, e, k_mush_cooling, share * cooled[lane], far);
         add(column, e, k_mush_straining, soft ? 0 : straining[lane] * dt, soft);
         add(column, e, k_time_in_brittle, soft ? 0 : brittle[lane] * dt, soft);
-        add(column, e, k_mush_freezing, to[lane] > 0 && from[lane] < 1 ? dt : 0, to[lane] <= 0);
+        add(column, e, k_mush_freezing, to[lane] > 0 && from[lane] < k_frozen ? dt : 0, to[lane] <= 0);
       }
     }
   }

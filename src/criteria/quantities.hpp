@@ -344,4 +344,7 @@ inline constexpr std::array k_of_strain = {&k_strain_in_liquid, &k_strain_since_
 /// Fields of MushStrain, in their order.
 inline constexpr std::array k_of_mush_strain = {&k_strained_tendency, &k_cracking_index};
 
+/// Those that a run has where a material has the data.
+inline constexpr std::array k_of_some_materials = {&k_gas_pores, &k_strained_tendency, &k_cracking_index};
+
 }  // namespace solidus::criteria::fields

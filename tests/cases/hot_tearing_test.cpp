@@ -95,5 +95,28 @@ TEST(HotTearing, ClyneAndDaviesOfAnEvenFreezing) {
   EXPECT_NEAR(run.history.at("share[1]").back(), 0.09 / 0.5, 1e-3);
 }
 
+/// A number of the criteria in summary.json.
+double finding(const std::filesystem::path& folder, const std::string& name) {
+  const std::string summary = testing::read_text(folder / "summary.json");
+  const std::string key = "\"" + name + "\": ";
+  const std::size_t at = summary.find(key);
+  EXPECT_NE(at, std::string::npos) << name;
+  return at == std::string::npos ? -1 : std::stod(summary.substr(at + key.size()));
+}
+
+// The strain that the mush of a bar takes between its flanges, by the coupled run, with two meshes.
+TEST(HotTearBar, TearsOfTheAlloyThatFoundriesKnowForIt) {
+  const auto share = [](const std::string& file, const std::string& name, const std::string& size) {
+    const CaseRun run = testing::run("cases/hot_tear_bar/" + file, "hot_tearing/" + name,
+                                     {"mesh.constant=[{name=\"size\",value=" + size + "}]"});
+    EXPECT_TRUE(run.finished) << run.reason;
+    return finding(k_here.root() / name, "strained_tendency_beyond");
+  };
+  const double coarse = share("case.toml", "bar_coarse", "4"), fine = share("case.toml", "bar_fine", "2.5");
+  EXPECT_GT(fine, 0.8);
+  EXPECT_NEAR(coarse, fine, 0.03);
+  EXPECT_LT(share("alsi7mg.toml", "bar_alsi7mg", "2.5"), 0.005);
+}
+
 }  // namespace
 }  // namespace solidus

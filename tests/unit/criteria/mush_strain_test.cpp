@@ -13,9 +13,9 @@ namespace {
 using mesh::Point;
 using mesh::Shape;
 
-constexpr double k_solidus = 800, k_liquidus = 900;                // [K]
-constexpr double k_gradient = 20, k_cooling = 0.5, k_rate = 1e-4;  // [K/m], [K/s], [1/s]
-constexpr double k_time = 400, k_step = 0.1;                       // [s]
+constexpr double k_solidus = 800, k_liquidus = 900;                 // [K]
+constexpr double k_gradient = 0.2, k_cooling = 0.5, k_rate = 1e-4;  // [K/m], [K/s], [1/s]
+constexpr double k_time = 400, k_step = 0.1;                        // [s]
 
 material::Material metal() {
   material::Material m;
