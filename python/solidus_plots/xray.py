@@ -14,8 +14,6 @@ import numpy as np
 from solidus_plots import moments, style
 from solidus_plots.cells import tetrahedra
 
-AT_NODES = ("emptied", "unfed_pores", "gas_pores")
-OF_CELLS = ("pore_fraction",)
 MM = 1e3
 WIRE = 5.0  # mm: the thickest that is laid on castings as an indicator is 3.2, with some room
 PIXELS = 320  # along the longer side
@@ -49,9 +47,13 @@ class Film:
 
 def holes(grid):
     """The share of the room without metal: at nodes, and what cells add."""
-    at_nodes = sum((grid.point_data[name] for name in AT_NODES if name in grid.point_data), np.zeros(len(grid.points)))
-    of_cells = sum((grid.cell_data[name] for name in OF_CELLS if name in grid.cell_data), np.zeros(len(grid.cell_types)))
-    return at_nodes, of_cells
+    def share(data, name, count):
+        return data.get(name, np.zeros(count))
+
+    nodes = len(grid.points)
+    at_nodes = share(grid.point_data, "emptied", nodes) + share(grid.point_data, "unfed_pores", nodes)
+    return (at_nodes + share(grid.point_data, "gas_pores", nodes),
+            share(grid.cell_data, "pore_fraction", len(grid.cell_types)))
 
 
 def _raster(points):

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "case/feeding_spec.hpp"
 #include "case/friction_spec.hpp"
 #include "case/variation.hpp"
 #include "contact/parameters.hpp"
@@ -381,21 +382,6 @@ struct CriteriaSpec {
   double evaluation = 0.1, feeding_limit = 0.7;
   std::vector<std::string> feeders;  ///< groups of the mesh
   SourceLocation where;
-};
-
-/// Feeding with heat alone (criteria/feeding.hpp).
-struct FeedingSpec {
-  bool follow = true;
-  std::vector<std::string> vented, covered;  ///< groups of the mesh
-  std::optional<double> mould_rigidity;      ///< absent: that of the moulds' cards
-  SourceLocation where;
-};
-
-/// Gas in the melt (criteria/gas_pores.hpp).
-struct GasSpec {
-  bool follow = true;
-  std::optional<double> content;  ///< of all melts with gas on their card [m³/kg]; absent: that of the cards
-  double ambient_pressure = 0;    ///< [Pa]
 };
 
 struct CaseSpec {

@@ -5,9 +5,9 @@
 ///
 ///   C_E = 4.26 − 0.31 Si,   C_A = 2.08 − 0.11 Si
 ///
-/// (after the equilibrium diagram of Fe-C-Si; R. W. Heine, The Fe-C-Si solidification diagram for cast irons,
-/// AFS Trans. 94 (1986) 391–402, gives 4.26 − 0.317 Si and 2.045 − 0.178 Si). By the *lever* rule all carbon
-/// beyond that of austenite with C_A precipitates,
+/// (after the equilibrium diagram of Fe-C-Si, R. W. Heine, The Fe-C-Si solidification diagram for cast irons,
+/// AFS Trans. 94 (1986) 391–402). By the *lever* rule all carbon beyond that of austenite with C_A
+/// precipitates,
 ///
 ///   g = 100 (C − C_A)/(100 − C_A),
 ///
