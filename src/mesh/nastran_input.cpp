@@ -75,6 +75,7 @@ class Reader {
   void take_element(const NastranCard& card, const ElementCard& kind);
   void place_nodes();
   Point place(GlobalIndex number, const NastranCard& user);
+  void join_without_property();
   void make_groups(const std::string& path);
 
   struct Grid {
@@ -84,7 +85,7 @@ class Reader {
   };
   struct Element {
     Shape shape;
-    GlobalIndex number, property;
+    GlobalIndex number, property;  ///< zero: the entry names none
     std::array<GlobalIndex, 20> nodes;
     SourceLocation at;
   };
@@ -162,7 +163,7 @@ void Reader::take_name(std::string_view comment) {
 }
 
 void Reader::take_element(const NastranCard& card, const ElementCard& kind) {
-  Element e{kind.first, card.integer(0), card.integer(1, card.integer(0)), {}, card.at};
+  Element e{kind.first, card.integer(0), card.integer(1, 0), {}, card.at};
   const auto corners = static_cast<std::size_t>(node_count(kind.first)),
              all = static_cast<std::size_t>(node_count(kind.second));
   std::size_t given = 0;
@@ -214,6 +215,22 @@ std::size_t nastran_place(Shape shape, std::size_t of_abaqus) {
   return of_abaqus < 16 ? of_abaqus + 4 : of_abaqus - 4;
 }
 
+/// An entry without a property has that of its element's number, says the format; programs that leave it out,
+/// as meshio does, have none in mind. Several such elements of a dimension are one body or surface.
+void Reader::join_without_property() {
+  std::map<int, GlobalIndex> without;  // by dimension
+  for (const Element& e : elements_)
+    if (e.property == 0) ++without[mesh::dimension(e.shape)];
+  for (Element& e : elements_)
+    if (e.property == 0 && without.at(mesh::dimension(e.shape)) == 1) e.property = e.number;
+  for (const auto& [dimension, n] : without)
+    if (n > 1 && dimension >= mesh_.dimension - 1)
+      mesh_.notes.push_back(std::to_string(n) + (dimension == mesh_.dimension ? " elements" : " faces") +
+                            " name no property: they are one " +
+                            (dimension == mesh_.dimension ? "body" : "surface") +
+                            ", not one each as the format has it");
+}
+
 void Reader::make_groups(const std::string& path) {
   mesh_.dimension = 0;
   for (const Element& e : elements_) mesh_.dimension = std::max(mesh_.dimension, mesh::dimension(e.shape));
@@ -221,6 +238,7 @@ void Reader::make_groups(const std::string& path) {
     throw InputError(
         {path}, "the mesh has no triangles, quads, tetrahedra or hexahedra: empty, cut off or not a mesh",
         "a bulk data file of Nastran with GRID and CTETRA, CHEXA, CTRIA3, …");
+  join_without_property();
   std::map<std::pair<int, GlobalIndex>, RawGroup> groups;  // by dimension and property
   for (const Element& e : elements_) {
     RawGroup& group = groups[{mesh::dimension(e.shape), e.property}];
@@ -243,9 +261,10 @@ void Reader::make_groups(const std::string& path) {
   }
   for (auto& [key, group] : groups) {
     const auto told = names_.find(key.second);
-    std::string name = told != names_.end() ? told->second
-                                            : (key.first == mesh_.dimension ? "body_" : "surface_") +
-                                                  std::to_string(key.second);
+    const std::string kind = key.first == mesh_.dimension ? "body_" : "surface_";
+    std::string name = key.second == 0        ? kind + "without_property"
+                       : told != names_.end() ? told->second
+                                              : kind + std::to_string(key.second);
     if (mesh_.groups.contains(name)) name += "_" + std::to_string(key.second);
     mesh_.groups.emplace(name, std::move(group));
   }

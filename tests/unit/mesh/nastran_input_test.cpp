@@ -183,6 +183,18 @@ TEST(NastranInput, WhatIsNotReadIsSaidOrRefused) {
   EXPECT_THAT(complaint_of_bulk(nodes), HasSubstr("no triangles"));
 }
 
+/// meshio leaves the property out: each element would be a body of its own.
+TEST(NastranInput, ElementsWithoutPropertyAreOneBody) {
+  const std::string nodes =
+      "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\nGRID,5,,1.,1.,1.\n";
+  const RawMesh several = bulk(nodes + "CTETRA,1,,1,2,3,4\nCTETRA,2,,2,3,4,5\nCTRIA3,7,,1,2,3\n");
+  EXPECT_EQ(several.groups.at("body_without_property").blocks.at(0).input_element.size(), 2u);
+  EXPECT_TRUE(several.groups.contains("surface_7"));
+  EXPECT_THAT(several.notes, ElementsAre(HasSubstr("2 elements name no property: they are one body")));
+  // A single one keeps the number that the format gives to it.
+  EXPECT_TRUE(bulk(nodes + "CTETRA,4,,1,2,3,4\n").groups.contains("body_4"));
+}
+
 TEST(NastranInput, AnIncludedFileIsReadBesideIt) {
   write_bulk("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n", "nodes.inc");
   EXPECT_EQ(bulk("INCLUDE 'nodes.inc'\nCTRIA3,1,1,1,2,3\n").groups.at("body_1").dimension, 2);
