@@ -24,6 +24,8 @@ struct CriterionInput {
   /// heat::ThermalPhase::plateau_share: the share of isothermal changes of any material that is done at their
   /// nodes. Empty without one. Criteria fills it in.
   std::span<const double> plateau_share = {};
+  /// The same of a node; one without any such change.
+  double plateau_at(std::size_t node) const { return plateau_share.empty() ? 1.0 : plateau_share[node]; }
 };
 
 /// A number for the summary, with where it was found.

@@ -91,7 +91,7 @@ CriterionRecord Feeding::restart(const CriterionRecord& before, const CriterionI
     if (body_[i] < 0) continue;
     const double now = room(i), had = rows(i, k_room);
     if (!(now > had)) continue;
-    const VolumeParts volume = metal_of(i).at(start.heat.temperature[i], plateau_share(start, i));
+    const VolumeParts volume = metal_of(i).at(start.heat.temperature[i], start.plateau_at(i));
     const double kept = had / now;
     if (had == 0) {
       rows(i, k_thermal) = volume.thermal;
@@ -153,7 +153,7 @@ void Feeding::measure(const CriterionInput& old, const CriterionInput& next, Ste
     demand.present = room(i) > 0.5 * step.rows(i, k_room);
     if (!demand.present) continue;
     demand.before = {step.rows(i, k_thermal), step.rows(i, k_phase)};
-    demand.after = metal.at(next.heat.temperature[i], plateau_share(next, i));
+    demand.after = metal.at(next.heat.temperature[i], next.plateau_at(i));
     demand.fed = after < 1 ? demand.after : frozen ? demand.before : metal.solid();
     if (step.soft[i] == 0) continue;
     const double full = step.rows.fill(i);

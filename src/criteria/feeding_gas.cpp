@@ -36,9 +36,9 @@ double Feeding::wall_yields(std::size_t node, const CriterionInput& old, const C
   double expands = 0;
   for (const material::PhaseChange& change : material.phase_changes)
     if (change.graphite)
-      expands += change.volume_change *
-                 (change.fraction.value(next.heat.temperature[node], plateau_share(next, node)) -
-                  change.fraction.value(old.heat.temperature[node], plateau_share(old, node)));
+      expands +=
+          change.volume_change * (change.fraction.value(next.heat.temperature[node], next.plateau_at(node)) -
+                                  change.fraction.value(old.heat.temperature[node], old.plateau_at(node)));
   return (1 - material.graphite->feeding_share(rigidity_)) * expands * step.rows(node, k_metal);
 }
 

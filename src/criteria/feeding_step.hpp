@@ -14,11 +14,6 @@ inline constexpr double k_exact = 1e-11;
 /// The share of a node that moves counts as no less where metal rises in it.
 inline constexpr double k_least_mobile = 0.1;
 
-/// The share of changes at one temperature that is done; one where there is none.
-inline double plateau_share(const CriterionInput& moment, std::size_t node) {
-  return moment.plateau_share.empty() ? 1.0 : moment.plateau_share[node];
-}
-
 /// What pools have in common on all processes.
 struct FeedingPools {
   std::vector<double> label;    ///< rising: the number of a pool is its place here

@@ -114,8 +114,8 @@ void MushStrain::step(const CriterionInput& old, const CriterionInput& next, Cri
     const material::PhaseFraction& fraction = block.material->solidification()->fraction;
     for (const Index n : block.nodes) {
       const auto i = static_cast<std::size_t>(n);
-      before[i] = fraction.value(old.heat.temperature[i], old.plateau_share[i]);
-      after[i] = fraction.value(next.heat.temperature[i], next.plateau_share[i]);
+      before[i] = fraction.value(old.heat.temperature[i], old.plateau_at(i));
+      after[i] = fraction.value(next.heat.temperature[i], next.plateau_at(i));
     }
     const material::Casting& casting = block.material->casting;
     const double coherent = casting.coherency_fraction, near = std::min(coherent, k_near_root * block.root);

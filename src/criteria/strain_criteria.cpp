@@ -67,8 +67,7 @@ std::span<const double> StrainCriteria::temperature(const CriterionInput& moment
 double StrainCriteria::solid_fraction(const material::PhaseChange& freezing, const CriterionInput& moment,
                                       std::size_t node) const {
   const double t = temperature(moment)[node];
-  return moment.plateau_share.empty() ? freezing.fraction.value(t)
-                                      : freezing.fraction.value(t, moment.plateau_share[node]);
+  return freezing.fraction.value(t, moment.plateau_at(node));
 }
 
 CriterionRecord StrainCriteria::initial(const CriterionInput& /*start*/) const {

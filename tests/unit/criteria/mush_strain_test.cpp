@@ -47,7 +47,6 @@ Values freeze(const std::vector<material::Material>& materials, AnalysisKind kin
   };
   const auto at = [&](double time) {
     Moment m;
-    m.plateau.assign(mesh.x.size(), 1.0);
     for (const Point& x : mesh.x) {
       m.heat.temperature.push_back(910 + k_gradient * x[0] - k_cooling * time);
       const double e = rate * time;
