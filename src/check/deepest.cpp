@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "build/skin_measures.hpp"
 #include "check/cooled_skin.hpp"
 #include "parallel/parallel.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::model {
 
@@ -58,10 +60,20 @@ Deepest deepest_below(const mesh::Mesh& mesh, std::size_t body, const std::vecto
   }
   deepest = parallel::global_max(deepest);
   std::erase_if(deep, [&](const auto& one) { return one.first < k_as_deep * k_as_deep * deepest; });
-  std::ranges::stable_sort(deep, std::greater<>(), [](const auto& one) { return one.first; });
+  std::vector<mesh::Point> mine;
+  std::vector<double> depths;
+  for (const auto& [depth, node] : deep) mine.push_back(mesh.x[node]), depths.push_back(depth);
+  const std::vector<mesh::Point> all = gather(mine);
+  depths = processes::gather(depths);
+  // The deepest first, in an order that does not depend on the processes.
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+    return std::tie(depths[b], all[a]) < std::tie(depths[a], all[b]);
+  });
   std::vector<mesh::Point> places;
-  for (const auto& one : deep) places.push_back(mesh.x[one.second]);
-  return {std::sqrt(deepest), few_of(gather(places))};
+  for (const std::size_t i : order) places.push_back(all[i]);
+  return {std::sqrt(deepest), few_of(places)};
 }
 
 }  // namespace solidus::model
