@@ -56,7 +56,8 @@ ExitCode guarded(const std::function<ExitCode()>& verb) {
   } catch (const std::bad_alloc&) {
     return fail(k_cannot_continue, "the memory is exhausted; use a coarser mesh or more processes");
   } catch (const std::filesystem::filesystem_error& error) {
-    // What the system refuses: of functions that name no path it is the present folder, which is gone.
+    // The system refused a file or folder. A function that names no path asked for the present folder, which
+    // has been removed.
     const std::string path = error.path1().string();
     return fail(k_bad_input,
                 fmt::format("{}: {}", path.empty() ? "the present folder" : path, error.code().message()));

@@ -13,7 +13,7 @@
 
 namespace solidus::model {
 
-/// What the surroundings of a body are measured in.
+/// The case, its stage, its assembly and its measures, from which the surroundings of a body are found.
 struct Surroundings {
   const CaseSpec& spec;
   const StageRun* stage;  ///< null without stages

@@ -20,7 +20,8 @@ double squared(const mesh::Point& a, const mesh::Point& b) {
   return x * x + y * y + z * z;
 }
 
-/// Of many places the first, the one nearest to their middle, and the one furthest from the first.
+/// Returns at most three of the places: the first, the one nearest to the middle of all, and the one furthest
+/// from the first.
 std::vector<mesh::Point> few_of(const std::vector<mesh::Point>& places) {
   if (places.size() < 2) return places;
   mesh::Point middle{};

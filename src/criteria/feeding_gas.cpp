@@ -97,7 +97,8 @@ double Feeding::most_drop(const Step& step, std::size_t node) const {
   return std::min(critical, -law->pressure_at(place, wanted));
 }
 
-/// What mush does not get opens as pores, or draws its gas larger where that comes first.
+/// Opens pores in mush that melt does not reach, or lets its gas expand where that needs the smaller fall of
+/// pressure.
 void Feeding::open_in_mush(Step& step, std::size_t node, double metal, double drop) const {
   const std::size_t body = static_cast<std::size_t>(body_[node]);
   if (!gas_[body] || drop >= laws_[body].critical_drop()) {

@@ -28,7 +28,7 @@ struct Gas {
   double solubility(double temperature, double solid_fraction) const;
   /// The pressure at which all of a content [m³/kg] stays in solution [Pa].
   double pressure(double content, double temperature, double solid_fraction) const;
-  /// What does not stay in solution at a pressure [Pa], as volume of gas over that of the metal [1].
+  /// The gas that leaves solution at a pressure [Pa], as its volume over that of the metal [1].
   /// @param density  of the metal [kg/m³]
   double free_volume(double content, double temperature, double solid_fraction, double pressure,
                      double density) const;
