@@ -8,7 +8,7 @@
 #include <set>
 #include <unordered_map>
 
-#include "mesh/body_partition.hpp"
+#include "mesh/vertex_sets.hpp"
 #include "system/log.hpp"
 
 namespace solidus::model {
@@ -140,21 +140,25 @@ void warn_of_loose_faces(const CaseSpec& spec, const RawMesh& mesh) {
 
 /// Two bodies that hold the same elements would heat and load them twice.
 void refuse_shared_elements(const CaseSpec& spec, const RawMesh& mesh) {
-  std::unordered_map<std::uint64_t, std::size_t> owner;
+  std::vector<mesh::VertexSet> sets;
+  std::vector<std::size_t> body_of_set;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    const BodySpec& body = spec.bodies[b];
-    std::map<std::size_t, std::size_t> shared;
-    const auto keys = mesh::element_keys(mesh.groups.at(body.mesh_group()));
-    for (const std::uint64_t key : keys)
-      if (const std::size_t other = owner.emplace(key, b).first->second; other != b) ++shared[other];
-    if (!shared.empty()) {
-      const auto& [other, n] = *shared.begin();
-      throw InputError(body.where,
-                       fmt::format("the bodies '{}' and '{}' have {} elements in common, of {} of '{}'",
-                                   spec.bodies[other].name, body.name, n, keys.size(), body.name),
-                       "groups of which no two hold the same element; solidus mesh-info lists them");
-    }
+    mesh::append_element_vertex_sets(mesh.groups.at(spec.bodies[b].mesh_group()), sets);
+    body_of_set.resize(sets.size(), b);
   }
+  const std::vector<Index> first = mesh::first_equal_set(sets);
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> n_shared;  // (later body, earlier body)
+  for (std::size_t i = 0; i < sets.size(); ++i)
+    if (const std::size_t other = body_of_set[static_cast<std::size_t>(first[i])]; other != body_of_set[i])
+      ++n_shared[{body_of_set[i], other}];
+  if (n_shared.empty()) return;
+  const auto& [bodies, n] = *n_shared.begin();
+  const BodySpec &body = spec.bodies[bodies.first], &other = spec.bodies[bodies.second];
+  throw InputError(
+      body.where,
+      fmt::format("the bodies '{}' and '{}' have {} elements in common, of {} of '{}'", other.name, body.name,
+                  n, std::ranges::count(body_of_set, bodies.first), body.name),
+      "groups of which no two hold the same element; solidus mesh-info lists them");
 }
 
 }  // namespace

@@ -13,6 +13,8 @@ namespace solidus::model {
 
 namespace {
 
+using Skins = std::vector<std::vector<mesh::BodyFace>>;  // [body]
+
 std::string in_mm(const mesh::Point& x) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
 }
@@ -38,13 +40,13 @@ void drop_repeated_things(const CaseSpec& spec, mesh::RawMesh& mesh) {
         logging::warn("{} faces of the surface '{}' are in the mesh twice; each counts once", n, name);
 }
 
-void refuse_inner_faces(const CaseSpec& spec, const mesh::RawMesh& mesh) {
+void refuse_inner_faces(const CaseSpec& spec, const mesh::RawMesh& mesh, const Skins& skins) {
   std::vector<std::string> bodies;
   for (const BodySpec& body : spec.bodies) bodies.push_back(body.mesh_group());
   for (const auto& [name, where] : wanted_surfaces(spec)) {
     const auto group = mesh.groups.find(name);
     if (group == mesh.groups.end() || group->second.dimension != mesh.dimension - 1) continue;
-    const mesh::InnerFaces inner = mesh::inner_faces(mesh, bodies, group->second);
+    const mesh::InnerFaces inner = mesh::inner_faces(mesh, bodies, skins, group->second);
     if (inner.n > 0)
       throw InputError(
           where,
@@ -73,11 +75,13 @@ std::map<std::string, SourceLocation> wanted_surfaces(const CaseSpec& spec) {
 
 void make_sound(const CaseSpec& spec, mesh::RawMesh& mesh) {
   drop_repeated_things(spec, mesh);
-  refuse_inner_faces(spec, mesh);
+  Skins skins;
+  for (const BodySpec& body : spec.bodies) skins.push_back(mesh::faces_on_skin(mesh, body.mesh_group()));
+  refuse_inner_faces(spec, mesh, skins);
   const std::vector<char> in_contact = nodes_in_contact(spec, mesh);
-  std::vector<std::vector<mesh::BodyFace>> skins;
-  for (const BodySpec& body : spec.bodies) {
-    std::vector<mesh::BodyFace> skin = mesh::faces_on_skin(mesh, body.mesh_group());
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const BodySpec& body = spec.bodies[b];
+    std::vector<mesh::BodyFace>& skin = skins[b];
     if (const mesh::Crack crack = mesh::find_crack(mesh, skin, in_contact); crack.n_pairs > 0) {
       logging::warn(
           "{} pairs of faces inside of the body '{}' coincide, one of them at {}, and share no nodes: they "
@@ -98,7 +102,6 @@ void make_sound(const CaseSpec& spec, mesh::RawMesh& mesh) {
           "a mesh whose elements share their faces; or two bodies, and a [[contact]] between their surfaces");
     if (const std::size_t pieces = mesh::n_pieces(mesh, body.mesh_group()); pieces > 1)
       logging::info("the body '{}' is in {} pieces that share no nodes", body.name, pieces);
-    skins.push_back(std::move(skin));
   }
   for (std::size_t a = 0; a < skins.size(); ++a)
     for (std::size_t b = 0; b < skins.size(); ++b) {

@@ -1,6 +1,8 @@
 #include "contact/facet_heights.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "contact/master_mesh.hpp"
 #include "contact/surface_curvature.hpp"
@@ -26,6 +28,26 @@ FacetHeights::FacetHeights(const ContactSurface& surface) {
     // At the centre, where all shape functions are 1/n.
     largest_.back() /= static_cast<double>(n * n);
   }
+  measure_turns(surface, MeshMasterOptions{}.feature_angle);
+}
+
+void FacetHeights::measure_turns(const ContactSurface& surface, double feature_angle) {
+  std::unordered_map<Index, std::vector<Index>> at_node;
+  std::vector<Point> normal;
+  for (Index f = 0; f < surface.n_faces(); ++f) {
+    const Face face = surface.reference_face(f);
+    normal.push_back(face.normal(reference_centre(face.shape)));
+    for (const Index node : surface.nodes(f)) at_node[node].push_back(f);
+  }
+  turn_.assign(normal.size(), 0.0);
+  for (const auto& [node, faces] : at_node)
+    for (const Index f : faces)
+      for (const Index g : faces) {
+        const Point &a = normal[static_cast<std::size_t>(f)], &b = normal[static_cast<std::size_t>(g)];
+        const double angle = std::atan2(norm(cross(a, b)), dot(a, b));
+        double& turn = turn_[static_cast<std::size_t>(f)];
+        if (angle < feature_angle) turn = std::max(turn, angle);
+      }
 }
 
 double FacetHeights::at(Index face, std::span<const double> shape) const {

@@ -33,13 +33,19 @@ class FacetHeights {
   double at(Index face, std::span<const double> shape) const;
   /// The largest t of the face without sign [m].
   double largest(Index face) const { return largest_[static_cast<std::size_t>(face)]; }
+  /// The angle by which the normal of the surface turns along an edge of the face or of one that shares a
+  /// node with it, the largest [rad].
+  double turn(Index face) const { return turn_[static_cast<std::size_t>(face)]; }
   /// Above zero where the face is convex, below where it is concave.
   double outward(Index face) const { return outward_[static_cast<std::size_t>(face)]; }
 
  private:
+  void measure_turns(const ContactSurface& surface, double feature_angle);
+
   std::vector<std::size_t> first_;  ///< of every face in pair_
   std::vector<double> pair_;        ///< ½ (x_b − x_a)ᵀ S (x_b − x_a), a < b [m]
   std::vector<double> largest_;     ///< [face]
+  std::vector<double> turn_;        ///< [face] [rad]
   std::vector<double> outward_;     ///< [face]: the sum of its pairs, above zero where it is convex [m]
 };
 

@@ -23,6 +23,15 @@ double measure_of(const Face& face, AnalysisKind kind) {
   return sum;
 }
 
+/// The length of the edges of a face; of a line the number of its ends.
+double perimeter(const Face& face) {
+  if (face.dimension() == 1) return 2;
+  const auto n = static_cast<std::size_t>(mesh::vertex_count(face.shape));
+  double sum = 0;
+  for (std::size_t a = 0; a < n; ++a) sum += distance(face.x[a], face.x[(a + 1) % n]);
+  return sum;
+}
+
 class Builder {
  public:
   Builder(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,
@@ -64,6 +73,7 @@ class Builder {
       case IntegrationRule::mortar:
         (face.dimension() == 1 ? cut_line : cut_face)(face, search_, candidates,
                                                       {.search_distance = options_.search_distance}, found_);
+        complete(f, face);
         break;
       case IntegrationRule::gauss:
       case IntegrationRule::nodal:
@@ -80,6 +90,25 @@ class Builder {
       store(f, face, first, std::span(found_).subspan(first, last - first));
       first = last;
     }
+  }
+
+  // Two bodies that end in one plane face each other up to it. Their facets do not where their surfaces are
+  // curved: the normal of a facet leans by up to the angle by which the surface turns along it, and what lies
+  // beside the end of the slave looks past that of the master, by the gap times this angle. A face that lacks
+  // no more than such a strip along its edges stands for all of its area.
+  void complete(Index f, const Face& face) {
+    double found = 0, moment = 0;
+    for (const PairedPoint& point : found_) {
+      found += point.measure;
+      moment += point.measure *
+                distance(face.at(point.slave_xi), search_.face(point.master_face).at(point.master_xi));
+    }
+    const double all = face.measure(), lost = all - found;
+    constexpr double k_rounding = 1e-9;
+    if (!(found > 0) || lost <= k_rounding * all) return;
+    const double strip = slave_heights_.turn(f) * moment / found;
+    if (lost > strip * perimeter(face)) return;
+    for (PairedPoint& point : found_) point.measure *= all / found;
   }
 
   void add_point(const Face& face, const Point& xi, double measure, const std::vector<Index>& candidates) {

@@ -9,19 +9,12 @@
 #include <unordered_map>
 #include <utility>
 
+#include "mesh/vertex_sets.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
 
 namespace {
-
-/// Mixes the bits of a number so that each depends on all (splitmix64).
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9E3779B97F4A7C15ULL;
-  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBULL;
-  return x ^ (x >> 31U);
-}
 
 using Members = std::vector<Index>;  // numbers of elements, rising
 
@@ -35,23 +28,35 @@ struct Candidate {
 struct Candidates {
   std::vector<Candidate> all;
   Index n_elements = 0;
-  std::size_t n_entries = 0;
+  std::size_t n_entries = 0;  ///< of all groups together; an element counts once in a group
+  std::size_t n_sets = 0;     ///< elements of all groups together, as they stand there
 };
 
 Candidates candidates_of(const RawMesh& mesh, const NamePreference& preference) {
   Candidates result;
-  std::unordered_map<std::uint64_t, Index> number;
+  std::vector<VertexSet> sets;
   for (const auto& [name, group] : mesh.groups) {
     if (group.dimension != mesh.dimension) continue;
     Candidate& candidate = result.all.emplace_back(Candidate{name, preference(name), {}});
-    for (const std::uint64_t key : element_keys(group))
-      candidate.members.push_back(number.emplace(key, static_cast<Index>(number.size())).first->second);
+    append_element_vertex_sets(group, sets);
+    candidate.members.resize(sets.size() - result.n_sets);
+    result.n_sets = sets.size();
+  }
+  // Elements are numbered as they come; one that is in several groups has one number.
+  const std::vector<Index> first = first_equal_set(sets);
+  std::vector<Index> number(sets.size());
+  std::size_t set = 0;
+  for (Candidate& candidate : result.all) {
+    for (Index& member : candidate.members) {
+      const auto original = static_cast<std::size_t>(first[set]);
+      number[set] = original == set ? result.n_elements++ : number[original];
+      member = number[set++];
+    }
     Members& m = candidate.members;
     std::ranges::sort(m);
     m.erase(std::unique(m.begin(), m.end()), m.end());
     result.n_entries += m.size();
   }
-  result.n_elements = static_cast<Index>(number.size());
   return result;
 }
 
@@ -178,23 +183,6 @@ int plain_preference(const std::string& name) {
                                      "elset",    "solid",    "elements",     "e",          "group_3d",
                                      "group_2d", "property", "all_elements", "allelements"};
   return std::ranges::any_of(k_of_programs, [&](const char* each) { return begin == each; }) ? 0 : 1;
-}
-
-std::vector<std::uint64_t> element_keys(const RawGroup& group) {
-  std::vector<std::uint64_t> keys;
-  for (const RawBlock& block : group.blocks) {
-    const auto n = static_cast<std::size_t>(node_count(block.shape)),
-               vertices = static_cast<std::size_t>(vertex_count(block.shape));
-    std::array<Index, 8> sorted{};
-    for (std::size_t first = 0; first + n <= block.nodes.size(); first += n) {
-      std::copy_n(block.nodes.begin() + static_cast<std::ptrdiff_t>(first), vertices, sorted.begin());
-      std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(vertices));
-      std::uint64_t key = vertices;
-      for (std::size_t a = 0; a < vertices; ++a) key = mixed(key ^ static_cast<std::uint64_t>(sorted[a]));
-      keys.push_back(key);
-    }
-  }
-  return keys;
 }
 
 BodyPartition partition_of(const RawMesh& mesh, const std::string& path, const NamePreference& preference) {

@@ -31,8 +31,4 @@ struct BodyPartition {
 BodyPartition partition_of(const RawMesh& mesh, const std::string& path,
                            const NamePreference& preference = plain_preference);
 
-/// [group][element] a number that tells an element by its vertices, whatever their order: two elements
-/// between the same vertices have the same number.
-std::vector<std::uint64_t> element_keys(const RawGroup& group);
-
 }  // namespace solidus::mesh

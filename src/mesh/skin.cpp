@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "mesh/faces.hpp"
+#include "mesh/body_skin.hpp"
+#include "mesh/face_walk.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -87,45 +88,21 @@ SkinFace face_through(std::vector<Point> corners) {
 }
 
 std::vector<SkinFace> skin_of(const RawMesh& mesh, const std::string& body) {
-  const RawGroup& group = mesh.groups.at(body);
-  std::unordered_map<FaceKey, int, FaceKeyHash> count;
-  const auto each = [&](const auto& act) {
-    for (const RawBlock& block : group.blocks) {
-      const auto nn = static_cast<std::size_t>(node_count(block.shape));
-      const int n_vertices = vertex_count(face_shape(block.shape));
-      std::vector<Index> nodes;
-      for (std::size_t e = 0; e < block.nodes.size(); e += nn)
-        for (int f = 0; f < face_count(block.shape); ++f) {
-          nodes.clear();
-          for (const int a : face_nodes(block.shape, f))
-            nodes.push_back(block.nodes[e + static_cast<std::size_t>(a)]);
-          act(block, nodes, n_vertices, e);
-        }
-    }
-  };
-  each([&](const RawBlock&, const std::vector<Index>& nodes, int n_vertices, std::size_t) {
-    ++count[face_key(nodes.data(), n_vertices)];
-  });
   std::vector<SkinFace> skin;
-  each([&](const RawBlock& block, const std::vector<Index>& nodes, int n_vertices, std::size_t e) {
-    if (count.at(face_key(nodes.data(), n_vertices)) != 1) return;
+  for (const Face& outer : outer_faces(mesh, body)) {
     SkinFace face;
-    face.shape = face_shape(block.shape);
-    face.nodes = nodes;
-    for (int i = 0; i < n_vertices; ++i)
-      face.corners.push_back(mesh.x[static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)])]);
+    face.shape = outer.shape;
+    face.nodes = outer.nodes();
+    for (int i = 0; i < vertex_count(face.shape); ++i)
+      face.corners.push_back(point_of(mesh, face.nodes[static_cast<std::size_t>(i)]));
     measure(face);
     // Elements may be mirrored before validate_and_orient(): outward is away from the element's centre.
-    Point inside{};
-    const int vertices = vertex_count(block.shape);
-    for (int a = 0; a < vertices; ++a)
-      for (std::size_t i = 0; i < 3; ++i)
-        inside[i] +=
-            mesh.x[static_cast<std::size_t>(block.nodes[e + static_cast<std::size_t>(a)])][i] / vertices;
+    const auto n_vertices = static_cast<std::size_t>(vertex_count(outer.element_shape));
+    const Point inside = middle_of(mesh, outer.element.first(n_vertices));
     if (dot(face.normal, face.centre - inside) < 0)
       for (double& c : face.normal) c = -c;
     skin.push_back(std::move(face));
-  });
+  }
   return skin;
 }
 

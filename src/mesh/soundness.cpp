@@ -5,55 +5,31 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 
-#include "mesh/body_partition.hpp"
+#include "mesh/face_walk.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/local_system.hpp"
+#include "mesh/vertex_sets.hpp"
 
 namespace solidus::mesh {
 
 namespace {
 
-const Point& at(const RawMesh& mesh, Index node) {
-  return mesh.x[static_cast<std::size_t>(node)];
-}
-
-Point middle(const RawMesh& mesh, const Index* nodes, int n) {
-  Point c{};
-  for (int a = 0; a < n; ++a)
-    for (std::size_t i = 0; i < 3; ++i) c[i] += at(mesh, nodes[a])[i] / n;
-  return c;
-}
 Point middle(const RawMesh& mesh, const BodyFace& face) {
-  return middle(mesh, face.nodes.data(), vertex_count(face.shape));
-}
-
-/// Calls f(block, element, face number, its nodes) for all faces of the elements of a body.
-template <class Function>
-void for_each_face(const RawMesh& mesh, const std::string& body, Function f) {
-  std::vector<Index> nodes;
-  for (const RawBlock& block : mesh.groups.at(body).blocks) {
-    const auto n = static_cast<std::size_t>(node_count(block.shape));
-    for (std::size_t e = 0; e * n < block.nodes.size(); ++e)
-      for (int k = 0; k < face_count(block.shape); ++k) {
-        nodes.clear();
-        for (const int a : face_nodes(block.shape, k))
-          nodes.push_back(block.nodes[e * n + static_cast<std::size_t>(a)]);
-        f(face_shape(block.shape), nodes);
-      }
-  }
+  return middle_of(mesh, std::span(face.nodes).first(static_cast<std::size_t>(vertex_count(face.shape))));
 }
 
 /// The diagonal of the box around a skin.
 double extent_of_skin(const RawMesh& mesh, const std::vector<BodyFace>& skin) {
-  Point low = at(mesh, skin[0].nodes[0]), high = low;
+  Point low = point_of(mesh, skin[0].nodes[0]), high = low;
   for (const BodyFace& face : skin)
     for (const Index node : face.nodes)
       for (std::size_t i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], at(mesh, node)[i]);
-        high[i] = std::max(high[i], at(mesh, node)[i]);
+        low[i] = std::min(low[i], point_of(mesh, node)[i]);
+        high[i] = std::max(high[i], point_of(mesh, node)[i]);
       }
   return length_of(difference(high, low));
 }
@@ -66,9 +42,9 @@ double tolerance_of(const RawMesh& mesh, const std::vector<BodyFace>& skin) {
     const int n = vertex_count(face.shape);
     for (int a = 0; a < n; ++a)
       for (int b = 0; b < a; ++b)
-        shortest =
-            std::min(shortest, length_of(difference(at(mesh, face.nodes[static_cast<std::size_t>(a)]),
-                                                    at(mesh, face.nodes[static_cast<std::size_t>(b)]))));
+        shortest = std::min(shortest,
+                            length_of(difference(point_of(mesh, face.nodes[static_cast<std::size_t>(a)]),
+                                                 point_of(mesh, face.nodes[static_cast<std::size_t>(b)]))));
   }
   constexpr double k_share = 1e-4, k_rounding = 1e-10;
   return std::max(k_share * shortest, k_rounding * extent_of_skin(mesh, skin));
@@ -101,11 +77,47 @@ Point moved(const Point& x, double by) {
   return {x[0] + by, x[1] + by, x[2] + by};
 }
 
+/// [node] of the nodes of a skin that are in one place the first one; −1 for nodes that are not of the skin.
+/// Empty where no two are in one place.
+std::vector<Index> first_in_place(const RawMesh& mesh, const std::vector<BodyFace>& skin, double tolerance) {
+  std::vector<Index> first(mesh.x.size(), -1), nodes;
+  for (const BodyFace& face : skin)
+    for (const Index node : face.nodes)
+      if (Index& f = first[static_cast<std::size_t>(node)]; f < 0) {
+        f = node;
+        nodes.push_back(node);
+      }
+  // Nodes come together by their cells, which are so large that hardly any node is near the rim of its own.
+  constexpr double k_cell = 1000;
+  const Cells cells(k_cell * tolerance, point_of(mesh, nodes[0]));
+  std::vector<std::pair<std::int64_t, Index>> placed;  // (cell, position in nodes)
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    cells.for_each(point_of(mesh, nodes[k]), point_of(mesh, nodes[k]),
+                   [&](std::int64_t key) { placed.emplace_back(key, static_cast<Index>(k)); });
+  std::ranges::sort(placed);
+  bool any = false;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const Point& x = point_of(mesh, nodes[k]);
+    Index same = nodes[k];
+    cells.for_each(moved(x, -tolerance), moved(x, tolerance), [&](std::int64_t key) {
+      auto other = std::ranges::lower_bound(placed, std::pair<std::int64_t, Index>{key, 0});
+      for (; other != placed.end() && other->first == key && other->second < static_cast<Index>(k); ++other) {
+        const Index node = nodes[static_cast<std::size_t>(other->second)];
+        if (length_of(difference(point_of(mesh, node), x)) < tolerance)
+          same = std::min(same, first[static_cast<std::size_t>(node)]);
+      }
+    });
+    first[static_cast<std::size_t>(nodes[k])] = same;
+    any = any || same != nodes[k];
+  }
+  return any ? first : std::vector<Index>{};
+}
+
 /// Whether a point lies in a face or an edge, away from its corners.
 bool lies_in(const Point& x, const RawMesh& mesh, const BodyFace& face, double tolerance) {
   const int n = vertex_count(face.shape);
   const auto corner = [&](int a) -> const Point& {
-    return at(mesh, face.nodes[static_cast<std::size_t>(a)]);
+    return point_of(mesh, face.nodes[static_cast<std::size_t>(a)]);
   };
   const auto in_segment = [&](const Point& a, const Point& b) {
     const Point ab = difference(b, a), ax = difference(x, a);
@@ -132,20 +144,19 @@ bool lies_in(const Point& x, const RawMesh& mesh, const BodyFace& face, double t
 }  // namespace
 
 std::size_t drop_repeated(RawGroup& group) {
-  const std::vector<std::uint64_t> keys = element_keys(group);
-  std::vector<std::uint64_t> sorted = keys;
-  std::ranges::sort(sorted);
-  if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return 0;
-  std::unordered_set<std::uint64_t> seen;
-  std::size_t dropped = 0, k = 0;
+  std::vector<VertexSet> sets;
+  append_element_vertex_sets(group, sets);
+  const std::vector<Index> first_equal = first_equal_set(sets);
+  const auto is_repeated = [&](std::size_t k) { return static_cast<std::size_t>(first_equal[k]) != k; };
+  std::size_t dropped = 0;
+  for (std::size_t k = 0; k < sets.size(); ++k) dropped += is_repeated(k) ? 1 : 0;
+  if (dropped == 0) return 0;
+  std::size_t k = 0;
   for (RawBlock& block : group.blocks) {
     const auto n = static_cast<std::ptrdiff_t>(node_count(block.shape));
     RawBlock kept{block.shape, {}, {}};
     for (std::size_t e = 0; e < block.nodes.size() / static_cast<std::size_t>(n); ++e) {
-      if (!seen.insert(keys[k++]).second) {
-        ++dropped;
-        continue;
-      }
+      if (is_repeated(k++)) continue;
       const auto first = block.nodes.begin() + static_cast<std::ptrdiff_t>(e) * n;
       kept.nodes.insert(kept.nodes.end(), first, first + n);
       if (!block.input_element.empty()) kept.input_element.push_back(block.input_element[e]);
@@ -156,51 +167,39 @@ std::size_t drop_repeated(RawGroup& group) {
   return dropped;
 }
 
-std::vector<BodyFace> faces_on_skin(const RawMesh& mesh, const std::string& body) {
-  std::vector<std::uint64_t> keys;
-  for_each_face(mesh, body, [&](Shape shape, const std::vector<Index>& nodes) {
-    keys.push_back(FaceKeyHash()(face_key(nodes.data(), vertex_count(shape))));
-  });
-  std::vector<std::uint64_t> sorted = keys;
-  std::ranges::sort(sorted);
-  const auto is_single = [&](std::uint64_t key) {
-    const auto range = std::equal_range(sorted.begin(), sorted.end(), key);
-    return range.second - range.first == 1;
-  };
-  std::vector<BodyFace> skin;
-  std::size_t k = 0;
-  for_each_face(mesh, body, [&](Shape shape, const std::vector<Index>& nodes) {
-    if (is_single(keys[k++])) skin.push_back({shape, nodes});
-  });
-  return skin;
-}
-
-InnerFaces inner_faces(const RawMesh& mesh, const std::vector<std::string>& bodies, const RawGroup& surface) {
-  std::vector<char> marked(mesh.x.size(), 0);
+InnerFaces inner_faces(const RawMesh& mesh, const std::vector<std::string>& bodies,
+                       const std::vector<std::vector<BodyFace>>& skins, const RawGroup& surface) {
+  std::vector<char> on_surface(mesh.x.size(), 0);
   InnerFaces inner;
-  for (const RawBlock& block : surface.blocks) {
-    for (const Index node : block.nodes) marked[static_cast<std::size_t>(node)] = 1;
-    inner.n_all += block.nodes.size() / static_cast<std::size_t>(node_count(block.shape));
-  }
-  std::unordered_set<FaceKey, FaceKeyHash> twice;
-  for (const std::string& body : bodies) {
-    std::unordered_set<FaceKey, FaceKeyHash> once;
-    for_each_face(mesh, body, [&](Shape shape, const std::vector<Index>& nodes) {
-      const int n = vertex_count(shape);
-      if (!std::all_of(nodes.begin(), nodes.begin() + n,
-                       [&](Index i) { return marked[static_cast<std::size_t>(i)] != 0; }))
-        return;
-      const FaceKey key = face_key(nodes.data(), n);
-      if (!once.insert(key).second) twice.insert(key);
+  std::unordered_set<FaceKey, FaceKeyHash> faces;
+  for_each_element(surface, [&](std::span<const Index> nodes, std::span<const Index> vertices) {
+    for (const Index node : nodes) on_surface[static_cast<std::size_t>(node)] = 1;
+    faces.insert(face_key(vertices.data(), static_cast<int>(vertices.size())));
+    ++inner.n_all;
+  });
+  const auto all_on_surface = [&](std::span<const Index> nodes) {
+    return std::ranges::all_of(nodes, [&](Index i) { return on_surface[static_cast<std::size_t>(i)] != 0; });
+  };
+  // What is on the skin of a body is right, and that is all of most surfaces: their inside is not looked at.
+  for (const std::vector<BodyFace>& skin : skins)
+    for (const BodyFace& face : skin)
+      if (const int n = vertex_count(face.shape);
+          all_on_surface({face.nodes.data(), static_cast<std::size_t>(n)}))
+        faces.erase(face_key(face.nodes.data(), n));
+  if (faces.empty()) return inner;
+  // Of the others those of a body's elements lie inside of it; the rest is on no body at all.
+  std::unordered_set<FaceKey, FaceKeyHash> inside;
+  for (const std::string& body : bodies)
+    for_each_face(mesh, body, [&](std::span<const Index> vertices, const Face&) {
+      if (!all_on_surface(vertices)) return;
+      const FaceKey key = face_key(vertices.data(), static_cast<int>(vertices.size()));
+      if (faces.contains(key)) inside.insert(key);
     });
-  }
-  for (const RawBlock& block : surface.blocks) {
-    const auto n = static_cast<std::size_t>(node_count(block.shape));
-    const int vertices = vertex_count(block.shape);
-    for (std::size_t first = 0; first < block.nodes.size(); first += n)
-      if (twice.contains(face_key(block.nodes.data() + first, vertices)) && inner.n++ == 0)
-        inner.where = middle(mesh, block.nodes.data() + first, vertices);
-  }
+  for_each_element(surface, [&](std::span<const Index>, std::span<const Index> vertices) {
+    const int n = static_cast<int>(vertices.size());
+    if (inside.contains(face_key(vertices.data(), n)) && inner.n++ == 0)
+      inner.where = middle_of(mesh, vertices);
+  });
   return inner;
 }
 
@@ -210,26 +209,8 @@ Crack find_crack(const RawMesh& mesh, const std::vector<BodyFace>& skin,
   if (skin.empty()) return crack;
   const double tolerance = tolerance_of(mesh, skin);
   if (!(tolerance > 0) || !std::isfinite(tolerance)) return crack;
-  // Of nodes in one place the first one stands for all.
-  constexpr double k_cell = 1000;
-  const Cells cells(k_cell * tolerance, at(mesh, skin[0].nodes[0]));
-  std::unordered_map<std::int64_t, std::vector<Index>> in_cell;
-  std::unordered_map<Index, Index> first;
-  bool any = false;
-  for (const BodyFace& face : skin)
-    for (const Index node : face.nodes) {
-      if (first.contains(node)) continue;
-      const Point& x = at(mesh, node);
-      Index same = node;
-      cells.for_each(moved(x, -tolerance), moved(x, tolerance), [&](std::int64_t key) {
-        for (const Index other : in_cell[key])
-          if (length_of(difference(at(mesh, other), x)) < tolerance) same = std::min(same, first.at(other));
-      });
-      first[node] = same;
-      any = any || same != node;
-      cells.for_each(x, x, [&](std::int64_t key) { in_cell[key].push_back(node); });
-    }
-  if (!any) return crack;
+  const std::vector<Index> first = first_in_place(mesh, skin, tolerance);
+  if (first.empty()) return crack;
   std::unordered_map<FaceKey, const BodyFace*, FaceKeyHash> faces;
   std::vector<Index> nodes;
   for (const BodyFace& face : skin) {
@@ -237,7 +218,7 @@ Crack find_crack(const RawMesh& mesh, const std::vector<BodyFace>& skin,
         face.nodes, [&](Index i) { return kept_apart[static_cast<std::size_t>(i)] != 0; });
     if (apart) continue;
     nodes.clear();
-    for (const Index i : face.nodes) nodes.push_back(first.at(i));
+    for (const Index i : face.nodes) nodes.push_back(first[static_cast<std::size_t>(i)]);
     const auto [other, is_new] = faces.emplace(face_key(nodes.data(), vertex_count(face.shape)), &face);
     if (is_new) continue;
     if (crack.n_pairs++ == 0) {
@@ -246,7 +227,8 @@ Crack find_crack(const RawMesh& mesh, const std::vector<BodyFace>& skin,
       std::iota(crack.replaced.begin(), crack.replaced.end(), 0);
     }
     for (const BodyFace* side : {other->second, &face})
-      for (const Index i : side->nodes) crack.replaced[static_cast<std::size_t>(i)] = first.at(i);
+      for (const Index i : side->nodes)
+        crack.replaced[static_cast<std::size_t>(i)] = first[static_cast<std::size_t>(i)];
   }
   return crack;
 }
@@ -271,33 +253,33 @@ HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<BodyFace>& ski
   // Cells of the size of the faces.
   double size = 0;
   for (const BodyFace& face : skin)
-    size += length_of(difference(at(mesh, face.nodes[1]), at(mesh, face.nodes[0])));
+    size += length_of(difference(point_of(mesh, face.nodes[1]), point_of(mesh, face.nodes[0])));
   size /= static_cast<double>(skin.size());
   constexpr double k_least = 1e-9;  // of the extent: more cells than that are none
   if (!(size > k_least * extent_of_skin(mesh, skin)) || !std::isfinite(size)) return hanging;
-  const Cells cells(2 * size, at(mesh, skin[0].nodes[0]));
+  const Cells cells(2 * size, point_of(mesh, skin[0].nodes[0]));
   std::unordered_map<std::int64_t, std::vector<Index>> corners;
   std::unordered_set<Index> seen;
   for (const BodyFace& face : skin)
     for (int a = 0; a < vertex_count(face.shape); ++a)
       if (const Index node = face.nodes[static_cast<std::size_t>(a)];
           kept_apart[static_cast<std::size_t>(node)] == 0 && seen.insert(node).second)
-        cells.for_each(at(mesh, node), at(mesh, node),
+        cells.for_each(point_of(mesh, node), point_of(mesh, node),
                        [&](std::int64_t key) { corners[key].push_back(node); });
   std::unordered_set<Index> found;
   for (const BodyFace& face : skin) {
-    Point low = at(mesh, face.nodes[0]), high = low;
+    Point low = point_of(mesh, face.nodes[0]), high = low;
     for (int a = 1; a < vertex_count(face.shape); ++a)
       for (std::size_t i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], at(mesh, face.nodes[static_cast<std::size_t>(a)])[i]);
-        high[i] = std::max(high[i], at(mesh, face.nodes[static_cast<std::size_t>(a)])[i]);
+        low[i] = std::min(low[i], point_of(mesh, face.nodes[static_cast<std::size_t>(a)])[i]);
+        high[i] = std::max(high[i], point_of(mesh, face.nodes[static_cast<std::size_t>(a)])[i]);
       }
     cells.for_each(moved(low, -tolerance), moved(high, tolerance), [&](std::int64_t key) {
       const auto there = corners.find(key);
       if (there == corners.end()) return;
       for (const Index node : there->second) {
         if (std::ranges::find(face.nodes, node) != face.nodes.end() || found.contains(node)) continue;
-        const Point& x = at(mesh, node);
+        const Point& x = point_of(mesh, node);
         bool near = true;
         for (std::size_t i = 0; i < 3; ++i)
           near = near && x[i] > low[i] - tolerance && x[i] < high[i] + tolerance;
@@ -306,7 +288,7 @@ HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<BodyFace>& ski
     });
   }
   hanging.n = found.size();
-  if (!found.empty()) hanging.where = at(mesh, *std::ranges::min_element(found));
+  if (!found.empty()) hanging.where = point_of(mesh, *std::ranges::min_element(found));
   return hanging;
 }
 
@@ -338,48 +320,6 @@ std::size_t n_pieces(const RawMesh& mesh, const std::string& body) {
     }
   }
   return pieces;
-}
-
-double share_inside(const RawMesh& mesh, const std::string& body, const std::vector<BodyFace>& skin) {
-  std::vector<Point> middles;
-  for (const RawBlock& block : mesh.groups.at(body).blocks) {
-    const auto n = static_cast<std::size_t>(node_count(block.shape)), n_elements = block.nodes.size() / n;
-    constexpr std::size_t k_samples = 40;
-    const std::size_t step = std::max<std::size_t>(1, n_elements / k_samples);
-    for (std::size_t e = 0; e < n_elements; e += step)
-      middles.push_back(middle(mesh, block.nodes.data() + e * n, vertex_count(block.shape)));
-  }
-  // A line in a direction of no meaning crosses the skin an odd number of times.
-  const Point ray = mesh.dimension == 2 ? Point{0.8191, 0.5736, 0} : Point{0.5771, 0.3119, 0.7548};
-  std::size_t inside = 0;
-  for (const Point& x : middles) {
-    int crossings = 0;
-    for (const BodyFace& face : skin) {
-      const int n = vertex_count(face.shape);
-      const Point& p = at(mesh, face.nodes[0]);
-      if (n == 2) {
-        const Point u = difference(at(mesh, face.nodes[1]), p), w = difference(p, x);
-        const double d = ray[0] * u[1] - ray[1] * u[0];
-        if (d == 0) continue;
-        const double along = (w[0] * u[1] - w[1] * u[0]) / d, share = (w[0] * ray[1] - w[1] * ray[0]) / d;
-        if (along > 0 && share >= 0 && share < 1) ++crossings;
-        continue;
-      }
-      for (int a = 1; a + 1 < n; ++a) {
-        const Point u = difference(at(mesh, face.nodes[static_cast<std::size_t>(a)]), p),
-                    v = difference(at(mesh, face.nodes[static_cast<std::size_t>(a + 1)]), p),
-                    w = difference(x, p);
-        const Point h = cross_product(ray, v);
-        const double d = dot_product(u, h);
-        if (d == 0) continue;
-        const Point q = cross_product(w, u);
-        const double s = dot_product(w, h) / d, t = dot_product(ray, q) / d;
-        if (s >= 0 && t >= 0 && s + t < 1 && dot_product(v, q) / d > 0) ++crossings;
-      }
-    }
-    if (crossings % 2 == 1) ++inside;
-  }
-  return middles.empty() ? 0 : static_cast<double>(inside) / static_cast<double>(middles.size());
 }
 
 }  // namespace solidus::mesh

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/body_skin.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::mesh {
@@ -12,21 +13,14 @@ namespace solidus::mesh {
 /// Leaves elements (or faces) of a group out that have the vertices of one before them. Returns how many.
 std::size_t drop_repeated(RawGroup& group);
 
-/// A face of an element that no other element of its body has.
-struct BodyFace {
-  Shape shape = Shape::point1;
-  std::vector<Index> nodes;  ///< outward
-};
-
-/// The skin of a body, in the order of its elements.
-std::vector<BodyFace> faces_on_skin(const RawMesh& mesh, const std::string& body);
-
 /// Faces of a group that lie between two elements of one and the same body.
 struct InnerFaces {
   std::size_t n = 0, n_all = 0;  ///< of them, and of the group
   Point where{};                 ///< the middle of one [m]
 };
-InnerFaces inner_faces(const RawMesh& mesh, const std::vector<std::string>& bodies, const RawGroup& surface);
+/// @param skins  [body] faces_on_skin of each
+InnerFaces inner_faces(const RawMesh& mesh, const std::vector<std::string>& bodies,
+                       const std::vector<std::vector<BodyFace>>& skins, const RawGroup& surface);
 
 /// Faces of the skin of a body that lie on each other, corner on corner, and share no nodes: the parts on
 /// both sides were meshed apart.
@@ -52,8 +46,5 @@ HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<BodyFace>& ski
 
 /// The number of pieces of a body that have no node in common.
 std::size_t n_pieces(const RawMesh& mesh, const std::string& body);
-
-/// The share of the elements of a body, of some of them, whose middle lies inside of a skin.
-double share_inside(const RawMesh& mesh, const std::string& body, const std::vector<BodyFace>& skin);
 
 }  // namespace solidus::mesh

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "case_folder.hpp"
@@ -175,7 +176,8 @@ double radiated(double e1, double e2) {
 }
 
 double radiation_between(const std::string& name, const std::string& kind, const std::string& mesh,
-                         bool part_is_slave, double part_emissivity, double mould_emissivity) {
+                         bool part_is_slave, double part_emissivity, double mould_emissivity,
+                         const std::string& groups = "") {
   k_here.write("metal.toml", k_metal);
   k_here.write(name + ".geo", mesh);
   const std::string contact = fmt::format(
@@ -192,7 +194,7 @@ master_emissivity = {}
 )",
       part_is_slave ? "part_out" : "mould_in", part_is_slave ? "mould_in" : "part_out",
       part_is_slave ? part_emissivity : mould_emissivity, part_is_slave ? mould_emissivity : part_emissivity);
-  const auto run = k_here.run(name, rings_case(name + ".geo", kind, contact, 1000, 300));
+  const auto run = k_here.run(name, rings_case(name + ".geo", kind, groups + contact, 1000, 300));
   EXPECT_TRUE(run.finished) << run.reason;
   return std::abs(run.history.at("contact_heat[W]").back());
 }
@@ -206,6 +208,49 @@ TEST(RadiationAcrossACurvedGap, IsThatOfConcentricCylindersWhateverSideIsTheSlav
                   right, 1e-3 * right)
           << e1 << part_is_slave;
   }
+}
+
+/// Quarters of two tubes, 12 mm high, each in tetrahedra of its own.
+const std::string k_quarter_tubes = R"(SetFactory("OpenCASCADE");
+Cylinder(1) = {0, 0, 0, 0, 0, 12, 20, Pi/2}; Cylinder(2) = {0, 0, 0, 0, 0, 12, 10, Pi/2};
+a() = BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; };
+Cylinder(11) = {0, 0, 0, 0, 0, 12, 50, Pi/2}; Cylinder(12) = {0, 0, 0, 0, 0, 12, 40, Pi/2};
+b() = BooleanDifference{ Volume{11}; Delete; }{ Volume{12}; Delete; };
+Physical Volume("part") = {a()}; Physical Volume("mould") = {b()};
+MeshSize{ PointsOf{ Volume{a()}; } } = 2.5;
+MeshSize{ PointsOf{ Volume{b()}; } } = 4;
+)";
+
+std::string skins_of_quarter_tubes() {
+  std::string groups;
+  for (const auto& [name, body, at] :
+       {std::tuple("part_in", "part", 7.07), std::tuple("part_out", "part", 14.14),
+        std::tuple("mould_in", "mould", 28.28), std::tuple("mould_out", "mould", 35.36)})
+    groups +=
+        fmt::format("[[mesh.group]]\nname = \"{}\"\nowner = \"{}\"\nnearest = [\"{} mm\", \"{} mm\", \"6 mm\"]\n",
+                    name, body, at, at);
+  return groups;
+}
+
+/// Where both bodies end at planes of symmetry, their facets lean past each other's ends: the same heat
+/// crosses all the same, for each metre of the skin that its facets have.
+TEST(RadiationAcrossACurvedGap, IsThatOfTubesOfWhichAQuarterIsModelled) {
+  const double right = radiated(0.8, 0.3) * 0.5 * std::numbers::pi * 0.012;
+  for (const bool part_is_slave : {true, false})
+    EXPECT_NEAR(radiation_between(fmt::format("quarter_tubes_{}", part_is_slave), "solid", k_quarter_tubes,
+                                  part_is_slave, 0.8, 0.3, skins_of_quarter_tubes()),
+                right, 2.5e-3 * right)
+        << part_is_slave;
+}
+
+/// The same of quarters of rings in the plane.
+TEST(RadiationAcrossACurvedGap, IsThatOfRingsOfWhichAQuarterIsModelled) {
+  const double right = radiated(0.8, 0.3) * 0.5 * std::numbers::pi;
+  for (const bool part_is_slave : {true, false})
+    EXPECT_NEAR(radiation_between(fmt::format("quarter_rings_{}", part_is_slave), "plane_strain",
+                                  rings({10, 20, 40, 50}, 20, 23), part_is_slave, 0.8, 0.3),
+                right, 1e-3 * right)
+        << part_is_slave;
 }
 
 }  // namespace

@@ -5,7 +5,10 @@
 
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <functional>
+#include <sstream>
+#include <string>
 
 #include "material/library.hpp"
 
@@ -142,6 +145,34 @@ std::string message(const std::function<void()>& work) {
     return error.what();
   }
   return "accepted";
+}
+
+// The straight lines of the library beside a calculation with the Gibbs energies of COST 507
+// (tests/verification/reference/scheil_cost507.py): Al-Si-Mg castings from the liquidus to the ternary
+// eutectic.
+TEST(SolidificationPath, IsNearThatOfAThermodynamicAssessment) {
+  std::ifstream table(SOLIDUS_SOURCE_DIR "/tests/verification/reference/scheil_cost507.csv");
+  ASSERT_TRUE(table);
+  std::string line, alloy, event, temperature, liquid;
+  std::getline(table, line);
+  int n_alloys = 0;
+  while (std::getline(table, line)) {
+    std::istringstream row(line);
+    for (std::string* cell : {&alloy, &event, &temperature, &liquid}) std::getline(row, *cell, ',');
+    const double t = 273.15 + std::stod(temperature), f = std::stod(liquid);
+    const SolidificationPath path = freeze(alloy, SolidificationRule::scheil);
+    if (event == "liquidus") {
+      EXPECT_NEAR(path.liquidus, t, 4.5) << alloy;
+    } else if (event == "ternary_eutectic") {
+      ++n_alloys;
+      EXPECT_NEAR(path.end, t, 2.5) << alloy;
+      EXPECT_GT(path.last_fraction, 0.6 * f) << alloy;
+      EXPECT_LT(path.last_fraction, f) << alloy;
+    } else {
+      EXPECT_NEAR(1 - fraction(path, t), f, event == "primary" ? 0.09 : 0.065) << line;
+    }
+  }
+  EXPECT_EQ(n_alloys, 6);
 }
 
 TEST(SolidificationPath, RefusesWhatItCannotTell) {

@@ -78,11 +78,4 @@ TEST(BodyPartition, GroupsThatOverlapInPartAreRefused) {
   }
 }
 
-TEST(BodyPartition, ElementsOfTheSameVerticesHaveTheSameKey) {
-  RawMesh mesh = row_with({{"a", {0, 1, 2}}});
-  RawBlock& block = mesh.groups.at("a").blocks[0];
-  std::swap(block.nodes[0], block.nodes[2]);
-  EXPECT_EQ(element_keys(mesh.groups.at("a")), element_keys(row_with({{"a", {0, 1, 2}}}).groups.at("a")));
-}
-
 }  // namespace

@@ -129,7 +129,7 @@ TEST(SplitCells, FacesOfSurfacesAreThoseOfTheTetrahedra) {
     if (group.dimension != 2) continue;
     ++n_surfaces;
     EXPECT_EQ(count(raw, name, Shape::quad4), 0u) << name;
-    EXPECT_EQ(inner_faces(raw, {body}, group).n, 0u) << name;
+    EXPECT_EQ(inner_faces(raw, {body}, {faces_on_skin(raw, body)}, group).n, 0u) << name;
   }
   EXPECT_EQ(n_surfaces, 4);
 }
