@@ -11,6 +11,7 @@
 #include "check/body_measures.hpp"
 #include "mesh/block_part.hpp"
 #include "mesh/body_faces.hpp"
+#include "mesh/nearest_point.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
@@ -137,23 +138,25 @@ Tree tree_of(const std::vector<Piece>& pieces) {
 
 /// Gives the volume of a body within a radius of the ball's centre to the nearest pieces.
 void share_mould(const mesh::Mesh& mesh, AnalysisKind kind, std::size_t mould, const Ball& near,
-                 const Tree& tree, std::vector<Piece>& pieces) {
+                 std::vector<Piece>& pieces) {
+  std::vector<mesh::Point> centres;
+  for (const Piece& piece : pieces) centres.push_back(piece.centre);
+  const mesh::NearestPoint nearest(centres);
   double points = 0;
   each_element(mesh, kind, mould, [&](std::span<const Index> vertices, double) {
     points += near.has(centre_of(mesh, vertices)) ? static_cast<double>(vertices.size() + 1) : 0.0;
   });
   const auto every = static_cast<std::size_t>(1 + points / k_most_points);
   std::vector<double> volumes(pieces.size(), 0.0);
-  std::size_t number = 0;
+  std::size_t number = 0, face = 0;  // that of the last point, which is near
   each_element(mesh, kind, mould, [&](std::span<const Index> vertices, double volume) {
     // Every so many elements stand for all of them.
     if (number++ % every != 0) return;
     const double part = volume * static_cast<double>(every) / static_cast<double>(vertices.size() + 1);
     each_sample(mesh, vertices, [&](const mesh::Point& x) {
       if (!near.has(x)) return;
-      for (auto found = tree.qbegin(boost::geometry::index::nearest(tree_point(x), 1)); found != tree.qend();
-           ++found)
-        volumes[found->second] += part;
+      face = nearest.find(x, face);
+      volumes[face] += part;
     });
   });
   processes::sum(volumes);
@@ -161,7 +164,8 @@ void share_mould(const mesh::Mesh& mesh, AnalysisKind kind, std::size_t mould, c
 }
 
 /// Spreads the mould evenly over the faces around each: heat in it goes sideways as far as it goes in.
-void spread_mould(double radius, const Tree& tree, std::vector<Piece>& pieces) {
+void spread_mould(double radius, std::vector<Piece>& pieces) {
+  const Tree tree = tree_of(pieces);
   std::vector<double> spread;
   for (const Piece& piece : pieces) {
     const Ball ball{piece.centre, radius};
@@ -227,9 +231,8 @@ LocalShape measure_around(const mesh::Mesh& mesh, AnalysisKind kind, std::size_t
     shape.area.push_back(inside);
     shape.layers.emplace_back();
     if (!skin.other || !(inside > 0)) continue;
-    const Tree tree = tree_of(pieces);
-    share_mould(mesh, kind, *skin.other, near, tree, pieces);
-    spread_mould(place.spread, tree, pieces);
+    share_mould(mesh, kind, *skin.other, near, pieces);
+    spread_mould(place.spread, pieces);
     shape.layers.back() = layers_of(std::move(pieces), inside);
   }
   return shape;
