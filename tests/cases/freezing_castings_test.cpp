@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../nightly.hpp"
 #include "case_folder.hpp"
 
 namespace solidus {
@@ -347,21 +348,28 @@ TEST_P(FreezingCasting, ReachesRoomTemperatureAndClosesTheFirstLaw) {
   }
 }
 
-/// Every combination that there is time for; of quadratic elements, which are dear, each alloy and split
+/// Every combination by night. Else every second one of the linear elements, so that each shape and each
+/// element meets each alloy and each split; and of quadratic ones in space, which are dear, each element
 /// once.
 std::vector<Casting> castings() {
   std::vector<Casting> all;
+  const bool whole = testing::nightly();
   const std::pair<const char*, const char*> plane[] = {{"quad4", "automatic"},
                                                        {"tri3", "algebraic"},
                                                        {"tri3", "orthogonal"}},
                                             space[] = {{"hex8", "automatic"},
                                                        {"tet4", "algebraic"},
                                                        {"tet4", "orthogonal"}};
+  int turn = 0;
   const auto add = [&](Shape shape, bool solid, const auto& elements) {
-    for (const auto& [element, stabilisation] : elements)
+    for (const auto& [element, stabilisation] : elements) {
+      ++turn;
       for (const bool eutectic : {false, true})
-        for (const char* scheme : {"isentropic", "isothermal"})
-          all.push_back({shape, solid, element, stabilisation, eutectic, scheme});
+        for (const bool isothermal : {false, true})
+          if (whole || (eutectic != isothermal) == (turn % 2 == 0))
+            all.push_back(
+                {shape, solid, element, stabilisation, eutectic, isothermal ? "isothermal" : "isentropic"});
+    }
   };
   for (const Shape shape : {Shape::ring, Shape::tee, Shape::column, Shape::mushroom})
     add(shape, false, plane);
@@ -371,11 +379,14 @@ std::vector<Casting> castings() {
       for (const bool eutectic : {false, true})
         all.push_back({shape, false, element, "automatic", eutectic, eutectic ? "isothermal" : "isentropic"});
     const bool ring = shape == Shape::ring;
-    all.push_back({shape, true, "hex20", "automatic", ring, ring ? "isothermal" : "isentropic"});
-    all.push_back({shape, true, "tet10", "automatic", !ring, ring ? "isentropic" : "isothermal"});
+    if (whole || !ring) {
+      all.push_back({shape, true, "hex20", "automatic", ring, ring ? "isothermal" : "isentropic"});
+      all.push_back({shape, true, "tet10", "automatic", !ring, ring ? "isentropic" : "isothermal"});
+    }
     for (const auto& [element, stabilisation] : plane)
       for (const bool eutectic : {false, true})
-        all.push_back({shape, false, element, stabilisation, eutectic, "simultaneous"});
+        if (whole || eutectic == ring)
+          all.push_back({shape, false, element, stabilisation, eutectic, "simultaneous"});
     all.push_back({shape, true, "tet4", "automatic", ring, "simultaneous"});
   }
   return all;

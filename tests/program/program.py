@@ -9,6 +9,7 @@ import unittest
 
 PROGRAM = os.environ["SOLIDUS_PROGRAM"]
 SOURCES = Path(__file__).resolve().parents[2]
+NIGHTLY = "SOLIDUS_NIGHTLY" in os.environ  # all of what `./dev test` takes a sample of (tests/nightly.hpp)
 PATIENCE = float(os.environ.get("SOLIDUS_TEST_PATIENCE", "1"))  # limits of time are multiplied by it
 
 
