@@ -83,7 +83,8 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
   std::vector<double>&at_coherency = record.columns[k_at_coherency].values,
   &brittle = record.columns[k_brittle].values;
   std::vector<double> before(mesh_.x.size()), after(mesh_.x.size());  // f_S of the block's material
-  std::vector<char> soft(mesh_.x.size(), 0);  // nodes at elements that begin the step as melt
+  // The share of the step in which a node has an element that is melt; zero: none begins the step as melt.
+  std::vector<double> soft(mesh_.x.size(), 0);
   // Mean values of quadratic basis functions are negative at some nodes.
   const auto mean = [](const OfBlock& block, const std::vector<double>& fraction, Index batch) {
     return max(min(block.strain.mean(fraction, batch), Lane(1.0)), Lane(0.0));
@@ -102,13 +103,18 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
       const Sym<Lane> strain = block.strain.strain(u, batch);
       const Sym<Lane> increment = dev(strain - block.strain.strain(old_u, batch));
       const Lane share = share_within(from, to, low, high);
-      const LaneMask melt = from < Lane(block.casting->coherency_fraction);
+      const double coherent = block.casting->coherency_fraction;
+      const LaneMask melt = from < Lane(coherent);
       const std::size_t first = block.first + static_cast<std::size_t>(batch) * k_lanes;
       const int count = std::min<int>(k_lanes, block.strain.n_elements() - batch * k_lanes);
-      for (int lane = 0; lane < count; ++lane)
-        if (from[lane] < block.casting->coherency_fraction)
-          for (const Index node : block.nodes_of(batch * k_lanes + lane))
-            soft[static_cast<std::size_t>(node)] = 1;
+      for (int lane = 0; lane < count; ++lane) {
+        if (from[lane] >= coherent) continue;
+        const double until = to[lane] > coherent ? (coherent - from[lane]) / (to[lane] - from[lane]) : 1.0;
+        for (const Index node : block.nodes_of(batch * k_lanes + lane)) {
+          double& of_node = soft[static_cast<std::size_t>(node)];
+          of_node = std::max(of_node, until);
+        }
+      }
       Sym<Lane> reference = load_tensors(at_coherency, k_tensor, first, count),
                 sum = load_tensors(brittle, k_tensor, first, count);
       for (std::size_t i = 0; i < k_tensor; ++i) {
@@ -120,9 +126,12 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
     }
   }
   std::vector<double>& displacement = record.columns[k_displacement].values;
+  // Melt moves fast where it feeds or is pressed out: a node that becomes coherent within a step has its
+  // displacement of that moment, not of the end of the step.
   for (std::size_t node = 0; node < mesh_.x.size(); ++node)
-    if (soft[node] != 0)
-      for (std::size_t i = node * components_; i < (node + 1) * components_; ++i) displacement[i] = u[i];
+    if (soft[node] > 0)
+      for (std::size_t i = node * components_; i < (node + 1) * components_; ++i)
+        displacement[i] = old_u[i] + soft[node] * (u[i] - old_u[i]);
   ghosts_.update(displacement, static_cast<int>(components_));
 }
 

@@ -11,7 +11,8 @@
 ///   brittle_strain          the largest principal value of Σ χ dev Δε, χ the share of a step in which the
 ///                           solid fraction runs through the brittle range
 ///   distortion              the displacement since coherency without the best rigid motion of each body [m];
-///                           a node is coherent when all its elements are (coupling/coherency.hpp)
+///                           a node is coherent from the moment, on a straight line through the step, at
+///                           which all its elements are (coupling/coherency.hpp)
 ///
 /// Strains are measured by their deviators: thermal strain and the shrinkage of freezing are volumetric, so a
 /// body that shrinks freely has none. Metal that melts again forgets. The solid fraction is the mean over the

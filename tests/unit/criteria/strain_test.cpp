@@ -244,11 +244,12 @@ TEST(Distortion, CountsFromCoherencyOn) {
   Bar bar({AnalysisKind::axisymmetric, Shape::quad4});
   bar.step(k_hot, [](const Point& x) { return Point{0.3 * x[0], 0.4 * x[1], 0}; });
   expect_all(bar.fields().distortion, 0);
-  bar.step(k_cold, [](const Point& x) { return Point{0.31 * x[0], 0.4 * x[1], 0}; });
-  bar.step(k_cold, [](const Point& x) { return Point{0.33 * x[0], 0.4 * x[1], 0}; });
+  // It is coherent at three quarters of this step, on a straight line, so that a quarter of it counts.
+  bar.step(k_cold, [](const Point& x) { return Point{0.34 * x[0], 0.4 * x[1], 0}; });
+  bar.step(k_cold, [](const Point& x) { return Point{0.36 * x[0], 0.4 * x[1], 0}; });
   const Bar::Fields f = bar.fields();
   for (std::size_t node = 0; node < bar.mesh().x.size(); ++node)
-    EXPECT_NEAR(f.distortion[2 * node], 0.02 * bar.mesh().x[node][0], k_rounding);
+    EXPECT_NEAR(f.distortion[2 * node], 0.03 * bar.mesh().x[node][0], k_rounding);
 }
 
 // A wall that is solid stands beside melt that sinks. The nodes between them are solid, their elements on one
