@@ -1,7 +1,7 @@
 /// Nanoseconds per point of the constitutive update, stress, history and tangent together, for numbers and
 /// for packs of eight lanes (per lane).
 ///
-///   ./material_bench        (build with -DSOLIDUS_MARCH=native for the numbers of docs/benchmarks.md)
+///   ./material_bench        (build with -DSOLIDUS_MARCH=native for the numbers of docs/log/benchmarks.md)
 #include <benchmark/benchmark.h>
 
 #include <cmath>

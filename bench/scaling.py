@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Strong and weak scaling of the cooling block, and the model that is fitted to it (docs/decisions/scaling.md).
+"""Strong and weak scaling of the cooling block, and the model that is fitted to it (docs/log/scaling.md).
 
     bench/scaling.py strong 45 66       # the same block on one and on two processes
     bench/scaling.py weak 36 52         # twice the nodes on two processes

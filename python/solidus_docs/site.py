@@ -36,7 +36,7 @@ yaml.SafeDumper.add_representer(Name, lambda dumper, name: dumper.represent_scal
 
 
 def configuration():
-    """The configuration with the pages of decisions and cases, which are as many as there are."""
+    """The configuration with the pages of decisions, logs and cases, which are as many as there are."""
     config = yaml.load((ROOT / "docs/site/mkdocs.yml").read_text(), Names)
 
     def titled(files):
@@ -49,6 +49,7 @@ def configuration():
     decisions = ROOT / "docs/decisions"
     lists = {"Decisions": [str((decisions / "README.md").relative_to(ROOT)),
                            *titled(sorted(file for file in decisions.glob("*.md") if file.name != "README.md"))],
+             "Logs": titled(sorted((ROOT / "docs/log").rglob("*.md"))),
              "Cases": titled(sorted((ROOT / "cases").rglob("*.md")))}
 
     def fill(entries):

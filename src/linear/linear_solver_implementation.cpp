@@ -15,7 +15,7 @@ namespace solidus::linear {
 namespace {
 
 /// Degrees of freedom from which on multigrid is the default. In three dimensions it is as fast from 2 000 on
-/// and eight times faster at 15 000 (docs/benchmarks.md), but where it has trouble a factorisation of so few
+/// and eight times faster at 15 000 (docs/log/benchmarks.md), but where it has trouble a factorisation of so few
 /// costs nothing either.
 constexpr GlobalIndex k_direct_limit_3d = 6000, k_direct_limit_2d = 15000;
 /// The same for PETSc's multigrid, which is slower and serves in three dimensions alone.

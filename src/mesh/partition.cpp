@@ -69,7 +69,7 @@ class ElementsOfNodes {
 // by conjugate gradients), and per entry of an element's matrix and quadrature point.
 constexpr double k_mechanics_row = 0.9, k_heat_row = 0.03;
 constexpr double k_mechanics_element = 4.5e-3, k_heat_element = 1e-3;
-// Contact costs a surface's node about as much as the rows of a node inside (docs/benchmarks.md).
+// Contact costs a surface's node about as much as the rows of a node inside (docs/log/benchmarks.md).
 constexpr double k_mechanics_contact = 25, k_heat_contact = 1;
 // Largest allowed work of a part over the mean, in mechanics and in heat.
 constexpr double k_mechanics_imbalance = 1.01, k_heat_imbalance = 1.05;

@@ -20,7 +20,7 @@ NodeNeighbours neighbours(Index n_nodes, const std::vector<const RawBlock*>& blo
 
 /// Work of a time step that a node brings its owner, in microseconds of one process [node]: its rows of the
 /// matrices, a share of the elements around it, and of contact where it lies on such a surface. Measured on
-/// blocks of hexahedra and tetrahedra (docs/decisions/scaling.md); only ratios matter.
+/// blocks of hexahedra and tetrahedra (docs/log/scaling.md); only ratios matter.
 struct NodeWork {
   std::vector<double> mechanics;  ///< zero at nodes of bodies that only conduct heat
   std::vector<double> heat;
