@@ -1,8 +1,10 @@
-"""What the sources are like, in figures: rooms with their units and floors, long functions, large classes.
+"""What the sources are like, in figures: rooms with their units and floors, comments, long functions, large classes.
 
 ``./dev house`` prints them. A room is a folder of ``src`` with what lies in it, a unit a header with its source, or either
-alone. The floors of a room are the units on the longest chain of includes within it. Sizes are read by a scanner of braces,
-not by a compiler: macros and preprocessor branches are text like any other.
+alone. The floors of a room are the units on the longest chain of includes within it. Comments are counted in sources (.cpp)
+as lines that hold nothing else; a function of TOLD lines and more tells its steps by a comment directly above its head or
+within its body. Sizes are read by a scanner of braces, not by a compiler: macros and preprocessor branches are text like any
+other.
 """
 
 from __future__ import annotations
@@ -14,6 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 LONG_FUNCTION = 60  #: lines, from the name to the closing brace
+TOLD = 30  #: lines of a function from which on a comment has to tell its steps
 METHODS, MEMBERS = 12, 15  #: of a class: public methods and data members beyond which it is large
 
 _BLANKED = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', re.S)
@@ -28,6 +31,7 @@ class Function:
     file: str
     line: int
     lines: int
+    comments: int = 0  #: lines of comment directly above its head and in its body
 
 
 @dataclass
@@ -49,6 +53,8 @@ class Room:
     units: int = 0
     files: int = 0
     floors: int = 0
+    lines: int = 0  #: of its sources (.cpp)
+    comments: int = 0  #: of these, lines that are comments
 
 
 @dataclass
@@ -121,6 +127,22 @@ def scan(text: str, file: str) -> tuple[list[Function], list[Class]]:
     return functions, classes
 
 
+def is_comment(line: str) -> bool:
+    """Whether a line holds a comment and nothing else."""
+    return line.lstrip().startswith("//")
+
+
+def comments_of(function: Function, lines: list[str]) -> int:
+    """Lines of comment of a function: those directly above its head, which may begin above its name, and those in its body."""
+    first = function.line - 1
+    while first > 0 and lines[first - 1].strip() and not lines[first - 1].rstrip().endswith((";", "}", "{", ":")) and not is_comment(lines[first - 1]):
+        first -= 1  # the type that is returned, or a template's head
+    above = first
+    while above > 0 and is_comment(lines[above - 1]):
+        above -= 1
+    return sum(map(is_comment, lines[above : function.line - 1 + function.lines]))
+
+
 def count(body: str, one: Class) -> None:
     """Counts public methods and members of a class, by what stands at its own depth."""
     flat, depth = [], 0
@@ -160,10 +182,16 @@ def house(root: Path) -> House:
         unit = name.rsplit(".", 1)[0]
         includes.setdefault(unit, set()).update(match.rsplit(".", 1)[0] for match in _INCLUDE.findall(text))
         functions, classes = scan(text, "src/" + name)
+        lines = text.splitlines()
+        for function in functions:
+            function.comments = comments_of(function, lines)
         found.functions += functions
         found.classes += classes
         room = found.rooms.setdefault(name.split("/")[0] if "/" in name else ".", Room())
         room.files += 1
+        if path.suffix == ".cpp":
+            room.lines += len(lines)
+            room.comments += sum(map(is_comment, lines))
     for room_name, room in found.rooms.items():
         units = {unit for unit in includes if unit.split("/")[0] == room_name}
         room.units = len(units)
@@ -179,11 +207,25 @@ def height(unit: str, units: set[str], includes: dict[str, set[str]], known: dic
     return known[unit]
 
 
+def share_of_comments(found: House) -> float:
+    """Lines that are comments over all lines of the sources (.cpp)."""
+    return sum(room.comments for room in found.rooms.values()) / max(sum(room.lines for room in found.rooms.values()), 1)
+
+
+def untold(found: House) -> list[Function]:
+    """Functions of TOLD lines and more without a comment, the longest first."""
+    return sorted((f for f in found.functions if f.lines >= TOLD and not f.comments), key=lambda f: -f.lines)
+
+
 def text_of(found: House) -> str:
     """The figures as lines."""
-    lines = [f"{'room':14} {'files':>6} {'units':>6} {'floors':>7}"]
+    lines = [f"{'room':14} {'files':>6} {'units':>6} {'floors':>7} {'comments':>9}"]
     for name, room in sorted(found.rooms.items(), key=lambda item: -item[1].files):
-        lines.append(f"{name:14} {room.files:6} {room.units:6} {room.floors:7}")
+        lines.append(f"{name:14} {room.files:6} {room.units:6} {room.floors:7} {100 * room.comments / max(room.lines, 1):7.1f} %")
+    lines.append(f"\nComments are {100 * share_of_comments(found):.1f} % of {sum(room.lines for room in found.rooms.values())} lines of sources.")
+    silent = untold(found)
+    lines.append(f"{sum(f.lines >= TOLD for f in found.functions)} functions have {TOLD} lines or more, {len(silent)} of them no comment:")
+    lines += [f"  {f.lines:4}  {f.name:32} {f.file}:{f.line}" for f in silent]
     long = sorted((f for f in found.functions if f.lines > LONG_FUNCTION), key=lambda f: -f.lines)
     large = sorted((c for c in found.classes if c.large), key=lambda c: -(c.methods + c.members))
     lengths = sorted(f.lines for f in found.functions)
@@ -196,7 +238,7 @@ def text_of(found: House) -> str:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(prog="./dev house", description="Figures of the sources: rooms, long functions, large classes.")
+    parser = argparse.ArgumentParser(prog="./dev house", description="Figures of the sources: rooms, comments, long functions, large classes.")
     parser.add_argument("root", nargs="?", type=Path, default=Path(__file__).resolve().parents[2], help="of the sources; without it these")
     print(text_of(house(parser.parse_args(arguments).root)))
     return 0

@@ -43,10 +43,15 @@ ActiveSet::ActiveSet(const mesh::Mesh& mesh, std::span<const std::string> absent
 }
 
 mesh::Surface ActiveSet::part(const mesh::Mesh& mesh, const mesh::Surface& surface) const {
+  // Where two bodies share nodes, faces belong to one of them. If that body is absent, a face is part of the
+  // surface only where an active body has an element on its other side. Faces are compared by the sorted
+  // numbers of their vertices.
   using Faces = std::unordered_set<mesh::FaceKey, mesh::FaceKeyHash>;
   const auto key = [](const mesh::ElementBlock& faces, Index f) {
     return mesh::face_key(faces.element(f), mesh::vertex_count(faces.shape));
   };
+  // First the faces in question are collected, then the faces of all elements of active bodies are searched
+  // for them.
   Faces asked, found;
   for (const mesh::ElementBlock& faces : surface.faces)
     for (Index f = 0; reversed(faces) && f < faces.size(); ++f) asked.insert(key(faces, f));
@@ -58,6 +63,7 @@ mesh::Surface ActiveSet::part(const mesh::Mesh& mesh, const mesh::Surface& surfa
         if (asked.contains(face)) found.insert(face);
       }
   }
+  // The part keeps the faces in their order, those that are counted first, so that n_counted goes on to hold.
   mesh::Surface part;
   for (const mesh::ElementBlock& faces : surface.faces) {
     mesh::ElementBlock& to = part.faces.emplace_back();

@@ -26,13 +26,18 @@ BlockMultigrid::BlockMultigrid(const mesh::Mesh& mesh, int components, Modes mod
     : Multigrid(symmetric, coarsest), mesh_(mesh), components_(components), modes_(modes) {}
 
 void BlockMultigrid::set_up(BlockMatrix& a) {
+  // The near null space has to be made before the matrix is constrained, because it follows from the mesh
+  // alone. Within constrained() the rows of fixed unknowns are those of the identity; afterwards the matrix
+  // is as it was.
   multigrid::NearNullSpace modes = modes_(mesh_, components_);
   a.constrained([&] {
+    // Rows are numbered as the mesh numbers its nodes: owned ones first, ghosts behind them.
     const int size = a.block_size();
     multigrid::Numbering numbering{mesh_.n_owned_nodes, mesh_.first_owned, {}};
     numbering.ghosts.assign(mesh_.global_node.begin() + mesh_.n_owned_nodes, mesh_.global_node.end());
     const std::span<const char> fixed = std::span(a.fixed()).first(
         static_cast<std::size_t>(mesh_.n_owned_nodes) * static_cast<std::size_t>(size));
+    // Where the matrix keeps its upper half alone, the mirror images of its blocks are found by an index.
     const bool upper = a.storage() == BlockMatrix::Storage::upper;
     std::optional<multigrid::LowerPart> lower;
     const auto view = [&](std::span<const std::int64_t> start, std::span<const Index> column,
@@ -40,12 +45,18 @@ void BlockMultigrid::set_up(BlockMatrix& a) {
       if (upper) lower.emplace(start, column);
       return multigrid::MatrixView{size, start, column, blocks, lower ? &*lower : nullptr};
     };
+    // Rows without any unknown (bodies that are absent) are left out of the hierarchy only where they are
+    // many enough to pay for the copy of the others; otherwise the hierarchy is made on the blocks as they
+    // lie.
     compact_.reset();
     if (!multigrid::worth_compacting(size, fixed)) {
       Multigrid::set_up(view(a.row_start(), a.columns(), a.block(0)), std::move(numbering), fixed,
                         std::move(modes));
       return;
     }
+    // With rows left out the modes are restricted to those that remain. Values and marks of the compact
+    // matrix have served once the levels are made, and go; its numbers stay, because apply() gathers and
+    // scatters by them.
     compact_ = multigrid::compact({size, a.row_start(), a.columns(), a.block(0), nullptr}, numbering, fixed);
     modes = on_rows(modes, compact_->rows, size);
     Multigrid::set_up(view(compact_->start, compact_->column, compact_->value.data()), compact_->numbering,

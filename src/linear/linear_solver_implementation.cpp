@@ -15,8 +15,8 @@ namespace solidus::linear {
 namespace {
 
 /// Degrees of freedom from which on multigrid is the default. In three dimensions it is as fast from 2 000 on
-/// and eight times faster at 15 000 (docs/log/benchmarks.md), but where it has trouble a factorisation of so few
-/// costs nothing either.
+/// and eight times faster at 15 000 (docs/log/benchmarks.md), but where it has trouble a factorisation of so
+/// few costs nothing either.
 constexpr GlobalIndex k_direct_limit_3d = 6000, k_direct_limit_2d = 15000;
 /// The same for PETSc's multigrid, which is slower and serves in three dimensions alone.
 constexpr GlobalIndex k_direct_limit_of_petsc = 50000;
@@ -334,10 +334,14 @@ void LinearSolver::Implementation::set_tolerance(double forcing) {
 }
 
 KSPConvergedReason LinearSolver::Implementation::run(Vec rhs, Vec solution, int& iterations) {
+  // A signal is looked for before and after each call that may take long; the times of set-up and solve are
+  // kept apart.
   check_interruption();
   PetscLogDouble t0 = 0, t1 = 0, t2 = 0;
   PetscTime(&t0);
   {
+    // First the preconditioner is set up, unless a hierarchy of earlier values serves once more. While a
+    // factorisation works, what it frees stays with the program, since it takes the same arrays again.
     const profile::Part set_up("solver set-up");
     std::optional<FreedArraysStay> for_the_next_factors;
     if (is_direct()) for_the_next_factors.emplace();
@@ -350,6 +354,7 @@ KSPConvergedReason LinearSolver::Implementation::run(Vec rhs, Vec solution, int&
   }
   PetscTime(&t1);
   {
+    // Then the Krylov method runs, in which PETSc calls the preconditioner.
     const profile::Part solving("solve");
     petsc::check(KSPSolve(ksp, rhs, solution), "KSPSolve");
   }
@@ -357,6 +362,8 @@ KSPConvergedReason LinearSolver::Implementation::run(Vec rhs, Vec solution, int&
   PetscTime(&t2);
   seconds_setup += t1 - t0;
   seconds_solve += t2 - t1;
+  // At last iterations are counted, and the hierarchy is judged by how many of them it took: one that takes
+  // many more than when it was made is made again for the next system.
   PetscInt n = 0;
   petsc::check(KSPGetIterationNumber(ksp, &n), "KSPGetIterationNumber");
   iterations += static_cast<int>(n);

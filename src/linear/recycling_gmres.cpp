@@ -200,9 +200,12 @@ RecyclingGmres::Implementation::Cycle RecyclingGmres::Implementation::cycle(std:
                                                                             std::span<double> x, double limit,
                                                                             int most) {
   Cycle report;
+  // The basis v has k kept directions in front, which span C with A Z = C, and behind them the Arnoldi
+  // vectors of this cycle. v[k] is the residual, of norm β.
   const Size k = n_kept, m = static_cast<Size>(std::min(options.directions, most));
   const double beta = norm(r);
   std::transform(r.begin(), r.end(), v.all()[k].begin(), [beta](double value) { return value / beta; });
+  // G holds A Z = V G: the identity for the kept directions, and one column of coefficients for each new one.
   Matrix g(k + m + 1, k + m);
   for (Size i = 0; i < k; ++i) g(i, i) = 1;
   LeastSquares problem(m, beta);
@@ -210,6 +213,9 @@ RecyclingGmres::Implementation::Cycle RecyclingGmres::Implementation::cycle(std:
   while (j < m && !report.converged && !report.exhausted) {
     check_interruption();
     const std::span<double> next = v.all()[k + j + 1];
+    // One step of flexible Arnoldi: z = M⁻¹ v, A z is orthogonalised against all directions so far, kept ones
+    // included, and becomes the next v. If next to nothing is left of it, the space is invariant and the
+    // cycle ends.
     preconditioner(v.all()[k + j], z.all()[k + j]);
     op(z.all()[k + j], next);
     const double before = norm(next);
@@ -218,15 +224,21 @@ RecyclingGmres::Implementation::Cycle RecyclingGmres::Implementation::cycle(std:
     report.exhausted = !(h[k + j + 1] > k_dependent * before);
     if (!report.exhausted)
       for (double& value : next) value /= h[k + j + 1];
+    // The least squares problem min |β e₁ − H y| is brought up to date by one rotation, which also gives the
+    // norm of the residual.
     report.converged = problem.add(std::span(h).last(j + 2)) <= limit;
     ++j;
   }
   report.iterations = static_cast<int>(j);
+  // The solution adds Z y. What A has carried into the kept directions (the rows of G above k) is taken back
+  // by them.
   const Vector y = problem.solution();
   Vector of_directions(k + j, 0.0);
   dense::add_product(-1, g.all().from(k, j).rows_from(0, k), y, std::span(of_directions).first(k));
   std::copy(y.begin(), y.end(), of_directions.begin() + static_cast<std::ptrdiff_t>(k));
   dense::add_product(1, z.all().first(k + j), of_directions, x);
+  // A cycle that was worth it offers its slow directions to be kept: the harmonic Ritz vectors of its matrix
+  // G.
   if (static_cast<int>(j) >= options.worthwhile && !report.exhausted)
     choose(j, g.all().first(k + j).rows_from(0, k + j + 1));
   return report;

@@ -31,6 +31,8 @@ SaddleUnknowns::SaddleUnknowns(const mesh::Mesh& mesh, const SaddleMatrix& matri
     : components_(matrix.components()),
       fields_(matrix.fields()),
       constraints_(matrix.displacement().constraints()) {
+  // Each displacement and each pressure of a node gets a mark: no unknown, or an unknown. Fixed entries,
+  // followers of ties and nodes without a pressure are none.
   n_displacements_ = at(mesh.n_owned_nodes) * at(components_);
   const std::size_t n_pressures = at(mesh.n_owned_nodes) * at(fields_);
   std::vector<double> u(mesh.x.size() * at(components_), k_none), p(mesh.x.size() * at(fields_), k_none);
@@ -41,15 +43,18 @@ SaddleUnknowns::SaddleUnknowns(const mesh::Mesh& mesh, const SaddleMatrix& matri
   for (std::size_t i = 0; i < n_pressures; ++i)
     if (!no_pressure[i]) p[i] = k_unknown;
 
+  // Unknowns of this process are numbered in the order of their entries, displacements before pressures.
   for (std::size_t i = 0; i < n_displacements_; ++i)
     if (u[i] == k_unknown) entries_.push_back(i);
   for (std::size_t i = 0; i < n_pressures; ++i)
     if (p[i] == k_unknown) entries_.push_back(n_displacements_ + i);
   n_global_ = std::ssize(entries_);
+  // The numbers go on from process to process, so that each owns a contiguous range of rows.
   auto number = static_cast<double>(processes::sum_before(n_global_));
   processes::sum(std::span(&n_global_, 1));
   for (const std::size_t entry : entries_)
     (entry < n_displacements_ ? u[entry] : p[entry - n_displacements_]) = number++;
+  // Followers get the numbers of what they follow, and ghosts those that their owners have given.
   constraints_.share(std::span(u).first(n_displacements_));
   ghosts.update(u, components_);
   ghosts.update(p, fields_);
