@@ -149,10 +149,13 @@ template <int size, int modes>
 void smooth(const MatrixView& a, const std::vector<Index>& of_row, Index n_coarse,
             const std::vector<float>& tentative, std::span<const char> fixed,
             std::span<const float> inverse_diagonal, double omega, BlockRows<float>& p) {
+  // The prolongation is P = (I − ω D⁻¹ A) T, with T the tentative one, row by row of blocks.
   constexpr int k_entries = size * modes;
   reserve_smoothed(a, of_row, n_coarse, p);
   RowSum sum(n_coarse, k_entries);
   for (Index row = 0; row < a.n_rows(); ++row) {
+    // First the row of A T is summed, one block for each aggregate that the row reaches. Ghosts bring their
+    // aggregate and their tentative values along.
     sum.clear();
     const float* const own = tentative.data() + at(row) * k_entries;
     a.each(row, [&](Index j, std::int64_t s, bool mirrored) {
@@ -160,9 +163,13 @@ void smooth(const MatrixView& a, const std::vector<Index>& of_row, Index n_coars
       add_product<size, modes>(a.block(s), mirrored, tentative.data() + at(j) * k_entries,
                                sum.block(of_row[at(j)]));
     });
+    // Columns come in the order of their numbers, so that the sum is the same whatever the order in which
+    // they were met.
     std::vector<Index> columns = sum.columns();
     std::sort(columns.begin(), columns.end());
     for (const Index column : columns) {
+      // Then D⁻¹ is applied with ω and the tentative block of the own aggregate is added. Fixed rows are not
+      // smoothed: their unknown does not follow the others.
       const double* const from = sum.block(column);
       p.column.push_back(column);
       for (int r = 0; r < size; ++r) {
@@ -394,6 +401,8 @@ std::vector<float> inverse_diagonal(const MatrixView& a) {
 Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const parallel::RowExchange& ghosts,
                    std::vector<double> near_null, int modes, std::span<const char> fixed,
                    std::span<const float> inverse_diagonal, double largest) {
+  // The next level has one block row of `modes` unknowns for each aggregate. Everything that follows depends
+  // on the aggregates of this process, which are numbered on from those of the processes before it.
   const int entries = a.size * modes;
   Coarsening next;
   next.modes = modes;
@@ -402,10 +411,13 @@ Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const parall
   Tentative start;
   next.numbering.n_owned = aggregate(a, start.of_row);
   next.numbering.first = processes::sum_before(next.numbering.n_owned);
+  // The tentative prolongation interpolates the near null space exactly: in each aggregate an orthonormal
+  // basis of it, whose coefficients are the near null space of the next level.
   start.values =
       tentative(start.of_row, next.numbering.n_owned, a.size, near_null, modes, fixed, next.near_null);
   std::vector<double>().swap(near_null);
   CoarseNumbers numbers(next.numbering);
+  // Ghost rows need the aggregate and the tentative values of their owners, because A reaches them.
   start.of_row.resize(at(numbering.n_local()));
   start.values.resize(at(numbering.n_local()) * at(entries));
   ghosts.update(
@@ -420,6 +432,8 @@ Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const parall
                        [](double v) { return static_cast<float>(v); });
       });
 
+  // Smoothing with ω over the largest eigenvalue of D⁻¹ A lowers the energy of the basis functions; then the
+  // Galerkin product Pᵀ A P makes the matrix. Modes that an aggregate of few nodes cannot have are held.
   const double omega = largest > 0 ? k_smoothing / largest : 0.0;
   const auto make = [&]<int size, int n>() {
     make_level<size, n>(a, ghosts, std::move(start), fixed, inverse_diagonal, omega, numbers, next);

@@ -61,6 +61,8 @@ CompactRows compact(const MatrixView& a, const Numbering& numbering, std::span<c
   CompactRows result;
   const auto size = static_cast<std::size_t>(a.size);
   const std::size_t entries = size * size;
+  // Rows without any unknown are told apart first. Of those only the inverse of the diagonal is kept, with
+  // which a cycle answers for them.
   result.inverse_diagonal.assign(fixed.size(), 0.0);
   for (Index row = 0; row < a.n_rows(); ++row) {
     if (!absent(row, a.size, fixed)) {
@@ -74,8 +76,10 @@ CompactRows compact(const MatrixView& a, const Numbering& numbering, std::span<c
       }
     });
   }
+  // The remaining rows are numbered without gaps, ghosts too, since their owners leave the same rows out.
   Renumbering now = renumber(numbering, result.rows);
   result.numbering = std::move(now.numbering);
+  // Storage is reserved for what the kept rows have at most.
   std::int64_t n_slots = 0;
   for (const Index row : result.rows) n_slots += a.end(row) - a.begin(row);
   result.start.reserve(result.rows.size() + 1);
@@ -83,6 +87,8 @@ CompactRows compact(const MatrixView& a, const Numbering& numbering, std::span<c
   result.column.reserve(static_cast<std::size_t>(n_slots));
   result.value.reserve(static_cast<std::size_t>(n_slots) * entries);
   result.fixed.reserve(result.rows.size() * size);
+  // Then blocks and columns are copied in the order of before; columns of absent rows hold nothing but zeros
+  // and are skipped.
   for (const Index row : result.rows) {
     for (std::int64_t s = a.begin(row); s < a.end(row); ++s) {
       const Index column = now.local[static_cast<std::size_t>(a.column[static_cast<std::size_t>(s)])];

@@ -173,6 +173,8 @@ struct Multigrid::Coarsest {
 };
 
 Multigrid::Coarsest::Coarsest(const BlockRows<double>& a, const Numbering& numbering) {
+  // PETSc wants to know beforehand how many blocks a row has among the columns of this process and among
+  // those of others.
   const auto n = static_cast<PetscInt>(a.n_rows() * a.rows);
   std::vector<PetscInt> owned(at(a.n_rows()), 0), ghosts(at(a.n_rows()), 0);  // [block row], blocks
   for (Index row = 0; row < a.n_rows(); ++row)
@@ -183,6 +185,8 @@ Multigrid::Coarsest::Coarsest(const BlockRows<double>& a, const Numbering& numbe
   petsc::check(MatSetType(matrix, MATAIJ), "MatSetType");
   petsc::check(MatXAIJSetPreallocation(matrix, a.rows, owned.data(), ghosts.data(), nullptr, nullptr),
                "MatXAIJSetPreallocation");
+  // Blocks are entered by global numbers: owned rows from the first of this process on, ghosts by the list of
+  // their owners.
   for (Index row = 0; row < a.n_rows(); ++row)
     for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s) {
       const Index column = a.column[at(s)];
@@ -196,6 +200,8 @@ Multigrid::Coarsest::Coarsest(const BlockRows<double>& a, const Numbering& numbe
   petsc::check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
   petsc::check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
   petsc::make_scalar_products_reproducible();
+  // The coarsest system is solved directly. Each process gathers the whole of it and factorises by itself
+  // (PCREDUNDANT), so that no process waits for another one's share.
   petsc::check(KSPCreate(PETSC_COMM_WORLD, ksp.out()), "KSPCreate");
   petsc::check(KSPSetType(ksp, KSPPREONLY), "KSPSetType");
   petsc::check(KSPSetOperators(ksp, matrix, matrix), "KSPSetOperators");
@@ -205,6 +211,8 @@ Multigrid::Coarsest::Coarsest(const BlockRows<double>& a, const Numbering& numbe
   KSP of_process = nullptr;
   petsc::check(PCRedundantGetKSP(pc, &of_process), "PCRedundantGetKSP");
   petsc::check(KSPGetPC(of_process, &inner), "KSPGetPC");
+  // A pivot that rounding makes zero or negative, in a body that nothing holds, is shifted instead of ending
+  // the run.
   petsc::check(PCFactorSetShiftType(inner, MAT_SHIFT_INBLOCKS), "PCFactorSetShiftType");
   petsc::check(KSPSetUp(ksp), "KSPSetUp");
   petsc::check(MatCreateVecs(matrix, x.out(), b.out()), "MatCreateVecs");

@@ -83,6 +83,8 @@ PackedRows::PackedRows(const MatrixView& a, Index n_local, bool symmetric, Patte
       n_local_(n_local),
       start_(a.start),
       column_(a.column) {
+  // Where the matrix before has both halves and symmetry is to be used, the pattern of its upper half is
+  // copied. Otherwise the pattern is shared with it, or copied where it will not outlive this level.
   assert(symmetric || a.lower == nullptr);
   if (symmetric && a.lower == nullptr) {
     copy_upper_pattern(a);
@@ -94,11 +96,15 @@ PackedRows::PackedRows(const MatrixView& a, Index n_local, bool symmetric, Patte
     start_ = own_start_;
     column_ = own_column_;
   }
+  // Values are copied in single precision, into large pages because products stream through them. Behind the
+  // last block some numbers are left free: vector loads may read beyond it.
   const auto entries = static_cast<std::size_t>(a.size * a.size);
   assign_in_large_pages(value_, static_cast<std::size_t>(start_.back()) * entries + k_overhang, 0.0F);
   float* to = value_.data();
   for (Index row = 0; row < a.n_rows(); ++row) {
     const std::int64_t n = start_[static_cast<std::size_t>(row) + 1] - start_[static_cast<std::size_t>(row)];
+    // A symmetric row begins with its diagonal block, so only the last n of a whole row are taken. Blocks of
+    // a row that is not symmetric are stored by columns, which is how the product reads them.
     for (std::int64_t s = a.end(row) - n; s < a.end(row); ++s) {
       const double* const block = a.block(s);
       for (int i = 0; i < a.size; ++i)
