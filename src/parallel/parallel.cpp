@@ -63,6 +63,7 @@ GhostExchange& GhostExchange::operator=(GhostExchange&&) noexcept = default;
 
 template <class Number>
 void GhostExchange::exchange(std::span<Number> values, int components) const {
+  // The buffers are kept between calls, and grow only where more components are exchanged than before.
   Implementation& my = *implementation_;
   if (my.neighbours.empty()) return;
   const std::size_t n_bytes = static_cast<std::size_t>(components) * sizeof(Number);
@@ -70,6 +71,8 @@ void GhostExchange::exchange(std::span<Number> values, int components) const {
   my.receive_buffer.resize(my.n_receive * n_bytes);
   char* const fields = reinterpret_cast<char*>(values.data());
 
+  // Receives are posted before anything is sent, so that messages find their place; the parts of the buffers
+  // follow the order of the neighbours.
   std::size_t request = 0;
   char* to = my.receive_buffer.data();
   for (const auto& neighbour : my.neighbours) {
@@ -78,6 +81,7 @@ void GhostExchange::exchange(std::span<Number> values, int components) const {
               &my.requests[request++]);
     to += n;
   }
+  // Then the values of own nodes that others hold as ghosts are packed and sent.
   char* from = my.send_buffer.data();
   for (const auto& neighbour : my.neighbours) {
     char* const start = from;
@@ -88,6 +92,7 @@ void GhostExchange::exchange(std::span<Number> values, int components) const {
   }
   MPI_Waitall(static_cast<int>(request), my.requests.data(), MPI_STATUSES_IGNORE);
 
+  // What has come is unpacked into the ghosts, in the order in which their owner lists them.
   const char* in = my.receive_buffer.data();
   for (const auto& neighbour : my.neighbours)
     for (Index node : neighbour.receive) {

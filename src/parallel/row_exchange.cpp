@@ -8,12 +8,15 @@ namespace solidus::parallel {
 void RowExchange::add_to_owners(std::span<float> values, int components) const {
   if (neighbours_.empty()) return;
   const auto n = static_cast<std::size_t>(components);
+  // The way is the reverse of an update of ghosts: what is received there is sent here. First the sizes of
+  // both buffers are counted.
   std::size_t n_in = 0, n_out = 0, request = 0;
   for (const Neighbour& neighbour : neighbours_) {
     n_in += neighbour.send.size() * n;
     n_out += neighbour.receive.size() * n;
   }
   std::vector<MPI_Request> requests(2 * neighbours_.size());
+  // `out` never grows beyond what is reserved, because messages under way point into it.
   std::vector<float> out, in(n_in);
   out.reserve(n_out);
   float* to = in.data();
@@ -34,6 +37,8 @@ void RowExchange::add_to_owners(std::span<float> values, int components) const {
   }
   MPI_Waitall(static_cast<int>(request), requests.data(), MPI_STATUSES_IGNORE);
   const float* from = in.data();
+  // Contributions are added neighbour by neighbour in their order, not as they arrive, so that the sum has
+  // the same bits in every run.
   for (const auto& neighbour : neighbours_)
     for (const Index node : neighbour.send)
       for (std::size_t k = 0; k < n; ++k) values[static_cast<std::size_t>(node) * n + k] += *from++;
