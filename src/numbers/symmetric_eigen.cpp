@@ -45,6 +45,7 @@ struct Rotated {
 
 void find_symmetric_eigen(std::span<double> matrix, std::span<double> values, std::span<double> vectors) {
   const std::size_t n = values.size();
+  // The upper triangle is mirrored, and the sum of squares gives a size to measure rounding with.
   Rotated m{matrix, vectors, n};
   double size = 0;
   for (std::size_t i = 0; i < n; ++i)
@@ -52,12 +53,15 @@ void find_symmetric_eigen(std::span<double> matrix, std::span<double> values, st
       m.at(j, i) = m.at(i, j);
       size += m.at(i, j) * m.at(i, j);
     }
+  // Values that are no numbers would never come to rest.
   if (!std::isfinite(size)) {
     std::fill(values.begin(), values.end(), std::numeric_limits<double>::quiet_NaN());
     return;
   }
   std::fill(vectors.begin(), vectors.end(), 0.0);
   for (std::size_t i = 0; i < n && !vectors.empty(); ++i) vectors[i * n + i] = 1;
+  // Jacobi's method: each rotation makes one pair of entries off the diagonal zero and lowers the sum of
+  // their squares. After a few sweeps over all pairs that sum is rounding.
   const double rounding = std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon();
   for (int sweep = 0; sweep < k_most_sweeps; ++sweep) {
     double beside = 0;
@@ -67,6 +71,8 @@ void find_symmetric_eigen(std::span<double> matrix, std::span<double> values, st
     for (std::size_t p = 0; p < n; ++p)
       for (std::size_t q = p + 1; q < n; ++q) m.rotate(p, q);
   }
+  // What is left on the diagonal are the eigenvalues. They are sorted in ascending order, and the columns of
+  // the vectors with them.
   for (std::size_t i = 0; i < n; ++i) values[i] = m.at(i, i);
   for (std::size_t i = 0; i < n; ++i) {
     const auto least = static_cast<std::size_t>(
