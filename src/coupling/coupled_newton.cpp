@@ -378,9 +378,13 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
 
 CoupledReport CoupledNewton::iterate(const mechanics::MechanicalState& old, mechanics::MechanicalPass& pass,
                                      std::vector<double>& x) {
+  // The first attempt uses the whole tangent. The second one leaves the heat of motion out of it, and so
+  // takes more iterations.
   const bool whole = tangent_ == Tangent::whole;
   const int most = std::max(mechanics_.options().newton.max_iterations, thermal_->max_iterations());
   const int max_iterations = whole ? most : 2 * most;
+  // The state of the iteration starts anew: no equilibrium between iterates is asked for but in the second
+  // attempt, and no iteration has been lost yet.
   pass.iterate_temperature = thermal_->temperature();
   CoupledReport report;
   linear::Forcing forcing(mechanics_.options().newton.inexact, k_loosest);
@@ -388,11 +392,14 @@ CoupledReport CoupledNewton::iterate(const mechanics::MechanicalState& old, mech
   lost_ = 0;
   next_step_ = std::numeric_limits<double>::infinity();
   shifted_heat_ = 0;
+  // In the second attempt every iterate is an equilibrium at its temperatures, the first one included.
   if (in_equilibrium_) {
     set_contact_temperatures();
     if (!equilibrate(old, pass, x)) mechanics_.reject("no equilibrium at the temperatures of the start", x);
   }
   CoupledResidual residual = evaluate(old, pass, x);
+  // One pass of the loop judges the residual, assembles the tangent, solves for a direction and moves along
+  // it.
   while (true) {
     report.residuals.push_back(residual);
     if (!std::isfinite(residual.size())) mechanics_.reject("the residual is not a number", x);
@@ -408,14 +415,19 @@ CoupledReport CoupledNewton::iterate(const mechanics::MechanicalState& old, mech
     std::string failure;
     const bool found = find_direction(forcing, report, failure);
     ++report.iterations;
+    // Where some plain steps have not lowered the residual much, later iterates are brought into equilibrium
+    // before they are judged.
     if (report.iterations > k_plain_steps &&
         residual.size() > k_stalls * report.residuals[report.residuals.size() - 2].size())
       in_equilibrium_ = true;
     if (!found) mechanics_.reject("linear solver: " + failure, x, Failure::linear_solver);
+    // The step length follows from the line search; a direction along which nothing falls ends the attempt.
     const double alpha = move(old, pass, x, report);
     if (alpha == 0) mechanics_.reject("no step along Newton's direction lowers the residual", x);
     report.shortest_step = std::min(report.shortest_step, alpha);
     for (double& value : step_u_) value *= alpha;
+    // The next step is estimated as the one just taken times the contraction of the residual. It is what
+    // converged() compares with the tolerance of displacement.
     const double contraction = alpha == 1 ? std::min(1.0, present().size() / residual.size()) : 1.0;
     next_step_ = contraction * mechanics_.relative_step(old, x, step_u_);
     residual = present();

@@ -107,6 +107,8 @@ std::string change_of_heat(const Diagnosis& d) {
 }  // namespace
 
 std::string text(const Diagnosis& d) {
+  // One sentence for each kind of failure: what the body or the contact does, where, and what it has reached.
+  // The numbers are those of the last step and of the failing try, and units are those that a user reads.
   switch (d.physics) {
     case Physics::unknown:
       return {};

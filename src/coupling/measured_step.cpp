@@ -6,14 +6,19 @@ namespace solidus::coupling {
 
 MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double time, double dt,
                                        const TooLong& too_long) {
+  // Doubling measures the error by two half steps; it is also used while the rates that a predictor
+  // extrapolates with are not known yet (first step, new stage).
   if (tells_) return told(old, trial, time, dt);
   if (control_ == ErrorControl::doubling || (control_ == ErrorControl::predictor && !rates_.known()))
     return doubled(old, trial, time, dt);
+  // Without control of the error the step is taken as it is.
   if (control_ == ErrorControl::none) {
     Taken taken{scheme_.advance(old, trial, time, dt), {}};
     taken.effort->fields = {};
     return taken;
   }
+  // With the predictor, heat is judged as soon as it has been conducted: a step that is too long for its
+  // temperatures, or for the share of skin that lets go, ends before mechanics is solved.
   std::optional<double> conducted;
   double skin = 0;
   const HeatJudge stop = [&](const State& warm, const heat::StageFlows& flows) {
@@ -24,13 +29,16 @@ MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double ti
   Taken taken{scheme_.advance_unless(old, trial, time, dt, stop),
               {.temperature = conducted.value_or(0), .skin = skin}};
   if (!taken.effort) return taken;
+  // The step went through, so its deformation is judged too, against what the rates before it predict.
   const heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
   taken.error.displacement = estimate_->displacement_predictor(old, trial, dt, rates_);
   taken.error.stress = estimate_->stress_predictor(old, trial, dt, rates_);
+  // Schemes that do not conduct first are judged for their heat now.
   if (!conducted) {
     taken.error.temperature = estimate_->temperature_predictor(old, trial, dt, rates_, flows);
     taken.error.skin = estimate_->skin_change(old, trial);
   }
+  // The rates of this step predict the next one; they become those of the state when the step is committed.
   next_rates_ = estimate_->rates_of(old, trial, dt, flows);
   next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);
   return taken;

@@ -96,10 +96,12 @@ void Simulation::measure_steps(Progress& p, const StepOptions& step, Rates rates
 }
 
 void Simulation::enter_stage(Progress& p, const std::optional<RestartData>& from) {
+  // A stage begins where the committed state lies at its start; a restart within a stage continues it.
   const Stage& stage = options_.stages[p.stage];
   const bool first = p.stage == 0, staged = stage.of_case > 0;
   const double start = first ? p.committed.time : options_.stages[p.stage - 1].end;
   const bool anew = p.committed.time == start && !(first && from);
+  // Loads and contact jump at the start of a stage: rates of the steps before do not hold across it.
   if (anew) {
     p.stage_start = {staged ? static_cast<int>(p.stage) + 1 : 0, stage.name, start,
                      p.committed.mechanics.displacement};
@@ -110,23 +112,28 @@ void Simulation::enter_stage(Progress& p, const std::optional<RestartData>& from
   } else {
     p.stage_start = from->stage;
   }
+  // Steps land on times of output and on the end; times too close to the end would leave a step of rounding.
   std::vector<double> landings = options_.output_times;
   const bool asked_at_end = std::any_of(landings.begin(), landings.end(), [&](double t) {
     return std::abs(t - stage.end) <= k_same_time * stage.step.step;
   });
   std::erase_if(landings, [&](double t) { return t >= stage.end - k_same_time * stage.step.step; });
+  // Fields are written at the landings, and at the end if that is asked for or ends the run.
   p.outputs = landings;
   landings.push_back(stage.end);
   if (asked_at_end || options_.output_at_stage_ends || &stage == &options_.stages.back())
     p.outputs.push_back(stage.end);
   std::sort(p.outputs.begin(), p.outputs.end());
   p.landings = landings;
+  // The control of the step size goes on where a checkpoint left it, unless its options were changed.
   p.control.emplace(stage.step, p.committed.time, std::move(landings), events(p));
   if (!anew && from->options == stage.step) p.control->resume(from->control);
   measure_steps(p, stage.step, anew ? Rates{} : from->rates);
   p.record.stage = stage.name;
   p.record.stage_of_case = stage.of_case;
   p.record.cycle = stage.cycle;
+  // Bodies that come or leave change the internal energy without heat: the difference is booked as carried
+  // energy, so that the first law closes, once only where a checkpoint has booked it already.
   const bool changed_before = from && from->stage.number == p.stage_start.number;
   const bool energy_changes = staged && anew && !changed_before && p.stage > 0 && internal_energy_;
   const double energy = energy_changes ? internal_energy_(p.committed) : 0.0;

@@ -96,6 +96,8 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
   mechanics::StepDeformation deformation;
   std::optional<ContactWork> contact(std::in_place, phases_);
   StepEffort effort;
+  // Backward Euler is one Newton iteration at the end of the step. Two stages fall back to first order, from
+  // the same start, where they would overshoot or find no solution.
   if (options_.integration == SimultaneousOptions::Integration::backward_euler) {
     effort = backward_euler(old, trial, time, dt, deformation);
     book_excess_work(phases_, deformation, effort.energy);
@@ -107,12 +109,15 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
         "both fields: the step to t = {:g} s would overshoot, in heat or in flow, or finds no solution; "
         "it is of first order",
         time);
+    // The failed try has moved contacts and kept deformations: both are put back before the second attempt.
     drop_carried();
     deformation.clear();  // its storage serves again
     restore_contacts(phases_, old);
     contact.emplace(phases_);
     effort = *two_stages(old, trial, time, dt, false, *contact, deformation);
   }
+  // With structural heat the work of contact is booked as it was done between the stages; without it
+  // deformation and heat exchange nothing, and the balance is that of heat alone.
   if (phases_.structural != nullptr) {
     contact->add(phases_.mechanics->work_share());
     contact->book(effort.energy);
@@ -121,6 +126,7 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
     keep_heat_alone(effort.energy);
   }
   book_interface(effort.energy, phases_.structural != nullptr);
+  // At last the step is audited for stability, with the same deformation that the balance has used.
   effort.stability = stability_audit(phases_, old, trial, deformation, effort, Booking::mechanical);
   summarise(phases_, trial, effort);
   return effort;

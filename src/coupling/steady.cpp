@@ -91,16 +91,23 @@ StepEffort solve_steady(const Phases& phases, const State& initial, State& stead
     throw std::invalid_argument("in a steady state deformation exchanges no heat");
   if (phases.mechanics != nullptr && phases.mechanics->dynamic())
     throw std::invalid_argument("a steady state has no inertia");
+  // Both fields are solved in alternation until the temperatures that deformation has seen are those that
+  // heat finds.
   StepEffort effort;
   steady = initial;
   if (phases.mechanics != nullptr) place_contacts(phases, initial);
+  // The first heat solve sees the gaps of the initial state. Without mechanics the steady state is found with
+  // it.
   if (phases.heat != nullptr) conduct(phases, initial, steady, effort);
   if (phases.mechanics == nullptr) {
     summarise(phases, steady, effort);
     return effort;
   }
+  // Deformation follows the temperatures found, or the given ones where heat is not solved for.
   std::vector<double> seen = phases.heat != nullptr ? steady.heat.temperature : phases.temperature;
   deform(phases, initial, seen, false, steady, effort);
+  // Each further iteration conducts through the gaps of the last deformation. The change of temperature that
+  // mechanics sees is relaxed by Aitken's factor, because a gap that opens cools what made it open.
   Relaxation relaxation({RelaxationOptions::Kind::aitken, 1.0});
   relaxation.begin();
   const auto n_owned = static_cast<std::size_t>(phases.mechanics->mesh().n_owned_nodes);
@@ -109,6 +116,7 @@ StepEffort solve_steady(const Phases& phases, const State& initial, State& stead
     const std::vector<double>& found = steady.heat.temperature;
     std::vector<double> change(found.size());
     for (std::size_t i = 0; i < found.size(); ++i) change[i] = found[i] - seen[i];
+    // The iteration ends by the change of temperature over the whole change from the initial state.
     const double size = largest_difference(found, seen);
     if (size <= std::max(k_rounding, options.tolerance * largest_difference(found, initial.heat.temperature)))
       break;

@@ -78,6 +78,8 @@ struct BlockIterativeScheme {
  private:
   bool isothermal() const { return iteration.passes == IterationKeys::Passes::isothermal; }
   static Section<IterationKeys> iteration_keys() {
+    // The keys of [coupling.iteration], in the order in which the reference lists them: which state a phase
+    // sees, what it holds, how the loops are nested, and when the iteration ends.
     using I = IterationKeys;
     Section<I> s("iteration", "The block-iterative scheme: both phases in turn until they agree.");
     s.choice("sweep", &I::sweep,
