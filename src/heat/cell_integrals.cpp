@@ -9,6 +9,8 @@ namespace solidus::heat {
 
 CellIntegrals::CellIntegrals(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<Cells> blocks)
     : mesh_(mesh), kind_(kind), blocks_(std::move(blocks)), point_of_node_(mesh.x.size(), -1) {
+  // For each cell its measure (volume, area or length, with 2πr around the axis) and the shares of it that
+  // its nodes have are integrated once. Functions of place are later evaluated at nodes and centroids.
   node_measure_.resize(mesh.x.size());
   std::vector<Position> centroids;
   first_.push_back(0);
@@ -16,6 +18,7 @@ CellIntegrals::CellIntegrals(const mesh::Mesh& mesh, AnalysisKind kind, std::vec
   for (const Cells& block : blocks_) {
     const auto n = at(mesh::node_count(block.shape));
     const auto n_cells = static_cast<Index>(block.nodes.size() / n);
+    // The rule is exact for the product of shape functions and the Jacobian of a straight cell.
     const mesh::Rule rule = mesh::gauss_rule(block.shape, 2 * mesh::order(block.shape) + 1);
     const Point middle = is_box(block.shape)                 ? Point{}
                          : mesh::dimension(block.shape) == 2 ? Point{1.0 / 3, 1.0 / 3, 0}
@@ -32,6 +35,7 @@ CellIntegrals::CellIntegrals(const mesh::Mesh& mesh, AnalysisKind kind, std::vec
         measure += size;
         for (std::size_t a = 0; a < n; ++a) shares_[first + a] += w[a] * size;
       }
+      // Each node that a cell uses becomes a point of evaluation once, whichever cell finds it first.
       for (std::size_t a = 0; a < n; ++a) {
         node_measure_[at(nodes[a])] += shares_[first + a];
         Index& point = point_of_node_[at(nodes[a])];
@@ -45,6 +49,7 @@ CellIntegrals::CellIntegrals(const mesh::Mesh& mesh, AnalysisKind kind, std::vec
     }
     first_.push_back(first_.back() + n_cells);
   }
+  // Centroids follow behind the nodes, so that one list holds all points.
   points_.insert(points_.end(), centroids.begin(), centroids.end());
 }
 

@@ -55,6 +55,9 @@ void ConductionLimiter::add_body(int body, linear::BlockMatrix& matrix) {
 }
 
 void ConductionLimiter::finish(const linear::BlockMatrix& matrix) {
+  // Nodes that have a pair with a positive entry on any body take part; all others need no share and no
+  // bounds. Whether there is anything to limit is decided by all processes together, because finding shares
+  // is collective.
   const auto n = at(mesh_.n_owned_nodes);
   std::vector<char> has_pairs(mesh_.x.size(), 0);
   std::size_t n_pairs = 0;
@@ -68,6 +71,7 @@ void ConductionLimiter::finish(const linear::BlockMatrix& matrix) {
                   [](const mesh::ElementBlock& b) { return mesh::order(b.shape) == 2; }));
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
     if (has_pairs[at(i)] != 0) nodes_.push_back(i);
+  // The diagonal is kept at nodes with pairs alone, since only their bounds are computed.
   for (Body& body : bodies_) {
     std::erase_if(body.diagonal, [&](const Diagonal& d) { return has_pairs[at(d.node)] == 0; });
     body.diagonal.shrink_to_fit();
@@ -76,6 +80,8 @@ void ConductionLimiter::finish(const linear::BlockMatrix& matrix) {
     bodies_.clear();
     return;
   }
+  // Storage for bounds, sums and shares is made once here; two numbers a node are for what may flow in and
+  // out.
   highest_.resize(n);
   lowest_.resize(n);
   sums_.resize(2 * n);

@@ -37,6 +37,9 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
       before_(old.temperature),
       now_(middle.temperature),
       n_(at(storage.n_nodes())) {
+  // First Θ(H*) of every free node is found: H* is the heat content that the second stage starts from,
+  // extrapolated through that of the first stage. The ranges of all temperatures at the start and at the end
+  // of the first stage are kept with it.
   std::vector<double> ahead(n_);  // Θ(H*)
   TemperatureRange first, second;
   const auto look = [](TemperatureRange& range, double temperature) {
@@ -58,6 +61,8 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
   first_lowest_ = parallel::global_min(second.lowest);
   first_highest_ = parallel::global_max(second.highest);
 
+  // Then a range is made for each node from itself and its neighbours: from the temperatures before, by at
+  // most k_outside times the change of the first stage.
   std::vector<double> low(before_.size()), high(before_.size());
   for (std::size_t i = 0; i < low.size(); ++i) {
     const double change = k_outside * (now_[i] - before_[i]);
@@ -70,6 +75,8 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
     least[i] = std::min(least[i], low[j]);
     greatest[i] = std::max(greatest[i], high[j]);
   });
+  // A node whose Θ(H*) leaves the range of its neighbourhood by more than an even field varies has passed a
+  // kink of its curve: the sign says in which direction it is corrected.
   const double even = k_even * (highest_ - lowest_);
   std::vector<char> kinks(n_);
   int found = 0;

@@ -23,12 +23,17 @@ void HeatSystem::limit(bool on) {
 }
 
 bool HeatSystem::find_limits(std::span<const double> temperature, double negligible) {
+  // Without a limiter, or without positive entries in the matrix, nothing is limited. The conduction matrix
+  // itself has to be at hand, since elements are not asked again.
   if (!limiter_ || !exchange_) return false;
   if (!keeps_conduction()) keep_conduction();
   if (!limiter_->needed()) return false;
   std::vector<LimitedFlow*> flows;
+  // For every node what flows in and what flows out is summed, as magnitudes: bounds let through what sources
+  // and surfaces bring.
   std::vector<double> gain(static_cast<std::size_t>(mesh_.n_owned_nodes)), loss(gain.size());
   conduct(temperature);
+  // Conduction without limits comes first, then films, fluxes and radiation, then sources.
   for (std::size_t i = 0; i < gain.size(); ++i) (local_[i] > 0 ? gain : loss)[i] += std::abs(local_[i]);
   for (SurfaceHeat& surface : surfaces_) {
     surface.add_supply(temperature, gain, loss);
@@ -38,6 +43,8 @@ bool HeatSystem::find_limits(std::span<const double> temperature, double negligi
   for (const Volume& source : sources_)
     for (std::size_t i = 0; i < source.heat.size(); ++i)
       (source.heat[i] > 0 ? gain : loss)[i] += std::abs(source.heat[i]);
+  // Contributions (contact, heat of deformation) count too. One whose sum over all nodes is not zero brings
+  // heat of its own instead of passing it on.
   contributions_heat_ = false;  // all are looked at
   for (linear::Contribution* contribution : contributions_) {
     if (contribution->stores()) continue;
@@ -53,6 +60,7 @@ bool HeatSystem::find_limits(std::span<const double> temperature, double negligi
     if (std::abs(parallel::global_sum(net)) > k_passed_on * parallel::global_sum(magnitude))
       contributions_heat_ = true;
   }
+  // From these sums the limiter finds the shares that are held in the iteration that follows.
   return limiter_->find_shares(temperature, gain, loss, fixed_, negligible, flows);
 }
 

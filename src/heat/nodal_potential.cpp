@@ -10,8 +10,12 @@ NodalPotential::NodalPotential(const mesh::Mesh& mesh, std::span<const Kirchhoff
     : potentials_(potentials),
       identity_(std::all_of(potentials.begin(), potentials.end(),
                             [](const KirchhoffPotential& u) { return u.constant(); })) {
+  // With constant conductivities the potential is the temperature times a constant everywhere, and nothing
+  // has to be looked up.
   if (identity_) return;
   const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
+  // The bodies of a node are needed in rising order, in a list of rows: a node that several materials share
+  // has a potential of each.
   const auto for_bodies = [&](const auto& take) {  // in rising order, with their owned nodes
     for (std::size_t body = 0; body < mesh.bodies.size(); ++body) {
       std::vector<char> there(mesh.x.size(), 0);
@@ -22,12 +26,14 @@ NodalPotential::NodalPotential(const mesh::Mesh& mesh, std::span<const Kirchhoff
         if (there[i] != 0) take(i, static_cast<int>(body));
     }
   };
+  // The first pass over the bodies counts, the second fills in.
   start_.assign(n + 1, 0);
   for_bodies([&](std::size_t node, int) { ++start_[node + 1]; });
   for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
   bodies_.resize(static_cast<std::size_t>(start_.back()));
   std::vector<Index> next(start_.begin(), start_.end() - 1);
   for_bodies([&](std::size_t node, int body) { bodies_[static_cast<std::size_t>(next[node]++)] = body; });
+  // Where every node of the process has one and the same body, the list is given up for its number alone.
   const bool alike = n > 0 && std::adjacent_find(start_.begin(), start_.end(),
                                                  [](Index a, Index b) { return b != a + 1; }) == start_.end();
   if (!alike || std::any_of(bodies_.begin(), bodies_.end(), [&](int b) { return b != bodies_.front(); }))

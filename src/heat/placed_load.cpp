@@ -79,6 +79,8 @@ bool PlacedLoad::moves() const {
 
 void PlacedLoad::average(const LoadLaw& law, std::span<const TimePoint> times, std::span<const Position> x,
                          bool fixed, std::span<LoadValues> values) const {
+  // Functions that do not depend on time are evaluated once. For points that do not move their values are
+  // kept for all later steps.
   const std::size_t n = law.functions.size();
   std::vector<std::vector<double>> now(n);
   for (std::size_t f = 0; f < n; ++f) {
@@ -93,6 +95,8 @@ void PlacedLoad::average(const LoadLaw& law, std::span<const TimePoint> times, s
     function.values(x, times.front().time, now[f]);
     if (fixed && !function.uniform()) kept = now[f];
   }
+  // The mean over the step is a weighted sum over the times of its quadrature. Functions of time are
+  // evaluated at each of them, and the law makes heat, or film coefficient and surroundings, of their values.
   std::array<double, 3> of_functions{};
   std::fill(values.begin(), values.end(), LoadValues{});
   for (const TimePoint& time : times) {
@@ -238,12 +242,18 @@ void PlacedLoad::check(const CellIntegrals::Result& integrals, double by_points)
 }
 
 double PlacedLoad::lasting(double from, double to) const {
+  // The result is how long the load takes until it overlaps with itself only by k_overlap: how far it travels
+  // over its own size. A load that does not move lasts for ever.
   if (!moves()) return HUGE_VAL;
+  // Only the distribution counts, so a power that varies evenly is set to one. Of a flux the value itself is
+  // compared, of a film its coefficient.
   LoadLaw law = law_;  // its distribution, whatever its power is
   for (PlaceFunction& f : law.functions)
     if (f.uniform() && law.kind == LoadLaw::Kind::power) f = 1.0;
   const std::size_t k = law.kind == LoadLaw::Kind::power ? 0 : 1;
   const auto size = [&](const LoadValues& v) { return k == 0 ? v[0] + v[1] : v[1]; };
+  // The shape at the start of the step is the reference. A load that does not act yet is followed backward
+  // from the end of the step.
   double start = from, direction = 1;
   const auto at_time = [&](double time) { return std::array{TimePoint{time, 1}}; };
   CellIntegrals::Result shape = integrate(law, at_time(from), true);
@@ -252,11 +262,14 @@ double PlacedLoad::lasting(double from, double to) const {
     shape = integrate(law, at_time(to), true);
     if (!(size(shape.total) > 0)) return HUGE_VAL;
   }
+  // Where the total changes with time, the shape then is scaled to the same total before it is compared.
   const bool same_power =
       std::ranges::all_of(law.functions, [](const PlaceFunction& f) { return f.steady() || f.only_moves(); });
   std::vector<Position> x;
   for (const CellIntegrals::Sample& s : shape.samples) x.push_back(s.x);
   std::vector<LoadValues> values(x.size());
+  // The overlap is the integral of the smaller of both distributions over that of the reference, at the
+  // points where the reference was integrated.
   const auto overlap = [&](double after) {
     const auto time = at_time(start + direction * after);
     double of_power = 1;
@@ -275,6 +288,8 @@ double PlacedLoad::lasting(double from, double to) const {
     all = parallel::global_sum(all);
     return all > 0 ? parallel::global_sum(common) / all : 1.0;
   };
+  // The time of the overlap sought is found by halving the step until the overlap is large enough, and then
+  // between the last two times.
   constexpr int k_halvings = 16, k_between = 3;
   double longest = to - from;
   if (overlap(longest) >= k_overlap) return HUGE_VAL;

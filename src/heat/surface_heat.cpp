@@ -291,6 +291,8 @@ void SurfaceHeat::bind(const linear::BlockMatrix& matrix) {
 
 double SurfaceHeat::add_residual(std::span<const double> temperature, std::span<double> r,
                                  double& moved) const {
+  // `counted` is the power that leaves or enters through counted faces, `moved` the sum of its magnitudes. A
+  // flux that varies from place to place has been integrated to nodal heats beforehand.
   double counted = 0;
   if (is_placed_flux()) {
     const std::span<const double> heat = load_->heat();
@@ -301,6 +303,8 @@ double SurfaceHeat::add_residual(std::span<const double> temperature, std::span<
     }
     return counted;
   }
+  // Films, fluxes and radiation are integrated at the points of each patch (nodes under the closed rule,
+  // Gauss points else); heat into the body lowers the residual.
   for (const Patch& patch : patches_)
     for (Index face = 0; face < patch.n_faces; ++face)
       for (int q = 0; q < patch.n_points; ++q) {
@@ -315,12 +319,15 @@ double SurfaceHeat::add_residual(std::span<const double> temperature, std::span<
           r[static_cast<std::size_t>(patch.nodes[static_cast<std::size_t>(face * patch.n_nodes + a)])] -=
               power * patch.values[static_cast<std::size_t>(q * patch.n_nodes + a)];
       }
+  // Off-diagonal parts of films on quadratic faces exchange heat between two nodes of a face, and change no
+  // sum.
   for (const Pair& p : pairs_) {
     const auto i = static_cast<std::size_t>(p.i), j = static_cast<std::size_t>(p.j);
     const double heat = p.weight * (at_node(temperature, p.i).q - at_node(temperature, p.j).q);  // into i
     r[i] -= heat;
     r[j] += heat;
   }
+  // Of these exchanges the limiter has taken a share away: what is left out is taken back here.
   for (std::size_t i = 0; i < flows_.size(); ++i) {
     if (flows_[i].left == 0) continue;
     const double heat = flows_[i].left * flow(temperature, i);

@@ -34,10 +34,14 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       materials_(materials),
       contributions_(std::move(contributions)),
       ghosts_(mesh) {
+  // Where heat is stored is decided body by body: at the nodes under the closed rule, and under the open rule
+  // for materials with a change at one temperature, whose heat a Gauss point could not follow.
   assert(materials.size() == mesh.bodies.size());
   const bool closed = options_.integration == HeatIntegration::closed;
   storage_ = std::make_unique<NodalEnthalpy>(mesh, kind, materials_);
   const bool nodal = closed || storage_->has_plateaus();
+  // Bodies that store at nodes and those that do not are kept apart, because both may share nodes of an
+  // interface.
   std::vector<char> kept, others;
   for (int body = 0; body < static_cast<int>(materials_.size()); ++body) {
     kept.push_back(at_nodes(body));
@@ -50,11 +54,14 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
     of_others.keep_bodies(others);
     consistent_ = std::make_unique<ConsistentHeat>(mesh, points_, std::move(of_others));
   }
+  // The printed forms of sensible heat (4.43a) are a contribution beside the enthalpy of the nodes.
   if (nodal && options_.sensible != SensibleForm::enthalpy) {
     printed_ = std::make_unique<PrintedHeat>(at_nodes_ ? *at_nodes_ : *storage_, options_.sensible);
     contributions_.push_back(printed_.get());
   }
   if (consistent_) contributions_.push_back(consistent_.get());
+  // The system of equations is made with all contributions. Half of the matrix is stored where no other field
+  // shares it and the solver does not need the whole.
   system_ = std::make_unique<HeatSystem>(
       mesh, kind, materials_, conditions, closed, contributions_,
       options_.alone ? HeatSolver::storage_for(mesh, options_.solver, options_.symmetric)
@@ -62,6 +69,9 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       options_.edges);
   solver_ =
       std::make_unique<HeatSolver>(mesh, options_.solver, options_.symmetric, options_.linear_tolerance);
+  // Nodes that hold heat are solved for by the truncated Newton method. Its sweeps change a node only where
+  // the node's own curve is all of its storage, and none of its volume belongs to bodies that store at
+  // points.
   if (nodal) {
     std::vector<char> relaxed;
     const auto one = [](const material::Material&) { return 1.0; };
@@ -74,6 +84,8 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
                                options_.max_iterations, k_nodal_tolerance},
         std::move(relaxed));
   }
+  // Bodies that store at Gauss points get their kernels at last, once the matrix exists into which they
+  // write.
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (at_nodes(block.body)) continue;
     points_.push_back(store_at_points(block));
