@@ -42,12 +42,16 @@ Feeding::Feeding(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalEnt
       graph_(mesh, kind, options),
       rigidity_(options.mould_rigidity),
       body_(mesh.x.size(), -1) {
+  // Each body has its feeding law; followed ones also have the volume of their metal by temperature, and the
+  // gas that they hold.
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     const material::Material& material = storage.material(static_cast<int>(b));
     laws_.emplace_back(material);
     metals_.push_back(followed_[b] != 0 ? std::optional<MetalVolume>(material) : std::nullopt);
     gas_.push_back(followed_[b] != 0 ? GasLaw::of(material, options.gas) : std::nullopt);
   }
+  // A node of several followed bodies belongs to that of the largest volume there. Only the owner knows all
+  // elements of a node, so ghosts are told.
   std::vector<double> body(mesh.x.size(), -1);
   for (Index i = 0; i < mesh.n_owned_nodes; ++i) {
     double most = 0;

@@ -13,6 +13,8 @@ double Feeding::movable(const Step& step, std::size_t node) {
 }
 
 void Feeding::drain(Step& step) const {
+  // What shrinks in a pool, `metal`, is asked for first at the surfaces that can sink, then in the interior,
+  // and what neither gives stays unfed.
   const FeedingPools& pools = step.pools;
   std::vector<double> asked(pools.size());
   bool any = false;
@@ -21,14 +23,18 @@ void Feeding::drain(Step& step) const {
     any = any || asked[p] > 0;
   }
   if (!any) return;
+  // `reached` says how much of a node the level may drain, from what was drained there before.
   std::vector<double> reached(step.inside.size(), 0.0);
   for (std::size_t i = 0; i < step.demands.size(); ++i)
     if (step.pool[i] >= 0) reached[i] = reached_at_first(step, i);
   ghosts_.update(reached, 1);
+  // A pool that is neither open nor has a skin soft enough to sink gives nothing at its surface.
   std::vector<double> at_surface = asked;
   for (std::size_t p = 0; p < pools.size(); ++p)
     if (pools.open[p] == 0 && pools.soft_skin[p] == 0) at_surface[p] = 0;
   const std::vector<double> given = drain_from(step, reached, at_surface, true);
+  // What is left after the surface, beyond rounding, empties the pool from inside: a cavity below its highest
+  // place.
   bool more = false;
   for (std::size_t p = 0; p < pools.size(); ++p) {
     asked[p] -= given[p];

@@ -61,9 +61,12 @@ std::map<double, Part> of_all_processes(const std::map<double, Part>& own) {
 }  // namespace
 
 std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
+  // Rows of a record are read by the same view that writes them, which needs a copy to look at.
   CriterionRecord copy{record.name, record.columns, {}};
   const FeedingRows rows(copy.columns[0].values);
   const double room = totals(record).room;
+  // The three kinds of holes are found one after the other: pipes, cavities and sinks. A hole is a connected
+  // set of nodes that have lost more than a given share of their room.
   std::vector<FeedingHole> found;
   using Kind = FeedingHole::Kind;
   for (const auto& [kind, number] :
@@ -72,6 +75,8 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
     std::vector<char> inside(mesh_.x.size());
     for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = lost(i) > k_part_of_hole;
     const ConnectedParts parts = connectivity_.parts(inside);
+    // Each process sums the volume and the moment of its part of a hole; the representative place is that
+    // with the largest rank.
     std::map<double, Part> own;
     for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i) {
       if (inside[i] == 0) continue;
@@ -81,6 +86,8 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
       part.place = mesh_.x[i];
       part.top = graph_.high(i);
       part.body = body_[i];
+      // Of a pipe the deepest place counts: its bottom is where the level stands within the node's height,
+      // and the place is moved to it along the vertical.
       if (kind == Kind::pipe) {
         const double drained = std::clamp(rows(i, k_drained), 0.0, 1.0);
         const double bottom = graph_.high(i) - drained * (graph_.high(i) - graph_.low(i));
@@ -90,10 +97,13 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
       }
       add(own, part);
     }
+    // Parts of all processes with one label are one hole. Holes too small against the casting are left out.
     for (const auto& [label, part] : of_all_processes(own)) {
       if (!(part.volume > k_least_hole * room)) continue;
       FeedingHole hole{.kind = kind, .volume = part.volume, .body = static_cast<int>(part.body)};
       for (std::size_t d = 0; d < 3; ++d) hole.where[d] = part.moment[d] / part.volume;
+      // The depth of a pipe is measured from its highest place, and `left` from its bottom down to the lowest
+      // place of the body.
       if (kind == Kind::pipe) {
         hole.where = part.place;
         hole.depth = part.top + part.rank;
@@ -102,6 +112,7 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
       found.push_back(hole);
     }
   }
+  // They are listed by kind, the largest of a kind first.
   std::ranges::stable_sort(found, [](const FeedingHole& a, const FeedingHole& b) {
     return a.kind != b.kind ? a.kind < b.kind : a.volume > b.volume;
   });
@@ -117,12 +128,14 @@ double Feeding::lowest_of(int body) const {
 }
 
 std::vector<CriterionResult> Feeding::findings(const CriterionRecord& record) const {
+  // First the totals: what the pipe, sinks, cavities and pores have taken, and the room of the metal.
   const FeedingTotals t = totals(record);
   std::vector<CriterionResult> found{
       {"feeding_pipe", "m3", t.pipe, false, {}},     {"feeding_sink", "m3", t.sink, false, {}},
       {"feeding_cavity", "m3", t.cavity, false, {}}, {"feeding_pores", "m3", t.pores, false, {}},
       {"feeding_room", "m3", t.room, false, {}},     {"feeding_defect", "1", t.defect(), false, {}}};
   if (t.wall != 0) found.push_back({"feeding_wall", "m3", t.wall, false, {}});
+  // Gas has findings of its own, made of the porosity of each node and its room.
   if (has_gas()) {
     CriterionRecord copy{record.name, record.columns, {}};
     const FeedingRows rows(copy.columns[0].values);
@@ -133,6 +146,8 @@ std::vector<CriterionResult> Feeding::findings(const CriterionRecord& record) co
     }
     std::ranges::move(gas_findings(mesh_, pores, rooms), std::back_inserter(found));
   }
+  // Then the largest holes of each kind with volume, body and place; pipes also with their depth and what is
+  // left below them.
   constexpr std::array<const char*, 3> k_names{"pipe_", "cavity_", "sink_"};  // in the order of the kinds
   std::array<std::size_t, 3> told{};
   for (const FeedingHole& hole : holes(record)) {

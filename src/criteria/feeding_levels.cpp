@@ -28,6 +28,8 @@ double DrainedNode::gain(double level) const {
 }
 
 std::vector<PoolLevel> find_levels(std::span<const DrainedNode> nodes, std::span<const double> metal) {
+  // For each pool the level is sought above which the metal drained equals what is asked for. All pools are
+  // searched at once, so that each trial costs one sum over the processes.
   const std::size_t n = metal.size();
   constexpr double k_far = std::numeric_limits<double>::max();
   std::vector<double> extent(2 * n, -k_far);  // highest top, and the lowest bottom with its sign turned
@@ -35,13 +37,16 @@ std::vector<PoolLevel> find_levels(std::span<const DrainedNode> nodes, std::span
     extent[i.pool] = std::max(extent[i.pool], i.high);
     extent[n + i.pool] = std::max(extent[n + i.pool], -i.low);
   }
+  // The search goes from the lowest bottom to the highest top; the lowest is found as the largest negative.
   processes::largest(extent);
   std::vector<Search> search(n);
   std::vector<PoolLevel> levels(n);
+  // Pools without nodes or without anything to drain keep the level zero.
   for (std::size_t p = 0; p < n; ++p) {
     if (!(metal[p] > 0) || extent[p] == -k_far) continue;
     search[p] = {extent[p], -extent[n + p], -extent[n + p], false};
   }
+  // Each trial sums what lies above the present level, and its increase per depth for Newton's step.
   std::vector<double> sums(2 * n);  // metal and its increase per depth
   for (int trial = 0; trial < k_most_trials; ++trial) {
     if (std::ranges::all_of(search, [](const Search& s) { return s.found; })) break;
@@ -54,6 +59,8 @@ std::vector<PoolLevel> find_levels(std::span<const DrainedNode> nodes, std::span
       if (gain > 0 && s.level > i.low && s.level < i.high) sums[n + i.pool] += i.metal / (i.high - i.low);
     }
     processes::sum(sums);
+    // The drained metal falls monotonously with the level, so the bracket [below, above] always holds. The
+    // first trial is the bottom: if even that is not enough, the pool is empty.
     for (std::size_t p = 0; p < n; ++p) {
       Search& s = search[p];
       if (s.found) continue;
@@ -65,6 +72,8 @@ std::vector<PoolLevel> find_levels(std::span<const DrainedNode> nodes, std::span
         continue;
       }
       if (trial > 0) (excess < 0 ? s.above : s.below) = s.level;
+      // Newton's step is taken where it stays within the bracket, bisection otherwise. A level that no longer
+      // moves has been found as well as rounding allows.
       double next = trial == 0 ? s.above : (s.above + s.below) / 2;
       if (trial > 0 && sums[n + p] > 0) {
         const double newton = s.level + excess / sums[n + p];

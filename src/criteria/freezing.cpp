@@ -147,10 +147,13 @@ CriterionRecord Freezing::initial(const CriterionInput& start) const {
 
 void Freezing::follow(const FreezingNode& who, const Step& step, std::span<double> history,
                       std::vector<Passage>& passages) const {
+  // Nodes that stay outside the freezing range in this step are done at once.
   const auto i = static_cast<std::size_t>(who.node);
   const Levels& levels = levels_[static_cast<std::size_t>(who.body)];
   const double from = step.old.heat.temperature[i], to = step.next.heat.temperature[i];
   if (std::min(from, to) > levels.liquidus || std::max(from, to) < levels.solidus) return;
+  // The history of the node is brought up to date in the order of events: melting again, the fractions that
+  // are passed, begin and end of freezing, and the temperature at which gradient and rate are read.
   const double before = step.old.solid_fraction[i], after = step.next.solid_fraction[i];
   double* const h = history.data() + i * k_width;
 
@@ -166,11 +169,14 @@ void Freezing::follow(const FreezingNode& who, const Step& step, std::span<doubl
     h[k_solidified_at] = k_never;
     if (after == 0) return;
   }
+  // From here on the node freezes in this step. Times within the step are interpolated: fractions linearly,
+  // begin and end by the heat content.
   if (before == 1) return;
   for (const auto& [slot, fraction] : k_fractions)
     if (before < fraction && after >= fraction) h[slot] = step.time((fraction - before) / (after - before));
   if (before == 0 && after > 0)
     h[k_liquidus_at] = step.time(levels.begin(storage_, who.node, step.old, step.next));
+  // The place of evaluation is the temperature T_e, or the end of freezing where the material has it there.
   std::optional<double> evaluated;
   if (after == 1) {
     const double at = levels.end(storage_, who.node, step.old, step.next);
@@ -180,6 +186,8 @@ void Freezing::follow(const FreezingNode& who, const Step& step, std::span<doubl
   if (!levels.at_end && from > levels.evaluation && to <= levels.evaluation)
     evaluated = passing(from, to, levels.evaluation);
   if (!evaluated) return;
+  // At that moment the node's gradient and cooling rate are kept, and its passage is noted for the speed of
+  // the front.
   h[k_evaluated_at] = step.time(*evaluated);
   passages.push_back({who, *evaluated, (from - to) / step.dt()});
 }
@@ -354,19 +362,24 @@ std::array<double, Freezing::k_fields> Freezing::nothing_known() {
 std::array<double, Freezing::k_fields> Freezing::values_of(const FreezingNode& who,
                                                            std::span<const double> history,
                                                            double speed) const {
+  // A node that has not solidified has no values at all.
   const double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
   if (h[k_solidified_at] < 0) return nothing_known();
+  // Gradient and rate are those of the moment of evaluation. Where the speed of the front is known, the rate
+  // is gradient times speed, which is smoother than the rate at the node alone.
   const double time = h[k_solidified_at] - h[k_liquidus_at];
   const bool evaluated = h[k_evaluated_at] >= 0;  // else metal that was colder than T_e from the start
   const double gradient = evaluated ? h[k_gradient] : 0.0;
   const double magnitude = evaluated ? h[k_magnitude] : 0.0, own_rate = evaluated ? h[k_rate] : 0.0;
   const double rate = speed > 0 ? magnitude * speed : own_rate;
+  // From these follow the arm spacing, Niyama's number, and the porosity that the feeding law expects of it.
   const auto body = static_cast<std::size_t>(who.body);
   const double spacing = storage_.material(who.body).casting.secondary_arm_spacing(time).value_or(0);
   const double ny = niyama(gradient, rate);
   const std::optional<FeedingLaw>& feeding = feeding_[body];
   const double number = feeding ? feeding->number(ny, spacing) : 0.0;
   const double pores = number > 0 ? feeding->pore_fraction(number) : 0.0;
+  // Hot tearing needs a gradient, a rate and a spacing; the tendency is that of ends that are held.
   const std::optional<TearingLaw>& tearing = tearing_[body];
   double critical = k_never, tendency = k_never;
   if (tearing && magnitude > 0 && rate > 0 && spacing > 0) {

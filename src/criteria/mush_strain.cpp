@@ -69,6 +69,8 @@ bool MushStrain::has_something_to_say(const std::vector<material::Material>& mat
 MushStrain::MushStrain(const mesh::Mesh& mesh, AnalysisKind kind,
                        const std::vector<material::Material>& materials)
     : mesh_(mesh) {
+  // Only blocks whose material freezes over a range are followed. `first` counts all elements, so that rows
+  // of the record are the element numbers of the mesh.
   std::size_t first = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
@@ -84,12 +86,15 @@ MushStrain::MushStrain(const mesh::Mesh& mesh, AnalysisKind kind,
                          .brittle_width = temperature_at(curve, low) - temperature_at(curve, high),
                          .first = first,
                          .nodes = block.nodes});
+      // Each block keeps its nodes once, sorted: fractions are evaluated node by node and not element by
+      // element.
       std::vector<Index>& nodes = blocks_.back().nodes;
       std::ranges::sort(nodes);
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     }
     first += static_cast<std::size_t>(block.size());
   }
+  // A field exists only if some material has the law that it comes from.
   const std::array<bool, k_fields> said = {std::ranges::any_of(materials, tears),
                                            std::ranges::any_of(materials, cracks)};
   for (std::size_t f = 0; f < k_fields; ++f) {
@@ -105,11 +110,14 @@ CriterionRecord MushStrain::initial(const CriterionInput& /*start*/) const {
 
 void MushStrain::step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) {
   std::vector<double>& column = record.columns[0].values;
+  // Strain is summed while the element's mean solid fraction lies in one of three ranges: near the root of
+  // the dendrites, from coherency to the root, and the brittle range.
   std::vector<double> before(mesh_.x.size()), after(mesh_.x.size());  // f_S of the block's material
   const double dt = next.time - old.time;
   const auto mean = [](const OfBlock& block, std::span<const double> nodal, Index batch) {
     return max(min(block.strain.mean(nodal, batch), Lane(1.0)), Lane(0.0));
   };
+  // First the fractions of this block's material are evaluated at its nodes, before and after the step.
   for (const OfBlock& block : blocks_) {
     const material::PhaseFraction& fraction = block.material->solidification()->fraction;
     for (const Index n : block.nodes) {
@@ -124,12 +132,16 @@ void MushStrain::step(const CriterionInput& old, const CriterionInput& next, Cri
       const std::size_t first = block.first + static_cast<std::size_t>(batch) * k_lanes;
       const int count = std::min<int>(k_lanes, block.strain.n_elements() - batch * k_lanes);
       bool freezes = false;
+      // A batch that is frozen throughout the step is skipped, and is the usual case.
       for (int lane = 0; lane < count; ++lane)
         freezes = freezes || from[lane] < k_frozen || to[lane] < k_frozen;
       if (!freezes) continue;
+      // The share of the step within a range is that of the change of fraction within it.
       const Lane near_root = share_within(from, to, near, block.root),
                  straining = coherent < block.root ? share_within(from, to, coherent, block.root) : Lane(0.0),
                  brittle = share_within(from, to, casting.brittle_range[0], casting.brittle_range[1]);
+      // Elements that were melt before the step start again from zero: what melts forgets its strain. The
+      // deviator of the strain increment is added by its share.
       const LaneMask melt = from < Lane(coherent);
       const Sym<Lane> increment = dev(block.strain.strain(next.mechanics.displacement, batch) -
                                       block.strain.strain(old.mechanics.displacement, batch));
@@ -141,6 +153,8 @@ void MushStrain::step(const CriterionInput& old, const CriterionInput& next, Cri
       }
       store_tensors(in_mush, k_mush_numbers, first, count, column, k_mush_strain);
       store_tensors(in_brittle, k_mush_numbers, first, count, column, k_strain_in_brittle);
+      // Times, gradients and cooling within the ranges are means over the time spent there, so each is summed
+      // with its share of the step; `far` and `soft` reset what has not begun.
       const Lane gradient = block.strain.gradient(next.heat.temperature, batch),
                  cooled = block.strain.mean(old.heat.temperature, batch) -
                           block.strain.mean(next.heat.temperature, batch);
@@ -201,6 +215,8 @@ void MushStrain::fill(const CriterionInput& /*now*/, const CriterionRecord& reco
 }
 
 std::vector<CriterionResult> MushStrain::findings(const CriterionRecord& record) const {
+  // For each field the largest value with its place, and the share of the volume beyond the threshold, over
+  // all processes.
   const std::span<const double> column = record.columns[0].values;
   std::vector<CriterionResult> found;
   for (std::size_t k = 0; k < fields_.size(); ++k) {
@@ -208,6 +224,7 @@ std::vector<CriterionResult> MushStrain::findings(const CriterionRecord& record)
     double most = -1;
     std::array<double, 2> volumes{};  // with a value, and beyond the threshold
     mesh::Point where{};
+    // Elements without a value do not count, neither for the volume nor for the largest.
     for (const OfBlock& block : blocks_)
       for (Index e = 0; e < block.block->n_counted; ++e) {
         const std::size_t row = block.first + static_cast<std::size_t>(e);
@@ -225,6 +242,7 @@ std::vector<CriterionResult> MushStrain::findings(const CriterionRecord& record)
           for (std::size_t i = 0; i < 3; ++i)
             where[i] += mesh_.x[static_cast<std::size_t>(block.block->element(e)[a])][i] / n;
       }
+    // The place of the largest value is told by the process that has it.
     processes::sum(volumes);
     const processes::Largest largest = processes::find_largest(most);
     processes::broadcast(where, largest.rank);

@@ -67,6 +67,7 @@ Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOpt
       body_(static_cast<std::size_t>(mesh.n_owned_nodes), -1),
       ghosts_(mesh),
       connectivity_(mesh, ghosts_, followed_) {
+  // Groups that feed (a riser's top, say) are marked at their nodes.
   for (const std::string& group : options_.feeders) {
     const auto nodes = mesh.node_sets.find(group);
     if (nodes == mesh.node_sets.end())
@@ -75,6 +76,8 @@ Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOpt
   }
   const auto n_bodies = static_cast<int>(mesh.bodies.size());
   for (int b = 0; b < n_bodies; ++b) levels_.push_back(FreezingLevels::of(storage.material(b)));
+  // Each node belongs to the followed body of the largest volume there, and the volume of all of them is the
+  // reference for shares.
   double own = 0;
   for (std::size_t i = 0; i < body_.size(); ++i) {
     double most = 0;
@@ -125,6 +128,7 @@ double Pools::passed_at(std::size_t node, const CriterionInput& old, const Crite
 
 void Pools::track(const CriterionInput* old, const CriterionInput& next, CriterionRecord& record) const {
   std::vector<double>& number = record.columns[0].values;
+  // Without melt anywhere and without a pool that is still told of, nothing has to be gathered.
   std::vector<Pool> pools = Pools::pools(record);
   std::vector<char> inside(mesh_.x.size());
   for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = next.solid_fraction[i] < options_.limit;
@@ -133,6 +137,8 @@ void Pools::track(const CriterionInput* old, const CriterionInput& next, Criteri
       std::any_of(pools.begin(), pools.end(), [](const Pool& p) { return p.present() || p.ended; });
   if (!parallel::any_process(melt_left) && !pool_left) return;
 
+  // Melt is cut into connected parts. Each process sums volume, solid fraction and the hottest node of its
+  // share of a part, and how much of a part lies in which pool of the step before.
   const ConnectedParts parts = connectivity_.parts(inside);
   std::map<double, MeltPart> own;
   std::map<std::pair<double, int>, double> overlaps;
@@ -142,6 +148,8 @@ void Pools::track(const CriterionInput* old, const CriterionInput& next, Criteri
     const double fraction = next.solid_fraction[i], temperature = next.heat.temperature[i];
     const auto in_input = static_cast<double>(mesh_.input_node[i]);
     const double volume = this->volume(i);
+    // A node that was in a pool and is no longer may have been the last to freeze there, so its time of
+    // passing is kept.
     if (inside[i] == 0) {
       if (pool == 0 || old == nullptr || volume == 0) continue;  // without volume: its body has left
       melt.last.push_back({pool, passed_at(i, *old, next), in_input, temperature, mesh_.x[i]});
@@ -152,6 +160,8 @@ void Pools::track(const CriterionInput* old, const CriterionInput& next, Criteri
     part.volume += volume;
     part.solid += volume * fraction;
     part.fed = part.fed || feeder_[i] != 0;
+    // Ties between equally hot nodes are broken by the solid fraction and then by the number in the input, so
+    // that the place does not depend on the partition.
     if (std::tuple(-temperature, fraction, in_input) <
         std::tuple(-part.temperature, part.fraction, part.number)) {
       part.temperature = temperature;
@@ -161,15 +171,19 @@ void Pools::track(const CriterionInput* old, const CriterionInput& next, Criteri
     }
     if (pool > 0) overlaps[{parts.label[i], pool}] += volume;
   }
+  // A part that no border of a process cuts is whole here.
   for (auto& [label, part] : own) {
     part.whole = std::binary_search(parts.whole.begin(), parts.whole.end(), label);
     melt.parts.push_back(part);
   }
   for (const auto& [key, volume] : overlaps) melt.overlaps.push_back({key.first, key.second, volume});
 
+  // All processes get all parts, and follow the pools by the same rules: a part keeps the number of the pool
+  // that it overlaps most, new ones get new numbers.
   const Melt all = gathered(melt);
   const std::vector<int> numbers = follow_pools(pools, all, next.time, whole_, !options_.feeders.empty());
   std::map<double, int> of_label;
+  // Numbers go back to the nodes, and the table of pools is written anew.
   for (std::size_t k = 0; k < all.parts.size(); ++k) of_label[all.parts[k].label] = numbers[k];
   for (std::size_t i = 0; i < number.size(); ++i)
     number[i] = inside[i] != 0 ? of_label.at(parts.label[i]) : 0;

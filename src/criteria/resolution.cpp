@@ -73,9 +73,13 @@ void Resolution::step(const CriterionInput& old, const CriterionInput& next, Cri
 
 std::vector<double> Resolution::flow_errors(std::span<const double> temperature) const {
   const std::size_t n_bodies = mesh_.bodies.size();
+  // The share of |∇Θ|² that its means at the nodes do not explain says how far the gradient jumps from
+  // element to element, body by body.
   std::vector<double> sums(2 * n_bodies, 0.0);  // of body b: Σ V |g|² and what its means at nodes explain
   std::vector<NodeSums> nodes(static_cast<std::size_t>(mesh_.n_owned_nodes));
   for (std::size_t b = 0; b < n_bodies; ++b) {
+    // Sums at the nodes are over owned nodes alone, of all their elements, so that no communication is needed
+    // before the end.
     std::fill(nodes.begin(), nodes.end(), NodeSums{});
     patches_.for_elements([&](const Patches::Element& e) {
       if (patches_.body(e) != static_cast<int>(b)) return;
@@ -92,10 +96,12 @@ std::vector<double> Resolution::flow_errors(std::span<const double> temperature)
         sums[2 * b] += share * square(g.value);
       }
     });
+    // The means at the nodes explain |Σ V g|²/Σ V.
     for (const NodeSums& sum : nodes)
       if (sum.volume > 0) sums[2 * b + 1] += square(sum.gradient) / sum.volume;
   }
   processes::sum(std::span(sums));
+  // The error is one less the explained share; a body without a gradient has none.
   std::vector<double> errors(n_bodies, 0.0);
   for (std::size_t b = 0; b < n_bodies; ++b)
     if (sums[2 * b] > 0) errors[b] = std::max(0.0, 1 - sums[2 * b + 1] / sums[2 * b]);

@@ -42,6 +42,7 @@ Point SmallMotion::at(const Point& x) const {
 
 RigidFit::RigidFit(const mesh::Mesh& mesh, AnalysisKind kind)
     : mesh_(mesh), kind_(kind), bodies_(mesh.bodies.size()) {
+  // The fit needs volume, centre and inertia of each body, summed over the counted elements of all processes.
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     OfBody& body = bodies_[b];
     std::vector<double> volume(mesh.x.size(), 0.0);
@@ -54,6 +55,7 @@ RigidFit::RigidFit(const mesh::Mesh& mesh, AnalysisKind kind)
           volume[static_cast<std::size_t>(block.element(e)[a])] +=
               weights[static_cast<std::size_t>(e / k_lanes) * n + a][e % k_lanes];
     }
+    // Nodes without volume in this body are left out; the fourth sum is the volume itself.
     std::array<double, 4> first{};
     for (std::size_t node = 0; node < volume.size(); ++node) {
       if (volume[node] == 0) continue;
@@ -66,6 +68,8 @@ RigidFit::RigidFit(const mesh::Mesh& mesh, AnalysisKind kind)
     body.total = first[3];
     for (std::size_t i = 0; i < 3; ++i) body.centre[i] = first[i] / first[3];
 
+    // The inertia tensor about the centre gives the rotation that fits best: fully in space, about the normal
+    // in a plane, none around an axis.
     std::array<double, 9> inertia{};
     for (std::size_t k = 0; k < body.nodes.size(); ++k) {
       Point r = mesh.x[static_cast<std::size_t>(body.nodes[k])];
