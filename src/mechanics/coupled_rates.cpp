@@ -18,12 +18,15 @@ Sym<Lane> transposed_tangent(const material::Viscoplastic::Response<Lane>& r, co
 }  // namespace
 
 CoupledRates coupled_rates(const CoupledUpdate& at, std::optional<StructuralForm> form) {
+  // One variation of the update of the law gives all derivatives that the coupled tangent needs: of stress,
+  // internal energy, entropy and dissipation.
   const material::Variation<Lane> update(at.law, at.properties, at.start, at.strain, at.effective,
                                          at.response);
   CoupledRates d;
   d.stress = update.stress();
   if (!form) return d;
   const material::Material& material = at.law.material();
+  // The structural parts are those of the lines along which the tables are continued in this step.
   const auto& now = at.point.now;
   const auto partials = material::structural_partials<Lane>(
       material,
@@ -31,6 +34,8 @@ CoupledRates coupled_rates(const CoupledUpdate& at, std::optional<StructuralForm
       at.temperature, now.strain_trace, now.elastic_squared,
       at.properties.elastic.solid_fraction.v >= Lane(1.0), now.hardening, now.back_squared);
   const Lane rate(1.0 / at.dt);
+  // Energy form: the heat is [E − E_n − σ at work : Δε]/Δt. With a Taylor–Quinney factor what is stored as
+  // cold work belongs to the energy.
   if (form == StructuralForm::energy) {
     auto energy = update.along(partials.internal_energy);
     if (material.flow && material.flow->heat_share) {
@@ -43,6 +48,8 @@ CoupledRates coupled_rates(const CoupledUpdate& at, std::optional<StructuralForm
     d.heat_strain =
         rate * (energy.strain - at.at_work - at_end * transposed_tangent(at.response, at.increment));
   } else {
+    // Entropy form: the heat is Θ (S − S_n)/Δt − D_mech, whose derivative has the entropy itself and its
+    // slope.
     const auto entropy = update.along(partials.entropy);
     const auto dissipation = update.dissipation();
     d.heat_temperature =

@@ -102,9 +102,12 @@ double CreepError::of_stress(const CreepField& error, const CreepField& rate, co
                              std::span<const double> temperature, const MechanicalState& now,
                              double dt) const {
   const mesh::Mesh& mesh = phase_.mesh();
+  // The error of the viscoplastic strain in a step makes an error 2G δε^vp of the stress. Its root mean
+  // square over a body is compared with that of the deviator.
   std::vector<double> sums(2 * mesh.bodies.size(), 0.0);  // of the squares of δs and of s, [body]
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const mesh::ElementBlock& block = mesh.blocks[b];
+    // Blocks without flow, or whose stress is not stored, have nothing to compare.
     if (b >= error.size() || error[b].values.empty()) continue;
     if (b >= now.elements.size() || !now.elements[b]) continue;
     std::vector<double> stress(static_cast<std::size_t>(block.size()) * k_components);
@@ -114,6 +117,8 @@ double CreepError::of_stress(const CreepField& error, const CreepField& rate, co
     const auto n_points = static_cast<std::size_t>(error[b].n_points);
     const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
     for (std::size_t e = 0; e < blocks_[b].volume.size(); ++e) {
+      // Properties are those of the element's mean temperature. What is not wholly solid is left out: its
+      // stress follows the flow at once.
       double theta = 0;
       const Index* nodes = block.element(static_cast<Index>(e));
       for (std::size_t a = 0; a < n_nodes; ++a)
@@ -123,8 +128,10 @@ double CreepError::of_stress(const CreepField& error, const CreepField& rate, co
       const double two_g = 2 * p.elastic.shear, volume = blocks_[b].volume[e];
       const double* s = stress.data() + e * k_components;
       const Sym<double> deviator = dev(Sym<double>{s[0], s[1], s[2], s[3], s[4], s[5]});
+      // A least stress keeps elements without stress from counting as infinitely wrong.
       const double least = k_least_stress * two_g;
       double square = 0;
+      // The error at each point is reduced by what relaxation leaves of it within this step and the next.
       for (std::size_t q = 0; q < n_points; ++q) {
         const std::size_t at = (e / k_lanes * n_points + q) * k_components;
         const int lane = static_cast<int>(e % k_lanes);
@@ -137,6 +144,8 @@ double CreepError::of_stress(const CreepField& error, const CreepField& rate, co
       sums[body + 1] += volume * (dot(deviator, deviator) + least * least);
     }
   }
+  // The largest ratio of all bodies is the error. One that is not a number is passed on, so that the step is
+  // rejected.
   processes::sum(std::span(sums));
   double largest = 0;
   for (std::size_t body = 0; body < sums.size(); body += 2) {

@@ -79,6 +79,7 @@ MotionWork InertialForces::conclude(std::span<const double> x, std::span<const d
                                     MechanicalState& next) const {
   const Motion& m = options_.motion;
   const MechanicalState& old = *old_;
+  // First acceleration and velocity at the end of the step follow from the displacement by the integrator.
   next.velocity.resize(increment_.size());
   next.acceleration.resize(increment_.size());
   for (std::size_t i = 0; i < increment_.size(); ++i) {
@@ -87,10 +88,16 @@ MotionWork InertialForces::conclude(std::span<const double> x, std::span<const d
     next.velocity[i] = m.velocity(v, a, next.acceleration[i], dt_);
     increment_[i] = next.velocity[i] - v;
   }
+  // Then the work of the step is divided: what loads have done, what became kinetic energy, what supports
+  // have done at prescribed displacements, and what the integrator takes out of the motion.
   std::vector<double> impulse(n_owned_), j(n_owned_);
   mass_.multiply(increment_, components_, impulse);
+  // The work share w weighs the forces of the end against those of the start (one for backward Euler, a half
+  // for all others).
   const double w = m.work_share;
   const bool remembers = m.remembers();
+  // Integrators that evaluate forces within the step need the forces of the start too, and keep those of the
+  // end for the next step.
   if (remembers) force(x, j);
   MotionWork work;
   for (std::size_t i = 0; i < n_owned_; ++i) {

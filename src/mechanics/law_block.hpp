@@ -82,10 +82,14 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
   }
 
   void add_tangent(std::span<const double> u, linear::BlockMatrix& matrix) override {
+    // Element matrices are summed point by point in lanes of elements. A law that keeps its state may have
+    // stored its tangent with the last residual at the same displacement, which then serves here.
     Workspace<Law> space(this->law_);
     const bool kept = KeepsStateInPlace<Law> && tangents_.are_at(u);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors displacement = gather(u, batch);
+      // Only an unsymmetric law has a skew part, which is scattered with the opposite sign to the transposed
+      // place.
       Matrix symmetric;
       std::optional<Matrix> skew;
       if (!this->law_.symmetric()) skew.emplace();
@@ -93,6 +97,8 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
         const Operator b = at_point(batch, q);
         const Lane w = geometry_.weight_at(batch, q);
         const Sym<Lane> strain = b.strain(displacement);
+        // An isotropic tangent needs two moduli, and a rank-one part where the point flows and where the
+        // update is adiabatic; anything else is a full 6×6 matrix.
         if constexpr (IsotropicTangent<Response>) {
           const Response response = this->update(batch, q, strain, space);
           add_isotropic(b, w * response.bulk, w * response.twice_shear, symmetric);

@@ -131,12 +131,16 @@ void Loads::add_support(const mesh::Mesh& mesh, const linear::ActiveSet& active,
 
 void Loads::add_plane_face(const mesh::Mesh& mesh, const linear::ActiveSet& active, const PlaneFace& face,
                            std::vector<char>& tied) {
+  // The nodes of the group must lie in a plane normal to a coordinate: their displacement in that direction
+  // is then one unknown.
   const std::vector<Index>& nodes = find(mesh.node_sets, face.node_set, "group");
   const int normal = common_coordinate(mesh, nodes);
   if (normal < 0)
     throw InputError(
         {}, "the face '" + face.node_set + "' shall stay plane, but it is not normal to a coordinate",
         "a group whose nodes have one coordinate in common");
+  // The entries of active nodes are collected. A node whose displacement is prescribed, or that another plane
+  // face has tied already, contradicts the condition.
   std::vector<Index> group;
   bool is_fixed = false, is_tied = false;
   for (const Index node : nodes) {
@@ -148,6 +152,7 @@ void Loads::add_plane_face(const mesh::Mesh& mesh, const linear::ActiveSet& acti
     tied[at] = 1;
     group.push_back(entry);
   }
+  // Any process may have met the contradiction, so all of them ask before one throws.
   if (parallel::any_process(is_fixed))
     throw InputError({},
                      "the face '" + face.node_set +

@@ -56,9 +56,11 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       initial_temperature_(initial_temperature.begin(), initial_temperature.end()),
       nodal_phases_(mesh, materials, initial_temperature) {
   assert(materials.size() == mesh.bodies.size() && initial_temperature.size() == mesh.x.size());
+  // Sub-scales are algebraic in quasi-statics and orthogonal with inertia, unless the case says otherwise.
   if (options_.stabilisation == Stabilisation::automatic)
     options_.stabilisation = options_.dynamics ? Stabilisation::orthogonal : Stabilisation::algebraic;
   create_blocks(materials);
+  // Inertia counts active bodies alone: an absent body has no mass.
   if (options_.dynamics) {
     std::vector<double> density;
     for (std::size_t b = 0; b < materials.size(); ++b)
@@ -66,10 +68,14 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
     inertia_ = std::make_unique<InertialForces>(mesh, kind, components_, density, *options_.dynamics);
     inertial_.resize(static_cast<std::size_t>(mesh.n_owned_nodes * components_));
   }
+  // Weight is constant through the run and goes to the constant loads. The modulus of a melt follows from the
+  // head of its body.
   find_weight(loads_->conditions().gravity);
   loads_->add_constant(weight_);
   melt_ = melt_moduli(mesh, kind_, materials, active_, loads_->conditions());
 
+  // The matrix is symmetric only if every block is; pressure, matrix and solver are made in this order
+  // because each asks the one before.
   for (const auto& block : blocks_) options_.symmetric = options_.symmetric && block->symmetric();
   create_pressure();
   create_matrix();

@@ -36,10 +36,14 @@ FlowChange MechanicalPhase::restart_flow(const MechanicalState& old, const Mecha
                                          std::span<const double> temperature, MechanicalState& trial,
                                          StepDeformation& deformation) {
   const profile::Part part("history");
+  // The flow of the step is found again at the temperatures that heat has reached, at the same displacements:
+  // both the held and the old state are those of t_n.
   prepare(old, pass);
   deformation.resize(blocks_.size());
   FlowChange total;
   auto failed = static_cast<double>(mesh_.bodies.size());  // the first body whose law finds no state
+  // Every block does its points. The first body whose law finds no state is remembered instead of thrown,
+  // since all processes have to leave the loop together.
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const FlowChange change = blocks_[b]->restart_flow(
         {.temperature = pass.temperature,
@@ -67,6 +71,8 @@ FlowChange MechanicalPhase::restart_flow(const MechanicalState& old, const Mecha
         "mechanics: the return mapping of the thermal phase finds no state at the temperatures of "
         "the step's end",
         "body '" + mesh_.bodies[body].name + "'", Failure::law);
+  // Work and dissipation are summed over the processes; of the smallest and largest dissipation the extremes
+  // count.
   total.flows = parallel::any_process(total.flows);
   BlockWork& work = total.work;
   double sums[] = {work.dissipation, work.plastic_dissipation, work.plastic_work, work.inelastic_entropy};

@@ -99,6 +99,8 @@ std::vector<double> MechanicalPhase::mean_solid_fraction(const MechanicalState& 
 }
 
 double MechanicalPhase::residual(std::span<const double> x, std::span<double> r) {
+  // Newton's method asks for the residual at the same place twice (after a line search, say). If no process
+  // has moved, the last one is given again.
   const bool known = residual_is_known_ && std::equal(x.begin(), x.end(), x_.begin(), x_.end());
   if (!parallel::any_process(!known)) {
     std::copy(residual_.begin(), residual_.end(), r.begin());
@@ -108,11 +110,14 @@ double MechanicalPhase::residual(std::span<const double> x, std::span<double> r)
   const profile::Part part("law and forces");
   x_.assign(x.begin(), x.end());
   std::fill(forces_.begin(), forces_.end(), 0.0);
+  // Internal forces come first, with the norm of each body's forces for the convergence test.
   balance_.begin();
   const std::span<const double> u = x.first(n_displacements());
   if (pressure_) pressure_->set(x.subspan(u.size()));
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     balance_.add_internal(mesh_.blocks[b].body, blocks_[b]->add_forces(u, forces_));
+  // Contact acts on the owned rows; what it exchanges is part of the scale of forces, as are loads and
+  // supports.
   const std::span<double> net = r.first(n_forces());
   std::fill(net.begin(), net.end(), 0.0);
   {
@@ -122,12 +127,14 @@ double MechanicalPhase::residual(std::span<const double> x, std::span<double> r)
   balance_.add_exchanged(net);
   balance_.add_exchanged(external_);
   for (std::size_t i = 0; i < net.size(); ++i) net[i] += forces_[i] - external_[i];
+  // Inertia, where there is any, is a force like the others.
   if (inertia_) {
     inertia_->force(u, inertial_);
     balance_.add_exchanged(inertial_);
     for (std::size_t i = 0; i < net.size(); ++i) net[i] += inertial_[i];
   }
   add_residual_to_balance(net);
+  // The rows of the pressure follow behind those of the displacement.
   if (pressure_) pressure_->residual(r.subspan(net.size()), balance_);
   residual_.assign(r.begin(), r.end());
   residual_is_known_ = true;

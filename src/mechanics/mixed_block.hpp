@@ -36,8 +36,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   static constexpr bool adiabatic = AdiabaticTangent<Response>;
 
  public:
-  using typename Base::Operator, typename Base::Vectors;
-  using typename Nodes::Nodal;
+  using typename Base::Operator, typename Base::Vectors, typename Nodes::Nodal;
 
   MixedBlock(const mesh::Mesh& mesh, const mesh::ElementBlock& block, const material::Material& material,
              Stabilisation stabilisation)
@@ -54,6 +53,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   }
 
   double prepare(const StepStart& start) override {
+    // The state of the step: volumes kept, properties, pores, flow of melt, compaction, stabilisation.
     this->begin_step(start);
     Lane scale(0.0);
     for (Index batch = 0; batch < n_batches(); ++batch) {
@@ -96,6 +96,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Nodal p = this->gather_pressure(this->field_.pressure, batch), mass = masses(batch);
       const Lane mean_pressure = mean(p, batch), pores = pores_.fraction(batch, mean_pressure);
       const MixedPoint point = answer(batch, gradient, mean_pressure);
+      // Forces are of the deviator, compaction and the nodal pressure; the defect is that of the volume.
       Vectors f{};
       Sym<Lane> effective = dev(point.response.stress);
       const Lane compacting = compaction_.stress(batch, trace(gradient));

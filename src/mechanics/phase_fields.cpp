@@ -36,6 +36,8 @@ NodalPhases::NodalPhases(const mesh::Mesh& mesh, const std::vector<material::Mat
       fields_(body_fields(mesh, materials, melting_blocks(mesh, materials))),
       blocks_(mesh.blocks.size()) {
   bool melts = false;
+  // A block needs nodal fractions if its material freezes or strains by a phase change. Whether any material
+  // melts is known on every process, since each has every block.
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const auto body = static_cast<std::size_t>(mesh.blocks[b].body);
     const material::Material& material = materials[body];
@@ -45,6 +47,7 @@ NodalPhases::NodalPhases(const mesh::Mesh& mesh, const std::vector<material::Mat
     melts = melts || material.solidification() != nullptr;  // every process has every block
     if (material.solidification() == nullptr && !block.strains) continue;
     block.material = &material;
+    // The fields of a body are evaluated at its nodes; each block keeps the list of them without doubles.
     block.field = static_cast<std::size_t>(fields_.of_body[body]);
     block.nodes = mesh.blocks[b].nodes;
     std::sort(block.nodes.begin(), block.nodes.end());
@@ -52,12 +55,15 @@ NodalPhases::NodalPhases(const mesh::Mesh& mesh, const std::vector<material::Mat
     block.nodes.shrink_to_fit();
     solid_fraction_.resize(n_nodes_, 1.0);
     freezing_.resize(n_nodes_, 0.0);
+    // Straining of phase changes is counted from the initial state of the node, taken as molten within a
+    // plateau.
     if (!block.strains) continue;
     straining_.resize(n_nodes_, 0.0);
     for (const Index node : block.nodes)
       block.initial_straining.push_back(
           straining(material, initial_temperature[static_cast<std::size_t>(node)], k_molten));
   }
+  // The initial solid fraction is the reference of a run that starts with metal partly solid.
   if (!melts) return;
   initial_solid_fraction_.assign(n_nodes_ * static_cast<std::size_t>(fields_.n_fields), 1.0);
   initial_solid_fraction_ = solid_fraction({initial_temperature, {}});

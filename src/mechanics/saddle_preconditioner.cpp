@@ -82,6 +82,8 @@ void SaddlePreconditioner::set_up_displacement() {
 }
 
 void SaddlePreconditioner::apply(std::span<const double> r, std::span<double> z) {
+  // A block triangular preconditioner in transformed pressures: first the Schur complement of each pressure
+  // field, by multigrid or by factors.
   const std::size_t fields = schur_.size();
   const auto n_p = static_cast<std::size_t>(mesh_.n_owned_nodes) * fields;
   const std::size_t n_u = r.size() - n_p;
@@ -96,6 +98,8 @@ void SaddlePreconditioner::apply(std::span<const double> r, std::span<double> z)
       factors_[field].apply(right_, part);
     for (std::size_t node = 0; node < right_.size(); ++node) z[n_u + node * fields + field] = result_[node];
   }
+  // The gradient of the pressure found is moved to the right-hand side of the displacements, which are then
+  // answered by multigrid. Ghosts are needed wherever a rectangle of the matrix is applied.
   local_.resize(mesh_.x.size() * fields);
   std::copy(z.begin() + static_cast<std::ptrdiff_t>(n_u), z.end(), local_.begin());
   ghosts_.update(local_, pressure_.fields());
@@ -105,6 +109,7 @@ void SaddlePreconditioner::apply(std::span<const double> r, std::span<double> z)
   for (std::size_t i = 0; i < n_u; ++i) part_[i] = prescribed[i] ? 0.0 : r[i] - part_[i];
   multigrid_.apply(part_, z.first(n_u));
 
+  // The transformation p = p̂ + W⁻¹ Bᵀ u is undone at last, with the displacements found.
   local_u_.resize(mesh_.x.size() * static_cast<std::size_t>(matrix_.components()));
   std::copy_n(z.begin(), n_u, local_u_.begin());
   ghosts_.update(local_u_, matrix_.components());

@@ -330,6 +330,7 @@ void StructuralPoints::add_heat_tangent(StructuralForm form, const Stage& stage,
 }
 
 StructuralChange StructuralPoints::change(std::span<const double> temperature) const {
+  // Energy and entropy of structural heat are summed over the points, less those at the start of the step.
   StructuralChange total;
   std::vector<double> coldness(temperature.size());  // 1/Θ
   std::ranges::transform(temperature, coldness.begin(), [](double theta) { return 1 / theta; });
@@ -344,9 +345,13 @@ StructuralChange StructuralPoints::change(std::span<const double> temperature) c
       energy += weight * (now.internal_energy - at.old_energy);
       const Lane of_point = weight * (now.entropy - at.old_entropy);
       entropy += of_point;
+      // Heat that is released at a point reaches nodes of other temperatures: the entropy that it has there
+      // is summed besides, with 1/Θ of the nodes.
       heat += theta * of_point;
       entropy_of_nodes += theta * of_point * temperature_at(geometry_, batch, q, coldness);
     }
+    // Elements whose heat is spread to their nodes by other weights than the shape functions correct that
+    // sum.
     if (const Lane* correction = spread(batch); correction != nullptr) {
       const Index* nodes =
           geometry_.nodes.data() + static_cast<std::ptrdiff_t>(batch) * geometry_.n_nodes * k_lanes;
@@ -357,6 +362,7 @@ StructuralChange StructuralPoints::change(std::span<const double> temperature) c
         entropy_of_nodes += correction[a] * heat * Lane::load(of_node);
       }
     }
+    // Elements that several processes hold count once.
     const Lane counted = geometry_.counted[static_cast<std::size_t>(batch)];
     total.energy += sum(energy * counted);
     total.entropy += sum(entropy * counted);
