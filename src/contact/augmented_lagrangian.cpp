@@ -54,7 +54,11 @@ void AugmentedLagrangian::accelerate(const std::vector<double>& penetration) {
 }
 
 std::vector<double> AugmentedLagrangian::step_of_points(const ContactState& now, const ContactStep& step) {
+  // The plain step of each point adds penalty times penetration to its multiplier (Uzawa's rule), which never
+  // falls below what suction allows. Its convergence is linear; the secants of the steps before shorten the
+  // way.
   constexpr double k_longest = 1e3;  // times the largest plain step
+  // Scalar products count each point once, on the process that counts it, and are sums over all processes.
   const ContactKinematics& kinematics = geometry_.kinematics();
   const Secants::Dot dot = [&](const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
@@ -68,12 +72,15 @@ std::vector<double> AugmentedLagrangian::step_of_points(const ContactState& now,
     return parallel::global_max(most);
   };
   std::vector<double> plain;
+  // An open point keeps the least multiplier: its penetration says nothing of its pressure.
   for (std::size_t p = 0; p < step.from.size(); ++p) {
     const double least = least_multiplier(step.from[p]), multiplier = step.from[p].multiplier;
     const bool open = now.points[p].status == PointStatus::open;
     plain.push_back((open ? least : std::max(least, multiplier + law_.penalty * now.points[p].penetration)) -
                     multiplier);
   }
+  // The step by secants is shortened where it would go far beyond the largest plain step, and open points
+  // take the plain one.
   secants_.look(plain, dot);
   std::vector<double> by_secants = secants_.step(dot);
   const double most = k_longest * largest_of(plain), length = largest_of(by_secants);

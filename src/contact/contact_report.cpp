@@ -78,6 +78,9 @@ double stored_energy(const ContactView& pair) {
 }
 
 ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
+  // Sums over all counted points of the pair: numbers of points by status, area, forces and moments on the
+  // master, work and dissipation, and heat. All of them go through one array, so that one message adds them
+  // up over the processes.
   const ContactKinematics& kinematics =
       pair.geometry.at(pair.end.time, pair.end.displacement, ContactKinematics::Points::own);
   std::array<double, 20> s{};
@@ -88,14 +91,17 @@ ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
     const ContactPointState& state = pair.end.state.points[at(p)];
     const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
     const double w = particle.weight;
+    // What every point has counts first: energy of its springs, work and dissipation of its particle.
     s[0] += 1;
     s[1] += w * (pair.active ? pair.law.stored(state) : 0.0);
     s[2] += particle.area * state.work;
     s[3] += particle.area * state.dissipation;
+    // Wet points, which carry suction, are counted apart, with those that seem to have left their wall.
     if (state.suction > 0) {
       s[18] += w;
       s[19] += seems_left(pair, p) ? 1 : 0;
     }
+    // Open points without a pressure exert no force, and end here.
     const bool open = state.status == PointStatus::open;
     if (open && state.pressure == 0) continue;
     s[4] += open ? 0 : 1;
@@ -103,6 +109,7 @@ ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
     s[6] += open ? 0.0 : w;
     s[7] += w * state.pressure;
     s[8] += w * norm(state.traction);
+    // The moment needs the place of the point in the deformed configuration.
     Point x = particle.position;
     for (std::size_t b = 0; b < particle.nodes.size(); ++b)
       for (std::size_t i = 0; i < n; ++i)
@@ -114,6 +121,7 @@ ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
       s[12 + i] += moment[i];
     }
   }
+  // Heat is that of both sides; heat made by friction is taken out of what passes.
   if (pair.heat != nullptr && !temperature.empty()) {
     const InterfaceHeatFlux heat = pair.heat->term().counted_heat(temperature);
     s[15] = heat.total[1] - heat.by_friction[1];
@@ -121,6 +129,7 @@ ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
     s[17] = heat.total[1];
   }
   processes::sum(s);
+  // The sums get their names here, in the order in which they were added.
   ContactSums sums;
   sums.points = std::llround(s[0]);
   sums.energy = s[1];

@@ -63,6 +63,9 @@ void FixedKinematics::place(std::span<const double> u, Points) {
 }
 
 PointMotion FixedKinematics::motion(Index point, const ContactPointState& old, Asked asked) const {
+  // In small sliding partner, weight and normal of a point are those of the undeformed bodies; only its
+  // relative displacement d is new. Penetration is its normal part besides the initial one, the anchor its
+  // tangential part.
   const auto p = static_cast<std::size_t>(point);
   const Pairing& pairing = points_.pairings[static_cast<std::size_t>(pairing_[p])];
   const auto n_nodes = static_cast<std::size_t>(pairing.n_nodes());
@@ -80,6 +83,7 @@ PointMotion FixedKinematics::motion(Index point, const ContactPointState& old, A
   m.normal = n;
   m.push = k_identity;
   m.anchor = add_scaled(d, -along, n);
+  // Slip is counted from the place at which the point was anchored, and carries its traction along.
   if (old.anchored) {
     m.slip = subtract(m.anchor, old.anchor);
     m.carried = old.traction;
@@ -87,6 +91,8 @@ PointMotion FixedKinematics::motion(Index point, const ContactPointState& old, A
   m.master_normal = n;
   if (asked == Asked::motion) return m;
 
+  // The rates are constant: shape functions times the normal, and times the projection onto the tangent
+  // plane.
   for (std::size_t a = 0; a < n_nodes; ++a) {
     penetration_rate_[a] = scale(m.share[a], n);
     for (std::size_t i = 0; i < 3; ++i)

@@ -132,6 +132,8 @@ void ContactHeat::reset() {
 
 InterfaceSums ContactHeat::commit(std::span<const double> temperature, const ContactStep& step,
                                   std::vector<ContactPointState>& now) {
+  // The interface stores heat and entropy of its own. What the step has changed of both is summed for the
+  // audit, before and after the slip of the step is taken over.
   InterfaceSums sums;
   if (!has_temperature()) return sums;
   const std::vector<double> found = term_.interface_temperatures(temperature);
@@ -140,10 +142,13 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
     const ContactPointState &from = step.from[p], &to = now[p];
     return to.work - from.work - to.dissipation + from.dissipation;
   };
+  // Hardening is the work of the step that neither dissipation nor heat has taken; it is counted before
+  // states change.
   for (std::size_t p = 0; p < found.size(); ++p)
     if (const auto particle = geometry_.kinematics().particle(static_cast<Index>(p));
         particle.counted && step.from[p].temperature > 0)
       sums.hardening += particle.area * hardening(p);
+  // The slip of the step becomes that of the state, and the heat of a predicted step is shown as a whole.
   take_slip(temperature, step, now);
   if (term_.stores() && !predicted_.empty()) show_whole_step();
   term_.end_phase();
@@ -158,6 +163,7 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
     return point_law_.friction ? interface_entropy(*point_law_.friction, t, internal_variable)
                                : interface_entropy(capacity, t);
   };
+  // Each point gets the temperature that was found and the entropy that its plastic slip has made.
   for (std::size_t p = 0; p < found.size(); ++p) {
     const ContactPointState& from = step.from[p];
     ContactPointState& to = now[p];
@@ -170,6 +176,8 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
     to.plastic_entropy = from.plastic_entropy + made;
     const ContactKinematics::Particle particle = geometry_.kinematics().particle(static_cast<Index>(p));
     if (!particle.counted) continue;
+    // Energies are those of the old state, of the state between the phases (rubbed, at the temperature
+    // before), and of the new one: the differences tell the mechanical part from the whole.
     const double w = particle.weight, between = before_[p];
     const double rubbed = rubbed_variable(from, to);
     const double old_energy = energy(from.temperature, from.internal_variable);

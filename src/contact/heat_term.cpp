@@ -190,6 +190,8 @@ void HeatTerm::bind(const linear::BlockMatrix& matrix) {
 }
 
 HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature) const {
+  // First the point with its nodes and shape functions, nodal ones where limits of conduction make a sum of
+  // exchanges of it.
   AtPoint s;
   s.point = point;
   s.nodes = partners_.nodes_of(point);
@@ -200,10 +202,14 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
     s.b = std::span(positive_).subspan(partners_.first[at(point)], s.nodes.size());
     s.nodal = true;
   }
+  // A rigid surface without a mesh takes heat only if it has a temperature; while heat does not flow
+  // (adiabatic phases) nothing passes.
   const bool meshed = s.n_slave < s.nodes.size();
   s.master_takes_heat = meshed || tool_temperature_;
   const bool flows = !phase_ || !phase_->span.adiabatic;
   if (s.master_takes_heat && flows && !radiation_.empty()) s.radiation = radiation_[at(point)].factor;
+  // The temperatures of both sides are interpolated, and for radiation the fourth powers of the nodes instead
+  // of that of the mean.
   for (std::size_t a = 0; a < s.nodes.size(); ++a) {
     const double t = temperature[at(s.nodes[a])];
     const bool slave = a < s.n_slave;
@@ -214,6 +220,7 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
     s.master = tool_temperature_.value_or(s.slave);
     s.master_fourth = fourth(s.master);
   }
+  // The conductance is that of the mean temperature, or one that was fixed for the whole phase.
   const HeatPoint& p = points_[at(point)];
   if (!flows)
     s.h = {};
@@ -221,6 +228,8 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
     s.h = conductance(point, 0.5 * (s.slave + s.master));
   else
     s.h.value = fixed_[at(point)];
+  // A point without a temperature of its own is done. Otherwise its resistance divides between the two sides,
+  // and the balance of the interface gives its temperature.
   s.has_temperature = p.has_temperature;
   if (!p.has_temperature) return s;
   s.slave_resistance =
@@ -231,6 +240,8 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
                              HeatTransferLaw::slave_share(s.slave_resistance, s.master_takes_heat)};
   const InterfaceStep step = balance_step(point);
   s.dissipation = p.step.dissipation;
+  // With friction that follows the temperature, traction and temperature are found together (return mapping
+  // of the thermal phase, 5.40 to 5.51).
   if (p.friction != nullptr) {
     const InterfaceReturn found =
         interface_return_mapping(*p.friction, p.slip, phase_ ? phase_->span.dt : p.step.time_step, sides,
@@ -242,6 +253,8 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
       s.interface.flux.fill(std::numeric_limits<double>::quiet_NaN());  // the step is rejected
     return s;
   }
+  // Otherwise the balance of the interface is solved at the given dissipation. In both schemes at once, the
+  // slope with respect to the trial traction belongs to its response.
   s.interface = interface_balance(step, sides);
   if (p.joint && std::isfinite(p.joint->stiffness))
     s.interface = interface_response(sides, s.interface.temperature, p.joint->stiffness);
@@ -309,6 +322,8 @@ std::array<double, 2> HeatTerm::flux_by_conductance(const AtPoint& s) const {
 
 void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, std::span<double> k,
                                  std::vector<double>& per_h) const {
+  // The tangent of the exchange, in pairs of nodes: with h and radiation each pair gives a positive definite
+  // 2×2 part, so that the tangent stays one of conduction.
   const std::size_t n = s.nodes.size(), n_slave = s.n_slave;
   const double w = partners_.weight[at(s.point)];
   const double h = w * s.h.value, e = w * s.radiation;
@@ -323,6 +338,8 @@ void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, st
         k[a * n + b] -= slope;
         k[b * n + a] -= slope;
       }
+    // Without master nodes the surroundings are a rigid tool: the slope acts on the diagonal, or consistently
+    // on all slave nodes.
   } else if (s.master_takes_heat) {
     for (std::size_t a = 0; a < n; ++a) {
       const double to_a = h + 4 * e * cube(x[at(s.nodes[a])]);
@@ -331,6 +348,8 @@ void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, st
         k[a * n + b] += s.b[a] * s.b[b] * 0.5 * (to_a + h + 4 * e * cube(x[at(s.nodes[b])]));
     }
   }
+  // A temperature of the interface changes what passes to each side: the difference to plain conduction is
+  // added.
   const auto shape = [&](std::size_t a) { return a < n_slave ? s.b[a] : -s.b[a]; };
   if (s.has_temperature)
     for (std::size_t a = 0; a < n; ++a)
@@ -339,6 +358,8 @@ void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, st
         const double conducted = s.master_takes_heat ? (i == j ? h : -h) : 0.0;
         k[a * n + b] += shape(a) * (w * s.interface.flux_slope[i][j] - conducted) * shape(b);
       }
+  // A conductance that follows the mean temperature adds a part that is not symmetric; it is the same for all
+  // columns up to their share in that mean.
   if (s.h.by_temperature == 0) return;
   per_h.assign(n, 0.0);
   add_exchange(s, x, w * s.h.by_temperature, 0, per_h);

@@ -58,6 +58,8 @@ class Builder {
   }
 
   void add_slave_face(Index f) {
+    // A slave face concerns this process if it, or a master face within reach, has a node that the process
+    // owns.
     const Face face = slave_.reference_face(f);
     points_.slave_measure += measure_of(face, kind_);
     const auto slave_nodes = slave_.nodes(f);
@@ -66,6 +68,8 @@ class Builder {
                       std::any_of(candidates.begin(), candidates.end(),
                                   [&](Index m) { return owns_any(master_.nodes(m)); });
     if (!mine) return;
+    // Segments cut the face at the edges of the master below it, so that each piece has one partner. Rules
+    // with points at fixed places look for the partner of each point.
     found_.clear();
     switch (options_.rule) {
       case IntegrationRule::automatic:
@@ -81,6 +85,7 @@ class Builder {
           add_point(face, q.xi, q.weight, candidates);
         break;
     }
+    // Points with the same partner are stored together, because they share their nodes.
     std::stable_sort(found_.begin(), found_.end(), [](const PairedPoint& a, const PairedPoint& b) {
       return a.master_face < b.master_face;
     });

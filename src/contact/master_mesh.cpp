@@ -268,6 +268,8 @@ Partner MeshMaster::find(const Point& x, const Point& slave_normal, Index hint) 
 }
 
 void MeshMaster::frame(const Partner& partner, bool rates, MasterFrame& frame) const {
+  // The frame of a partner holds all that the kinematics of a point asks of the master at ξ: nodes, shape
+  // functions and their slopes, place, tangents and normals, now and in the reference configuration.
   const Face& now = face(partner.face);
   const Face& then = reference_[static_cast<std::size_t>(partner.face)];
   const auto n = static_cast<std::size_t>(now.n_nodes);
@@ -279,6 +281,7 @@ void MeshMaster::frame(const Partner& partner, bool rates, MasterFrame& frame) c
   mesh::basis_gradients(now.shape, partner.xi, g);
   for (std::size_t a = 0; a < n; ++a) frame.slope[a] = {g[a * dim], dim == 2 ? g[a * dim + 1] : 0.0};
 
+  // Tangents and curvature are those of the face as it lies now; slip is measured on the reference face.
   const Basis b = basis_at(now, partner.xi), reference = basis_at(then, partner.xi);
   frame.y = now.at(partner.xi);
   frame.tau = b.tau;
@@ -289,6 +292,7 @@ void MeshMaster::frame(const Partner& partner, bool rates, MasterFrame& frame) c
   frame.reference_tau_xi = reference.tau_xi;
   frame.reference_face_normal = reference.normal;
   frame.reference_face_normal_xi = reference.normal_xi;
+  // Averaged normals are interpolated between nodes, and their rates reach all faces around.
   if (partner.averaged) {
     const auto d = normals_->at(partner.face, now.shape, partner.xi);
     const auto e = reference_normals_->at(partner.face, now.shape, partner.xi);
@@ -300,11 +304,13 @@ void MeshMaster::frame(const Partner& partner, bool rates, MasterFrame& frame) c
       normals_->rates(partner.face, faces_, partner.xi, std::span(frame.nu_rate).first(frame.nodes.size()));
     return;
   }
+  // Without them the normal is that of the face.
   frame.nu = b.normal;
   frame.nu_xi = b.normal_xi;
   frame.reference_nu = reference.normal;
   frame.reference_nu_xi = reference.normal_xi;
   if (!rates) return;
+  // Its rate follows from the tangents: only the component of the motion along the normal turns it.
   const auto dual = dual_basis(b.tau);
   for (std::size_t a = 0; a < n; ++a) {
     frame.nu_rate[a] = {};

@@ -17,6 +17,7 @@ Point tangential(const Point& m, const Point& v) {
 }  // namespace
 
 AveragedNormals::AveragedNormals(const ContactSurface& surface, double feature_angle) {
+  // First each face gives its own normal to each of its nodes, and each node the list of its faces.
   const Index n = surface.n_faces();
   std::vector<std::vector<std::pair<Index, int>>> at_node(surface.all_nodes().size());
   const auto row_of = [&](Index node) {
@@ -36,12 +37,16 @@ AveragedNormals::AveragedNormals(const ContactSurface& surface, double feature_a
   mean_.resize(own_.size());
   length_.resize(own_.size());
 
+  // Then the faces whose normals are averaged at a node are found: all those around it that do not bend away
+  // by more than the feature angle. An edge that is sharper stays sharp.
   const double least_cosine = std::cos(feature_angle);
   first_member_.push_back(0);
   first_patch_.push_back(0);
   std::vector<Index> patch;
   for (Index f = 0; f < n; ++f) {
     const auto nodes = surface.nodes(f);
+    // The patch of a face are the nodes of all faces that take part in one of its normals, its own first; the
+    // slots say where in the patch the nodes of a member stand, so that rates need no search.
     patch.assign(nodes.begin(), nodes.end());
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const Point& here = own_[first(f) + a];

@@ -46,6 +46,7 @@ int MasterTopology::local_vertex(Index face, Index node) const {
 }
 
 MasterTopology::MasterTopology(const ContactSurface& surface) : surface_(surface) {
+  // Neighbourhoods are found by vertices: a table of the faces at each vertex comes first.
   const Index n = surface.n_faces();
   const std::vector<Index>& nodes = surface.all_nodes();
   const auto row_of = [&](Index node) {
@@ -64,6 +65,8 @@ MasterTopology::MasterTopology(const ContactSurface& surface) : surface_(surface
     at_vertex_.insert(at_vertex_.end(), faces.begin(), faces.end());
     first_at_vertex_.push_back(at_vertex_.size());
   }
+  // From it follow, for every face, the faces around it (with a common vertex) and those at each of its edges
+  // (with both ends in common).
   free_vertex_.assign(nodes.size(), 0);
   first_around_.push_back(0);
   first_at_edge_.push_back(0);
@@ -74,6 +77,7 @@ MasterTopology::MasterTopology(const ContactSurface& surface) : surface_(surface
     for (int v = 0; v < vertices; ++v) {
       const auto faces = row(at_vertex_, first_at_vertex_, vertex_row_[slot(f, v)]);
       ring.insert(ring.end(), faces.begin(), faces.end());
+      // A vertex at the end of a line, or an edge with one face alone, lies at the rim of the surface.
       if (mesh::dimension(surface.shape(f)) == 1 && faces.size() == 1)
         free_vertex_[static_cast<std::size_t>(vertex_row_[slot(f, v)])] = 1;
     }
@@ -85,6 +89,7 @@ MasterTopology::MasterTopology(const ContactSurface& surface) : surface_(surface
         const Index end = vertex(f, (e + 1) % vertices);
         for (Index other : row(at_vertex_, first_at_vertex_, vertex_row_[slot(f, e)]))
           if (local_vertex(other, end) >= 0) both.push_back(other);
+        // Both vertices of a rim edge are free.
         if (both.size() == 1) {
           free_vertex_[static_cast<std::size_t>(vertex_row_[slot(f, e)])] = 1;
           free_vertex_[static_cast<std::size_t>(vertex_row_[slot(f, (e + 1) % vertices)])] = 1;

@@ -70,9 +70,12 @@ void MechanicsTerm::bind(const linear::BlockMatrix& matrix) {
 }
 
 void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r) {
+  // The counts of changed points and failed laws are those of this residual.
   changes_ = 0;
   failure_ = FrictionStatus::converged;
   if (!active_) return;
+  // Each point that concerns this process is placed at the displacement x, its law answers, and its force
+  // goes to the owned nodes.
   geometry_.at(step_.time, x, ContactKinematics::Points::own);
   const auto n = static_cast<std::size_t>(components_);
   Count count;
@@ -81,11 +84,14 @@ void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r)
     const ContactPointState& from = step_.from[at(p)];
     const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::motion);
     const PointForces f = law_.forces(motion, from, step_.coupled.around(motion), step_.iterate_of(p));
+    // Changes of status are counted for the messages of an iteration that does not converge.
     if (f.status != status_[at(p)] && from.counted) ++changes_;
     status_[at(p)] = f.status;
     count.add(from, motion, f);
     if (f.friction.status != FrictionStatus::converged && failure_ == FrictionStatus::converged)
       failure_ = f.friction.status;
+    // A law of friction that has found no state makes the residual not a number, so that the step is
+    // shortened.
     double pressure = f.normal.balance_pressure;
     if (f.friction.status != FrictionStatus::converged)
       pressure = std::numeric_limits<double>::quiet_NaN();
@@ -95,6 +101,7 @@ void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r)
       if (motion.nodes[b] >= n_owned_) continue;
       double* rb = r.data() + at(motion.nodes[b]) * n;
       const Point force =
+          // Without friction there is no tangential part to distribute.
           law_.friction ? motion.force_at(b, pressure, f.traction) : scale(pressure, motion.normal_at(b));
       for (std::size_t i = 0; i < n; ++i) rb[i] += motion.weight * force[i];
     }

@@ -44,6 +44,9 @@ class NodalAverage {
 }  // namespace
 
 ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double> temperature) {
+  // Fields at the nodes of the surface are weighted means over the points that a node has a share in: of what
+  // a point meets (gap, pressure, heat, traction) over the part with a partner, of what it keeps (slip, wear,
+  // temperature) over all of its area.
   const ContactKinematics& kinematics =
       pair.geometry.at(pair.end.time, pair.end.displacement, ContactKinematics::Points::own);
   const std::vector<ContactPointState>& points = pair.end.state.points;
@@ -60,6 +63,7 @@ ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double>
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactPointState& state = points[static_cast<std::size_t>(p)];
     const ContactKinematics::Particle particle = kinematics.particle(p);
+    // What a particle keeps belongs to the slave's nodes, whether it has a partner now or not.
     if (keeps) {
       const double mu =
           friction ? friction->coefficient().value(state.internal_variable, state.temperature).value : 0.0;
@@ -72,6 +76,8 @@ ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double>
     if (!motion.partnered) continue;
     const Point traction = times(motion.push, state.traction);
     const InterfaceHeatFlux& q = heat[static_cast<std::size_t>(p)];
+    // What is met is given to the nodes of both sides. Heat is told apart by side; tractions act the same on
+    // both.
     const auto meet = [&](Index node, double share, std::size_t side) {
       if (const auto i = static_cast<std::size_t>(node); i < n) paired_area[i] += motion.weight * share;
       met.add(node, motion.weight * share * share,
@@ -83,6 +89,7 @@ ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double>
     for (auto b = static_cast<std::size_t>(motion.n_slave); b < motion.nodes.size(); ++b)
       meet(motion.nodes[b], -motion.share[b], 1);
   }
+  // The means are put into the fields in the order of the surface's nodes.
   ContactNodalFields fields;
   fields.nodes = pair.geometry.surface_nodes();
   for (const Index node : fields.nodes) {
@@ -106,6 +113,7 @@ ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double>
     fields.wear_depth.push_back(k[4]);
   }
   if (!friction) return fields;
+  // Wear of the master is kept by nodes of its own and goes into the same field.
   for (const MasterWear::Depth& worn : pair.history.depths(pair.end.state)) {
     const auto place = std::lower_bound(fields.nodes.begin(), fields.nodes.end(), worn.node);
     if (place == fields.nodes.end() || *place != worn.node) continue;

@@ -38,6 +38,7 @@ PointForces PointLaw::forces(const PointMotion& motion, const ContactPointState&
                              const std::optional<Surroundings>& around,
                              const std::optional<FrictionInput::Iterate>& iterate) const {
   PointForces f;
+  // The normal law comes first: without a partner or with an open gap there is no force.
   if (!motion.partnered) return f;
   f.normal = normal_at(from).update(
       motion.penetration + from.offset,
@@ -46,8 +47,11 @@ PointForces PointLaw::forces(const PointMotion& motion, const ContactPointState&
   f.status = friction ? PointStatus::sticks : PointStatus::slips;
   if (!friction) return f;
 
+  // The trial traction carries the one of the last step along and adds the tangential penalty times the slip.
   const Point trial = add_scaled(motion.carried, tangential_penalty(from), motion.slip);
   f.trial = norm(trial);
+  // What presses is the pressure without suction; the penalty of a skin that gets solid stiffens the
+  // tangential spring, too.
   const double pressing = rubbing_pressure(f.normal.pressure, from.molten);
   const FrictionInput in{.trial = f.trial,
                          .pressure = pressing,
@@ -55,6 +59,8 @@ PointForces PointLaw::forces(const PointMotion& motion, const ContactPointState&
                          .temperature = from.temperature,
                          .iterate = iterate,
                          .stiffening = friction_stiffens ? from.stiffening : 1.0};
+  // In coupled steps friction may depend on the temperature, which depends on the conductance of the pressure
+  // reached here.
   if (around)
     f.conductance = around->conductance(
         seen_by_heat(motion.penetration + from.offset, f.normal.pressure, from.suction), f.normal.pressure);
@@ -64,6 +70,8 @@ PointForces PointLaw::forces(const PointMotion& motion, const ContactPointState&
     if (f.joint) f.joint->source_by_pressure = 0;
   }
   if (!f.friction.sticks) f.status = PointStatus::slips;
+  // A point that slipped and now lies exactly on the cone sticks by rounding: it gets the slope of slip,
+  // since it will slip again.
   if (f.friction.sticks && from.status == PointStatus::slips &&
       f.trial >= (1 - k_on_the_cone) * f.friction.coefficient * pressing && f.trial > 0) {
     FrictionInput beyond = in;
@@ -72,6 +80,7 @@ PointForces PointLaw::forces(const PointMotion& motion, const ContactPointState&
     f.friction.trial_slope = slipping.trial_slope;
     f.friction.pressure_slope = from.molten ? 0.0 : slipping.pressure_slope;
   }
+  // The traction is the trial scaled radially; its derivative has a radial part and one across.
   const double radial = f.trial > 0 ? f.friction.traction / f.trial : 1.0;
   f.traction = scale(radial, trial);
   const Point m = f.trial > 0 ? scale(1 / f.trial, trial) : Point{};

@@ -154,6 +154,8 @@ Projection closest_point_extended(const Face& face, const Point& p, const Point&
 }
 
 Projection project_along_extended(const Face& face, const Point& p, const Point& d) {
+  // The point ξ of the face is sought whose difference to p is parallel to d: two equations, along directions
+  // e₁ and e₂ normal to d (one in the plane).
   const bool line = face.dimension() == 1;
   Point e1, e2;
   if (line) {
@@ -165,6 +167,8 @@ Projection project_along_extended(const Face& face, const Point& p, const Point&
   Projection result;
   const double allowed = std::max(k_xi_tolerance, face.rounding());
   Point xi = reference_centre(face.shape);
+  // Newton's method on the face, which is continued beyond its edges; a face that is seen edge-on has no
+  // answer.
   for (int i = 0; i < k_max_iterations; ++i) {
     const Point r = subtract(face.at(xi), p);
     const auto [t1, t2] = face.tangents(xi);
@@ -178,6 +182,7 @@ Projection project_along_extended(const Face& face, const Point& p, const Point&
     const double length = std::max(std::abs(d1), std::abs(d2));
     xi = {xi[0] + d1, xi[1] + d2, 0};
     if (!(length < 1e6)) return result;
+    // The iteration ends by its step, absolute or relative where ξ is large.
     if (length < allowed || (i > 0 && length < 1e-11 * (1 + std::abs(xi[0]) + std::abs(xi[1])))) {
       result.found = true;
       break;

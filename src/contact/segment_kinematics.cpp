@@ -183,6 +183,8 @@ void SegmentKinematics::for_each_place(Index point, Asked asked, Visit visit) co
 }
 
 PointMotion SegmentKinematics::motion(Index point, const ContactPointState& old, Asked asked) const {
+  // A cell has the means over its places, each of which faces one master face. Without any covered part it
+  // has no partner.
   const std::size_t c = at(point);
   PointMotion m;
   m.weight = particle(point).weight;
@@ -193,6 +195,8 @@ PointMotion SegmentKinematics::motion(Index point, const ContactPointState& old,
   for (auto* points : {&normal_share_, &penetration_rate_}) points->clear();
   for (auto* tensors : {&push_share_, &way_rate_, &turn_rate_}) tensors->clear();
   Point normal{}, way = position_[c];
+  // The weight of a place over that of the cell is its share α in gap, normal, push and slip; its nodes are
+  // collected in one list for the cell.
   for_each_place(point, asked, [&](Index s, const PointMotion& place) {
     const double alpha = place.weight / m.weight;
     m.n_slave = place.n_slave;
@@ -201,6 +205,8 @@ PointMotion SegmentKinematics::motion(Index point, const ContactPointState& old,
     m.master_normal = contact::add_scaled(m.master_normal, alpha, place.master_normal);
     contact::add_scaled(m.push, alpha, place.push);
     way = contact::add_scaled(way, alpha, subtract(places_.reference_place(), places_.particle(s).position));
+    // Normal and push shares of a node are means of their own, because places of one cell may have several
+    // normals.
     for (std::size_t b = 0; b < place.nodes.size(); ++b) {
       const double share = alpha * place.share[b];
       share_[where_[b]] += share;
@@ -209,6 +215,7 @@ PointMotion SegmentKinematics::motion(Index point, const ContactPointState& old,
     }
     if (asked == Asked::rates) add_rates(s, alpha, place);
   });
+  // The mean normal is made a unit vector; the anchor lies on the master along it where the cell is open.
   m.partnered = true;
   m.nodes = nodes_;
   m.share = share_;
@@ -218,6 +225,7 @@ PointMotion SegmentKinematics::motion(Index point, const ContactPointState& old,
   m.master_normal = scale(1 / norm(m.master_normal), m.master_normal);
   m.anchor = contact::add_scaled(way, std::max(-m.penetration, 0.0), m.master_normal);
   if (asked == Asked::rates) m.penetration_rate = penetration_rate_;
+  // The slip follows from the mean way and the state before.
   find_slip(old, way, asked, m);
   return m;
 }

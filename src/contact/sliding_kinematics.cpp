@@ -32,6 +32,7 @@ SlidingKinematics::SlidingKinematics(const mesh::Mesh& mesh, AnalysisKind kind, 
       master_(std::move(master)),
       heights_(slave),
       options_(options) {
+  // Points are laid on the slave's faces, and those that may concern this process are found.
   add_points(kind, options);
   find_faces_that_concern();
   const std::size_t most = static_cast<std::size_t>(k_max_face_nodes) + master_->max_nodes();
@@ -45,6 +46,8 @@ SlidingKinematics::SlidingKinematics(const mesh::Mesh& mesh, AnalysisKind kind, 
   slip_rate_.resize(most);
   carried_rate_.resize(most);
 
+  // At the start each point finds its partner. One that lies behind the master there would be pushed through
+  // the body, and has no partner until it comes out.
   place(std::vector<double>(mesh.x.size() * components_, 0.0));
   for (std::size_t p = 0; p < partner_.size(); ++p) {
     behind_[p] = partner_[p].face >= 0 && master_->behind(partner_[p]) ? 1 : 0;
@@ -404,6 +407,8 @@ bool SlidingKinematics::graph_outdated() const {
 void SlidingKinematics::add_to_graph(CliqueSink& sink) {
   allowed_.clear();
   first_allowed_.assign(1, 0);
+  // The graph of the matrix has room for the partners that a point may get while the graph holds: the faces
+  // around its present partner, ring by ring.
   std::vector<Index> faces, wider, clique;
   std::size_t p = 0;
   for (Index slave = 0; slave < slave_.n_faces(); ++slave) {
@@ -434,6 +439,8 @@ void SlidingKinematics::add_to_graph(CliqueSink& sink) {
       clique.erase(std::unique(clique.begin(), clique.end()), clique.end());
       sink.add(clique);
     }
+    // What is allowed is kept for each slave face, so that a point that leaves it is noticed and the graph
+    // made again.
     allowed_.insert(allowed_.end(), faces.begin(), faces.end());
     first_allowed_.push_back(allowed_.size());
   }

@@ -13,6 +13,8 @@ ContactSurface::ContactSurface(const mesh::Mesh& mesh, const std::string& name) 
   const auto found = mesh.surfaces.find(name);
   if (found == mesh.surfaces.end())
     throw InputError({}, "the mesh has no surface '" + name + "' for contact");
+  // All faces of the surface are collected and sorted by the numbers of their nodes in the input, so that the
+  // order does not depend on the partition: every process sees the same surface.
   const mesh::Surface& surface = found->second;
 
   struct Entry {
@@ -35,6 +37,7 @@ ContactSurface::ContactSurface(const mesh::Mesh& mesh, const std::string& name) 
     return left < right;
   });
 
+  // Nodes follow face by face, and once all of them sorted without doubles.
   first_node_.push_back(0);
   for (const Entry& e : entries) {
     shape_.push_back(e.shape);
