@@ -302,6 +302,8 @@ class Importer {
   }
 
   void add_heat_by_enthalpy(Value& changes) {
+    // The table of the enthalpy is split into sensible heat outside the freezing range and the heat of
+    // freezing within. Jumps outside of the range could be neither.
     refuse_jumps(c_, range_);
     const std::size_t last = c_.temperature.size() - 1;
     const bool solid = range_.solidus > 0, melt = range_.liquidus < last;
@@ -339,6 +341,8 @@ class Importer {
     } else if (points.back().first < c_.temperature[last]) {
       points.emplace_back(c_.temperature[last], c_l);
     }
+    // It goes into the card with its source; the latent heat is that of the solid fraction, and what it does
+    // not explain becomes a phase change of its own with the same points.
     card_.document.set("specific_heat",
                        function("J/kg/K", points, source("enthalpy") + ", without the heat of freezing"));
     changes.items().push_back(solidification(heat.latent_heat, source("enthalpy")));

@@ -38,10 +38,13 @@ std::size_t last_not_above(const std::vector<double>& starts, double x) {
 
 EnthalpyCurve::EnthalpyCurve(double density, const Table& specific_heat,
                              std::span<const PhaseChange> changes) {
+  // Data are checked before anything is built of them.
   const Table c = continued(specific_heat);
   if (!(density > 0 && std::isfinite(density))) throw std::invalid_argument("the density is not positive");
   if (!(c.min_value() > 0)) throw std::invalid_argument("the specific heat is not positive");
 
+  // Between two breaks the specific heat and all fractions are straight lines, so the enthalpy is a parabola:
+  // a piece. One more break on either side gives the first and the last jump a piece to stand on.
   std::vector<double> breaks;  // where C or an f bends or jumps
   if (!c.constant()) breaks.assign(c.x().begin(), c.x().end());
   for (const PhaseChange& change : changes) {
@@ -57,6 +60,8 @@ EnthalpyCurve::EnthalpyCurve(double density, const Table& specific_heat,
     breaks.insert(breaks.begin(), first - std::min(1.0, 0.5 * first));  // a jump may lie at the first break
   breaks.push_back(breaks.back() + 1.0);                                // ... and at the last
 
+  // The enthalpy is summed from the coldest break. Jumps of a fraction (changes at one temperature) are kept
+  // at the start of a piece.
   double sensible = 0;  // ∫ρC from the first break
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     const double t0 = breaks[i], t1 = breaks[i + 1];
@@ -75,6 +80,8 @@ EnthalpyCurve::EnthalpyCurve(double density, const Table& specific_heat,
     if (jump > 0) jumps_.push_back({t0, jump});
     sensible += (t1 - t0) * (c0 + 0.5 * c1 * (t1 - t0));
   }
+  // The entropy ∫ dh/Θ of each piece gets the constant that makes it continuous, but for latent heat over
+  // temperature at the jumps.
   entropy_.assign(pieces_.size(), 0.0);
   for (std::size_t i = 1; i < pieces_.size(); ++i) {  // continuous but for the jumps
     const double at = pieces_[i].t0;

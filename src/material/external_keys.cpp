@@ -10,6 +10,7 @@ namespace solidus::material {
 namespace {
 
 Section<ExternalData> external_keys() {
+  // The keys of [external]: what is called and how, its constants, and how the heat that it makes is known.
   using E = ExternalData;
   Section<E> s("external",
                "The law of the solid from a shared object, instead of [plasticity] "

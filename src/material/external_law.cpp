@@ -96,11 +96,15 @@ void ExternalLaw::forget(T* now, int lane) const {
 template <class T>
 bool ExternalLaw::integrate(const Properties<T>& p, const T* old, T* now, const Sym<T>& strain, double dt,
                             int lane, Workspace& space, Response<T>& r, T& dissipated) const {
+  // A library works on one point with plain numbers: state and strain of the lane are copied out of their
+  // packs, in the order that the interface asks for.
   double old_energies[k_external_energies], energies[k_external_energies];
   double* const old_internal = space.numbers.data();
   double* const internal = old_internal + n_internal_;
   for (std::size_t i = 0; i < k_external_energies; ++i)
     old_energies[i] = energies[i] = at(old[k_energies + i], lane);
+  // Internal variables are stored as differences to their initial values, so that a history of zeros is a
+  // fresh point.
   for (std::size_t i = 0; i < n_internal_; ++i)
     old_internal[i] = internal[i] = initial_[i] + at(old[k_internal + i], lane);
   ExternalCall call;
@@ -111,6 +115,7 @@ bool ExternalLaw::integrate(const Properties<T>& p, const T* old, T* now, const 
   call.old_strain = tensor_of(old, k_strain, lane);
   call.strain = tensor_of(strain.c.data(), 0, lane);
   call.old_stress = tensor_of(old, k_stress, lane);
+  // A fresh point is one that has just become coherent: it starts from its present strain.
   call.fresh = !(at(old[k_solid], lane) > 0);
   call.wants_tangent = space.wants_tangent;
   call.old_internal = old_internal;
@@ -119,8 +124,11 @@ bool ExternalLaw::integrate(const Properties<T>& p, const T* old, T* now, const 
   call.internal = internal;
   call.energies = energies;
   call.complaint = space.failures == nullptr ? nullptr : space.failures + lane;
+  // A library that finds no state leaves the complaint to whom it was asked for; the step is then shortened.
   if (!library_->integrate(call)) return false;
 
+  // What has been found goes back into the lane: stress, tangent, internal variables, energies, and the
+  // dissipation where the law tells it.
   for (int i = 0; i < 6; ++i) set(r.stress[i], lane, call.stress[i]);
   if (space.wants_tangent)  // as the library writes it
     for (std::size_t i = 0; i < 6; ++i)

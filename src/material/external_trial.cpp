@@ -48,6 +48,8 @@ std::string last_line(const std::string& notes) {
 }  // namespace
 
 std::string fault_of(const Trial& trial, double seconds) {
+  // A law from outside may crash, end the process or never return. So a copy of the process tries it, and
+  // tells by a pipe what it is doing.
   int ends[2];
   if (::pipe(ends) != 0) return fmt::format("no pipe to a trial: {}", std::strerror(errno));
   const pid_t copy = ::fork();
@@ -57,12 +59,14 @@ std::string fault_of(const Trial& trial, double seconds) {
     ::close(ends[1]);
     return "no process for a trial: " + reason;
   }
+  // The copy runs the trial and never comes back here.
   if (copy == 0) {
     ::close(ends[0]);
     run_in_copy(trial, ends[1]);
   }
   ::close(ends[1]);
 
+  // The parent reads the notes until the copy ends or the time is over.
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   std::string notes;
@@ -83,6 +87,7 @@ std::string fault_of(const Trial& trial, double seconds) {
     if (n <= 0) break;  // it has ended
     notes.append(some, static_cast<std::size_t>(n));
   }
+  // A copy that is late is killed. How it ended says what the fault is; the last note says what it was doing.
   ::close(ends[0]);
   if (late) ::kill(copy, SIGKILL);
   int status = 0;

@@ -27,6 +27,8 @@ struct Quantity {
 };
 
 const std::array<Quantity, 10>& quantities() {
+  // Each quantity of a card with its unit, whether units in a header are converted, and the headers under
+  // which programs write it, in small letters and without blanks.
   static const std::array<Quantity, 10> all{{
       {"temperature", "K", true, {"t", "temp", "temperature", "temperatures"}},
       {"solid_fraction",
@@ -255,6 +257,8 @@ std::vector<std::string> import_quantities() {
 }
 
 ImportColumns import_columns(const ColumnTable& table, const ImportOptions& options) {
+  // First the names that the user gives are checked, then each quantity looks for its column: the one that
+  // was named, or one whose header it knows.
   for (const auto& [name, header] : options.columns) {
     const auto names = import_quantities();
     if (std::find(names.begin(), names.end(), name) == names.end())
@@ -267,6 +271,7 @@ ImportColumns import_columns(const ColumnTable& table, const ImportOptions& opti
     if (const Column* column = find_column(table, quantity, options, renamed))
       read_column(quantity, *column, table, options, result);
   }
+  // Columns that nothing uses are told, since one of them may have been meant.
   for (const Column& column : table.columns) {
     const bool taken = std::ranges::any_of(
         result.headers, [&](const auto& header) { return header.second == column.header; });
@@ -277,6 +282,7 @@ ImportColumns import_columns(const ColumnTable& table, const ImportOptions& opti
       throw InputError({table.file, 0, 0}, fmt::format("the table has no column of the {}", name),
                        fmt::format("--column \"{}=HEADER\" with {}", name, one_of(table.headers())));
   };
+  // Rows are put in order of temperature at last, repeated ones dropped, and fractions checked.
   need("temperature", !result.temperature.empty());
   need("solid_fraction", result.has("solid_fraction") || result.has("liquid_fraction"));
   put_in_order(result);

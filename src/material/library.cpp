@@ -223,6 +223,8 @@ Table mean_expansion(const Table& instantaneous, double reference) {
 }
 
 Material make_material(std::string name, const MaterialData& data) {
+  // Names and what does not depend on other properties come first. A note is made of each table: where it
+  // comes from and where it holds.
   Material m;
   m.name = std::move(name);
   m.title = data.title.empty() ? m.name : data.title;
@@ -240,6 +242,7 @@ Material make_material(std::string name, const MaterialData& data) {
   m.gas = data.gas;
   for (const PhaseChangeData& change : data.phase_changes) add_phase_change(m, change);
 
+  // Elastic properties come all or not at all: a material without them conducts heat only.
   const bool elastic[] = {data.young_modulus.has_value(), data.poisson_ratio.has_value(),
                           data.expansion.has_value()};
   if (std::count(std::begin(elastic), std::end(elastic), true) % 3 != 0)
@@ -251,14 +254,18 @@ Material make_material(std::string name, const MaterialData& data) {
     m.young_modulus = note("young_modulus", *data.young_modulus);
     m.poisson_ratio = note("poisson_ratio", *data.poisson_ratio);
     m.expansion = note("expansion", *data.expansion);
+    // Instantaneous coefficients are integrated to mean ones, which the program computes with.
     if (data.expansion_as == ExpansionAs::instantaneous)
       m.expansion = mean_expansion(m.expansion, m.expansion_reference);
   }
+  // A melt has the viscosity of its card, or that which the program chooses.
   if (data.twice_shear_viscosity)
     m.liquid_viscosity = note("twice_shear_viscosity", *data.twice_shear_viscosity);
   else if (data.young_modulus && m.chooses_viscosity())
     m.notes.push_back(
         {"twice_shear_viscosity", "not given: chosen by the program for the body and the step", 0, 0});
+  // Flow, criteria, gas, graphite and a law from outside follow, and at last the model of the liquid is
+  // checked against all of them.
   if (data.plasticity) add_flow(m, *data.plasticity);
   add_casting(m, data);
   if (m.gas && !m.gas->source.empty()) m.notes.push_back({"gas", m.gas->source, 0, 0});

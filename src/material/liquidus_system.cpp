@@ -222,6 +222,7 @@ LiquidusSystem find_liquidus_system(const std::string& solvent, std::span<const 
 }
 
 Composition parse_composition(const std::string& text) {
+  // The text is read from left to right: solvent, then a number and a symbol for each solute.
   const std::string form = "the solvent, then weight per cent and symbol of each solute: Al-9Si-3Cu-0.3Mg";
   Composition alloy;
   std::size_t at = std::min(text.find('-'), text.size());
@@ -232,6 +233,7 @@ Composition parse_composition(const std::string& text) {
            std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
   };
   if (!letters(alloy.solvent)) throw InputError({}, fmt::format("'{}' is no alloy", text), form);
+  // Every part is checked by itself, so that the message can name it.
   while (at < text.size()) {
     const std::size_t next = std::min(text.find('-', at + 1), text.size());
     const std::string part = text.substr(at + 1, next - at - 1);
@@ -248,6 +250,7 @@ Composition parse_composition(const std::string& text) {
     sum += percent;
     at = next;
   }
+  // An alloy needs a solute, and has to lie in the corner of its solvent, where the system's lines hold.
   if (alloy.solutes.empty() || !(sum > 0))
     throw InputError({}, fmt::format("'{}' has no solute, so that it freezes at one temperature", text),
                      form);
@@ -259,6 +262,8 @@ Composition parse_composition(const std::string& text) {
 
 SolidificationPath solidification_path(const LiquidusSystem& system, const Composition& alloy,
                                        SolidificationRule rule, double tolerance) {
+  // The path is followed by the fraction f of melt from 1 down: first along the primary surface, then along
+  // the valley of the eutectic, down to the last reaction.
   constexpr int k_depth = 20;
   const Freezing freezing(system, alloy, rule);
   const auto primary = [&](double f) { return freezing.primary(f); };
@@ -272,11 +277,14 @@ SolidificationPath solidification_path(const LiquidusSystem& system, const Compo
         fmt::format("the alloy lies beyond the eutectic of {} and {}: another phase freezes first",
                     system.solvent, freezing.eutectic().solute),
         fmt::format("alloys whose first solid is that of {}", system.solvent));
+  // Points of the curve are placed where straight lines between them would be off by more than the tolerance.
   auto& points = path.points;  // falling temperature until the end
   points.emplace_back(path.liquidus, 0.0);
 
   const bool all_solid = rule == SolidificationRule::lever_rule;  // f = 0 has a temperature
   double end_of_primary = freezing.has_valley() ? freezing.start() : (all_solid ? 0.0 : k_least_melt);
+  // The primary crystals end at the valley, at the last reaction, or with the melt; the lever rule goes on to
+  // f = 0, Scheil's to a least rest of melt.
   bool at_last = false;
   if (freezing.last() && primary(end_of_primary) < *freezing.last() && path.liquidus > *freezing.last()) {
     end_of_primary = Freezing::root(primary, *freezing.last(), end_of_primary, 1.0);
@@ -286,12 +294,14 @@ SolidificationPath solidification_path(const LiquidusSystem& system, const Compo
   path.primary_fraction = 1 - end_of_primary;
   path.primary_end = points.back().first;
 
+  // Along the valley two phases freeze together until its end.
   if (!at_last && freezing.valley_falls() && freezing.start() > 0) {
     double end = all_solid ? 0.0 : k_least_melt;
     if (freezing.last() && valley(end) < *freezing.last() && valley(freezing.start()) > *freezing.last())
       end = Freezing::root(valley, *freezing.last(), end, freezing.start());
     sample(valley, freezing.start(), end, tolerance, k_depth, points);
   }
+  // What is left freezes at one temperature.
   path.end = points.back().first;
   path.last_fraction = 1 - points.back().second;
   if (points.back().second < 1) points.emplace_back(path.end, 1.0);

@@ -40,6 +40,8 @@ Section<PhaseChangeData> phase_change_keys() {
 }
 
 Section<Casting> casting_keys() {
+  // The keys of [casting], in the order of the reference: strength of mush, hot tearing, moulds, arm spacing,
+  // and flow of melt.
   Section<Casting> s("casting", "What the criteria of a casting need (docs/theory/criteria.md).");
   s.key("coherency_fraction", &Casting::coherency_fraction)
       .initially(0.75)
@@ -186,6 +188,7 @@ void liquid_keys(Section<MaterialData>& s) {
 }
 
 Section<MaterialData> material_keys() {
+  // The keys of a card on its first level: names, thermal properties, elastic ones, and the sections.
   Section<MaterialData> s(
       "", "A material: every property with unit, source and the temperatures for which it holds.");
   s.key("title", &MaterialData::title).initially("").doc("What it is, in one line.");

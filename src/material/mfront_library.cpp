@@ -177,10 +177,13 @@ class MfrontLibrary final : public ExternalLibrary {
   double stored(const double* energies) const override { return energies[0]; }
 
   bool integrate(ExternalCall& c) const override {
+    // MFront orders shear components otherwise, and scales them by √2; strain and stress are converted on the
+    // way in and out.
     const Vector old_strain = components(c.old_strain), strain = components(c.strain),
                  old_stress = components(c.old_stress);
     Vector stress = old_stress;
     double sound = 0, longer = 1;
+    // A fresh point has as elastic strain the strain at which it begins, if the law has such a variable.
     const double* old_state = c.old_internal;
     if (c.fresh && elastic_strain_ >= 0) {
       std::copy_n(c.old_internal, names_.size(), c.scratch);
@@ -188,6 +191,7 @@ class MfrontLibrary final : public ExternalLibrary {
       std::copy_n(old_strain.data(), 6, c.internal + elastic_strain_);
       old_state = c.scratch;
     }
+    // External state variables are the temperature and constants, at both ends of the step.
     double* const old_external = c.scratch + names_.size();
     double* const new_external = old_external + external_.size() + 1;
     old_external[0] = c.old_temperature;
@@ -197,6 +201,7 @@ class MfrontLibrary final : public ExternalLibrary {
     char message[513];
     message[0] = 0;
     constexpr double density = 0;
+    // The first entry of the tangent tells the library whether a tangent is wanted.
     if (c.wants_tangent) c.tangent.fill(0.0);
     c.tangent[0] = c.wants_tangent ? k_consistent_tangent : k_no_tangent;
     DataView view{message,
@@ -208,6 +213,7 @@ class MfrontLibrary final : public ExternalLibrary {
                    &c.old_energies[0], &c.old_energies[1], old_external},
                   {strain.data(), stress.data(), &density, properties_.data(), c.internal, &c.energies[0],
                    &c.energies[1], new_external}};
+    // Any answer but 1 is a failure; the library's message is passed on.
     const int status = entry_(&view);
     if (status != 1) {  // 0: an answer that is not reliable
       message[512] = 0;

@@ -166,6 +166,8 @@ class ReducedEntropy {
   [[gnu::always_inline]] Flowing flowing(const Properties& p, const T& temperature, const T& s,
                                          const T& s_theta, const T& w, const HardeningSlopes<T>& k,
                                          const T& xi, const T& gamma) const {
+    // All that depends on γ in ΔS^E and in the yield condition, with derivatives by temperature and γ (4.97),
+    // at frozen flow stress. β̂ is the reduced stress s ê + m ζ*, whose norm is that of the yield function.
     const T zero(0.0), one(1.0), two(2.0);
     const bool recalls = !law_.symmetric();
     const T radius = T(return_mapping::k_root_two_thirds) * w;
@@ -178,6 +180,7 @@ class ReducedEntropy {
     const T m = w * fading * modulus, m_theta = w * fading * modulus_slope;
     const T m_gamma = recalls ? T(zero - m * b.fall * fading) : zero;
 
+    // First β̂:ê and β̂:ζ* and the norm, then their derivatives by temperature.
     const T by_e = s * ee_ + m * ez_, by_z = s * ez_ + m * zz_;  // β̂:ê, β̂:ζ*
     const T norm2 = s * by_e + m * by_z;
     using std::sqrt;
@@ -187,10 +190,12 @@ class ReducedEntropy {
     const T e_theta = (s_theta * ee_ + m_theta * ez_ - e * norm_theta) * inverse;
     const T z_theta = (s_theta * ez_ + m_theta * zz_ - z * norm_theta) * inverse;
 
+    // Without recall of the back strain the yield condition is a straight line in γ but for hardening.
     const T back_squared = fading * fading * (zz_ + w * gamma * (w * gamma - two * z));
     const T kinematic_theta = m_theta * fading;
     const T yield_theta = norm_theta - (s_theta + w * m_theta) * gamma - radius * k.stress_theta;
     T yield_gamma = zero - (s + w * m) - radius * radius * k.slope, entropy_gamma = yield_theta;
+    // With recall m depends on γ, and so do direction and norm.
     if (recalls) {
       const T norm_gamma = m_gamma * z;
       const T e_gamma = (m_gamma * ez_ - e * norm_gamma) * inverse;

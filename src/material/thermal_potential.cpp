@@ -12,6 +12,8 @@ StoredHeat<double> sensible_between(const Material& material, double from, doubl
 }
 
 StoredHeat<double> latent_between(const Material& material, double from, double to) {
+  // Latent heat that is released between two temperatures, with its entropy and slope. Backward it is the
+  // same with the other sign, but its slope belongs to the end of the way.
   if (from > to) {
     const StoredHeat<double> back = latent_between(material, to, from);
     double capacity = 0;
@@ -19,6 +21,8 @@ StoredHeat<double> latent_between(const Material& material, double from, double 
       capacity -= material.density * change.latent_heat * change.fraction.derivative(to);
     return {-back.heat, -back.entropy, capacity};
   }
+  // Each piece of a fraction curve releases its share evenly: over a range ∫ dh/Θ is a logarithm, at one
+  // temperature heat over temperature.
   StoredHeat<double> r{0, 0, 0};
   for (const PhaseChange& change : material.phase_changes) {
     const double heat = material.density * change.latent_heat;
@@ -28,6 +32,7 @@ StoredHeat<double> latent_between(const Material& material, double from, double 
       const auto [cold, f_cold] = points[i];
       const auto [hot, f_hot] = points[i + 1];
       const double fallen = heat * (f_cold - f_hot);
+      // An isothermal piece counts where the way passes its temperature.
       if (cold == hot) {  // isothermal
         const double share = (from < cold ? 1 : 0) - (to < cold ? 1 : 0);
         r.heat += share * fallen;

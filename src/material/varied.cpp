@@ -80,6 +80,8 @@ Spread share(double relative) {
 }
 
 std::vector<VariedProperty> all_properties() {
+  // One row a property: key, words, the factor and the spread that vary it, the usual spread where a card
+  // says nothing, whether a material has it, and what a factor does to the material.
   using F = MaterialFactors;
   using S = MaterialSpreads;
   std::vector<VariedProperty> rows;
