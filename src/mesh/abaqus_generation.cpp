@@ -171,6 +171,7 @@ void Generator::fill(const AbaqusLine& line) {
 }
 
 void Generator::copy_nodes(const std::vector<AbaqusLine>& lines) {
+  // *NCOPY makes nodes from a set by shifting it, or by turning it about a line, once or several times.
   if (!keyword_.has("SHIFT"))
     throw InputError(keyword_.at, "*NCOPY without SHIFT is not read here",
                      "SHIFT, or a deck with the nodes themselves");
@@ -181,6 +182,7 @@ void Generator::copy_nodes(const std::vector<AbaqusLine>& lines) {
         keyword_.at,
         "*NCOPY makes " + std::to_string(times) + " copies with numbers changed by " + std::to_string(change),
         "at least one copy, and other numbers");
+  // The first data line is the shift, the second the axis by two points and the angle.
   const auto old = numbers_of(scope_.node_sets, keyword_.required("OLD SET"), false, keyword_.at);
   Point shift{}, a{}, b{};
   double angle = 0;
@@ -198,6 +200,8 @@ void Generator::copy_nodes(const std::vector<AbaqusLine>& lines) {
       lines[1].fail("*NCOPY shifts and turns at once, which is not read here",
                     "two *NCOPY, one that shifts and one that turns");
   }
+  // Each copy starts from the one before, so that shift and turn add up, and its numbers rise by the same
+  // change.
   for (const GlobalIndex number : old) {
     Point x = place(number, keyword_.at);
     for (GlobalIndex copy = 1; copy <= times; ++copy) {

@@ -203,6 +203,8 @@ void Groups::add_rest() {
 }
 
 void Groups::add_surface(std::size_t scope, const std::string& key, const AbaqusSurface& surface) {
+  // A surface of a deck names faces of elements: by a label S1, S2, … of a solid, or SPOS and SNEG, which
+  // take a shell whole.
   RawGroup group{mesh_.dimension - 1, {}};
   for (const AbaqusFaces& faces : surface.faces) {
     const Found found = find(scope, faces.elements, false);
@@ -210,6 +212,8 @@ void Groups::add_surface(std::size_t scope, const std::string& key, const Abaqus
       throw InputError(faces.at, "there is no element " + std::to_string(*found.missing));
     const bool whole = faces.label == "SPOS" || faces.label == "SNEG";
     for (const auto& at : found.members) {
+      // For each element of the set the label is translated into one of our faces; another dimension than
+      // that of the surface is passed over.
       const AbaqusElement& e = element(at);
       const auto face = faces.label.size() == 2 && faces.label[0] == 'S'
                             ? face_of_abaqus_label(e.shape, faces.label[1] - '0')
@@ -218,6 +222,7 @@ void Groups::add_surface(std::size_t scope, const std::string& key, const Abaqus
         throw InputError(faces.at, "a " + std::string(name(e.shape)) + " has no face '" + faces.label + "'",
                          "S1 to S" + std::to_string(n_abaqus_faces(e.shape)));
       if (mesh::dimension(e.shape) - (whole ? 0 : 1) != group.dimension) continue;
+      // Cells that are split when they are read (wedges, pyramids) know which of their parts has the face.
       if (whole) {
         add(group, e.shape, nodes_of(at.first, e.nodes), e.number + rise_[at.first]);
         continue;

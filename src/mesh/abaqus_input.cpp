@@ -136,6 +136,8 @@ void Reader::read(const std::string& path, int depth, bool only_data) {
 }
 
 void Reader::begin(int depth) {
+  // A keyword line decides how the data lines that follow are read. Included files and parts are entered at
+  // once.
   const std::string& name = keyword_.name;
   if (name == "INCLUDE") {
     read(beside(keyword_.required("INPUT")), depth + 1, false);
@@ -143,6 +145,8 @@ void Reader::begin(int depth) {
   }
   if (name == "PART" || name == "INSTANCE") return begin_scope();
   if (name == "END PART" || name == "END INSTANCE") return end_scope();
+  // Elements need a known type; surfaces of nodes are read as sets, and combined surfaces are remembered as
+  // unread.
   if (name == "ELEMENT") {
     const std::string type = upper(keyword_.required("TYPE"));
     const auto shape = shape_of_abaqus_type(type);
@@ -158,18 +162,22 @@ void Reader::begin(int depth) {
       set_of(scope().node_sets, keyword_.required("NAME"), at_);
     else if (kind != "ELEMENT" || keyword_.has("COMBINE") || keyword_.has("CROP"))
       unread_.try_emplace("SURFACE, NAME=" + keyword_.required("NAME"), at_);
+    // Sets may be added to by several lines, and nodes may come from a set of elements.
   } else if (name == "NSET" || name == "ELSET") {
     AbaqusSet& set =
         set_of(name == "NSET" ? scope().node_sets : scope().element_sets, keyword_.required(name), at_);
     set.internal = set.internal || keyword_.has("INTERNAL");
     set.unsorted = set.unsorted || keyword_.has("UNSORTED");
     if (name == "NSET" && keyword_.has("ELSET")) nodes_of_elements(set);
+    // What would make or move nodes cannot be left out without another mesh, so it is refused; anything else
+    // that is not about the mesh is noted.
   } else if (makes_mesh_unread(name)) {
     fail("*" + name + " makes or moves nodes or elements in a way that is not read here",
          "a deck with the nodes and elements themselves, as a mesher or a pre-processor writes it");
   } else if (name != "NODE" && name != "SYSTEM" && !is_generation(name) && !says_nothing_of_mesh(name)) {
     unread_.try_emplace(name, at_);
   }
+  // Coordinates in another system than Cartesian or cylindrical ones are refused.
   if (const std::string* system = keyword_.find("SYSTEM");
       name == "NODE" && system != nullptr && upper(*system) != "R" && upper(*system) != "C")
     fail("*NODE with SYSTEM=" + *system + " is not read here",

@@ -94,6 +94,8 @@ BlockGeometry::BlockGeometry(const Mesh& mesh, const ElementBlock& block, Analys
       n_batches(batches(block.size())),
       n_counted(block.n_counted),
       mesh_(&mesh) {
+  // Shape functions and their reference gradients are the same for all elements, so they are evaluated once
+  // for each point of the rule.
   const auto nn = static_cast<std::size_t>(n_nodes), nd = static_cast<std::size_t>(dim),
              np = static_cast<std::size_t>(n_points), nb = static_cast<std::size_t>(n_batches);
   values.resize(np * nn);
@@ -105,12 +107,16 @@ BlockGeometry::BlockGeometry(const Mesh& mesh, const ElementBlock& block, Analys
   held_gradients_.resize(np * nn * nd);
   held_determinants_.resize(np);
 
+  // Weights and radii of every point are kept; gradients are made batch by batch, when a kernel asks for
+  // them.
   const bool axisymmetric = kind == AnalysisKind::axisymmetric;
   weight.resize(nb * np);
   inverse_radius.resize(axisymmetric ? nb * np : 0);
   nodes.resize(nb * nn * k_lanes);
   counted.resize(nb);
 
+  // A batch holds as many elements as a lane has numbers. The last batch is filled up with copies of its last
+  // element, whose weight is zero.
   for (std::size_t b = 0; b < nb; ++b) {
     for (int lane = 0; lane < k_lanes; ++lane) {
       const Index e = element_of(static_cast<Index>(b), lane, n_elements);
@@ -119,6 +125,7 @@ BlockGeometry::BlockGeometry(const Mesh& mesh, const ElementBlock& block, Analys
       for (std::size_t a = 0; a < nn; ++a)
         nodes[(b * nn + a) * k_lanes + static_cast<std::size_t>(lane)] = block.element(e)[a];
     }
+    // The weight of a point is that of the rule times the determinant, and 2πr about the axis.
     hold_gradients(static_cast<Index>(b));
     for (int lane = 0; lane < k_lanes; ++lane) {
       const bool padding = static_cast<Index>(b) * k_lanes + lane >= n_elements;
@@ -137,6 +144,8 @@ BlockGeometry::BlockGeometry(const Mesh& mesh, const ElementBlock& block, Analys
 }
 
 void BlockGeometry::hold_gradients(Index batch) const {
+  // The shape is a number at run time and a constant at compile time in the kernel: each shape has its own
+  // instance, with loops of known length.
   const auto find = [&]<std::size_t nn, std::size_t nd>() {
     gradients_of<nn, nd>(mesh_->x, nodes.data() + static_cast<std::ptrdiff_t>(batch) * n_nodes * k_lanes,
                          reference_.data(), n_points, held_gradients_.data(), held_determinants_.data());
@@ -169,6 +178,8 @@ void BlockGeometry::hold_gradients(Index batch) const {
     default:
       throw std::invalid_argument("no element of a body has this shape");
   }
+  // The batch that is held is remembered, so that a kernel may ask again. Deformed geometry gets its shift
+  // added.
   held_batch_ = batch;
   if (shift_.empty()) return;
   const auto stride = static_cast<std::size_t>(n_nodes * dim);

@@ -108,11 +108,15 @@ std::vector<SplitNodes> shared_by(const RawMesh& mesh, const std::vector<std::st
 }
 
 void split_nodes(RawMesh& mesh, const std::vector<std::string>& bodies, const std::set<BodyPair>& pairs) {
+  // Bodies that share nodes are joined. Where they are to touch instead, each part of bodies gets nodes of
+  // its own.
   const std::vector<std::vector<int>> here = bodies_at_nodes(mesh, bodies);
   const FaceOwners owners = owners_of_surfaces(mesh, bodies);
   GlobalIndex next = 0;
   for (const GlobalIndex number : mesh.input_node) next = std::max(next, number);
   std::map<std::pair<Index, int>, Index> copy;  // of a node for a body
+  // For each shared node the bodies around it fall into parts that stay joined; the first part keeps the
+  // node, each other one gets a copy.
   for (std::size_t i = 0; i < here.size(); ++i) {
     if (here[i].size() < 2) continue;
     const std::vector<int> part = parts_of(here[i], pairs);
@@ -130,6 +134,7 @@ void split_nodes(RawMesh& mesh, const std::vector<std::string>& bodies, const st
       copy[{static_cast<Index>(i), here[i][k]}] = node;
     }
   }
+  // Elements of the bodies are renumbered first.
   if (copy.empty()) return;
   const auto renumber = [&](Index& node, int body) {
     if (const auto found = copy.find({node, body}); found != copy.end()) node = found->second;
@@ -137,6 +142,7 @@ void split_nodes(RawMesh& mesh, const std::vector<std::string>& bodies, const st
   for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
     for (RawBlock& block : mesh.groups.at(bodies[at(b)]).blocks)
       for (Index& node : block.nodes) renumber(node, b);
+  // Faces of surfaces follow the body that owns them; a face of no body keeps its nodes.
   for (auto& [name, group] : mesh.groups) {
     if (group.dimension != mesh.dimension - 1) continue;
     for (RawBlock& block : group.blocks) {

@@ -99,11 +99,15 @@ bool keeps_shape(const Tetrahedra& mesh, Index from, Index to, const std::vector
 }  // namespace
 
 Change with_node_on(const Tetrahedra& mesh, Index from, Index to) {
+  // The change takes the edge away by moving `from` onto `to`. It is empty where the node is held, or where
+  // nothing would be won.
   if (mesh.is_locked(from)) return {};
   const std::vector<std::size_t> between = mesh.around_edge(from, to);
   if (between.empty()) return {};
   Change change;
   change.quality = 1;
+  // No edge may get much longer than those that were there, or elements would grow beyond the size that was
+  // asked for.
   const auto length = [&](Index a, Index b) {
     const Point d = minus(mesh.x(b), mesh.x(a));
     return std::sqrt(dot(d, d));
@@ -116,6 +120,8 @@ Change with_node_on(const Tetrahedra& mesh, Index from, Index to) {
   }
   constexpr double k_stretch = 1.4;
   if (longest_after > k_stretch * longest_before) return {};
+  // The tetrahedra at the edge vanish, the others at `from` get `to` in its place. One of no volume ends the
+  // try.
   for (const std::size_t t : mesh.around(from)) {
     change.old.push_back(t);
     if (mesh[t].has(to)) continue;
@@ -125,6 +131,8 @@ Change with_node_on(const Tetrahedra& mesh, Index from, Index to) {
     if (!(change.quality > 0)) return {};
     change.made.push_back(tet);
   }
+  // On the surface the topology has to stay that of the body, and its shape has to stay within a tolerance
+  // unless the edge is very short.
   const SurfaceNode here(mesh, from);
   if (!keeps_topology(mesh, from, to, between, here)) return {};
   constexpr double k_short = 0.25;  // of the mean of the edges around

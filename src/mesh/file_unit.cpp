@@ -80,6 +80,8 @@ std::string arguments_of(const std::string& text, const std::string& word) {
 
 std::optional<LengthUnit> step_length_unit(const std::map<long, std::string>& statements, long number,
                                            int depth = 0) {
+  // A unit of STEP is an SI unit with a prefix, or is converted from another one, which is looked up in the
+  // same way; the depth ends circles.
   const auto found = statements.find(number);
   constexpr int k_deepest = 10;
   if (found == statements.end() || depth > k_deepest) return std::nullopt;
@@ -104,6 +106,7 @@ std::optional<LengthUnit> step_length_unit(const std::map<long, std::string>& st
       if (si.starts_with(prefix.step)) return LengthUnit{std::string(prefix.sign) + "m", prefix.factor};
     return std::nullopt;
   }
+  // A unit that is converted names a measure: a number of base units, which multiply.
   const std::string conversion = arguments_of(text, "CONVERSION_BASED_UNIT");
   const std::vector<long> measure = references(conversion);
   if (measure.empty() || !statements.contains(measure[0])) return std::nullopt;
@@ -115,6 +118,7 @@ std::optional<LengthUnit> step_length_unit(const std::map<long, std::string>& st
   if (error != std::errc{} || !(number_of > 0) || base.empty()) return std::nullopt;
   const auto of_base = step_length_unit(statements, base.back(), depth + 1);
   if (!of_base) return std::nullopt;
+  // Its name is given in quotes and capitals.
   std::string name = conversion.substr(0, conversion.find(','));
   std::erase(name, '\'');
   std::ranges::transform(name, name.begin(),

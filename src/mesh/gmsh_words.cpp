@@ -11,6 +11,7 @@ namespace {
 using Words = std::set<std::string_view>;
 
 const std::map<std::string_view, const char*>& forbidden_words() {
+  // Each word of Gmsh's language that does more than geometry, with what it would do: the message names both.
   static const std::map<std::string_view, const char*> words = {
       {"System", "run a command of the system"},
       {"SystemCall", "run a command of the system"},
@@ -317,6 +318,7 @@ bool may_precede_operand(std::string_view word) {
 }
 
 bool is_harmless_field(std::string_view type) {
+  // Fields of sizes that only compute. Any other type is refused, since some read files or call programs.
   static const Words types = {"Attractor",
                               "AttractorAnisoCurve",
                               "AutomaticMeshSizeField",

@@ -114,6 +114,8 @@ std::vector<std::array<Point, 3>> triangles(const std::vector<SkinFace>& skin) {
 
 std::vector<InscribedSphere> inscribed_spheres(const RawMesh& mesh, const std::vector<std::string>& bodies,
                                                std::size_t most, std::optional<HalfSpace> on) {
+  // Hot spots are the largest spheres that fit into the bodies. Depth is the distance to the nearest face of
+  // the skin, which the reach of each face bounds from below.
   const std::vector<SkinFace> skin = common_skin(mesh, bodies);
   std::vector<double> reach;
   for (const SkinFace& face : skin) {
@@ -121,6 +123,7 @@ std::vector<InscribedSphere> inscribed_spheres(const RawMesh& mesh, const std::v
     for (const Point& corner : face.corners) far = std::max(far, distance(corner, face.centre));
     reach.push_back(far);
   }
+  // Seeds are points within elements: all of them on a section, every so many of a large body.
   std::vector<InscribedSphere> seeds;
   for (const std::string& body : bodies)
     for (const RawBlock& block : mesh.groups.at(body).blocks) {
@@ -136,6 +139,8 @@ std::vector<InscribedSphere> inscribed_spheres(const RawMesh& mesh, const std::v
           seeds.push_back({*centre, depth(skin, reach, *centre)});
       }
     }
+  // From the deepest seeds on, a sphere is grown by climbing to the local maximum of the depth. Seeds that a
+  // sphere already covers would climb to the same place.
   std::sort(seeds.begin(), seeds.end(), [](const auto& a, const auto& b) { return a.radius > b.radius; });
   std::vector<InscribedSphere> found;
   constexpr std::size_t k_climbs = 40;
@@ -149,6 +154,7 @@ std::vector<InscribedSphere> inscribed_spheres(const RawMesh& mesh, const std::v
     const auto inside = [&](const InscribedSphere& s) { return distance(s.centre, top.centre) < s.radius; };
     if (std::none_of(found.begin(), found.end(), inside)) found.push_back(top);
   }
+  // The largest ones are kept, and none that is less than half as large as the first.
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.radius > b.radius; });
   if (found.size() > most) found.resize(most);
   std::erase_if(found, [&](const InscribedSphere& s) { return s.radius < 0.5 * found.front().radius; });

@@ -90,6 +90,8 @@ void LayerSpread::find_neighbours(const RawMesh& mesh, const RawGroup& body) {
 }
 
 void LayerSpread::find_guides(const RawMesh& mesh, const RawGroup& body, const WallTopology& wall) {
+  // Nodes behind a layer move to make room for it. Nodes on the boundary of the body may move along it only:
+  // a guide says along which planes.
   const auto groups = groups_of_faces(mesh);
   struct Plane {
     Point normal;
@@ -97,6 +99,8 @@ void LayerSpread::find_guides(const RawMesh& mesh, const RawGroup& body, const W
   };
   std::map<Index, std::vector<Plane>> planes;
   std::map<Index, Guide> guides;
+  // The planes at a node are those of the faces around it, each once, in which normals count as one within a
+  // small angle.
   for (const WallFace& face : wall.boundary) {
     const Point normal = normal_of(mesh, face);
     const auto found = groups.find(face_key(face.nodes.data(), face.n_vertices));
@@ -110,16 +114,20 @@ void LayerSpread::find_guides(const RawMesh& mesh, const RawGroup& body, const W
         return std::abs(dot(p.normal, normal)) > 1 - 0.5 * k_one_plane * k_one_plane;
       });
       if (same != known.end()) {
+        // Where two groups of faces meet in one plane the node is held, since the border between the groups
+        // would move.
         if (same->groups != of) guide.fixed = true;
         continue;
       }
       known.push_back({normal, of});
+      // The normals are made orthogonal to each other, so that a motion loses its part along each of them.
       Point rest = normal;
       for (const Point& n : guide.normals)
         for (std::size_t i = 0; i < 3; ++i) rest[i] -= dot(normal, n) * n[i];
       if (normalise(rest) > k_one_plane) guide.normals.push_back(rest);
     }
   }
+  // A node with as many normals as dimensions is a corner, and a node of another body does not move either.
   for (auto& [node, guide] : guides)
     if (guide.normals.size() >= at(mesh.dimension)) guide.fixed = true;
   for (const auto& [name, group] : mesh.groups) {
@@ -128,6 +136,7 @@ void LayerSpread::find_guides(const RawMesh& mesh, const RawGroup& body, const W
       for (const Index node : block.nodes)
         if (const auto guide = guides.find(node); guide != guides.end()) guide->second.fixed = true;
   }
+  // All other nodes of the body that are not on the wall move, with the guide that they have.
   for (std::size_t i = 0; i < mesh.x.size(); ++i) {
     if (first_[i] == first_[i + 1] || wall.on_wall[i] != 0) continue;
     const auto guide = guides.find(static_cast<Index>(i));

@@ -103,9 +103,13 @@ class Cards {
 };
 
 void Cards::take(const std::string& line, int depth) {
+  // A deck is read line by line. An entry may go on over several lines, so it is kept until one that begins
+  // anew.
   const std::string_view text = without_blanks(line);
   if (text.empty()) return;
   const std::string begin = capitals(text.substr(0, 12));
+  // Included files and the beginning and end of the bulk data come first; what stands before the bulk is for
+  // the solver.
   if (begin.starts_with("INCLUDE") && text.size() > 8 && (text[7] == ' ' || text[7] == '\'')) {
     finish();
     std::string name(without_blanks(text.substr(7)));
@@ -124,6 +128,7 @@ void Cards::take(const std::string& line, int depth) {
     ended_ = true;
     return;
   }
+  // Fields are separated by commas, or are eight columns wide (sixteen with an asterisk).
   const bool is_free = line.find(',') != std::string::npos;
   const std::string_view first =
       without_blanks(is_free ? std::string_view(line).substr(0, line.find(','))
@@ -131,6 +136,8 @@ void Cards::take(const std::string& line, int depth) {
   if (first.starts_with('='))
     fail("entries that repeat the one before ('=') make nodes or elements in a way that is not read here",
          "each node and element with an entry of its own");
+  // A line that begins with a blank, a plus or an asterisk continues the entry; missing fields up to the end
+  // of its line are empty.
   if (first.empty() || first[0] == '+' || first[0] == '*') {
     if (!pending_) fail("a line goes on with an entry that has not begun");
     while (pending_->fields.size() % (first.starts_with('*') ? 4 : 8) != 0) pending_->fields.emplace_back();

@@ -232,6 +232,7 @@ void Reader::join_without_property() {
 }
 
 void Reader::make_groups(const std::string& path) {
+  // Elements become groups by dimension and property. The highest dimension is that of the mesh.
   mesh_.dimension = 0;
   for (const Element& e : elements_) mesh_.dimension = std::max(mesh_.dimension, mesh::dimension(e.shape));
   if (mesh_.dimension < 2)
@@ -240,6 +241,7 @@ void Reader::make_groups(const std::string& path) {
         "a bulk data file of Nastran with GRID and CTETRA, CHEXA, CTRIA3, …");
   join_without_property();
   std::map<std::pair<int, GlobalIndex>, RawGroup> groups;  // by dimension and property
+  // Nodes are put from Nastran's order into ours by way of that of Abaqus, which differs less.
   for (const Element& e : elements_) {
     RawGroup& group = groups[{mesh::dimension(e.shape), e.property}];
     group.dimension = mesh::dimension(e.shape);
@@ -259,6 +261,7 @@ void Reader::make_groups(const std::string& path) {
     }
     block->input_element.push_back(e.number);
   }
+  // Groups get the names of comments where they have them, else a name by their kind and property.
   for (auto& [key, group] : groups) {
     const auto told = names_.find(key.second);
     const std::string kind = key.first == mesh_.dimension ? "body_" : "surface_";

@@ -184,6 +184,8 @@ std::vector<int> assign_owners(const NodeNeighbours& graph, const NodeWork& work
 
 std::vector<GlobalIndex> number_nodes(const NodeNeighbours& graph, const std::vector<int>& owner,
                                       int n_processes) {
+  // Within each process nodes are numbered by reversed Cuthill and McKee's order, which keeps neighbours
+  // close in memory and factors thin.
   const std::size_t n = owner.size();
   const auto degree = [&graph](Index i) {
     return graph.start[static_cast<std::size_t>(i) + 1] - graph.start[static_cast<std::size_t>(i)];
@@ -196,6 +198,8 @@ std::vector<GlobalIndex> number_nodes(const NodeNeighbours& graph, const std::ve
   std::vector<char> seen(n, 0);
   GlobalIndex next = 0;
   for (auto& nodes : owned) {
+    // Starts are nodes with few neighbours. Of each node the neighbours not yet seen follow, those with few
+    // neighbours first.
     std::stable_sort(nodes.begin(), nodes.end(), [&](Index a, Index b) { return degree(a) < degree(b); });
     std::vector<Index> order, row;
     order.reserve(nodes.size());
@@ -218,6 +222,7 @@ std::vector<GlobalIndex> number_nodes(const NodeNeighbours& graph, const std::ve
         order.insert(order.end(), row.begin(), row.end());
       }
     }
+    // Reversing the order makes factors of a profile smaller.
     for (auto i = order.rbegin(); i != order.rend(); ++i) number[static_cast<std::size_t>(*i)] = next++;
   }
   return number;

@@ -111,6 +111,7 @@ void keep_worst(std::vector<ElementReport>& worst, ElementReport element, std::s
 
 GroupReport assess_group(const RawMesh& mesh, const std::string& name, const RawGroup& group,
                          std::size_t n_worst, std::vector<ElementReport>& worst) {
+  // One way over the elements of a group gives sizes, edges and quality. Quality is that of bodies alone.
   GroupReport report;
   report.name = name;
   report.dimension = group.dimension;
@@ -129,6 +130,7 @@ GroupReport assess_group(const RawMesh& mesh, const std::string& name, const Raw
     const Rule rule = stiffness_rule(block.shape);
     for (std::size_t e = 0; e < n; ++e) {
       const Index* nodes = block.nodes.data() + e * nn;
+      // The measure is the integral of the stretch of the map: length, area or volume.
       for (const QuadraturePoint& p : rule)
         report.measure += p.weight * stretch(jacobian(mesh, block.shape, nodes, p.xi),
                                              static_cast<std::size_t>(group.dimension));
@@ -143,6 +145,7 @@ GroupReport assess_group(const RawMesh& mesh, const std::string& name, const Raw
       quality_sum += quality;
       report.worst_quality = std::min(report.worst_quality, quality);
       if (quality < k_poor_quality) ++report.n_poor;
+      // The worst elements of all groups are kept in one list of bounded length.
       keep_worst(worst,
                  {name, block.shape, block.input_element.empty() ? 0 : block.input_element[e], quality,
                   centre(mesh, block.shape, nodes)},
@@ -194,6 +197,7 @@ double element_quality(const RawMesh& mesh, Shape shape, const Index* nodes) {
 }
 
 QualityReport assess(const RawMesh& mesh, std::size_t n_worst) {
+  // Groups are reported from the highest dimension down. Nodes and bytes are counted over all of them.
   QualityReport report;
   report.dimension = mesh.dimension;
   report.n_nodes = mesh.x.size();
@@ -203,6 +207,7 @@ QualityReport assess(const RawMesh& mesh, std::size_t n_worst) {
       if (group.dimension == d)
         report.groups.push_back(assess_group(mesh, name, group, n_worst, report.worst));
 
+  // The extent is that of nodes which a body uses; others are counted.
   std::vector<char> used(mesh.x.size(), 0);
   for (const auto& [name, group] : mesh.groups)
     for (const RawBlock& block : group.blocks) {
@@ -230,6 +235,7 @@ QualityReport assess(const RawMesh& mesh, std::size_t n_worst) {
 }
 
 std::string to_text(const QualityReport& report) {
+  // The report as text: extent, a table of the groups, and the worst elements. Lengths are in mm.
   std::string text =
       fmt::format("{} dimensions, {} nodes{}, {:.1f} MB\n", report.dimension, report.n_nodes,
                   report.n_unused_nodes > 0 ? fmt::format(" ({} in no body)", report.n_unused_nodes) : "",

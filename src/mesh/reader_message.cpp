@@ -251,8 +251,11 @@ void put_mesh(const RawMesh& mesh, const PutBytes& put) {
 }
 
 RawMesh take_mesh(const TakeBytes& take, double most_bytes) {
+  // What another process sends is not trusted: each list says its size beforehand and is taken only as long
+  // as the sum stays below the most that a mesh may hold, and every number is checked before it is used.
   RawMesh mesh;
   double left = most_bytes;
+  // Nodes come first, then groups of blocks, notes, the centre of volume, and the faces of the drawing.
   mesh.dimension = take_number<int>(take);
   mesh.x = take_list<Point>(take, left);
   mesh.input_node = take_list<GlobalIndex>(take, left);
@@ -275,6 +278,7 @@ RawMesh take_mesh(const TakeBytes& take, double most_bytes) {
     for (const double x : *mesh.centre_of_volume)
       if (!std::isfinite(x)) throw MessageError("a centre that is no place");
   }
+  // A facet refers to nodes of the mesh, or to none (-1).
   for (auto n = take_number<std::size_t>(take); n > 0; --n) {
     DrawnFace& face = mesh.drawn_faces.emplace_back();
     face.facets = take_list<std::array<Index, 4>>(take, left);

@@ -13,6 +13,8 @@ namespace solidus::mesh {
 
 std::vector<SkinPatch> skin_patches(const RawMesh& mesh, const std::vector<std::string>& bodies,
                                     double angle) {
+  // The skin of each body falls into smooth patches, bounded by edges sharper than the angle or by faces of
+  // the drawing.
   std::vector<SkinPatch> all;
   for (const std::string& body : bodies) {
     const std::vector<SkinFace> skin = skin_of(mesh, body);
@@ -20,6 +22,8 @@ std::vector<SkinPatch> skin_patches(const RawMesh& mesh, const std::vector<std::
     for (const SkinFace& face : skin) faces.push_back(&face);
     const SmoothParts parts = smooth_parts(faces, angle, mesh.drawn_faces);
     std::map<std::size_t, SkinPatch> patches;  // by the number of the part
+    // Area, centre, normal and extent of a patch are sums over its faces; faces with more corners are divided
+    // into triangles.
     for (std::size_t f = 0; f < faces.size(); ++f) {
       SkinPatch& p = patches[parts.of_face[f]];
       const SkinFace& face = *faces[f];
@@ -34,6 +38,7 @@ std::vector<SkinPatch> skin_patches(const RawMesh& mesh, const std::vector<std::
       for (std::size_t i = 2; i < face.corners.size(); ++i)
         p.triangles.push_back({face.corners[0], face.corners[i - 1], face.corners[i]});
     }
+    // Patches are listed by area, the largest first, and neighbours get the numbers of that order.
     std::vector<std::size_t> order;
     for (auto& [number, p] : patches) {
       for (std::size_t i = 0; i < 3; ++i) p.centre[i] /= p.area, p.normal[i] /= p.area;

@@ -35,6 +35,8 @@ std::vector<int> numbers_of(const std::vector<const SkinFace*>& faces, const std
 
 SmoothParts smooth_parts(const std::vector<const SkinFace*>& faces, double angle,
                          const std::vector<DrawnFace>& drawn) {
+  // Faces are united across edges that bend by less than the angle, or that lie within one face of the
+  // drawing. A set is known by its root, which path halving keeps near.
   const std::vector<int> of_geometry = numbers_of(faces, drawn);
   std::vector<std::size_t> root(faces.size());
   std::iota(root.begin(), root.end(), std::size_t{0});
@@ -42,6 +44,7 @@ SmoothParts smooth_parts(const std::vector<const SkinFace*>& faces, double angle
     while (root[i] != i) i = root[i] = root[root[i]];
     return i;
   };
+  // Edges of the plane are nodes, those of space pairs of nodes.
   std::map<std::pair<Index, Index>, std::vector<std::size_t>> edges;
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const std::size_t n = faces[f]->corners.size();
@@ -55,6 +58,7 @@ SmoothParts smooth_parts(const std::vector<const SkinFace*>& faces, double angle
       if (dot(faces[around[0]]->normal, faces[around[i]]->normal) >= std::cos(angle) ||
           (of_geometry[around[0]] >= 0 && of_geometry[around[0]] == of_geometry[around[i]]))
         root[find(around[i])] = find(around[0]);
+  // Sets that meet at an edge without being one are neighbours.
   SmoothParts parts;
   for (std::size_t f = 0; f < faces.size(); ++f) parts.of_face.push_back(find(f));
   for (const auto& [edge, around] : edges)

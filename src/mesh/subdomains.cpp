@@ -121,6 +121,8 @@ std::size_t Subdomains::element_bytes(int process) const {
 }
 
 std::vector<char> Subdomains::pack(int process) {
+  // The part of a process is written into one buffer, in the order in which unpack_part() reads it: nodes,
+  // bodies, blocks, surfaces, node sets. Numbers in it are local to the process.
   const std::vector<Index> nodes = nodes_of(process);
   std::vector<std::vector<Index>> sets(whole_.node_sets.size());
   for (std::size_t here = 0; here < nodes.size(); ++here) {
@@ -130,6 +132,8 @@ std::vector<char> Subdomains::pack(int process) {
       sets[at(sets_[at(k)])].push_back(static_cast<Index>(here));
   }
 
+  // The buffer is reserved at its size, because parts of large meshes are made one after the other and would
+  // double it.
   Packer p;
   p.reserve(nodes.size() * (sizeof(Point) + 2 * sizeof(GlobalIndex)) + element_bytes(process) +
             sets_.size() * sizeof(Index) + k_for_names);
@@ -139,6 +143,7 @@ std::vector<char> Subdomains::pack(int process) {
     p.put_size(nodes.size());
     for (const Index i : nodes) p.put_values(&values[at(i)], 1);
   };
+  // Nodes are written one by one from the whole mesh, without copies of whole lists.
   put_of_nodes(raw_.x);
   const auto put_numbers_of_nodes = [&](const std::vector<GlobalIndex>& numbers) {
     InputNumbers here;
@@ -150,6 +155,7 @@ std::vector<char> Subdomains::pack(int process) {
   put_numbers_of_nodes(raw_.input_node);
   p.put_size(bodies_.size());
   for (const std::string& name : bodies_) p.put(name);
+  // Elements that this process counts come first in each block, others behind them.
   const auto put_block = [&](const RawBlock& block, int body, Elements& elements) {
     const std::size_t nn = at(node_count(block.shape));
     const std::size_t n_elements = elements.counted.size() + elements.others.size();
@@ -187,11 +193,13 @@ std::vector<char> Subdomains::pack(int process) {
     std::sort(sets[s].begin(), sets[s].end());
     p.put(sets[s]);
   }
+  // The table of local numbers is cleared at these nodes alone, for the next process.
   for (const Index i : nodes) local_[at(i)] = -1;
   return std::move(p).buffer();
 }
 
 Mesh unpack_part(const std::vector<char>& buffer) {
+  // The reverse of pack(): everything is read in the same order.
   Unpacker u(buffer);
   Mesh mesh;
   const auto numbers = u.vector<GlobalIndex>();
@@ -214,6 +222,7 @@ Mesh unpack_part(const std::vector<char>& buffer) {
     return block;
   };
   for (std::size_t n = u.size(); n > 0; --n) mesh.blocks.push_back(take_block());
+  // Nodes of a surface are those of its faces, each once.
   for (std::size_t n = u.size(); n > 0; --n) {
     Surface& surface = mesh.surfaces[u.string()];
     surface.replicated = u.size() == 1;

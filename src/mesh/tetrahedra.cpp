@@ -86,6 +86,8 @@ Tetrahedra::Tetrahedra(RawMesh& mesh) : mesh_(mesh), locked_(mesh.x.size(), 0), 
 }
 
 void Tetrahedra::put_back() {
+  // Tetrahedra that are left go back into the groups. All of a body go to its first block of tetrahedra,
+  // other blocks get none.
   std::vector<char> used(mesh_.x.size(), 0);
   for (auto& [name, group] : mesh_.groups) {
     bool is_first = true;  // which gets all of them
@@ -104,6 +106,7 @@ void Tetrahedra::put_back() {
       for (const Index node : block.nodes) used[static_cast<std::size_t>(node)] = 1;
     }
   }
+  // Nodes that nothing uses any more are dropped, and all others move up in their order.
   std::vector<Index> renumbered(mesh_.x.size(), -1);
   std::size_t n = 0;
   for (std::size_t i = 0; i < mesh_.x.size(); ++i) {

@@ -138,6 +138,7 @@ std::optional<CellParts> cell_of(int type) {
 }  // namespace
 
 RawMesh mesh_of_grid(const std::string& path, const VtkGrid& grid, double unit_in_metres) {
+  // Points become nodes, numbered in their order.
   RawMesh mesh;
   mesh.dimension = 0;
   for (std::size_t i = 0; i < grid.points.size() / 3; ++i) {
@@ -145,6 +146,7 @@ RawMesh mesh_of_grid(const std::string& path, const VtkGrid& grid, double unit_i
     mesh.x.push_back({unit_in_metres * x[0], unit_in_metres * x[1], unit_in_metres * x[2]});
     mesh.input_node.push_back(static_cast<GlobalIndex>(i) + 1);
   }
+  // Cells become groups by dimension and by the number of their region, if the file has one.
   const CellTable& cells = grid.cells;
   Regions regions = regions_of(path, grid);
   const std::vector<double>& bodies = regions.numbers;
@@ -162,6 +164,7 @@ RawMesh mesh_of_grid(const std::string& path, const VtkGrid& grid, double unit_i
                               [&](const RawBlock& b) { return b.shape == parts->shape; });
     if (block == group.blocks.end())
       block = group.blocks.insert(group.blocks.end(), RawBlock{parts->shape, {}, {}});
+    // The offsets of the file must fit the number of corners of each type.
     const std::size_t begin = c == 0 ? 0 : cells.offsets[c - 1];
     if (cells.offsets[c] - begin != parts->corners[0].size())
       throw InputError({path}, "the file is damaged: cell " + std::to_string(c) +
@@ -170,6 +173,7 @@ RawMesh mesh_of_grid(const std::string& path, const VtkGrid& grid, double unit_i
       block->nodes.push_back(cells.corners[begin + static_cast<std::size_t>(corner)]);
     block->input_element.push_back(static_cast<GlobalIndex>(c) + 1);
   }
+  // Groups of the highest dimension are bodies, those of one less surfaces; anything below is dropped.
   if (mesh.dimension < 2)
     throw InputError({path},
                      "the mesh has no triangles, quads, tetrahedra or hexahedra: empty or not a mesh");

@@ -176,6 +176,8 @@ std::string VtuFile::stored(std::string_view data, bool base64, std::size_t n) c
 }
 
 std::string VtuFile::bytes(const pt::ptree& array, std::size_t n) const {
+  // An array stands in the text, or at an offset of the data appended to the file; in the text it is in
+  // base64.
   const std::string format = attribute(array, "format");
   std::string inline_text;
   std::string_view data = appended_;
@@ -189,12 +191,15 @@ std::string VtuFile::bytes(const pt::ptree& array, std::size_t n) const {
     data = inline_text;
     base64 = true;
   }
+  // Without compression a word gives the number of bytes that follow.
   const std::size_t word = wide_header_ ? 8 : 4;
   if (!compressed_) {
     const std::string all = stored(data, base64, word + n);
     if (header_word(all, 0, wide_header_) < n) fail("an array of the file is shorter than its grid");
     return all.substr(word);
   }
+  // With it a head gives the number of blocks, their size unpacked, that of the last one, and the size of
+  // each packed. Sums are checked against the file before memory is taken for them.
   const std::size_t n_blocks = header_word(stored(data, base64, word), 0, wide_header_);
   if (n_blocks > data.size()) fail("the file is damaged: an array has too many blocks");
   const std::size_t n_head = (3 + n_blocks) * word;
@@ -205,6 +210,7 @@ std::string VtuFile::bytes(const pt::ptree& array, std::size_t n) const {
     if (size > content_.size() - packed) fail("the file is damaged: a block is longer than the file");
     packed += size;
   }
+  // Blocks are unpacked one after the other, and may not give more than the grid needs.
   const std::string all = stored(data, base64, n_head + packed);
   const std::size_t block_size = header_word(head, 1, wide_header_),
                     last = header_word(head, 2, wide_header_);

@@ -87,6 +87,7 @@ std::vector<LocalEdge> edges_of(Shape shape) {
 WallTopology find_wall(const RawMesh& mesh, const std::vector<std::string>& surfaces, const std::string& body,
                        const std::string& source) {
   const RawGroup& elements = mesh.groups.at(body);
+  // First the faces and nodes of the named surfaces are marked as wall.
   WallTopology wall;
   wall.on_wall.assign(mesh.x.size(), 0);
   wall.held.assign(mesh.x.size(), 0);
@@ -101,6 +102,8 @@ WallTopology find_wall(const RawMesh& mesh, const std::vector<std::string>& surf
           wall.on_wall[at(block.nodes[f + static_cast<std::size_t>(a)])] = 1;
       }
     }
+  // Then the faces of the body are gone through: those of the wall, those of the boundary around, and those
+  // that only touch it. A wall inside of the body cannot have layers on one side.
   const auto boundary = boundary_of(elements);
   for_each_face(elements, [&](int k, Index e, int f, const std::vector<Index>& nodes) {
     const Shape shape = elements.blocks[static_cast<std::size_t>(k)].shape;
@@ -124,10 +127,12 @@ WallTopology find_wall(const RawMesh& mesh, const std::vector<std::string>& surf
     if (!is_wall) return;
     ++found[at(of_wall->second)];
     if (n == 2) return;
+    // Edges of wall faces are counted, so that the rim is known: an edge that one wall face alone has.
     for (int a = 0; a < n; ++a)
       ++wall.wall_edges[edge_key(nodes[static_cast<std::size_t>(a)],
                                  nodes[static_cast<std::size_t>((a + 1) % n)])];
   });
+  // A surface whose faces belong to another body is a mistake of the case, which the message explains.
   for (std::size_t s = 0; s < surfaces.size(); ++s)
     if (found[s] != asked[s])
       throw InputError({source},

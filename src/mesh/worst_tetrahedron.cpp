@@ -61,6 +61,8 @@ double angle_of_body(const Tetrahedra& mesh, std::size_t t, Index a, Index b) {
 }  // namespace
 
 std::string worst_tetrahedron_text(RawMesh mesh) {
+  // The worst tetrahedron is told with its body and place, and with what makes it bad, if that is in the
+  // geometry.
   const Tetrahedra tets(mesh);
   if (tets.count() == 0) return "";
   std::size_t worst = 0;
@@ -70,6 +72,8 @@ std::string worst_tetrahedron_text(RawMesh mesh) {
   Point centre{};
   for (const Index node : nodes)
     for (std::size_t i = 0; i < 3; ++i) centre[i] += tets.x(node)[i] / 4;
+  // The angle of the body at its edges tells a wedge; edges much shorter than those around tell a small
+  // feature.
   double sharpest = 360, shortest = 1e300, sum = 0;
   std::size_t n = 0;
   for (std::size_t i = 0; i < 4; ++i) {

@@ -75,6 +75,8 @@ class Mesher {
 
  private:
   void mesh_once() {
+    // Sizes come from the callback alone, so all other sources of sizes are switched off. One thread and
+    // fixed algorithms make the same mesh every time.
     using gmsh::option::setNumber;
     setNumber("Mesh.MeshSizeFromPoints", 0);
     setNumber("Mesh.MeshSizeFromCurvature", 0);
@@ -84,6 +86,7 @@ class Mesher {
     setNumber("Mesh.MaxNumThreads3D", 1);
     setNumber("Mesh.OptimizeThreshold", 0.45);
     if (source_.element_order == 2) setNumber("Mesh.SecondOrderIncomplete", 1);
+    // The background size is coarse enough for the whole, and no coarser than what limits of surfaces allow.
     CastingSizes sizes(parts_, geometry_, way_.scale, source_.unit_in_metres, way_.details);
     const auto& limits = sizes.limits();
     const Extent all = extent_of(all_volumes());
@@ -91,6 +94,8 @@ class Mesher {
     for (const auto& [entity, limit] : limits)
       if (entity.first == 2) coarse = std::min(coarse, limit);
     coarse = std::max(coarse, parts_extent() / 40);
+    // First a coarse mesh of the surfaces is made, on which walls, curvature and narrow places are measured;
+    // from these samples follow the fields of sizes, one for each rate of growth.
     try {
       setNumber("Mesh.MeshSizeMin", coarse);
       setNumber("Mesh.MeshSizeMax", coarse);
@@ -100,11 +105,14 @@ class Mesher {
       for (const auto& [volume, growth] : sizes.growth())
         if (!fields.contains(growth)) fields.emplace(growth, SizeField(all.low, all.high, sampled, growth));
       const SizeField* least = fields.empty() ? nullptr : &fields.begin()->second;
+      // What is to be expected is told before the expensive part begins.
       if (least != nullptr) {
         MeshingOutlook outlook = sizes.outlook(*least, source_.element_order);
         outlook.overlap = overlap_;  // the log says what it has said once only
         tell_outlook(outlook);
       }
+      // The size at a place is the least of the limit of its entity, the background and the field of its
+      // volume.
       set_size_callback([&](int dimension, int tag, double x, double y, double z) {
         const auto limit = limits.find({dimension, tag});
         double size = limit != limits.end() ? limit->second : coarse;
@@ -114,6 +122,8 @@ class Mesher {
       });
       setNumber("Mesh.MeshSizeMin", 0);
       setNumber("Mesh.MeshSizeMax", 1e22);
+      // The surfaces are meshed again with these sizes, then the volumes. Rounds of relocation and
+      // optimisation follow.
       gmsh::model::mesh::clear();
       generate_mesh(3);
       for (int round = 0; round < way_.rounds; ++round) {
@@ -122,11 +132,14 @@ class Mesher {
       }
       gmsh::model::mesh::removeSizeCallback();
       gmsh::model::mesh::setOrder(source_.element_order);
+      // Gmsh throws texts. The complaint goes to the user with the bodies and faces in which Gmsh could not
+      // go on.
     } catch (const std::string& complaint) {
       const std::string place = place_of_complaints(parts_);
       const bool has_it = place.find(complaint) != std::string::npos;
       refuse("Gmsh could not mesh the geometry" + (has_it ? "" : ": " + complaint) + place);
     }
+    // A volume without elements is no success, though Gmsh may call it one.
     for (const BodyVolumes& part : parts_)
       for (const auto& volume : part.volumes) {
         std::vector<int> types;

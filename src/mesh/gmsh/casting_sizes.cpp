@@ -102,6 +102,8 @@ std::vector<SizeSample> CastingSizes::samples() {
 }
 
 MeshingOutlook CastingSizes::outlook(const SizeField& field, int element_order) const {
+  // The number of nodes is estimated from the skin of each part, its volume and the growth of sizes inward,
+  // before anything is meshed in volume.
   MeshingOutlook o;
   gmsh::vectorpair parts;
   for (const BodyVolumes& part : parts_) {
@@ -109,6 +111,7 @@ MeshingOutlook CastingSizes::outlook(const SizeField& field, int element_order) 
     if (size == nullptr) continue;
     const double largest = scale_ * size->size / unit_;
     double volume = 0;
+    // Volumes are those of the geometry itself.
     for (const auto& entity : part.volumes) {
       double one = 0;
       occ::getMass(3, entity.second, one);
@@ -117,6 +120,8 @@ MeshingOutlook CastingSizes::outlook(const SizeField& field, int element_order) 
     std::vector<SkinPiece> skin;
     for (const std::array<Point, 3>& t : skin_of(part)) skin.push_back(skin_piece(t, field, largest));
     o.nodes += expected_nodes(skin, volume, largest, size->growth);
+    // Mould and cores that are made around the part say nothing of the user's unit; extent and sizes are told
+    // of the parts alone.
     const bool made_around = geometry_.mould && (part.name == geometry_.mould->name ||
                                                  part.name.starts_with(geometry_.mould->core));
     if (made_around) continue;

@@ -151,6 +151,8 @@ void Reader::check_version() const {
 }
 
 Step Reader::step_of(int number) {
+  // MED writes names into buffers of fixed length. What is read here is what the rest depends on: space,
+  // kind, axes, unit, and the computation step.
   Step step;
   med_int dimension = 0, n_steps = 0;
   med_mesh_type type = MED_UNDEF_MESH_TYPE;
@@ -164,6 +166,7 @@ Step Reader::step_of(int number) {
                   time_unit.data(), &sorting, &n_steps, &axes, axis.data(), unit.data()) < 0)
     fail(fmt::format("mesh {} of the file cannot be read: the file is damaged", number));
   step.name = text_of(name.data(), MED_NAME_SIZE);
+  // Only unstructured meshes in Cartesian axes are meshes of elements.
   if (type != MED_UNSTRUCTURED_MESH)
     fail("the mesh '" + step.name + "' is a structured grid", "a mesh of elements with their nodes");
   if (axes != MED_CARTESIAN && axes != MED_UNDEF_AXIS_TYPE)
@@ -171,6 +174,7 @@ Step Reader::step_of(int number) {
   if (step.space < 2 || step.space > 3)
     fail(fmt::format("the mesh '{}' has {} coordinates a node", step.name, step.space), "2 or 3");
   note_unit(text_of(unit.data(), MED_SNAME_SIZE));
+  // Of several computation steps the first one is read, and a note says so.
   med_float time = 0;
   if (n_steps > 0 &&
       MEDmeshComputationStepInfo(file_, step.name.c_str(), 1, &step.number, &step.iteration, &time) < 0)
@@ -224,6 +228,8 @@ void Reader::take_nodes(const Step& step) {
 }
 
 void Reader::take_cells(const Step& step, const MedCell& cell) {
+  // Cells of one shape are read together: connectivity, their own numbers, and the family that each belongs
+  // to.
   const std::size_t n = count(step, MED_CELL, cell.med, MED_CONNECTIVITY, MED_NODAL);
   if (n == 0) return;
   const Shape shape = shape_of(cell);
@@ -237,6 +243,8 @@ void Reader::take_cells(const Step& step, const MedCell& cell) {
       numbers(step, MED_CELL, cell.med, MED_FAMILY_NUMBER, MEDmeshEntityFamilyNumberRd, n);
   const std::span<const int> vtk = vtk_node_order(shape);
   mesh_.dimension = std::max(mesh_.dimension, cell.dimension);
+  // Groups are made of families later, so cells are collected by family and shape. Nodes are put into VTK's
+  // order on the way, and each number is checked.
   for (std::size_t e = 0; e < n; ++e) {
     Family& members = families_[family.empty() ? 0 : family[e]];
     auto member = std::ranges::find(members, shape, &Member::shape);
