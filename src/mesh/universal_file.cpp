@@ -1,5 +1,4 @@
-// I-DEAS universal file format, datasets 164, 2411, 2412, 2420 and 2477; for the older ones those that they
-// replace.
+// I-DEAS universal files: datasets 164, 2411, 2412, 2420 and 2477, and the older ones that they replace.
 #include "mesh/universal_file.hpp"
 
 #include <fmt/format.h>
@@ -290,13 +289,10 @@ void Reader::nodes(bool one_line) {
 }
 
 void Reader::elements(bool old) {
-  // Each element has one line of numbers and one or more of nodes; beams have a line in between. The old data
-  // set has other columns.
+  // One line of numbers, one more for beams, then those of nodes. The older data set has other columns.
   while (more()) {
     const GlobalIndex number = whole(0), descriptor = whole(1);
     const GlobalIndex property = old ? whole(3) : whole(2), n = old ? whole(7) : whole(5);
-    // What is no element of a body is passed over with a note, but solids that cannot be read are refused,
-    // since the mesh would have a hole.
     const std::optional<Shape> shape = shape_of_descriptor(descriptor);
     if (!shape && (descriptor == 113 || descriptor == 114 || descriptor == 101 || descriptor == 102))
       fail(fmt::format("element {} is a wedge of second order or a thick shell (descriptor {})", number,
@@ -317,7 +313,6 @@ void Reader::elements(bool old) {
     if (n != node_count(*shape))
       fail(fmt::format("element {} of descriptor {} has {} nodes", number, descriptor, n),
            std::to_string(node_count(*shape)));
-    // Nodes are put into our order, and must have been defined before.
     Element e{*shape, number, property, {}};
     const std::span<const int> order = order_of(*shape);
     for (std::size_t i = 0; i < given.size(); ++i) {
