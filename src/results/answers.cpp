@@ -84,6 +84,8 @@ double mass_of(const coupling::Phases& phases, const mesh::Mesh& mesh, int body)
 
 CastAnswer cast_answer(const mesh::Mesh& mesh, const coupling::Phases& phases, const coupling::State& state,
                        const CastBody& cast, const FieldSet& fields) {
+  // The answer of one cast body: how much is solid, when and where the last of it froze, or where it is
+  // hottest now. Each part needs a field that was followed; without it the part stays empty.
   CastAnswer answer;
   answer.cast = cast;
   answer.solid_fraction = phases.heat->mean_solid_fraction(state.heat, cast.body);
@@ -94,6 +96,7 @@ CastAnswer cast_answer(const mesh::Mesh& mesh, const coupling::Phases& phases, c
       return frozen.empty() || frozen[i] < 0 ? std::nullopt : std::optional(frozen[i]);
     });
   };
+  // A body that has left has no volume, so its fraction is not a number; what it froze with is still known.
   if (!std::isfinite(answer.solid_fraction)) {  // without volume: the body has left
     answer.there = false;
     answer.solid_fraction = 0;
@@ -102,18 +105,21 @@ CastAnswer cast_answer(const mesh::Mesh& mesh, const coupling::Phases& phases, c
   }
   answer.mass = mass_of(phases, mesh, cast.body);
   answer.least_niyama = least_niyama(mesh, nodes, fields);
+  // A share that rounding alone keeps from one is solid.
   constexpr double k_rounding = 1e-12;
   const auto before_the_last_pour = [&]() -> std::optional<ValueAt> {
     for (const criteria::Freezing::LastMelt& last : criteria::Freezing::frozen_before(state.criteria))
       if (last.body == cast.body) return ValueAt{last.time, last.where};
     return std::nullopt;
   };
+  // A solid body tells its last melt, or that of the pour before if it was solid when the record began.
   if (answer.solid_fraction >= 1 - k_rounding) {
     answer.solid_fraction = 1;
     answer.froze = last_melt();
     if (!answer.froze) answer.froze = before_the_last_pour();
     return answer;
   }
+  // What is still partly melt tells its hottest node among those with the least solid fraction.
   const FieldValues solid(fields, heat::fields::k_solid_fraction.name),
       temperature(fields, heat::fields::k_temperature.name);
   const std::optional<ValueAt> softest =
@@ -245,6 +251,7 @@ std::optional<Pores> pores_in(const mesh::Mesh& mesh, AnalysisKind kind, const F
 
 Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const coupling::State& state,
                 const std::vector<CastBody>& castings, const FieldSet& fields, bool mechanical) {
+  // Castings are asked one by one. Without a casting named, all bodies count for the stress.
   Answers a;
   a.time = state.time;
   a.poured = state.poured;
@@ -257,6 +264,7 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
     for (std::size_t i = 0; i < own.size(); ++i) cast_nodes[i] |= own[i];
   }
   if (!castings.empty()) a.pools = cut_off_pools(state.criteria);
+  // Gaps, pores, distortion and stress need mechanics and the fields of its last state.
   if (phases.mechanics == nullptr || !mechanical) return a;
   std::vector<char> parts(mesh.bodies.size(), 0);
   for (CastAnswer& cast : a.castings) {
@@ -265,11 +273,14 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
     cast.pores = pores_in(mesh, phases.mechanics->kind(), fields, own);
     if (cast.cast.is_part()) parts[static_cast<std::size_t>(cast.cast.body)] = 1;
   }
+  // Pores of the whole are those of the parts; risers and gating are cut off and count only where there is no
+  // part.
   const bool any_part = std::ranges::find(parts, 1) != parts.end();
   if (!castings.empty())
     a.pores = pores_in(mesh, phases.mechanics->kind(), fields, any_part ? parts : stressed);
   a.gaps = largest_gaps(mesh, phases, fields);
   a.overlaps = deepest_overlaps(mesh, phases, state.heat.temperature);
+  // The largest distortion is sought at nodes of castings alone.
   if (const FieldValues distortion(fields, criteria::fields::k_distortion.name);
       !distortion.empty() && !castings.empty()) {
     a.distortion = largest_at(mesh, cast_nodes, [&](std::size_t i) {

@@ -33,6 +33,8 @@ Json pores_json(const Pores& pores) {
 }  // namespace
 
 Json json(const Answers& a) {
+  // The answers as summary.json has them. What is not known is left out rather than written as null, and
+  // every value that has one carries its error and its place.
   Json json;
   Json castings;
   for (const CastAnswer& cast : a.castings) {

@@ -357,6 +357,9 @@ std::string feeding_lines(const std::vector<criteria::CriterionResult>& found, c
 
 std::string text(const Answers& a, const std::vector<criteria::CriterionResult>& criteria,
                  const DisplayUnits& units) {
+  // The answers as the terminal shows them, line by line in a fixed order: shots, castings, risers and
+  // soundness, pools, criteria, pores, gaps, distortion, stress, and what says how far they are right. Lines
+  // whose answer does not exist are left out.
   const Formatter format(units);
   std::string text = shot_lines(a.shots, format);
   for (const CastAnswer& cast : a.castings)
@@ -381,6 +384,7 @@ std::string text(const Answers& a, const std::vector<criteria::CriterionResult>&
     text += line(fmt::format("largest gap of '{}'", gap.contact),
                  fmt::format("{} {}{}", format.length(gap.gap), format.place(gap.gap.where),
                              sunk_text(gap.gap.value, a.distortion)));
+  // An overlap that is small against the distortion says nothing to a user, and is left out.
   for (const GapAnswer& overlap : a.overlaps)
     if (a.distortion && overlap.gap.value > k_overlap * a.distortion->value)
       text += line(

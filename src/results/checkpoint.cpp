@@ -307,6 +307,8 @@ void CheckpointFolder::require() const {
 
 void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerprint,
                              const CheckpointView& c) const {
+  // A checkpoint is written beside the one that is there, and takes its place by a rename when it is whole: a
+  // run that is killed meanwhile keeps the old one.
   const fs::path part = latest().string() + ".part";
   on_first_process([&] {
     std::error_code error;
@@ -314,12 +316,16 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
     if (error) throw OutputError(root_.string(), "cannot make this folder: " + error.message());
   });
   TableWriter out(part);
+  // First what the case was made of, by which a restart knows whether it continues the same case, and the
+  // numbers of the step control.
   out.text("format", k_format);
   for (const auto& [name, text] : fingerprint) out.text("case/" + name, text);
   out.text("reason", c.continuation.control.reason);
   out.text("stage", c.continuation.stage.name);
   out.numbers("numbers", numbers_of(c));
 
+  // Nodes are written as rows of owned nodes with their numbers in the input, so that any number of processes
+  // can read them.
   const auto owned = static_cast<std::size_t>(mesh.n_owned_nodes);
   out.rows<std::int64_t>("node", 1, mesh.input_node.part(0, owned));
   const auto nodal = [&](const char* name, const std::vector<double>& field) {
@@ -344,6 +350,8 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   std::string steady;
   for (const char of_pair : c.state.steady_gaps) steady += of_pair != 0 ? k_steady : k_unsteady;
   out.text("steady_gaps", steady);
+  // Rates of the last step predict the next one. Whether a table exists is decided by all processes together,
+  // since some may have no row of it.
   const coupling::Rates& rates = c.continuation.rates;
   out.text("rates", rates.known() ? k_known : "unknown");
   if (rates.known()) {
@@ -359,6 +367,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   for (const mechanics::BlockHistory& of_block : rates.creep)
     creep += parallel::any_process(!of_block.values.empty()) ? k_creeps : k_no_creep;
   out.text("rates_of_creep", creep);
+  // Shots keep the start of the present one and the iterates of Anderson's method.
   const coupling::ShotHistory& shots = c.continuation.shots;
   out.text("shots", parallel::any_process(!shots.start.empty()) ? k_known : "unknown");
   out.text("shot_iterates", std::to_string(shots.iterates.size()));
@@ -368,6 +377,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
     nodal(shot_table(j, "heat").c_str(), shots.iterates[j].heat);
     nodal(shot_table(j, "displacement").c_str(), shots.iterates[j].displacement);
   }
+  // Histories of elements go block by block, for counted elements alone.
   for (std::size_t b = 0; b < c.state.mechanics.history.size(); ++b) {
     const mesh::ElementBlock& block = mesh.blocks[b];
     const mechanics::BlockHistory& history = c.state.mechanics.history[b];
@@ -388,6 +398,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   }
   write_contacts(out, c.state.contacts);
   write_criteria(out, mesh, c.state.criteria);
+  // The renames are done by one process, after all have written.
   out.finish([&] {
     std::error_code error;
     if (fs::exists(latest(), error)) fs::rename(latest(), previous(), error);

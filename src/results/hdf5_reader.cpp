@@ -141,6 +141,8 @@ int restrict_copy(int socket, double bytes_of_file) {
 }  // namespace
 
 Hdf5Reader::Hdf5Reader(std::filesystem::path path, double patience) : path_(std::move(path)) {
+  // HDF5 may crash or hang on a damaged file, so a copy of this process reads it. The copy may take as long
+  // as the size of the file explains, and a patience on top.
   std::error_code error;
   const auto size = static_cast<double>(std::filesystem::file_size(path_, error));
   const double bytes = error ? 0.0 : size;
@@ -149,6 +151,8 @@ Hdf5Reader::Hdf5Reader(std::filesystem::path path, double patience) : path_(std:
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     fail(std::string("cannot be read: ") + std::strerror(errno));
   copy_ = ::fork();
+  // The copy gives up its rights before it opens the file, then answers requests until the other end is
+  // closed. What goes wrong is an answer too.
   if (copy_ == 0) {
     const int socket = restrict_copy(ends[1], bytes);
     std::optional<Hdf5File> file;
@@ -171,11 +175,13 @@ Hdf5Reader::Hdf5Reader(std::filesystem::path path, double patience) : path_(std:
       head.bytes = body.size();
       if (!give(socket, &head, sizeof head) || !give(socket, body.data(), body.size())) break;
     }
+    // It leaves without running destructors that belong to the parent.
     _exit(0);
   }
   const int why = errno;
   ::close(ends[1]);
   to_copy_ = ends[0];
+  // The first request is empty: it shows whether the file can be opened at all.
   try {
     if (copy_ < 0) fail(std::string("cannot be read by a process of its own: ") + std::strerror(why));
     ask({}, {});

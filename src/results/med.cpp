@@ -179,6 +179,8 @@ void write_cell_values(const Writer& writer, const std::string& field, const Mom
 
 MedReport write_all(const std::vector<PvdCollection::Entry>& moments, const fs::path& root,
                     const std::vector<std::string>& bodies, const fs::path& path) {
+  // The first moment gives mesh, bodies and the list of fields. Every later one has to be of the same mesh,
+  // since MED keeps one mesh for all times.
   Writer writer(path);
   MedReport report;
   std::vector<FieldArray> columns;
@@ -200,6 +202,7 @@ MedReport write_all(const std::vector<PvdCollection::Entry>& moments, const fs::
     }
     check_same_mesh(files, report.points, report.cells, root / entry.file);
     const Moment moment{static_cast<med_int>(report.times) + 1, entry.time};
+    // Values are written moment by moment, nodes and cells apart.
     for (const FieldArray& column : columns) {
       const std::vector<double> values = values_of(files, column);
       if (column.of_points())
@@ -207,6 +210,7 @@ MedReport write_all(const std::vector<PvdCollection::Entry>& moments, const fs::
       else
         write_cell_values(writer, column.name, moment, blocks, column.components, values);
     }
+    // Cells of absent bodies get a field of their own, made when the first of them is met.
     const std::vector<std::uint8_t> hidden = hidden_cells(files);
     if (std::any_of(hidden.begin(), hidden.end(), [](std::uint8_t h) { return h != 0; })) {
       if (!has_absent) make_field(writer, "absent", 1, "1");

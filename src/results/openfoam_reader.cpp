@@ -163,6 +163,8 @@ std::vector<Index> read_labels(FoamFile file) {
 }
 
 PolyMesh read_mesh(const fs::path& folder, double length, const SourceLocation& where) {
+  // A mesh of OpenFOAM is four lists: points, faces, and the cell on either side of each face. Points are
+  // converted to metres.
   PolyMesh mesh;
   FoamFile points = open_of_mesh(folder, "points", where);
   points.header();
@@ -177,6 +179,8 @@ PolyMesh read_mesh(const fs::path& folder, double length, const SourceLocation& 
   if (const std::string kind = faces.header(); kind != "faceList")
     faces.fail("the faces are a '" + kind + "'", "a faceList");
   const std::size_t n_faces = faces.count();
+  // Faces are kept as one list of corners with the place where each begins; corners that are no points are
+  // refused at once.
   faces.expect("(");
   for (std::size_t f = 0; f < n_faces; ++f) {
     const std::size_t n = faces.count();
@@ -190,6 +194,7 @@ PolyMesh read_mesh(const fs::path& folder, double length, const SourceLocation& 
     faces.expect(")");
     mesh.first.push_back(mesh.corners.size());
   }
+  // The lists of cells have to fit the faces. The number of cells is the largest one that a face names.
   mesh.owner = read_labels(open_of_mesh(folder, "owner", where));
   mesh.neighbour = read_labels(open_of_mesh(folder, "neighbour", where));
   if (mesh.owner.size() != n_faces || mesh.neighbour.size() > n_faces)
@@ -257,6 +262,7 @@ struct FoamField {
 };
 
 FoamField read_values(FoamFile file, const PolyMesh& mesh) {
+  // A field says its dimensions, then its values: one for all, or one for each cell or point.
   FoamField field;
   const std::string kind = file.header();
   if (kind != "volScalarField" && kind != "pointScalarField")
@@ -296,6 +302,8 @@ FoamField read_values(FoamFile file, const PolyMesh& mesh) {
       for (const double value : field.values)
         if (!std::isfinite(value)) file.fail("the field is not finite somewhere");
       return field;
+      // Entries that are not needed (boundary fields and others) are skipped, whole groups with their
+      // brackets.
     } else if (const std::string_view next = file.token(); next == "{") {
       for (int depth = 1; depth > 0;) {
         const std::string_view word = file.token();

@@ -206,6 +206,8 @@ std::string text(const Overview& o) {
 }
 
 Json json(const Overview& o) {
+  // What the case was understood to be, for summary.json and the report: bodies, skins of contact, what is
+  // poured, and the effort that is expected. Lengths are in metres.
   Json::Array bodies, skins, pours;
   for (const BodyOverview& b : o.bodies) {
     Json j;

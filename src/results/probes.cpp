@@ -252,6 +252,8 @@ Probes::Sample Probes::point_sample(const Mesh& mesh, const PointProbe& probe, c
 
 Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const GroupProbe& probe,
                                     const Field& field) const {
+  // A probe of a group is a sum of weighted values, or their extreme. Which values it needs depends on where
+  // the field lives and what the group is.
   const auto refuse = [&](const std::string& what, const std::string& allowed) {
     throw InputError(probe.where, fmt::format("probe '{}': {}", probe.column.name, what), allowed);
   };
@@ -260,6 +262,7 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
   const auto nodes = mesh.node_sets.find(probe.group);
   if (nodes == mesh.node_sets.end())
     refuse(fmt::format("there is no group '{}'", probe.group), "groups: " + group_names(mesh));
+  // A group may be a surface on some processes only, so all of them decide together.
   const bool surface = parallel::any_process(mesh.surfaces.contains(probe.group));
   const auto of_elements = [&] {
     return body >= 0 ? cell_weights(mesh, kind, body)
@@ -272,6 +275,7 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
   sample.component = probe.component;
   sample.unit = field.unit;
   sample.body = body;
+  // Extremes need no weights, but every value once: owned nodes, or the elements of the group.
   if (extreme) {
     sample.reduce = probe.statistic == Statistic::minimum ? Reduce::minimum : Reduce::maximum;
     if (field.place == mesh::FieldPlace::node) {
@@ -282,6 +286,8 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
     }
     if (!parallel::any_process(!sample.weights.empty()))
       refuse(fmt::format("the group '{}' is empty", probe.group), {});
+    // Means over cells are weighted by volume or area, those over nodes by the integrals of their shape
+    // functions.
   } else if (field.place == mesh::FieldPlace::cell) {
     sample.weights = of_elements();
   } else {
@@ -290,6 +296,7 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
     for (std::size_t a = 0; a < mean.nodes.size(); ++a)
       sample.weights.emplace_back(static_cast<std::size_t>(mean.nodes[a]), mean.weights[a]);
   }
+  // An integral is the mean times the measure of the group, with the unit of both.
   if (probe.statistic == Statistic::integral) {
     const double measure = mesh::group_measure(mesh, probe.group, kind);
     if (!(measure > 0))
@@ -303,6 +310,7 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
 }
 
 Probes::Sample Probes::linear_sample(const LinearProbe& probe) const {
+  // A probe that combines others: each has to stand before it, and all measure the same.
   Sample sample;
   sample.reduce = Reduce::linear;
   double sum = 0;
@@ -329,6 +337,8 @@ Probes::Sample Probes::linear_sample(const LinearProbe& probe) const {
   }
   if (sample.terms.empty())
     throw InputError(probe.where, fmt::format("probe '{}' combines nothing", probe.column.name));
+  // If the factors sum to one the result is of the kind of its parts (a temperature), otherwise a difference,
+  // which converts without offset.
   const bool absolute = std::abs(sum - 1) < 1e-12;
   sample.shown =
       conversion_to(probe.column, sample.unit,

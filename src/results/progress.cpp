@@ -72,6 +72,8 @@ std::string Progress::left_text(const coupling::StepRecord& record, double share
 }
 
 void Progress::step(const coupling::StepRecord& record) {
+  // One line for a step, in the columns of the head: number, time and size, iterations and residuals, solid
+  // part, closed points, defect of the first law over the run so far, and the time that is left.
   sum_ += record.energy;
   std::string text = fmt::format("{:>6} {:>11.6g} {:>9.4g}", record.number, record.time, record.dt);
   const auto phase = [&](const coupling::PhaseEffort& effort) {
@@ -87,6 +89,7 @@ void Progress::step(const coupling::StepRecord& record) {
   }
   if (options_.heat)  // of all steps together
     text += fmt::format(" {:>8.1e}", coupling::relative_defect(sum_, heat_content_));
+  // Steps of another stage take another time, so the estimate begins again.
   if (record.stage != stage_) remaining_.begin_anew();
   stage_ = record.stage;
   remaining_.step(record.time, options_.clock());
@@ -95,6 +98,7 @@ void Progress::step(const coupling::StepRecord& record) {
   text += fmt::format(" {:>12}  {}", left, record.reason);
   if (!record.stage.empty()) text += ", " + record.stage;
   if (record.cycle > 0) text += fmt::format(" {}", record.cycle);
+  // Tries in vain are told with the reason of the last one.
   if (record.rejected + record.shortened > 0) {
     std::string tries;
     if (record.rejected > 0) tries = fmt::format("{} rejected", record.rejected);

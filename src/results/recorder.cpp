@@ -114,9 +114,12 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
       checkpoints_(folder.root()),
       criteria_probed_(samples_criteria(phases, options_.probes)),
       began_(processes::wall_time()) {
+  // Profiles and fields are made on every process; a field that does not exist is complained about before the
+  // run begins.
   for (const Profile& profile : options_.profiles)
     profiles_.emplace_back(mesh, options_.kind, profile, fields_.bodies());
   fields_.bodies().select(options_.fields);  // complains about a field there is not
+  // Tables are written by the first process alone. A run that continues keeps the rows up to its checkpoint.
   on_first_process([&] {
     std::vector<CsvColumn> columns{{"time", "s"}};
     if (options_.stages) columns.insert(columns.end(), {{"stage", "1"}, {"cycle", "1"}});
@@ -131,6 +134,7 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
       history_.emplace(folder.history(), columns);
       steps_.emplace(folder.steps(), step_columns(step_table()));
     }
+    // Tables of pools, feeding and shots exist only where the run has something to put into them.
     if (phases.criteria != nullptr && phases.heat != nullptr && options_.melting)
       pools_.emplace(folder.pools(), options_.continue_from
                                          ? std::optional(options_.continue_from->state.time)
@@ -351,6 +355,8 @@ void Recorder::write_fields(const coupling::State& state) {
 }
 
 void Recorder::write_summary_file(const std::string& outcome, const coupling::State& state) {
+  // The summary is filled in the order of the file: outcome, times and bytes of each part, balance between
+  // the processes, criteria, fields, warnings and the profile. All of it is collective but the writing.
   Summary& s = options_.summary;
   s.outcome = outcome;
   s.end_time = state.time;
@@ -387,6 +393,7 @@ void Recorder::write_summary_file(const std::string& outcome, const coupling::St
   s.warnings = logging::warnings();
   s.profile = profile::rows();
   s.profile_total = profile::total();
+  // The first process adds the last row of the history, and writes.
   on_first_process([&] {
     const auto& columns = history_->columns();
     for (std::size_t i = 0; i < columns.size(); ++i)

@@ -145,11 +145,15 @@ void StressRecovery::spread(Patch& patch) const {
 }
 
 std::vector<double> StressRecovery::at_nodes(std::span<const double> stress, int asked) const {
+  // Each node gets the value of a linear fit to the stresses of the elements around it (superconvergent patch
+  // recovery), body by body, because stress jumps from body to body.
   const std::vector<ElementOfCell> cells = cells_of(mesh_);
   const std::size_t n = mesh_.x.size();
   std::vector<double> result(k_components * n, 0.0), bodies(n, 0.0);
   for (std::size_t body = 0; body < mesh_.bodies.size(); ++body) {
     if (asked >= 0 && body != static_cast<std::size_t>(asked)) continue;
+    // The fit of a patch is its mean and its gradient about the centre of its elements; its rank says how
+    // many directions it could determine.
     std::vector<double> fits(k_fit * n, 0.0);
     for (const Patch& patch : patches_) {
       if (at(patch.body) != body) continue;
@@ -168,7 +172,10 @@ std::vector<double> StressRecovery::at_nodes(std::span<const double> stress, int
           for (std::size_t j = 0; j < 3; ++j) of[1 + i] += patch.inverse[3 * i + j] * moment[j];
       }
     }
+    // Ghosts get the fits of their owners, since a node may need that of a neighbour.
     ghosts_.update(fits, static_cast<int>(k_fit));
+    // A node whose own patch has a lower rank than one around it (at a corner, say) takes the mean of the
+    // better fits, extended to its place.
     for (const Patch& patch : patches_) {
       if (at(patch.body) != body) continue;
       const auto node = at(patch.node);
@@ -197,6 +204,7 @@ std::vector<double> StressRecovery::at_nodes(std::span<const double> stress, int
       bodies[node] += 1;
     }
   }
+  // A node of several bodies has the mean over them.
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < k_components && bodies[i] > 0; ++k) result[k_components * i + k] /= bodies[i];
   ghosts_.update(result, static_cast<int>(k_components));

@@ -97,6 +97,8 @@ bool with_friction(const coupling::Phases& phases) {
 
 StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases, AnalysisKind kind)
     : mesh_(mesh), phases_(phases), kind_(kind), ghosts_(mesh) {
+  // Fields are made once, with room for their values: those of each phase that exists, those of the criteria,
+  // and those of contact. Values are filled in when they are asked for.
   find_side_areas(kind);
   bodies_.set_cylindrical(kind == AnalysisKind::axisymmetric);
   if (phases.heat != nullptr) {
@@ -118,12 +120,14 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
   for (const auto& v : values_)
     bodies_.add(
         {v->name, v->unit, v->components, v->place, v->values, v->compute, {}, v->on_request, v->compute_of});
+  // Nodal fields of the phases are shown on the contact surfaces too.
   if (phases.contacts.empty()) return;
 
   FieldSet contact;
   for (std::size_t i = 0; i < n_of_phases; ++i)
     if (const auto& v = values_[i]; v->place == mesh::FieldPlace::node && !v->compute)
       contact.add({v->name, v->unit, v->components, v->place, v->values});
+  // A field of contact is in both sets. On bodies some are counted for the covered area alone.
   const auto add_everywhere = [&](const Quantity& quantity, const char* unit = nullptr) {
     const std::vector<double>& values = add(quantity);
     Values& v = *values_.back();
@@ -151,6 +155,7 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
   }
   if (phases.heat != nullptr && (with_friction(phases) || interfaces_store(phases)))
     add_everywhere(of_contact::k_interface_temperature);
+  // Each pair has its two surfaces, which are written as parts of their own.
   for (const contact::ContactPair* pair : phases.contacts)
     for (const std::string& surface : {pair->spec().slave, pair->spec().master})
       if (surface == pair->spec().slave || !pair->spec().rigid_master) surfaces_[surface] = contact;

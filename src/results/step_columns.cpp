@@ -73,6 +73,8 @@ CsvCell whole(int value) {
 }
 
 const std::vector<StepColumn>& all_step_columns() {
+  // The columns of steps.csv in their order: name, unit, whether a run has it, and how its value is read from
+  // the record of a step.
   using Record = coupling::StepRecord;
   using Contact = coupling::ContactSummary;
   constexpr auto always = [](const StepTable&) { return true; };
@@ -217,6 +219,8 @@ std::vector<CsvCell> step_row(const coupling::StepRecord& r, StepTable table) {
 }
 
 std::vector<Reading> GlobalHistory::all() const {
+  // The readings of history.csv in their order, each where the run has what it reads: temperatures, contact,
+  // energies of the first law summed over the steps so far, and stability.
   std::vector<Reading> all = {{{"T_min", "degC"}, last_.min_temperature - k_zero_celsius},
                               {{"T_max", "degC"}, last_.max_temperature - k_zero_celsius}};
   const auto add = [&all](const char* name, const char* unit, double value) {

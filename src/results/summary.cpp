@@ -103,6 +103,8 @@ PeakMemory peak_memory() {
 }
 
 std::string summary_json(const Summary& s) {
+  // summary.json in the order that a reader looks for: what ran, how it ended, effort, last values, criteria,
+  // fields and answers. What a run does not have is left out.
   Json::Array warnings(s.warnings.begin(), s.warnings.end());
   Json mesh;
   mesh.add("nodes", s.mesh.nodes)

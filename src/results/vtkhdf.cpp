@@ -152,6 +152,8 @@ void write_mesh(Writer& writer, const FieldMoment& moment, const std::vector<Fie
 
 VtkHdfReport write_all(const std::vector<PvdCollection::Entry>& moments, const fs::path& root,
                        const fs::path& path) {
+  // The file has one mesh and, for each step, the place in the long lists where its values begin. The first
+  // moment gives mesh and columns, and later ones have to be of the same mesh.
   Writer writer(path);
   VtkHdfReport report;
   writer.group("VTKHDF");
@@ -168,6 +170,7 @@ VtkHdfReport write_all(const std::vector<PvdCollection::Entry>& moments, const f
     }
     check_same_mesh(moment, report.points, report.cells, root / entry.file);
     const auto step = static_cast<std::int64_t>(report.times);
+    // Columns of the mesh (numbers, materials) are written once; for them every step points to the beginning.
     for (const FieldArray& column : columns) {
       const auto n = static_cast<std::int64_t>(column.of_points() ? report.points : report.cells);
       const std::int64_t offset = column.is_of_mesh() ? 0 : step * n;
@@ -188,6 +191,7 @@ VtkHdfReport write_all(const std::vector<PvdCollection::Entry>& moments, const f
     ++report.fields;
     if (!column.unit.empty()) writer.text_attribute(path_of(column), "UNITS_LABEL", column.unit);
   }
+  // The remaining lists of steps are the same for a mesh that does not change.
   writer.append("VTKHDF/Steps/Values", times);
   const std::vector<std::int64_t> zeros(times.size(), 0), ones(times.size(), 1);
   for (const char* name : {"PartOffsets", "PointOffsets"})

@@ -161,6 +161,8 @@ std::string vtk_head(std::string_view type) {
 }
 
 void write_part(const std::filesystem::path& path, const Part& part, const FieldSet& fields, double time) {
+  // Values are written to a spool file while the XML head is composed, since the head has to know where each
+  // array begins.
   SpoolFile spool(path.string() + ".spool");
   AppendedData data(spool);
   std::string xml = vtk_head("UnstructuredGrid");
@@ -172,6 +174,7 @@ void write_part(const std::filesystem::path& path, const Part& part, const Field
   xml += fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", part.nodes.size(),
                      part.n_cells);
 
+  // Fields of nodes come first, then those of cells with the numbers of element, body and process.
   xml += fmt::format("      <PointData{}>\n", active(fields, mesh::FieldPlace::node));
   for (const Field& field : fields.all())
     if (field.place == mesh::FieldPlace::node) xml += add_field(data, part, field);
@@ -192,6 +195,7 @@ void write_part(const std::filesystem::path& path, const Part& part, const Field
                                     [](const ElementBlock& block, Index) { return block.body; });
   xml +=
       add_of_cells<std::int32_t>(data, part, "process", [rank](const ElementBlock&, Index) { return rank; });
+  // Cells of absent bodies are marked, so that viewers hide them.
   if (const linear::ActiveSet* active_set = fields.active())
     xml +=
         add_of_cells<std::uint8_t>(data, part, k_ghost_type, [active_set](const ElementBlock& block, Index) {
@@ -202,6 +206,7 @@ void write_part(const std::filesystem::path& path, const Part& part, const Field
   xml += "      <Cells>\n" + add_cells(data, part) + "      </Cells>\n";
   xml += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n   _";
 
+  // The file appears whole under its name, or not at all.
   AtomicFile file(path);
   file.write(xml);
   spool.copy_to(file.file());

@@ -180,6 +180,8 @@ int Bodies::body_index(double number) const {
 }
 
 Bodies::Bodies(const FieldFile& file) {
+  // The first field file of a run gives the meshes of all moments. Its pieces, one a process, are read whole
+  // first, because the dimension of the bodies has to be known.
   struct Read {
     std::vector<double> node, element, body, x;
     mesh::CellTable cells;
@@ -199,6 +201,7 @@ Bodies::Bodies(const FieldFile& file) {
   if (dimension_ < 2)
     throw InputError({}, "the field files have no areas or volumes: there is nothing to show");
 
+  // Bodies are numbered in the order of their numbers in the file.
   std::map<double, std::size_t> index;
   for (const Read& r : read)
     for (const double number : r.body) index.try_emplace(number);
@@ -213,6 +216,8 @@ Bodies::Bodies(const FieldFile& file) {
   }
   local_.resize(bodies_.size());
   std::vector<std::vector<Face>> faces(bodies_.size());
+  // Nodes that several pieces have are one node, found by their number in the input. Elements are divided
+  // into simplices, and faces are collected to find the skin.
   for (std::size_t p = 0; p < read.size(); ++p) {
     const Read& r = read[p];
     for_each_part(file.pieces()[p], r.cells,
@@ -237,6 +242,8 @@ Bodies::Bodies(const FieldFile& file) {
                     if (dimension_ == 3) add_faces(shape, nodes, faces[b]);
                   });
   }
+  // The skin is what belongs to one element alone. Nodes are sorted in space, so that neighbours lie close in
+  // the packed data.
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     add_skin(faces[b], bodies_[b]);
     sort_in_space(bodies_[b]);
@@ -259,6 +266,8 @@ const std::vector<PieceMap>& Bodies::maps(const FieldFile& file) {
 
 PieceMap Bodies::make_map(const FieldFile::Piece& piece, std::vector<double> node,
                           std::vector<double> element) const {
+  // The map of a piece says where its values go: for each cell the body, nodes and weight, for each point the
+  // bodies whose node it is.
   PieceMap map{std::move(node), std::move(element), {}, {}};
   const std::vector<double> body = numbers(piece, "CellData", "body", piece.n_cells);
   const mesh::CellTable table = mesh::read_cells(*piece.file, *piece.tree, piece.n_cells, piece.n_points);
@@ -280,11 +289,13 @@ PieceMap Bodies::make_map(const FieldFile::Piece& piece, std::vector<double> nod
       cell.weight += measure(bodies_[b].x, simplex, nodes);
     cell.nodes.insert(cell.nodes.end(), nodes.begin(), nodes.end());
   });
+  // The place of a cell is the mean of its nodes, for extremes that are told with their place.
   for (PieceMap::Cell& cell : map.cells)
     for (const std::int32_t n : cell.nodes)
       for (std::size_t i = 0; i < 3; ++i)
         cell.centre[i] += bodies_[static_cast<std::size_t>(cell.body)].x[static_cast<std::size_t>(n)][i] /
                           static_cast<double>(cell.nodes.size());
+  // A point that several bodies share is a target for each of them.
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   for (const auto& [b, point] : pairs)

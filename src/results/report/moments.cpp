@@ -30,6 +30,8 @@ bool is_number_of_things(std::string_view name) {
 
 void add_columns(const FieldFile::Piece& piece, bool of_elements, const std::set<std::string>& contact_fields,
                  std::vector<FieldColumn>& columns) {
+  // Each array of the file becomes a column, a vector three and the stress its largest principal value. What
+  // a column means (kept at the end alone, without value below zero) is declared with the quantity.
   const char* section = of_elements ? "CellData" : "PointData";
   for (const std::string& name : mesh::array_names(*piece.tree, section)) {
     if (is_number_of_things(name)) continue;
@@ -129,6 +131,8 @@ class Reading {
   void add(const FieldFile::Piece& piece, const PieceMap& map, const FieldColumn& column,
            std::vector<std::vector<double>>& values, std::vector<std::vector<double>>& weight,
            std::vector<Extremes>& extremes) {
+    // Values of a moment are put at the nodes of the bodies. A marker for "no value" is turned into
+    // not-a-number.
     const std::vector<double>& all = array(piece, column);
     if (all.empty()) return;
     const auto n = static_cast<std::size_t>(column.n_components);
@@ -138,6 +142,8 @@ class Reading {
       const bool nothing = (column.none_at_zero && value == 0) || (column.none_below_zero && value < 0);
       return nothing ? k_none : value;
     };
+    // Fields of points go straight to their nodes; of contact fields those nodes alone count that are on a
+    // surface.
     if (!column.of_elements) {
       for (const PieceMap::Target& target : map.targets) {
         const auto b = static_cast<std::size_t>(target.body), node = static_cast<std::size_t>(target.node);
@@ -146,6 +152,8 @@ class Reading {
       }
       return;
     }
+    // Fields of elements are summed at their nodes with the volume of the element, and their extremes are
+    // those of the elements.
     for (std::size_t c = 0; c < map.cells.size(); ++c) {
       const PieceMap::Cell& cell = map.cells[c];
       const double value = cell.body < 0 ? k_none : at(c);

@@ -103,6 +103,8 @@ std::string double_bytes(std::span<const double> values) {
 }
 
 Packed16 pack16(const std::vector<std::vector<float>>& moments) {
+  // Values of all moments of one field and body are packed together. First the range is found, and whether
+  // there are places without a value.
   Packed16 out;
   bool complete = true;
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -117,8 +119,11 @@ Packed16 pack16(const std::vector<std::vector<float>>& moments) {
   if (!out.any) return out;
   out.low = low;
   out.high = high;
+  // A field that is the same everywhere needs no more than its value.
   out.uniform = complete && low == high;
   if (out.uniform) return out;
+  // A value is counted in steps of the range, and told as the difference to what the moment before and the
+  // neighbour in space foretell: small numbers, which compress well. Negative ones are mapped to positive.
   const double scale = high > low ? k_steps / (high - low) : 0;
   const std::size_t n = moments.front().size();
   std::vector<std::uint16_t> words, now(n), last(n, 0);
@@ -137,6 +142,7 @@ Packed16 pack16(const std::vector<std::vector<float>>& moments) {
     }
     last.swap(now);
   }
+  // The two bytes of the numbers go apart, since the higher ones are nearly all zero.
   out.words = planes<std::uint16_t>(words);
   return out;
 }

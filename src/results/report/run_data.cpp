@@ -235,6 +235,8 @@ Json all_quantities() {
 void add_fields(Json& out, const fs::path& folder, const std::vector<BodyMaterial>& names,
                 const ReportOptions& options, std::size_t most_bytes, Blocks& blocks,
                 std::vector<std::string>& notes) {
+  // The part of the page with the fields: meshes, columns, and the packed moments. Without field files the
+  // page has tables alone.
   const Collection files = collection(folder, notes);
   if (files.moments.empty()) {
     notes.emplace_back("The run has written no fields: the page has its tables alone.");
@@ -247,8 +249,10 @@ void add_fields(Json& out, const fs::path& folder, const std::vector<BodyMateria
   Json::Array all;
   for (const BodyMesh& body : bodies.all()) all.push_back(body_data(body, names, options, blocks, notes));
   mesh.add("dimension", bodies.dimension()).add("bodies", std::move(all));
+  // Columns are those of the last file, since fields may begin late in a run.
   const std::vector<FieldColumn> columns =
       field_columns(FieldFile(files.moments.back().file), contact.fields);
+  // As many moments are packed as the page may hold; a note says if some were left out.
   const PackedMoments moments =
       pack_moments(bodies, files.moments, columns, contact.nodes, most_bytes, blocks);
   if (moments.moments.size() < files.moments.size())
