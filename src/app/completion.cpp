@@ -100,6 +100,8 @@ std::string bash_action(const Candidates& c) {
 }
 
 std::string bash(const CommandTree& tree, const KnownWords& known) {
+  // The script is made of the tree of verbs and options that the command line itself has, so that it cannot
+  // differ from it. It finds the verb among the words before the cursor.
   std::string out = R"(# Completion of solidus for bash; written by `solidus completion bash`.
 _solidus_words() {
   COMPREPLY=($(compgen -W "$1" -S "${2-}" -- "$cur"))
@@ -118,6 +120,8 @@ _solidus() {
   const Candidates verbs = candidates("VERB", tree, known);
   out += fmt::format("      {}) verb=$word; break ;;\n    esac\n  done\n  case $verb in\n",
                      fmt::join(verbs.words, "|"));
+  // For each verb: what follows an option that takes a value, the options where a dash was typed, and the
+  // first positional argument otherwise.
   for (const VerbInfo& verb : tree.verbs) {
     const std::vector<OptionInfo> options = options_with(verb, tree);
     out += fmt::format("    {})\n      case $prev in\n", verb.name);

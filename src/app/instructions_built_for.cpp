@@ -4,6 +4,8 @@
 namespace solidus::app {
 
 constexpr Instructions built_for() {
+  // One bit for each set of instructions that the compiler was allowed to use, in the order in which
+  // instructions.cpp asks the processor for them.
   Instructions set = 0;
 #ifdef __SSE4_2__
   set |= 1U << 0U;

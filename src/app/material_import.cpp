@@ -56,6 +56,7 @@ void write_text(const fs::path& file, const std::string& text) {
 }  // namespace
 
 ExitCode import_material(const MaterialImportArguments& arguments) {
+  // Options come first, with their units converted, and the material that the new card is like.
   const auto folders = model::material_folders();
   material::ImportOptions options;
   options.columns = columns_of(arguments.columns);
@@ -68,6 +69,8 @@ ExitCode import_material(const MaterialImportArguments& arguments) {
   std::optional<material::Material> base;
   if (!arguments.like.empty()) base = material::find_material(arguments.like, folders);
 
+  // The card goes to the terminal, or to a file, which is then read as a run would read it: what is wrong
+  // with it is said now.
   const material::ImportedCard card =
       material::import_card(read_column_table(arguments.file), options, base ? &*base : nullptr);
   const std::string text = to_toml(card.document);
@@ -89,6 +92,8 @@ ExitCode import_material(const MaterialImportArguments& arguments) {
 }
 
 ExitCode solidification_path(const SolidificationArguments& arguments) {
+  // The system of the solvent is looked up in the library, or read from a file; it has to be that of the
+  // alloy.
   const material::Composition alloy = material::parse_composition(arguments.alloy);
   const material::LiquidusSystem system =
       arguments.system.empty() ? material::find_liquidus_system(alloy.solvent, model::material_folders())
@@ -104,6 +109,7 @@ ExitCode solidification_path(const SolidificationArguments& arguments) {
       material::solidification_path(system, alloy, rule, arguments.tolerance);
   const auto celsius = [](double t) { return units::to_display(t, "K", "degC"); };
 
+  // The text can be put into a card as it is: remarks are comments, temperatures rise as the key asks.
   std::string text =
       fmt::format("# {} by {}: liquidus {:.1f} degC, {:.1f} % primary solid down to {:.1f} degC, ",
                   arguments.alloy, arguments.lever ? "the lever rule" : "Scheil's equation",

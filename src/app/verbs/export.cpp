@@ -52,6 +52,8 @@ ExitCode export_fields(const ExportArguments& arguments) {
 }
 
 ExitCode export_state(const ExportArguments& arguments) {
+  // One format at a time: fields over time (VTKHDF, MED), or the state at the end as the start of an
+  // analysis.
   const auto formats = {&arguments.abaqus, &arguments.calculix, &arguments.vtkhdf, &arguments.med};
   if (std::count_if(formats.begin(), formats.end(), [](const auto* file) { return !file->empty(); }) != 1)
     throw InputError({}, "export needs one format and the file to write",
@@ -64,6 +66,7 @@ ExitCode export_state(const ExportArguments& arguments) {
   options.dialect = abaqus ? results::Dialect::abaqus : results::Dialect::calculix;
   options.deformed = arguments.deformed;
   options.temperature_history = arguments.temperature_history;
+  // The case is read from the run's folder, with the mesh that the run had.
   model::Case c = model::load_case(arguments.folder);
   c.spec.mesh.trust_script = arguments.trust_script;
   const model::ExportReport report = model::export_state(c, options);
@@ -72,6 +75,7 @@ ExitCode export_state(const ExportArguments& arguments) {
                       report.elements, report.times, report.time));
     return k_done;
   }
+  // The report says how far nodes moved to be in balance, and what holds bodies that only contact held.
   print(fmt::format(
       "{}: {} elements at t = {:g} s; equilibrium at the final temperature moved nodes by up to {:.3g} m\n",
       options.file.string(), report.elements, report.time, report.adjusted));

@@ -70,8 +70,11 @@ std::string plasticity(const material::Flow& flow) {
 }
 
 std::string describe(const Material& m) {
+  // A material as text: constants and tables with their units, then laws, phase changes, and the source and
+  // validity of each.
   std::string out = fmt::format("{}: {}\n", m.name, m.title);
   out += property("density", Table(m.density), "kg/m3");
+  // With flow curves the flow stress is told by them alone.
   const bool curves = m.flow && !m.flow->curves.empty();
   for (const material::Property& p : m.properties())
     if (!curves || p.table != &m.flow->flow_stress) out += property(p.name, *p.table, p.unit);

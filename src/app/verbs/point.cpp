@@ -147,6 +147,8 @@ struct Summary {
 
 void write_curve(const Curve& curve, const point::History& history, const fs::path& folder,
                  Summary& summary) {
+  // One curve gives a table, an entry of the summary, and its lines on the terminal. A history that stopped
+  // is written as far as it came.
   const std::string outside = warning(curve, history.records);
   results::write_file(folder / (curve.name + ".csv"), table(history.records));
   Json entry;
@@ -162,6 +164,7 @@ void write_curve(const Curve& curve, const point::History& history, const fs::pa
     summary.notes += "  warning: " + outside + "\n";
   }
   summary.lines += line(curve, history);
+  // Measured curves are written beside the computed one, with the deviation of each column.
   if (curve.measured) {
     const std::string file = curve.name + "_measured.csv";
     results::write_file(folder / file, table(*curve.measured));

@@ -81,6 +81,8 @@ model::RunResult run_all(const RunArguments& arguments, const model::Case& c,
 }
 
 ExitCode run_case(const RunArguments& arguments) {
+  // The order of a run at the command line: case, options, the page that watches it, the run itself, and what
+  // is said at its end.
   const model::Case c = load_case(arguments);
   if (arguments.sure && c.spec.time.steady)
     throw InputError(c.spec.time.where, "--sure compares answers of a transient run, and this case is steady",
@@ -88,6 +90,7 @@ ExitCode run_case(const RunArguments& arguments) {
   model::RunOptions options;
   options.folder = results_folder(arguments, c);
   const int rank = processes::rank();
+  // The first process alone talks; the others compute.
   options.progress = rank == 0 ? &std::cout : nullptr;
   options.terminal = rank == 0 && arguments.progress_bar && results::is_terminal(STDOUT_FILENO);
   options.restart = arguments.restart;
@@ -100,9 +103,11 @@ ExitCode run_case(const RunArguments& arguments) {
     print("Watch it in a browser on this machine: " + watch->address() + "\n");
   }
   const model::RunResult result = run_all(arguments, c, options);
+  // The folder is noted before the outcome is judged, because pictures are drawn of a run that stopped too.
   if (watch) watch->finish();
   note_folder(options.folder);  // a run that stopped is drawn as far as it came
   if (arguments.report && rank == 0) write_report({options.folder.string()}, {});
+  // A run that was stopped from outside ends with another exit code than one that cannot continue.
   if (!result.finished) {
     if (rank == 0)
       std::cerr << painted("solidus:", Colour::red, has_colours(STDERR_FILENO)) << " " << result.reason
