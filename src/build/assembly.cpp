@@ -270,6 +270,8 @@ std::vector<std::string> idle_throughout(const CaseSpec& spec, const Assembly& a
 }  // namespace
 
 void build(const CaseSpec& spec, Assembly& a) {
+  // The parts of a run are made in the order in which they need each other: stages, initial temperatures,
+  // contacts, mechanics, structural heat, heat, criteria.
   a.stages = stage_runs(spec);
   if (const auto idle = idle_throughout(spec, a); !idle.empty())
     logging::warn("these act on bodies that only conduct heat, and do nothing: {}", listed(idle));
@@ -281,6 +283,7 @@ void build(const CaseSpec& spec, Assembly& a) {
   for (const InitialTemperatureRange& range : a.start) highest.push_back(range.high);
   check_melts(spec, a.materials, highest);
   build_contacts(spec, a);
+  // Mechanics is given the initial temperatures even if heat is not solved for.
   if (spec.has_mechanics()) {
     a.phases.temperature = nodal_temperature(spec, start, a.mesh);
     build_mechanics(spec, a.phases.temperature, a);
@@ -292,6 +295,7 @@ void build(const CaseSpec& spec, Assembly& a) {
     a.initial.mechanics = a.mechanics->initial_state();  // with what structural heat keeps at the points
   }
   if (spec.has_heat()) build_heat(spec, start, a);
+  // The range of temperatures that a coupled run may reach is checked against the coldest start.
   if (spec.coupled())
     a.phases.ambient_temperature = admissibility(spec, a.coldest_start()).ambient_temperature;
   a.criteria = make_criteria(spec, a.mesh, a.materials, a.start, a.phases);

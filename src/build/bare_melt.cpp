@@ -50,6 +50,8 @@ void add_faces(const Assembly& a, AnalysisKind kind, const std::string& surface,
 
 void check_no_bare_melt(const CaseSpec& spec, const Assembly& a, std::size_t number,
                         const coupling::State& begins) {
+  // A stage that takes a contact away from metal which is still melt lets it run out. Only bodies that melt,
+  // and that are there in both stages, are looked at.
   if (number == 0 || !a.heat) return;
   const StageRun &now = a.stages[number], &before = a.stages[number - 1];
   std::vector<double> solid;
@@ -57,10 +59,12 @@ void check_no_bare_melt(const CaseSpec& spec, const Assembly& a, std::size_t num
     const BodySpec& body = spec.bodies[b];
     if (a.materials[b].solidification() == nullptr) continue;
     if (!holds(body.stages, &before) || !holds(body.stages, &now)) continue;
+    // The skin that is freed is that of contacts which hold in the stage before and not in this one.
     Skin skin;
     std::string released;
     for (const ContactSpec& contact : spec.contacts) {
       if (!holds(spec, contact, a.mesh, &before) || holds(spec, contact, a.mesh, &now)) continue;
+      // The solid fraction is computed when the first such contact is found; most stages have none.
       if (solid.empty()) {
         solid = a.heat->solid_fraction(begins.heat);
         parallel::GhostExchange(a.mesh).update(solid, 1);
@@ -72,6 +76,8 @@ void check_no_bare_melt(const CaseSpec& spec, const Assembly& a, std::size_t num
         released += (released.empty() ? "'" : ", '") + contact.name + "'";
     }
     const double all = parallel::global_sum(skin.all), liquid = parallel::global_sum(skin.liquid);
+    // A small share of liquid skin is allowed. With mechanics it would flow, so the case is refused; with
+    // heat alone it is a warning.
     if (!(liquid > k_allowed * all)) continue;
     const std::string text = fmt::format(
         "the stage '{}' frees body '{}' of its contact {} at t = {:g} s, while {:.0f} % of that skin is "

@@ -111,9 +111,12 @@ std::vector<char> new_bodies(const CaseSpec& spec, const std::vector<StageRun>& 
 }
 
 void check_new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, const mesh::Mesh& mesh) {
+  // A body that comes new into a stage starts without strain, so it may not share nodes with one that stays
+  // and is strained. Rounds of a cycle beyond the second are like it.
   if (!spec.has_mechanics()) return;
   for (std::size_t i = 1; i < runs.size(); ++i) {
     if (!runs[i].pours || runs[i].cycle > 2) continue;  // all further rounds are like the second one
+    // First the nodes of bodies that stay are marked, then those of new bodies are compared with them.
     const std::vector<char> fresh = new_bodies(spec, runs, i);
     std::vector<char> stays(mesh.x.size(), 0);  // [node] of a body that deforms and was there before
     std::string shares;
@@ -173,10 +176,13 @@ bool holds(const CaseSpec& spec, const ContactSpec& contact, const mesh::Mesh& m
 }
 
 std::vector<std::string> without_body(const CaseSpec& spec, const mesh::Mesh& mesh, const StageRun* stage) {
+  // Conditions and contacts whose body is absent in a stage are idle. One that names the stage in its own
+  // list contradicts it, and is refused.
   std::vector<std::string> idle;
   const linear::ActiveSet there(mesh, gone_bodies(spec, stage)),
       deforms(mesh, absent_from_mechanics(spec, stage));
   if (deforms.complete()) return idle;
+  // Thermal conditions need the body to be there, mechanical ones that it deforms, too.
   for (const ThermalConditionSpec& c : spec.thermal_conditions) {
     using Kind = ThermalConditionSpec::Kind;
     if (!holds(c.stages, stage)) continue;
@@ -194,6 +200,8 @@ std::vector<std::string> without_body(const CaseSpec& spec, const mesh::Mesh& me
       refuse(c.where, "the mechanical condition '" + c.name + "'", *stage);
     idle.push_back(c.name);
   }
+  // A contact is idle if one of its sides is gone. A side whose faces belong to a body that has gone and to
+  // one that stays cannot be either.
   for (const ContactSpec& c : spec.contacts) {
     if (!holds(c.stages, stage)) continue;
     for (const std::string& surface : c.sides()) {

@@ -115,6 +115,8 @@ void check_interfaces(const CaseSpec& spec) {
 }
 
 void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
+  // What the keys of [mesh] say together: one source of the mesh, and keys that belong to it. Each
+  // contradiction has its own message.
   if (m.shape.has_value() == m.file.has_value())
     throw InputError(m.where,
                      m.shape ? "[mesh] has both a shape and a file" : "[mesh] has neither a shape nor a file",
@@ -127,6 +129,8 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
   if (m.mould && m.mould->walls.size() != 1 && m.mould->walls.size() != 6)
     throw InputError(m.mould->where, fmt::format("'walls' has {} lengths", m.mould->walls.size()),
                      "one, or six: lowest and highest x, y and z");
+  // Sizes, mould, riser and symmetry make the mesh of a casting from a geometry, and exclude what sizes
+  // elements otherwise.
   const bool of_casting = !m.sizes.empty() || m.mould || m.riser || m.symmetry;
   if (m.way > 0 && !of_casting)
     throw InputError(m.where, "'way' is for files that are meshed by the thickness of walls",
@@ -139,6 +143,7 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
                      "[[mesh.size]] for each body");
   if (m.riser && m.riser->foot.size() != 3)
     throw InputError(m.riser->where, fmt::format("'foot' has {} coordinates", m.riser->foot.size()), "three");
+  // A group is chosen in exactly one way.
   for (const MeshGroupSpec& g : m.groups) {
     const bool box = !g.lowest.empty() || !g.highest.empty();
     if (g.by_rule())
@@ -150,6 +155,8 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
       throw InputError(g.where, fmt::format("the box of the group '{}' has no two corners", g.name),
                        "lowest and highest of three coordinates each");
   }
+  // From here on the mesh is a built-in shape: its order follows from the element, and only groups by rule
+  // exist.
   if (!m.shape) return;
   if (m.order != 1)
     throw InputError(
@@ -330,6 +337,7 @@ void check_profiles(const CaseSpec& spec) {
 }
 
 void check_probes(const CaseSpec& spec) {
+  // A difference needs two probes that exist and are no differences themselves.
   check_names(spec.probes, "[[probe]]");
   const std::vector<std::string> bodies = names_of(spec.bodies), probes = names_of(spec.probes);
   for (const auto& p : spec.probes) {
@@ -407,6 +415,7 @@ void check_output(const OutputSpec& o) {
 }  // namespace
 
 void check_case(const CaseSpec& spec) {
+  // Each section by itself, then what sections say together.
   check_analysis(spec.analysis, static_cast<std::size_t>(spec.dimension()));
   check_mesh(spec.mesh, spec.analysis);
   check_time(spec);

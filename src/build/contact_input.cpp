@@ -119,6 +119,8 @@ Table harmonic_mean(const Table& one, const Table& two) {
 }  // namespace
 
 std::vector<contact::ContactParameters> contact_specs(const CaseSpec& spec) {
+  // The keys of each [[contact]] become the parameters of a pair. What the case leaves open is chosen here
+  // or, where it depends on the mesh, when the pair is made.
   std::vector<contact::ContactParameters> result;
   for (const ContactSpec& c : spec.contacts) {
     contact::ContactParameters pair;
@@ -133,6 +135,7 @@ std::vector<contact::ContactParameters> contact_specs(const CaseSpec& spec) {
     pair.normal = normal_kind(c.normal, spec.dynamics.has_value());
     pair.penetration_tolerance = c.penetration_tolerance;
     pair.penalty_is_factor = !c.penalty;
+    // Means around nodes bear a stiffer penalty than points of faces do.
     const double factor =
         c.integration == contact::IntegrationRule::mortar ? k_penalty_factor_of_means : k_penalty_factor;
     pair.penalty = c.penalty.value_or(c.penalty_factor.value_or(factor));

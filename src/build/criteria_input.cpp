@@ -62,6 +62,8 @@ std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const me
                                                   const std::vector<material::Material>& materials,
                                                   const std::vector<InitialTemperatureRange>& start,
                                                   const coupling::Phases& phases) {
+  // Criteria follow transient runs in which something melts. Each kind of criterion decides by itself whether
+  // the run has what it needs.
   const bool melts = std::any_of(materials.begin(), materials.end(),
                                  [](const material::Material& m) { return m.solidification() != nullptr; });
   if (!spec.criteria.follow || !melts || spec.time.steady) return nullptr;
@@ -79,6 +81,7 @@ std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const me
       .feeding = spec.feeding.follow,
       .feeding_options = feeding_options(spec, mesh, materials, start)};
   auto all = std::make_unique<criteria::Criteria>(phases.heat);
+  // A mistake in a criterion's options is told with the place of the section that it belongs to.
   for (const auto& kind : criteria::criterion_kinds()) {
     try {
       if (std::unique_ptr<criteria::Criterion> criterion = kind->make(context))

@@ -92,16 +92,20 @@ class EventList {
 
 std::vector<TimeEvent> time_events(const CaseSpec& spec, const StageRun* stage, double from, double to,
                                    double step) {
+  // Times at which a condition jumps or bends, so that steps land on them. Conditions that do not hold in the
+  // stage, and functions of temperature, give none.
   EventList list(stage, from, to, step);
   if (spec.has_heat())
     for (const ThermalConditionSpec& c : spec.thermal_conditions) {
       if (!holds(c.stages, stage)) continue;
       using Kind = ThermalConditionSpec::Kind;
+      // A sleeve ignites by temperature, at no time that is known beforehand.
       if (c.kind == Kind::exothermic) continue;
       if (c.kind == Kind::temperature) {
         list.add(c.temperature, c.clock, true, k_of_values);
         continue;
       }
+      // What bends counts less than what jumps: the last arguments say which of the two a quantity can do.
       const bool film = c.kind == Kind::film, radiates = c.kind == Kind::radiation;
       if (c.kind == Kind::flux) list.add(c.flux, c.clock, false);
       if (c.kind == Kind::source) list.add(c.power, c.clock, false);
@@ -110,6 +114,7 @@ std::vector<TimeEvent> time_events(const CaseSpec& spec, const StageRun* stage, 
       if (film || radiates) list.add(c.ambient, c.clock, false, k_of_values);
       list.add(c.factor, c.clock, false);
     }
+  // Mechanical conditions and tools follow in the same way.
   if (spec.has_mechanics()) {
     for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
       if (!holds(c.stages, stage)) continue;

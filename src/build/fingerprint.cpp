@@ -144,6 +144,8 @@ std::string mesh_text(const mesh::Mesh& mesh) {
 }
 
 std::string material_text(const material::Material& m) {
+  // Everything of a material that a result depends on goes into the hash, in a fixed order: a restart with
+  // another value is noticed. Names and sources do not count.
   Hash hash;
   hash.add(m.density);
   hash.add(m.expansion_reference);
@@ -161,6 +163,7 @@ std::string material_text(const material::Material& m) {
          {m.flow->curves.strains(), m.flow->curves.temperatures(), m.flow->curves.stresses()})
       for (const double number : numbers) hash.add(number);
   }
+  // Of a law from outside the name of its file counts, not its folder.
   if (const material::ExternalLaw* law = external_law(m)) {
     const material::ExternalData& data = law->data();
     hash.add(std::string_view(std::filesystem::path(data.library).filename().native()));

@@ -16,6 +16,8 @@ heat::Coefficient coefficient(const Function& f, TimeOrigin clock, const StageRu
 
 heat::ThermalConditions thermal_conditions(const CaseSpec& spec, const StageRun* stage) {
   using Kind = ThermalConditionSpec::Kind;
+  // Each condition that holds in this stage becomes one of the solver's. Values are functions of place and
+  // time on the clock that the condition names.
   heat::ThermalConditions conditions;
   conditions.absent_bodies = gone_bodies(spec, stage);
   for (const auto& c : spec.thermal_conditions) {

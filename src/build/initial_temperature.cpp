@@ -60,9 +60,12 @@ InitialTemperatures::Body InitialTemperatures::evaluated(const PlaceSpec& place,
                                                          const material::Material& material,
                                                          const std::string& name) const {
   Body body;
+  // The temperatures of a body at the start are those of a field of another run, or of a number or formula.
   const material::EnthalpyCurve curve = material.enthalpy();
   const std::vector<Index> nodes = nodes_of(mesh, number);
   std::vector<double> temperatures(nodes.size()), enthalpies;
+  // A field keeps its enthalpy per volume: it is mapped with the weights of the owned nodes, and the
+  // temperatures follow from it.
   if (place.kind == PlaceSpec::Kind::field) {
     const std::vector<double> all = closed_weights(mesh, number, kind);
     std::vector<double> weights(nodes.size(), 0.0);
@@ -70,6 +73,8 @@ InitialTemperatures::Body InitialTemperatures::evaluated(const PlaceSpec& place,
       if (nodes[k] < mesh.n_owned_nodes) weights[k] = all[static_cast<std::size_t>(nodes[k])];
     MappedEnthalpy mapped = map_enthalpy(place, kind, curve, mesh, nodes, weights);
     constexpr double k_few = 0.05;
+    // What lies outside of the other mesh, or has another volume, is told, since it may be the file of
+    // another part or unit.
     if (mapped.outside > k_few)
       logging::warn(
           "body '{}': {:.0f} % of it lies outside of the grid of '{}', up to {:.3g} m away, and starts with "
@@ -94,8 +99,11 @@ InitialTemperatures::Body InitialTemperatures::evaluated(const PlaceSpec& place,
     std::vector<Position> x;
     for (const Index node : nodes) x.push_back(mesh.x[static_cast<std::size_t>(node)]);
     run_collectively([&] { place_law(place, kind)->values(x, 0, temperatures); });
+    // A given temperature that rounding puts beside a change at one temperature is taken for it; the melt
+    // then holds all of its latent heat.
     for (double& t : temperatures) enthalpies.push_back(curve.upper(t = snapped(t, curve)));
   }
+  // Nodes of other bodies have no value.
   body.temperatures.assign(mesh.x.size(), std::numeric_limits<double>::quiet_NaN());
   body.enthalpies = body.temperatures;
   body.range = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};

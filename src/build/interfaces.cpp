@@ -92,6 +92,8 @@ std::vector<std::pair<BodyPair, std::size_t>> wanted_pairs(const CaseSpec& spec,
 
 std::string law_of(const CaseSpec& spec, const BodyInterfaceSpec& section, int a, int b,
                    ContactSpec& contact) {
+  // The law of heat of an interface is what the section gives, or a card of the library: that which is named,
+  // or the one that fits both materials and roles best.
   if (section.heat) {
     contact.heat = section.heat;
     return "";
@@ -107,12 +109,14 @@ std::string law_of(const CaseSpec& spec, const BodyInterfaceSpec& section, int a
     names.push_back(c.name);
     if (c.name == section.law) card = &c;
   }
+  // A name that the library does not have is refused with similar ones.
   if (!section.law.empty() && card == nullptr)
     throw InputError(section.where, fmt::format("the library has no interface law '{}'", section.law),
                      one_of(names, section.law));
   if (section.law.empty())
     card = best_card(cards, {one.material, roles[static_cast<std::size_t>(a)]},
                      {two.material, roles[static_cast<std::size_t>(b)]});
+  // Without a fitting card the user has to choose.
   if (card == nullptr)
     throw InputError(
         section.where,

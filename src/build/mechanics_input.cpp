@@ -24,6 +24,8 @@ std::array<double, 3> gravity(const AnalysisSpec& analysis) {
 
 mechanics::MechanicalConditions mechanical_conditions(const CaseSpec& spec, const StageRun* stage) {
   using Kind = MechanicalConditionSpec::Kind;
+  // Each condition that holds in this stage becomes one of the solver's. Components are numbered as
+  // displacements are: r and z take 0 and 1 around an axis.
   mechanics::MechanicalConditions conditions;
   conditions.gravity = gravity(spec.analysis);
   conditions.absent_bodies = absent_from_mechanics(spec, stage);

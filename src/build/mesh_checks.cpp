@@ -169,6 +169,8 @@ void check_bodies_of(const CaseSpec& spec, const mesh::RawMesh& mesh) {
 }
 
 void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
+  // Every group that a section names has to be in the mesh, with the dimension that its use needs. The
+  // message names the section and lists the groups there are.
   check_radius(spec, mesh);
   const int dimension = spec.dimension(), surface = dimension - 1;
   if (mesh.dimension != dimension)
@@ -178,6 +180,7 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
                     spec.mesh.file ? *spec.mesh.file : *spec.mesh.shape, mesh.dimension, dimension),
         "another `kind` in [analysis], or another mesh");
   check_bodies_of(spec, mesh);
+  // No two bodies may own one group or share elements.
   std::vector<std::string> bodies;
   for (const BodySpec& body : spec.bodies) {
     if (std::find(bodies.begin(), bodies.end(), body.mesh_group()) != bodies.end())
@@ -189,6 +192,7 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
     require(mesh, l.surface, surface, l.where, "layers of the mesh");
     require(mesh, l.body, dimension, l.where, "layers of the mesh");
   }
+  // Conditions in a volume need a body, others a surface; those on values may be on any group.
   for (const auto& c : spec.thermal_conditions) {
     const std::string user = "thermal condition '" + c.name + "'";
     if (c.in_volume())
@@ -199,6 +203,7 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
   for (const auto& c : spec.mechanical_conditions)
     require(mesh, c.group, c.kind == MechanicalConditionSpec::Kind::displacement ? -1 : surface, c.where,
             "mechanical condition '" + c.name + "'");
+  // The master of a contact may be a rigid surface instead of a group.
   std::vector<std::string> tools;
   for (const auto& s : spec.rigid_surfaces) tools.push_back(s.name);
   for (const auto& c : spec.contacts) {

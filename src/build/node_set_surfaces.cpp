@@ -55,6 +55,8 @@ std::vector<SkinFace> marked_skin(const CaseSpec& spec, const mesh::RawMesh& mes
 }  // namespace
 
 void make_surfaces_of_node_sets(const CaseSpec& spec, mesh::RawMesh& mesh) {
+  // Some programs write surfaces as sets of nodes. Where a section needs faces, those of the skin whose nodes
+  // are all in the set make the surface.
   for (const auto& [name, where] : wanted_surfaces(spec)) {
     const auto group = mesh.groups.find(name);
     if (group == mesh.groups.end() || group->second.dimension != 0) continue;
@@ -69,10 +71,12 @@ void make_surfaces_of_node_sets(const CaseSpec& spec, mesh::RawMesh& mesh) {
         block = surface.blocks.insert(block, mesh::RawBlock{face.shape, {}, {}});
       block->nodes.insert(block->nodes.end(), face.nodes.begin(), face.nodes.end());
       block->input_element.push_back(face.element);
+      // Nodes that became part of a face are marked, so that others can be told.
       for (const Index i : face.nodes) marked[static_cast<std::size_t>(i)] = 2;
     }
     std::size_t n_faces = 0;
     for (const mesh::RawBlock& block : surface.blocks) n_faces += block.input_element.size();
+    // A set without any whole face cannot be a surface.
     if (n_faces == 0)
       throw InputError(
           where,

@@ -66,6 +66,8 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
   constexpr double k_level = 0.05;  // cosine of the angle to gravity below which a face stands upright
   const double weight =
       std::sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1] + gravity[2] * gravity[2]);
+  // What check tells of a contact: areas and sizes of faces of both sides, the gaps as the bodies lie, and
+  // how the faces stand to gravity.
   ContactMeasures m;
   m.slave = pair.spec().slave;
   m.master = pair.spec().master;
@@ -76,6 +78,8 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
   if (mesh.surfaces.count(m.master) != 0)
     m.master_face_size = contact::ContactSurface(mesh, m.master).mean_face_size();
   m.shared_nodes = shared_nodes(mesh, m.slave, m.master);
+  // Gaps are measured at the points of contact, weighted by their area; those at the start have the initial
+  // offset taken away.
   double low = std::numeric_limits<double>::max(), high = -low, low_start = low, high_start = high;
   const contact::ContactKinematics& kinematics = pair.geometry().kinematics();
   for (Index p = 0; p < kinematics.n_points(); ++p) {
@@ -97,6 +101,7 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
     low_start = std::min(low_start, start);
     high_start = std::max(high_start, start);
   }
+  // Sums and extremes are those of all processes.
   for (double* area : {&m.paired, &m.below, &m.above, &m.beside}) *area = parallel::global_sum(*area);
   m.mean_gap = m.paired > 0 ? parallel::global_sum(m.mean_gap) / m.paired : 0.0;
   m.least_gap = parallel::global_min(low);
@@ -108,6 +113,8 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
 }
 
 SurfaceMeasures measure_surface(const mesh::Mesh& mesh, const std::string& name, AnalysisKind kind) {
+  // The area is integrated; corners and centres of faces are gathered for comparisons between surfaces. Of
+  // many centres every so many are kept.
   SurfaceMeasures m;
   m.body = body_of(mesh, name);
   if (m.body == -1) return m;

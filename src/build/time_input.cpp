@@ -17,6 +17,8 @@ void refuse(const TimeSpec& t, bool given, const char* key, const char* needs, c
 }
 
 void check_limits(const TimeSpec& t, const CaseSpec& spec) {
+  // Keys of [time] that mean nothing with others are refused instead of ignored, each with what it would
+  // need.
   using coupling::ErrorControl;
   const bool errors = t.temperature_error || t.displacement_error || t.stress_error;
   const char* error_key = t.temperature_error    ? "temperature_error"
