@@ -193,6 +193,8 @@ class Checks {
   }
 
   std::vector<LawCheck> results() const {
+    // The checks of a law in the order of the report: that it answers at all, its tangent, symmetry,
+    // repetition, isotropy, dissipation and energy. Each has its worst place and its limit.
     const bool symmetric = outside_ != nullptr ? outside_->symmetric() : point_.law().symmetric();
     std::vector<LawCheck> checks;
     checks.push_back({"finite", finite_,
@@ -217,6 +219,7 @@ class Checks {
              ? fmt::format("negative by {:.3g} J/m3 at {:.6g} s; {:.4g} J/m3 in all", negative_.value,
                            negative_.time, dissipated_)
              : fmt::format("never negative; {:.4g} J/m3 of {:.4g} J/m3 of work", dissipated_, moved_)});
+    // The balance of energy can be checked only where the law tells what it stores and dissipates.
     if (told_moved_ > 0) {
       const double defect = std::abs(told_work_ - told_) / told_moved_;
       checks.push_back(

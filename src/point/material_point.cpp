@@ -128,12 +128,15 @@ Law::Properties<double> MaterialPoint::properties(double temperature, double eff
 Answer MaterialPoint::answer(const Law::Properties<double>& p, double temperature,
                              const Law::State<double>& start, const Sym<double>& strain,
                              const material::TimeStep& step) const {
+  // The program's own law answers directly, with its full tangent.
   Answer a;
   if (outside_ == nullptr) {
     a.response = law_.update(p, start, strain, step);
     a.tangent = material::full_tangent(a.response);
     return a;
   }
+  // A law from outside answers into its own list of numbers, from which the response is filled as far as it
+  // knows it.
   using Outside = material::ExternalLaw;
   a.outside.resize(outside_->size());
   const auto r = outside_->update(Outside::Properties<double>{p.elastic, temperature, strain_reference()},
@@ -164,6 +167,7 @@ Answer MaterialPoint::answer(double temperature, const Sym<double>& strain, doub
 }
 
 StepResult MaterialPoint::attempt_at(double temperature, const Target& end, double dt) const {
+  // The step is one of backward Euler, or of the two-step method with the step before.
   const bool two_step = options_.integration == PointIntegration::two_step && step_before_ > 0;
   const auto step =
       two_step ? material::TimeStep::two_step(dt, step_before_) : material::TimeStep::backward_euler(dt);
@@ -171,6 +175,8 @@ StepResult MaterialPoint::attempt_at(double temperature, const Target& end, doub
   const auto p = properties(temperature, step.dt);
   const auto before = law_.properties_at(now_.temperature, strain_reference());
 
+  // The first guess of the strain: prescribed components as they end, free ones with the thermal growth of
+  // the step.
   StepResult result;
   result.effective_step = step.dt;
   const std::vector<int> free = free_components(end);
@@ -183,6 +189,8 @@ StepResult MaterialPoint::attempt_at(double temperature, const Target& end, doub
       strain[i] += growth;
   }
 
+  // Newton's method on the free components: their stresses have to be those that are asked for. The tolerance
+  // is relative to the stresses, and knows the rounding of the bulk modulus.
   Answer now = answer(p, temperature, start, strain, step);
   double missing = largest_missing(free, end, now.response.stress);
   const auto tolerance = [&] {
@@ -195,6 +203,7 @@ StepResult MaterialPoint::attempt_at(double temperature, const Target& end, doub
     result.residuals.push_back(missing);
     Sym<double> change;
     if (!correction(free, end, now, change)) break;
+    // A step that does not come nearer, or at which a law from outside has no answer, is halved.
     double part = 1;
     for (int halving = 0;; ++halving, part *= 0.5) {
       const Sym<double> next = strain + part * change;

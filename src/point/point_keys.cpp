@@ -69,6 +69,8 @@ void free_component_keys(Section<SegmentSpec>& s) {
 }
 
 Section<SegmentSpec> segment_keys() {
+  // The keys of a [[segment]]: what is loaded, to which target or with which rate, at which temperature, and
+  // in how many steps.
   Section<SegmentSpec> s("segment",
                          "A part of the loading, straight in time from what is there to what is asked for. "
                          "Segments follow each other in the order of the file.");

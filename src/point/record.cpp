@@ -36,6 +36,7 @@ class Columns {
 };
 
 std::vector<RecordColumn> make_columns() {
+  // The columns of a curve's table in their order: SI unit, unit that is shown, and the value of a record.
   Columns c;
   c.add("time", "s", "s", [](const MaterialPointRecord& r) { return r.time; });
   c.add("temperature", "K", "degC", [](const MaterialPointRecord& r) { return r.temperature; });
