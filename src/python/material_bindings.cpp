@@ -222,6 +222,7 @@ py::tuple draw(const Shared& m, const Array& time, const Array& strain, const Ar
 }  // namespace
 
 void bind_materials(py::module_& core) {
+  // The class with what scripts read from a material; arrays go through each(), one number at a time.
   py::class_<Material, Shared>(core, "Material")
       .def_readonly("name", &Material::name)
       .def_readonly("title", &Material::title)
