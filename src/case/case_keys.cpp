@@ -2,6 +2,7 @@
 
 namespace solidus::model {
 
+/// Keys of [analysis]: which fields are solved for, in how many dimensions, and gravity.
 Section<AnalysisSpec> analysis_keys() {
   Section<AnalysisSpec> s("analysis", "What is computed.");
   s.choice("kind", &AnalysisSpec::kind,
@@ -26,6 +27,8 @@ Section<AnalysisSpec> analysis_keys() {
   return s;
 }
 
+/// Keys of [[body]]: what it is made of and starts from, its role, what physics it takes part in, and up to
+/// which stage it is there.
 Section<BodySpec> body_keys() {
   Section<BodySpec> s("body", "A body: a named group of the mesh, its material and initial temperature.");
   s.key("name", &BodySpec::name).doc("A name of your choice; messages and results use it.");
@@ -77,6 +80,8 @@ Section<BodySpec> body_keys() {
   return s;
 }
 
+/// All sections of a case, in the order of the reference. The declaration is made once, and is what parsing,
+/// checks, the schema and the manual are derived from.
 const Section<CaseSpec>& case_keys() {
   static const Section<CaseSpec> declaration = [] {
     Section<CaseSpec> s("", "A case of Solidus.");

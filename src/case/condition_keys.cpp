@@ -20,6 +20,8 @@ void add_stage_keys(Section<C>& s) {
 
 }  // namespace
 
+/// Keys of [[thermal_condition]]. `kind` decides which of the others may be given: each names the kinds that
+/// it belongs to.
 Section<ThermalConditionSpec> thermal_condition_keys() {
   using C = ThermalConditionSpec;
   Section<C> s("thermal_condition",
@@ -97,6 +99,7 @@ Section<ThermalConditionSpec> thermal_condition_keys() {
   return s;
 }
 
+/// Keys of [[mechanical_condition]]. Components of the displacement that are left out stay free.
 Section<MechanicalConditionSpec> mechanical_condition_keys() {
   using C = MechanicalConditionSpec;
   Section<C> s("mechanical_condition", "Supports and loads. Where nothing is said, a surface is free.");

@@ -6,6 +6,7 @@ namespace solidus::model {
 
 namespace {
 
+/// Keys of one table of heat laws at a temperature of the interface.
 Section<contact::HeatTransferSpec::AtTemperature> heat_table_keys() {
   using T = contact::HeatTransferSpec::AtTemperature;
   Section<T> s("at",
@@ -27,6 +28,8 @@ Section<contact::HeatTransferSpec::AtTemperature> heat_table_keys() {
 
 }  // namespace
 
+/// Keys of the heat that passes through an interface: a law for closed contact, one for the gap, what smooths
+/// the change between them, how resistance is divided, and radiation.
 Section<contact::HeatTransferSpec> contact_heat_keys() {
   using H = contact::HeatTransferSpec;
   Section<H> s("heat", "Heat through the interface; without this section it is insulated.");
@@ -64,6 +67,7 @@ Section<contact::HeatTransferSpec> contact_heat_keys() {
   return s;
 }
 
+/// Keys of [[interface]], which becomes contacts between the bodies named once the mesh is there.
 Section<BodyInterfaceSpec> body_interface_keys() {
   using I = BodyInterfaceSpec;
   Section<I> s(
@@ -100,6 +104,8 @@ Section<BodyInterfaceSpec> body_interface_keys() {
   return s;
 }
 
+/// Keys of [[contact]]: both surfaces, how partners are found, how pressure follows from penetration, where
+/// it is integrated, gaps at the start, melt on its wall, and the sections of heat, friction and wear.
 Section<ContactSpec> contact_keys() {
   using C = ContactSpec;
   using contact::IntegrationRule;

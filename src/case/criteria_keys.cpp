@@ -2,6 +2,7 @@
 
 namespace solidus::model {
 
+/// Keys of [criteria]: whether they are followed, and the temperatures, limits and groups that they need.
 Section<CriteriaSpec> criteria_keys() {
   using C = CriteriaSpec;
   Section<C> s("criteria",

@@ -2,6 +2,7 @@
 
 namespace solidus::model {
 
+/// Keys of [dynamics]: mass matrix and integrator. Parameters belong to the method that they are keys of.
 Section<DynamicsSpec> dynamics_keys() {
   using D = DynamicsSpec;
   Section<D> s("dynamics", "Inertia. Its presence switches it on; without it bodies are in equilibrium.");

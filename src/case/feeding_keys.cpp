@@ -2,6 +2,8 @@
 
 namespace solidus::model {
 
+/// Keys of [feeding]: whether the metal that shrinks is balanced, what is open to the air, and how rigid
+/// moulds are.
 Section<FeedingSpec> feeding_keys() {
   using F = FeedingSpec;
   Section<F> s("feeding",
@@ -32,6 +34,7 @@ Section<FeedingSpec> feeding_keys() {
   return s;
 }
 
+/// Keys of [gas]: whether it is followed, its content, and the pressure of the surroundings.
 Section<GasSpec> gas_keys() {
   Section<GasSpec> s("gas",
                      "Gas in the melt, and the pores that it makes, where a card has [gas] "

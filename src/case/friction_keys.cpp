@@ -5,6 +5,7 @@
 namespace solidus::model {
 namespace {
 
+/// Keys of one curve of the coefficient of friction at a temperature.
 Section<FrictionCurveSpec> curve_keys() {
   using C = FrictionCurveSpec;
   Section<C> s(
@@ -24,6 +25,8 @@ Section<FrictionCurveSpec> curve_keys() {
 
 }  // namespace
 
+/// Keys of [contact.friction]: the coefficient, the internal variable that it follows, the tangential
+/// penalty, and what of it enters the matrix and the thermal phase.
 Section<FrictionSpec> friction_keys() {
   using F = FrictionSpec;
   using enum contact::InternalVariable;
@@ -74,6 +77,7 @@ Section<FrictionSpec> friction_keys() {
   return s;
 }
 
+/// Keys of [contact.wear]: Archard's coefficient and what it wears.
 Section<WearSpec> wear_keys() {
   using W = WearSpec;
   Section<W> s(
@@ -95,6 +99,7 @@ Section<WearSpec> wear_keys() {
   return s;
 }
 
+/// Keys of [contact.interface]: heat that the interface itself stores.
 Section<InterfaceSpec> interface_keys() {
   Section<InterfaceSpec> s("interface", "The interface as a body of its own, with a temperature.");
   s.quantity("heat_capacity", &InterfaceSpec::heat_capacity, "J/m2/K")

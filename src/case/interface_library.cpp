@@ -30,6 +30,7 @@ Section<InterfaceSide> side_keys(const char* name) {
   return s;
 }
 
+/// Keys of a published value of a conductance, by which a card says where it comes from.
 Section<PublishedConductance> published_keys() {
   using P = PublishedConductance;
   Section<P> s("published", "A conductance in print.");
@@ -40,6 +41,7 @@ Section<PublishedConductance> published_keys() {
   return s;
 }
 
+/// Keys of a card of the library of interface laws.
 const Section<InterfaceCard>& card_keys() {
   static const Section<InterfaceCard> declaration = [] {
     using C = InterfaceCard;

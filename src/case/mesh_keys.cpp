@@ -4,6 +4,7 @@ namespace solidus::model {
 
 namespace {
 
+/// Keys of the built-in shape of a cylinder in its mould.
 Section<CylinderInMouldSpec> cylinder_in_mould_keys() {
   Section<CylinderInMouldSpec> s("cylinder_in_mould",
                                  "A cylinder cast in an open cylindrical mould, for axisymmetric analyses: "
@@ -34,6 +35,7 @@ Section<CylinderInMouldSpec> cylinder_in_mould_keys() {
   return s;
 }
 
+/// Keys of the built-in block.
 Section<BlockSpec> block_keys() {
   Section<BlockSpec> s(
       "block",
@@ -46,6 +48,7 @@ Section<BlockSpec> block_keys() {
   return s;
 }
 
+/// Keys of two built-in blocks, one above the other.
 Section<TwoBlocksSpec> two_blocks_keys() {
   using T = TwoBlocksSpec;
   Section<T> s(
@@ -67,6 +70,7 @@ Section<TwoBlocksSpec> two_blocks_keys() {
   return s;
 }
 
+/// Keys of a constant that a .geo script is given.
 Section<MeshConstantSpec> constant_keys() {
   Section<MeshConstantSpec> s("constant",
                               "A constant of a .geo script, which declares it as `DefineConstant[ size = {8, "
@@ -77,6 +81,7 @@ Section<MeshConstantSpec> constant_keys() {
   return s;
 }
 
+/// Keys of a group of the mesh. The ways to choose it exclude each other, which check_mesh() says.
 Section<MeshGroupSpec> group_keys() {
   using G = MeshGroupSpec;
   Section<G> s(
@@ -123,6 +128,7 @@ Section<MeshGroupSpec> group_keys() {
   return s;
 }
 
+/// Keys of the size of elements in a body that is meshed by the thickness of its walls.
 Section<MeshSizeSpec> size_keys() {
   using S = MeshSizeSpec;
   Section<S> s(
@@ -148,6 +154,7 @@ Section<MeshSizeSpec> size_keys() {
   return s;
 }
 
+/// Keys of a mould that is made around a casting.
 Section<MouldBlockSpec> mould_keys() {
   using M = MouldBlockSpec;
   Section<M> s("mould", "A block of mould around everything that the geometry holds.");
@@ -165,6 +172,7 @@ Section<MouldBlockSpec> mould_keys() {
   return s;
 }
 
+/// Keys of a riser that is put onto a casting.
 Section<RiserBlockSpec> riser_keys() {
   using R = RiserBlockSpec;
   Section<R> s("riser",
@@ -177,6 +185,7 @@ Section<RiserBlockSpec> riser_keys() {
   return s;
 }
 
+/// Keys of a plane of symmetry at which a geometry is cut.
 Section<SymmetrySpec> symmetry_keys() {
   using S = SymmetrySpec;
   Section<S> s("symmetry", "Only the half of the geometry below a plane is kept.");
@@ -186,6 +195,7 @@ Section<SymmetrySpec> symmetry_keys() {
   return s;
 }
 
+/// Keys of layers of thin elements at a surface.
 Section<MeshLayersSpec> layers_keys() {
   using L = MeshLayersSpec;
   Section<L> s(
@@ -215,6 +225,8 @@ Section<MeshLayersSpec> layers_keys() {
 
 }  // namespace
 
+/// Keys of [mesh]: where it comes from, units and sizes of a file, the built-in shapes, and the sections that
+/// make groups, sizes, mould, riser and layers.
 Section<MeshSpec> mesh_keys() {
   Section<MeshSpec> s("mesh",
                       "The mesh: a file, or a built-in shape with its parameters in a section of its own.");

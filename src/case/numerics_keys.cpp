@@ -21,6 +21,7 @@ Key& solver_choice(Section<S>& s) {
 
 }  // namespace
 
+/// Keys of [heat]: integration rule, forms of heat, stepping, bounds of temperature, tolerances and solver.
 Section<heat::HeatOptions> heat_keys() {
   using heat::HeatIntegration;
   using heat::HeatOptions;
@@ -75,6 +76,7 @@ Section<heat::HeatOptions> heat_keys() {
   return s;
 }
 
+/// Keys of [mechanics]: integration of the law, elements and their stabilisation, tolerances and solver.
 Section<MechanicsSpec> mechanics_keys() {
   Section<MechanicsSpec> s("mechanics", "Numerics of the mechanical phase.");
   s.key("tolerance", &MechanicsSpec::tolerance)
@@ -143,6 +145,7 @@ Section<MechanicsSpec> mechanics_keys() {
   return s;
 }
 
+/// Keys of [coupling]: scheme, order of the phases, structural heat, and what of a step is solved again.
 Section<CouplingSpec> coupling_keys() {
   Section<CouplingSpec> s("coupling", "How the two phases take turns.");
   s.place(&CouplingSpec::where);

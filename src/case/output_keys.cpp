@@ -10,6 +10,7 @@ const std::vector<std::string> k_sampling = {"point", "mean", "minimum", "maximu
 
 }  // namespace
 
+/// Keys of [[probe]]. `kind` decides whether it is a point, a group or the difference of two other probes.
 Section<ProbeSpec> probe_keys() {
   using P = ProbeSpec;
   Section<P> s("probe", "A column of history.csv.");
@@ -56,6 +57,7 @@ Section<ProbeSpec> probe_keys() {
 
 namespace {
 
+/// Keys of one column of a profile.
 Section<ProfileColumnSpec> profile_column_keys() {
   using C = ProfileColumnSpec;
   Section<C> s("column", "A column of the table.");
@@ -71,6 +73,7 @@ Section<ProfileColumnSpec> profile_column_keys() {
 
 }  // namespace
 
+/// Keys of [[profile]]: values along a line.
 Section<ProfileSpec> profile_keys() {
   using P = ProfileSpec;
   Section<P> s("profile",
@@ -84,6 +87,8 @@ Section<ProfileSpec> profile_keys() {
   return s;
 }
 
+/// Keys of [output]: when fields are written, which ones, in which formats, and in which units answers are
+/// told.
 Section<OutputSpec> output_keys() {
   Section<OutputSpec> s("output", "What is written, and when.");
   s.quantity("every", &OutputSpec::every, "s")

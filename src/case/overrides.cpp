@@ -71,6 +71,8 @@ void lay_over(Value& base, const Value& over) {
 }
 
 void apply_override(Value& base, const std::string& assignment) {
+  // The path is walked part by part through the tree of the case: a part of a list names one of its sections,
+  // a part of a table a key. Sections that are not there yet are made, and the value is parsed as in a file.
   constexpr std::size_t k_shown = 200;
   const std::string shown = assignment.size() > k_shown ? assignment.substr(0, k_shown) + "..." : assignment;
   const SourceLocation where{"--set " + shown, 0, 0};
@@ -81,6 +83,7 @@ void apply_override(Value& base, const std::string& assignment) {
     return text;
   };
   const std::string path = trimmed(assignment.substr(0, equals));
+  // What cannot be an assignment is refused before anything is changed.
   if (equals == std::string::npos || path.empty())
     throw InputError(where, "this is no assignment",
                      "--set path=value, for example --set time.step=\"0.5 s\"");
@@ -94,6 +97,7 @@ void apply_override(Value& base, const std::string& assignment) {
   for (std::size_t begin = 0;;) {
     const std::size_t dot = path.find('.', begin);
     const std::string part = path.substr(begin, dot == std::string::npos ? dot : dot - begin);
+    // A list has sections with names; the part picks one of them, and the path has to go on to a key.
     if (part.empty()) throw InputError(where, fmt::format("the path '{}' has an empty part", path));
     if (place->is_list()) {
       place = &pick(*place, part, walked, where);
@@ -103,6 +107,7 @@ void apply_override(Value& base, const std::string& assignment) {
       if (!place->is_table())
         throw InputError(
             where, fmt::format("'{}' is {}, so there is no '{}' in it", walked, place->describe(), part));
+      // The last part is the key. Its value is marked as laid over, so that messages name the command line.
       if (dot == std::string::npos) {
         place->set(part, parse_value(trimmed(assignment.substr(equals + 1)), where.file)).laid_over = true;
         return;

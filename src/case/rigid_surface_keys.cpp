@@ -2,6 +2,7 @@
 
 namespace solidus::model {
 
+/// Keys of [[rigid_surface]]: shape, place, motion and temperature of a tool without a mesh.
 Section<RigidSurfaceSpec> rigid_surface_keys() {
   using R = RigidSurfaceSpec;
   using Shape = contact::RigidSurface::Shape;

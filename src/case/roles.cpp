@@ -74,6 +74,9 @@ Role role_of(const BodySpec& body, const material::Material& material) {
 }
 
 void decide_physics(CaseSpec& spec) {
+  // Bodies whose physics is left to the program conduct heat only, if their material has no elastic
+  // properties and nothing is poured into them. Where no other body deforms, the case keeps what it says, and
+  // errors name it.
   std::vector<std::size_t> conductors;
   bool deforms = false;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {

@@ -27,6 +27,8 @@ std::size_t find_stage(const CaseSpec& spec, const std::string& name, const Sour
 }
 
 void check_stage(const CaseSpec& spec, const StageSpec& s) {
+  // Names are unique, because cycles and conditions refer to them. Every stage needs a first step from
+  // somewhere, which fits into it and between the limits that hold for it.
   const auto same = std::count_if(spec.stages.begin(), spec.stages.end(),
                                   [&](const StageSpec& other) { return other.name == s.name; });
   if (s.name.empty()) throw InputError(s.where, "a [[stage]] has an empty name");
@@ -120,6 +122,8 @@ std::vector<const CycleSpec*> cycles_of_stages(const CaseSpec& spec) {
 }  // namespace
 
 std::vector<StageRun> stage_runs(const CaseSpec& spec) {
+  // Stages are laid out in time, one run after the other. A cycle repeats its stages as often as it says, and
+  // each round of a cycle of shots is numbered.
   const std::vector<const CycleSpec*> cycle_of = cycles_of_stages(spec);
   std::vector<StageRun> runs;
   double time = 0;
@@ -132,6 +136,7 @@ std::vector<StageRun> stage_runs(const CaseSpec& spec) {
            .cycle = cycle,
            .start = time,
            .end = end};
+    // A stage pours if a body is there that was not in the stage before.
     time = end;
     if (runs.size() < 2) return;
     const StageRun& before = runs[runs.size() - 2];

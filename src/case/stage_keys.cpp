@@ -2,6 +2,7 @@
 
 namespace solidus::model {
 
+/// Keys of [[stage]]: name, duration, and steps of its own.
 Section<StageSpec> stage_keys() {
   using S = StageSpec;
   Section<S> s(
@@ -23,6 +24,7 @@ Section<StageSpec> stage_keys() {
   return s;
 }
 
+/// Keys of [[cycle]]: which stages repeat, how often, and whether until they are periodic.
 Section<CycleSpec> cycle_keys() {
   using C = CycleSpec;
   Section<C> s("cycle", "Stages that are run through several times.");

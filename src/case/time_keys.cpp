@@ -2,6 +2,7 @@
 
 namespace solidus::model {
 
+/// Keys of [time]: the end, the first step, and how adaptive steps are chosen.
 Section<TimeSpec> time_keys() {
   using coupling::ErrorControl;
   Section<TimeSpec> s("time", "The time that is simulated and the size of its steps.");

@@ -26,6 +26,7 @@ Key& shift_key(Section<T>& s, const char* key, double T::*member, const std::str
   return s.quantity(key, member, "K").difference().initially("0 K").range(-k_most, k_most).doc(doc);
 }
 
+/// Keys of the factors of a body's material.
 Section<BodyFactors> body_vary_keys() {
   Section<BodyFactors> s("body", "Of a body, by its name: its material and its temperature at the start.");
   for (const material::VariedProperty& row : material::varied_properties()) {
@@ -40,6 +41,7 @@ Section<BodyFactors> body_vary_keys() {
   return s;
 }
 
+/// Keys of the factors of a contact.
 Section<ContactFactors> contact_vary_keys() {
   Section<ContactFactors> s("contact",
                             "Of the heat through a contact, by its name; that of an interface is A_B.");
@@ -50,6 +52,7 @@ Section<ContactFactors> contact_vary_keys() {
   return s;
 }
 
+/// Keys of the factors of a condition.
 Section<ConditionFactors> condition_vary_keys() {
   Section<ConditionFactors> s("thermal_condition", "Of a thermal condition, by its name.");
   factor_key(s, "coefficient", &ConditionFactors::coefficient,
@@ -58,6 +61,7 @@ Section<ConditionFactors> condition_vary_keys() {
   return s;
 }
 
+/// Keys of the spreads of a body.
 Section<BodySpreads> body_spread_keys() {
   Section<BodySpreads> s("body", "Of a body, by its name, in place of what the card of its material says.");
   for (const material::VariedProperty& row : material::varied_properties()) {
@@ -69,6 +73,7 @@ Section<BodySpreads> body_spread_keys() {
   return s;
 }
 
+/// Keys of the spreads of a condition.
 Section<ConditionSpreads> condition_spread_keys() {
   Section<ConditionSpreads> s("thermal_condition", "Of a thermal condition, by its name.");
   s.section("coefficient", &ConditionSpreads::coefficient, spread_keys())
@@ -100,6 +105,8 @@ void change(Function& f, double factor, double shift, const std::string& what) {
 }
 
 void vary(ThermalConditionSpec& c, const ConditionFactors& by) {
+  // The factor of the coefficient acts on what the kind of the condition has in its place: film coefficient,
+  // emissivity, flux, power or heat.
   using Kind = ThermalConditionSpec::Kind;
   const std::string what = fmt::format("the thermal condition '{}'", c.name);
   if (by.coefficient != 1) {
@@ -122,9 +129,11 @@ void vary(ThermalConditionSpec& c, const ConditionFactors& by) {
       case Kind::temperature:
         throw InputError(c.where, what + " has no coefficient to vary", "temperature, which is a shift");
     }
+    // An emissivity stays at one at most, whatever its factor.
     if (c.kind == Kind::radiation && c.emissivity.table.max_value() > 1)
       change(c.emissivity, 1 / c.emissivity.table.max_value(), 0, what);
   }
+  // A shift of the temperature is one of the surroundings, or of the temperature that is held.
   if (by.temperature == 0) return;
   if (c.kind == Kind::film || c.kind == Kind::radiation)
     change(c.ambient, 1, by.temperature, what);
@@ -202,6 +211,7 @@ void check_spreads(const ContactSpreads& spreads, const std::string& of) {
   if (spreads.gap) check_spread(*spreads.gap, false, fmt::format("'gap' of '{}'", of));
 }
 
+/// Keys of [vary]: factors and shifts by which a study varies a case.
 Section<VarySpec> vary_keys() {
   Section<VarySpec> s("vary",
                       "Factors and shifts on data of the case, whole tables at a time: for studies, and what "
