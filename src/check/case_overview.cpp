@@ -115,6 +115,8 @@ results::SkinOverview contact_overview(const CaseSpec& spec, const Assembly& a, 
 
 results::SkinOverview condition_overview(const CaseSpec& spec, const ThermalConditionSpec& c,
                                          const SurfaceMeasures& m) {
+  // One row of the table that check prints: where the condition acts, what faces it there, and its value in
+  // the unit that a user knows.
   using Kind = ThermalConditionSpec::Kind;
   results::SkinOverview skin;
   skin.name = with_stages(c.name, c.stages);

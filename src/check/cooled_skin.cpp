@@ -99,6 +99,8 @@ std::function<double(double, double, double)> conductance_of(const ContactSpec& 
 }
 
 std::vector<CooledSkin> contacts_of(std::size_t body, const Surroundings& in) {
+  // The skins through which contacts cool a body: area, points, and the heat that passes at given
+  // temperatures. A contact with the body on both sides takes nothing from it.
   const CaseSpec& spec = in.spec;
   const Assembly& a = in.a;
   std::vector<CooledSkin> skins;
@@ -115,12 +117,14 @@ std::vector<CooledSkin> contacts_of(std::size_t body, const Surroundings& in) {
     skin.surface = slave ? sides.slave : sides.master;
     skin.points = measure_surface(a.mesh, skin.surface, spec.analysis.kind).corners;
     const auto conductance = conductance_of(contact, a, sides);
+    // Another body is warmed by what it takes; its temperatures at the start bound the estimate.
     if (other >= 0) {
       skin.other = static_cast<std::size_t>(other);
       skin.low = a.start[*skin.other].low;
       skin.high = a.start[*skin.other].high;
       skin.conductance = conductance;
       skin.may_open = spec.has_mechanics() && !only_conducts(spec.bodies[body]);
+      // A tool with a temperature takes heat without getting warmer. Without one it takes none.
     } else if (const RigidSurfaceSpec* tool = spec.rigid_surface(sides.master);
                tool != nullptr && tool->temperature) {
       skin.heat = [conductance, table = tool->temperature->table](double temperature, double time) {

@@ -17,6 +17,8 @@ bool share_a_stage(const std::vector<std::string>& a, const std::vector<std::str
 }
 
 Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+  // Each room of findings adds to the list, in the order in which they are printed: from what the case says
+  // to what follows from its mesh.
   Findings found;
   find_in_interfaces(spec, a, found);
   find_in_interface_laws(spec, a, m, found);

@@ -25,6 +25,9 @@ void cold_arguments(const ThermalConditionSpec& t, const char* key, const Table&
 }
 
 void surroundings(const CaseSpec& spec, Findings& findings) {
+  // Values that are possible and far from usual, condition by condition: surroundings, held temperatures,
+  // sources, emissivities, fluxes and films. Constants alone are judged, since a table may pass such values
+  // for a moment. Each finding says what is usual.
   using Kind = ThermalConditionSpec::Kind;
   constexpr double k_coldest = 70, k_hottest = 1900;  // [K]: liquid nitrogen to furnaces
   for (const ThermalConditionSpec& t : spec.thermal_conditions) {
@@ -50,6 +53,7 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
       findings.push_back({false, t.where,
                           fmt::format("the emissivity of '{}' is {:g}", t.name, t.emissivity.table.value(0)),
                           "polished metal has 0.03 to 0.1, oxidised metal, sand and coatings 0.3 to 0.95"});
+    // Tables of temperature that are used below their first argument are another mistake of units.
     for (const auto& [function, key] :
          {std::pair(&t.coefficient, "coefficient"), std::pair(&t.emissivity, "emissivity")})
       if (surrounded && function->place == nullptr && function->of == Argument::temperature)
@@ -69,6 +73,7 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
           {true, t.where,
            fmt::format("the film '{}' comes to {:g} W/m2/K", t.name, t.coefficient.table.max_value()),
            "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
+    // A film far beyond the usual holds the surface at the temperature of its surroundings.
     if (t.kind == Kind::film && is_number(t.coefficient) && is_number(t.factor))
       if (const double h = t.coefficient.table.value(0); h > 1e6)
         findings.push_back({h > 1e8, t.where, fmt::format("the film '{}' has {:g} W/m2/K", t.name, h),

@@ -41,6 +41,8 @@ constexpr double k_switched_off = 3000;
 }  // namespace
 
 void find_in_burning(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  // A sleeve is judged by its amounts of heat, by the body it is in, and by whether anything there gets hot
+  // enough to ignite it.
   if (!spec.has_heat()) return;
   double hottest = 0;
   for (const auto& start : a.start) hottest = std::max(hottest, start.high);

@@ -64,6 +64,8 @@ void same_body(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) 
 }
 
 void shared_nodes(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  // Surfaces of a contact that share nodes are one body there. Apart from contacts, bodies that start at
+  // different temperatures and share nodes are told, unless a contact has been told already.
   for (std::size_t c = 0; c < m.contacts.size(); ++c)
     if (m.contacts[c].shared_nodes > 0)
       findings.push_back(
@@ -82,6 +84,7 @@ void shared_nodes(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
       const bool told = std::any_of(m.contacts.begin(), m.contacts.end(),
                                     [](const ContactMeasures& c) { return c.shared_nodes > 0; });
       if (told) continue;
+      // Metals that are poured together may share nodes, and then want one temperature.
       const bool one_metal =
           a.materials[b].solidification() != nullptr && a.materials[other].solidification() != nullptr;
       findings.push_back(

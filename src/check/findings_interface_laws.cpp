@@ -35,6 +35,8 @@ bool particular(const InterfaceSide& side) {
 
 void find_in_interface_laws(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
                             Findings& findings) {
+  // A law that a section names is compared with the one that the library would choose for these partners.
+  // Only a particular card counts as better, and only where the conductances differ by a factor.
   const bool any = std::any_of(spec.contacts.begin(), spec.contacts.end(),
                                [](const ContactSpec& contact) { return !contact.law.empty(); });
   if (!spec.has_heat() || !any) return;
@@ -53,6 +55,7 @@ void find_in_interface_laws(const CaseSpec& spec, const Assembly& a, const CaseM
     const InterfaceCard* const best = best_card(cards, one, two);
     if (used == cards.end() || best == nullptr || !(particular(best->one) || particular(best->other)))
       continue;
+    // A card fits a pair if it would be chosen for it, by its partners, without its name.
     InterfaceCard by_pair = *used;
     by_pair.by_name_alone = false;
     if (best_card({by_pair}, one, two) != nullptr) continue;

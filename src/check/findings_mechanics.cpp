@@ -20,6 +20,8 @@ struct Held {
 };
 
 std::vector<Held> held_nodes(const CaseSpec& spec, const Assembly& a) {
+  // For every node the directions in which conditions of the first stage hold it, as bits. In a plane about
+  // an axis uz is the second component.
   const int components = displacement_components(spec.analysis.kind);
   std::vector<std::uint8_t> directions(a.mesh.x.size(), 0);
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
@@ -32,6 +34,7 @@ std::vector<Held> held_nodes(const CaseSpec& spec, const Assembly& a) {
     for (const Index node : nodes->second)
       directions[static_cast<std::size_t>(node)] |= static_cast<std::uint8_t>(bits);
   }
+  // Then the nodes of each body are counted once, and among them those that are held in all directions.
   const unsigned all = components == 2 ? 3U : 7U;
   std::vector<Held> of_body(spec.bodies.size());
   std::vector<int> last(a.mesh.x.size(), -1);
@@ -203,6 +206,8 @@ void wear_numbers(const CaseSpec& spec, Findings& findings) {
 }
 
 void loads(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  // Displacements are compared with the largest body, pressures with what is usual. The messages ask for the
+  // unit, which is what is mostly wrong.
   double largest = 0;
   for (const BodyMeasures& body : m.bodies)
     for (std::size_t d = 0; d < 3; ++d) largest = std::max(largest, body.high[d] - body.low[d]);

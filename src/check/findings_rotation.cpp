@@ -29,6 +29,8 @@ struct Groups {
 };
 
 Groups joined_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+  // Bodies that touch or share nodes move together, as long as they deform. A body that touches one that does
+  // not move is held by it.
   Groups groups;
   groups.of_body.resize(spec.bodies.size());
   groups.held.assign(spec.bodies.size(), 0);
@@ -48,6 +50,8 @@ Groups joined_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures
                               groups.of_body[static_cast<std::size_t>(other)]);
     std::replace(groups.of_body.begin(), groups.of_body.end(), high, low);
   };
+  // Contacts of the first stage join their bodies. A contact with several bodies on one side says too little,
+  // and then all count as held.
   for (std::size_t c = 0; c < spec.contacts.size(); ++c)
     if (holds(spec, spec.contacts[c], a.mesh, a.first_stage())) {
       join(m.contacts[c].slave_body, m.contacts[c].master_body);
@@ -55,6 +59,7 @@ Groups joined_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures
           m.contacts[c].slave_body == k_several_bodies || m.contacts[c].master_body == k_several_bodies;
       if (several) std::fill(held.begin(), held.end(), char{1});  // no finding is better than a wrong one
     }
+  // Shared nodes join bodies, too. A group is held if one of its bodies is.
   for (std::size_t b = 0; b < m.bodies.size(); ++b)
     for (std::size_t other = 0; other < b; ++other)
       if (m.bodies[b].shared_nodes[other] > 0) join(static_cast<int>(b), static_cast<int>(other));
@@ -110,6 +115,8 @@ class RigidMotions {
 }  // namespace
 
 void find_turning_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  // A group that nothing else holds turns if its supports hold no more than a point or a line. Inertia
+  // resists turning, and around an axis there is none.
   if (!spec.has_mechanics() || spec.dynamics || spec.analysis.kind == AnalysisKind::axisymmetric) return;
   const Groups groups = joined_bodies(spec, a, m);
   for (std::size_t first = 0; first < spec.bodies.size(); ++first) {
@@ -121,6 +128,7 @@ void find_turning_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeas
       centre[d] = 0.5 * (body.low[d] + body.high[d]);
       size = std::max(size, body.high[d] - body.low[d]);
     }
+    // The directions that are held at nodes of the group are summed up in the matrix of its rigid motions.
     std::vector<char> of_group(a.mesh.x.size(), 0);
     for (const mesh::ElementBlock& block : a.mesh.blocks)
       if (groups.of_body[static_cast<std::size_t>(block.body)] == static_cast<int>(first))

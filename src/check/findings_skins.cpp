@@ -118,6 +118,9 @@ bool is_joined(const CaseMeasures& m, std::size_t body) {
 }  // namespace
 
 void find_bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  // Bare faces of a poured body that lie on another body without contact or shared nodes pass no heat. Both
+  // skins are compared where they come near each other; the size of the largest face is the distance that
+  // counts.
   constexpr double k_little = 0.05;          // of the skin of the smaller one
   constexpr double k_same_temperature = 50;  // [K]: as in findings_interface.cpp
   if (!spec.has_heat() || spec.bodies.size() < 2 || m.pours.empty()) return;
@@ -135,6 +138,8 @@ void find_bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures
     largest = parallel::global_max(largest);
     if (!(largest > 0)) continue;
     const double skin = total_area(skins[body]);
+    // Two poured bodies are told once, and only bodies that share a stage and start apart, or are joined
+    // somewhere else.
     for (std::size_t other = 0; other < spec.bodies.size(); ++other) {
       const bool both = m.is_poured(other);
       const bool alike = std::abs(a.start[body].high - a.start[other].low) < k_same_temperature;

@@ -93,11 +93,15 @@ double share_left_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasu
 }  // namespace
 
 void find_in_stages(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  // After the shake-out the surface of a casting needs a condition of its own. For each poured body and later
+  // stage the share of the skin is found that a contact cooled before and nothing cools now.
   if (!spec.has_heat()) return;
   for (const Pour& pour : m.pours) {
     std::set<std::string> told;
     for (const StageRun& stage : a.stages) {
       const StageSpec& its = *stage.stage;
+      // Stages that are short against the freezing time (the body is carried from place to place) are left
+      // out, and a stage of a cycle is told once.
       const double freezes = pour.freezing.time.value_or(0);
       if (&stage == &a.stages.front() || !holds(spec.bodies[pour.body].stages, &stage) || !(freezes > 0) ||
           its.duration < k_short * freezes || !told.insert(its.name).second)
@@ -119,6 +123,7 @@ void find_in_stages(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
                "with the stage among its 'stages'"});
         continue;
       }
+      // A stage in which nothing at all cools the body and all that it is joined to is told otherwise.
       if (!alone) continue;
       findings.push_back(
           {false, its.where,

@@ -96,6 +96,8 @@ std::optional<Supply> supply_of(const CaseSpec& spec, const CaseMeasures& m,
 }  // namespace
 
 void find_in_steady(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  // A steady state needs something that holds a temperature in each group of bodies that exchange heat.
+  // Without it there is none, if more heat comes in than goes out, or one up to a constant.
   constexpr double k_balanced = 1e-3;  // of the heat that passes
   if (!spec.time.steady || !spec.has_heat()) return;
   const std::vector<std::size_t> group = groups_of(spec, m);
