@@ -109,11 +109,15 @@ Formula::Formula(std::string text, const std::vector<std::string>& variables, co
       constants_(constants),
       uses_(variables.size(), 0),
       parser_(std::make_unique<Parser>()) {
+  // Names are what a formula may use: its variables, constants of the case, and functions. Assignments are
+  // refused, because they would change a variable.
   if (assigns(text_))
     throw std::invalid_argument("the formula assigns a value by '='; to compare, write '=='");
   mu::Parser& parser = parser_->parser;
   std::vector<std::string> names = variables;
   for (const auto& constant : constants) names.push_back(constant.first);
+  // muParser is set up without its own constants and postfix operators; an evaluation at zero finds what
+  // parsing alone does not.
   try {
     parser.DefineNameChars(k_symbols);
     parser.ClearConst();
@@ -129,6 +133,7 @@ Formula::Formula(std::string text, const std::vector<std::string>& variables, co
     if (parser.GetNumResults() != 1)
       throw std::invalid_argument(
           fmt::format("the formula gives {} values, not one", parser.GetNumResults()));
+    // The variables that occur are noted, so that a formula without time is known to be steady.
     for (const auto& used : parser.GetUsedVar())
       uses_[static_cast<std::size_t>(std::find(variables.begin(), variables.end(), used.first) -
                                      variables.begin())] = 1;

@@ -44,6 +44,7 @@ std::string place_text(const Key& key) {
 }
 
 std::string type_text(const Key& key) {
+  // The type of a key in words, as the reference and messages have it.
   const auto single = [&]() -> std::string {
     switch (key.kind) {
       case Key::Kind::text:
@@ -191,6 +192,8 @@ std::string schema_of_place(const Key& key) {
 }
 
 std::string schema_of_value(const Key& key, int depth) {
+  // The JSON Schema of a value. Quantities are texts with their unit, functions a text or a table with the
+  // keys that read_function_table() knows.
   switch (key.kind) {
     case Key::Kind::text:
     case Key::Kind::choice:
@@ -266,6 +269,8 @@ bool is_one_of_many(const Key& key, const SectionInfo& info) {
 
 void manual_of_section(const SectionInfo& info, const std::string& title, const std::string& path,
                        std::string& out) {
+  // A table of the plain keys of a section, then its sections below. Choices follow with their meaning, and a
+  // section that stands for many (one of several names) is written once.
   out += fmt::format("## {}\n\n{}\n\n", title, info.doc);
   std::string rows;
   for (const Key& key : info.keys) {
@@ -317,6 +322,8 @@ std::vector<std::string> key_paths(const SectionInfo& root) {
 }
 
 std::string explain(const SectionInfo& root, const std::string& path) {
+  // The path is walked from section to section. A name of the user's choice (a condition's, say) stands for
+  // the section of that kind.
   std::string out;
   if (path.empty()) {
     explain_section(root, "", "", out);
@@ -347,6 +354,7 @@ std::string explain(const SectionInfo& root, const std::string& path) {
     walked = child_path(walked, *key);
     info = is_section(*key) && key->kind != Key::Kind::named_sections ? key->section.get() : nullptr;
   }
+  // A section is explained with all its keys, a key with its type, default and meaning.
   if (!key) {
     explain_section(*info, "[" + walked + "]", walked, out);
   } else if (is_section(*key)) {

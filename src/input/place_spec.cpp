@@ -118,6 +118,8 @@ void read_unit(const Value& table, const Key& key, PlaceSpec& place) {
 }
 
 void read_file(const Value& table, const Key& key, PlaceSpec& place) {
+  // The ending of a file, or that it is a folder, says what it holds: points in a table, or a field of
+  // another run. Each kind has keys of its own.
   place.file = text_of(table, "file", key);
   const std::string ending = std::filesystem::path(place.file).extension().string();
   if (ending == ".csv") {

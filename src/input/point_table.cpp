@@ -68,6 +68,8 @@ struct Layout {
 
 Layout layout(const std::vector<std::string_view>& row, const std::string& column, std::string_view unit,
               const SourceLocation& where) {
+  // The heading says for every column its name and unit. Coordinates are found first, in the order in which
+  // the interpolation takes them.
   std::vector<Heading> headings;
   for (const std::string_view cell : row) headings.push_back(heading(cell, where));
   Layout result;
@@ -88,6 +90,7 @@ Layout layout(const std::vector<std::string_view>& row, const std::string& colum
         result.names.emplace_back(name);
         add(i, name == "t" ? "s" : "m");
       }
+  // Of the other columns one is the value: the one that is named, or the only one.
   for (const Heading& h : headings)
     if (std::find(k_coordinates.begin(), k_coordinates.end(), h.name) == k_coordinates.end())
       others.push_back(h.name);
