@@ -12,6 +12,9 @@
 namespace solidus::model {
 
 const std::vector<CastingProcess>& casting_processes() {
+  // For each process: mould materials from the best known on, role and temperature of the mould, superheat
+  // [K], walls and allowances, the interface law, films outside with their source, and for dies the times of
+  // a shot.
   static const std::vector<CastingProcess> list = {
       {"sand",
        {"green_sand"},

@@ -21,6 +21,8 @@ class Choice {
       : options_(options), process_(process), alloy_(alloy), part_(part) {}
 
   Draft choose() {
+    // The draft is chosen in the order in which choices depend on each other: temperatures from the alloy,
+    // sizes from the walls, symmetry and riser, then bodies and mould.
     draft_.meshed = part_.meshed;
     draft_.geometry = options_.geometry;
     if (!part_.file_unit) draft_.unit = options_.unit.empty() ? "mm" : options_.unit;
@@ -33,6 +35,7 @@ class Choice {
     draft_.liquidus = curve.liquidus() - k_celsius;
     draft_.superheat = draft_.pouring - draft_.liquidus;
     choose_sizes(1);
+    // The thickest place decides how long freezing takes; a riser may be thicker still.
     thickest_ = 2 * (part_.spheres.empty() ? part_.thickness_at(0.9) / 2 : part_.spheres.front().radius);
     if (!options_.symmetry.empty()) choose_symmetry();
     if (options_.riser) {
@@ -43,12 +46,15 @@ class Choice {
     }
     choose_bodies();
     if (!part_.has_mould) choose_mould();
+    // Hot spots become probes. They are folded to the half that is computed, and rounded so that the text is
+    // short.
     for (const mesh::InscribedSphere& sphere : part_.spheres) draft_.hot_spots.push_back(sphere);
     for (mesh::InscribedSphere& sphere : draft_.hot_spots) {
       fold(sphere.centre);
       for (double& x : sphere.centre) x = to_micrometre(x);
     }
     if (draft_.riser) fold(draft_.riser->foot, 0);
+    // Films, times and steps are first values that the estimate of freezing replaces.
     draft_.film = process_.film;
     draft_.film_source = process_.film_source;
     draft_.end = 3600;
@@ -178,6 +184,8 @@ class Choice {
 }  // namespace
 
 void describe(const Draft& draft, const CastingProcess& process, DraftBody& body) {
+  // Material, initial temperature and comment of a body follow from its role. Materials are the first of a
+  // list that the library has.
   switch (body.role) {
     case Role::casting:
     case Role::riser:

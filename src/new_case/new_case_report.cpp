@@ -145,6 +145,8 @@ std::string channels_text(const Draft& draft, const std::string& die) {
 
 std::string report_text(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate,
                         const NewCaseOptions& options) {
+  // What `solidus new` says at its end, line by line: alloy, bodies, walls, hot spots, riser, symmetry,
+  // mould, mesh, freezing, and then notes on what may be wrong.
   std::string out = fmt::format("{}: {} at {:.0f} degC, process {}", draft.geometry.filename().string(),
                                 draft.alloy, draft.pouring, draft.process);
   if (part.file_unit) out += fmt::format("\n  unit        {}, as the file says", part.file_unit->name);

@@ -85,6 +85,8 @@ bool leaves(const DraftBody& b) {
 }
 
 std::string time_text(const Draft& d) {
+  // Without shots the run ends when all is solid. With them the stages of a shot are written, whose times are
+  // those of the process and the estimate.
   if (!d.shots)
     return fmt::format(
         "[time]\nuntil = \"solid\"   # ends when all that was poured is; \"end\": goes on, for stress when "
@@ -217,6 +219,8 @@ bool has_channels(const Draft& draft, const std::string& body) {
 }
 
 std::string case_text(const Draft& d) {
+  // The case is written section by section in the order of the reference, with comments that say why a value
+  // is there.
   std::string t = fmt::format(
       "# Made by `solidus new`. Change what you know better; `solidus check` reads it.\n"
       "title = {}\n\n",
@@ -238,6 +242,7 @@ std::string case_text(const Draft& d) {
         "[[mechanical_condition]]\nname = \"symmetry_of_{0}\"\ngroup = \"{0}_symmetry\"\n"
         "kind = \"displacement\"\nu{1} = \"0 mm\"\n\n",
         body, "xyz"[d.symmetry->axis]);
+  // Probes are at the hot spots; risers are named as feeders of the criteria.
   if (!d.hot_spots.empty()) t += "# In the centres of the largest spheres that the metal holds.\n";
   for (std::size_t i = 0; i < d.hot_spots.size(); ++i) {
     const mesh::InscribedSphere& s = d.hot_spots[i];

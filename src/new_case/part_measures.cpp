@@ -30,6 +30,8 @@ bool PartMeasures::has_riser() const {
 }
 
 PartMeasures measure_part(const NewCaseOptions& options) {
+  // The part is read as it is, or its skin is meshed without sizes of ours, so that it can be measured:
+  // bodies with their roles, extent, volume, area, thickness of walls and the largest spheres within.
   PartMeasures m;
   const std::string path = options.geometry.string();
   mesh::check_readable(path);
@@ -44,6 +46,7 @@ PartMeasures measure_part(const NewCaseOptions& options) {
   if (m.mesh.dimension != 3)
     throw InputError({source.path}, "the mesh is plane", "a solid: STEP, BREP, IGES, STL, or a mesh of one");
   m.bodies = bodies_of(m.mesh, options.as, source.path);
+  // What is poured is metal; a mould in the file makes it a whole mesh.
   for (const GeometryBody& body : m.bodies) {
     if (body.role == Role::mould || body.role == Role::die) m.has_mould = true;
     if (is_poured(body.role)) m.metal.push_back(body.name);
