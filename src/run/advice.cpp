@@ -50,6 +50,7 @@ std::vector<std::string> iteration_advice(const coupling::Stop& stop, const Case
 }
 
 std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+  // Advice by what is wrong physically, the likeliest first. It names keys that the user can change.
   const char* const support =
       "a support against moving and turning, [[mechanical_condition]] with a displacement of zero, or a body "
       "below it that it touches, [[contact]]";
@@ -120,6 +121,8 @@ std::vector<std::string> coupling_advice(const coupling::Stop& stop, const CaseS
 }
 
 std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+  // Advice for heat: temperatures below zero come of sinks or of the open rule, contacts of steep laws,
+  // anything else of iterations and steep tables.
   const char* const closed =
       "the closed rule, heat.integration = \"closed\": the open one over- and undershoots at sudden chills, "
       "the "
@@ -193,6 +196,8 @@ const CouplingEstimate* too_strong(std::span<const CouplingEstimate> couplings) 
 
 std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double time,
                       const std::string& checkpoint, std::span<const CouplingEstimate> couplings) {
+  // The message of a stop: the physics first, then what the equations say, where, what was tried, and what
+  // may help.
   const std::string checkpoint_line =
       checkpoint.empty() ? "" : fmt::format("  checkpoint: {} (t = {:.6g} s)\n", checkpoint, time);
   if (stop.asked)
@@ -207,6 +212,7 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
   if (!stop.where.empty() && stop.where != stop.diagnosis.detail)
     text += fmt::format("  where: {}\n", stop.where);
   const bool steps = stop.tries > 0;  // a steady state has none
+  // A steady analysis has no steps, and shorter ones are no advice where the coupling itself is unstable.
   if (steps)
     text += fmt::format("  tried: {} {}, the smallest {:.4g} s\n", stop.tries,
                         stop.tries == 1 ? "step" : "steps, each shorter", stop.smallest_step) +

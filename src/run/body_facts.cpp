@@ -94,6 +94,8 @@ bool Bodies::holds(const double* prescribed, int components) const {
 }
 
 void Bodies::find_supports(std::vector<BodyFacts>& facts) const {
+  // Which components of a body are prescribed at any node, and which bodies share nodes, is found on each
+  // process and combined over all.
   const int n_components = a_.mechanics->components();
   const std::vector<char>& fixed = a_.mechanics->fixed();
   std::vector<double> prescribed(3 * n_, 0.0), joined(n_ * n_, 0.0);
@@ -113,6 +115,8 @@ void Bodies::find_supports(std::vector<BodyFacts>& facts) const {
   }
   processes::largest(prescribed);
   processes::largest(joined);
+  // Bodies that share nodes hold each other, so the components held are those of the whole group. Repeating
+  // the union as often as there are bodies reaches all of a chain.
   std::vector<int> group(n_);
   for (std::size_t b = 0; b < n_; ++b) group[b] = static_cast<int>(b);
   for (std::size_t turn = 0; turn < n_; ++turn)

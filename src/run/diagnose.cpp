@@ -194,9 +194,11 @@ Diagnosis of_heat(const CaseSpec& spec, const Assembly& a, const coupling::State
 
 Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out, const coupling::State& last,
                    const StepRejected& rejected, double dt) {
+  // The state of the last step is restored, so that what is found is not that of a failed try.
   coupling::restore_contacts(a.phases, last);
   Diagnosis d;
   d.step = dt;
+  // Failures of heat explain themselves; melt that has run out explains everything else.
   const auto* heat = dynamic_cast<const heat::HeatRejected*>(&rejected);
   if (heat != nullptr) {
     const Diagnosis found = of_heat(spec, a, last, *heat, d);
@@ -208,6 +210,7 @@ Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out
     return d;
   }
   if (!a.mechanics) return d;
+  // In mechanics the last iterate of the failed try tells which body it was and how it moved.
   const auto* equilibrium = dynamic_cast<const mechanics::EquilibriumRejected*>(&rejected);
   const mechanics::LastIterate* iterate = equilibrium != nullptr ? &equilibrium->iterate : nullptr;
   const std::vector<BodyFacts> facts = body_facts(spec, a, last, iterate);
@@ -215,6 +218,7 @@ Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out
   if (!body) return d;
   d.in_try = iterate != nullptr;
   describe_body(a, last, *body, facts[*body], d);
+  // Then the kind of the failure is named from what is certain (nothing carries the body) to what is left.
   const Failure failure = rejected.failure();
   if (!facts[*body].carried && d.weight > 0 && !a.mechanics->dynamic()) {
     d.physics = coupling::Physics::nothing_carries;
@@ -226,6 +230,7 @@ Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out
   } else if (equilibrium != nullptr) {
     d.physics = physics_of(facts[*body], d, failure, a.mechanics->dynamic());
   }
+  // A law that fails at a temperature below zero is one of heat.
   if (d.physics == coupling::Physics::law) {
     d.detail = rejected.where();
     d.tried_temperature = iterate->law_temperature;

@@ -89,6 +89,8 @@ ErrorRuns run_beside(const Case& c, results::Summary summary, double displacemen
                      const RunOptions& options, const LoadBeside& load,
                      const std::function<void(const std::string&)>& say) {
   ErrorRuns made{std::move(summary), true};
+  // Two runs beside the run itself, with longer steps and with larger elements, tell by how much its answers
+  // are off. A comparison that cannot be made leaves the estimate, and says why.
   const Wanted wanted[] = {
       {results::ErrorPart::step, "longer steps", "longer_steps", longer_steps(c.spec, displacement_error)},
       {results::ErrorPart::mesh, "larger elements", "larger_elements", coarser_mesh(c.spec)}};
@@ -111,6 +113,8 @@ ErrorRuns run_beside(const Case& c, results::Summary summary, double displacemen
       leave(beside.why_not);
       continue;
     }
+    // The ratio says how much coarser the other run really was; the steps or elements that came out may
+    // differ from those asked for.
     const double finer = ratio(comparison.part, c.spec.analysis.kind, made.summary, *beside.summary);
     if (!(finer > k_least_ratio)) {
       leave(fmt::format("it differs by a factor of {:.3g} only", finer));

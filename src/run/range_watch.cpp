@@ -53,6 +53,8 @@ std::string left_data(const CaseSpec& spec, std::size_t body, const material::Ma
                       double high, std::vector<std::string>& said) {
   std::string text;
   double from = 0, to = 0;  // of the range named last
+  // Properties are told once for a body, those with the same range together, in one sentence. A table that
+  // refuses to be extrapolated ends the run.
   for (const material::LeftRange& left : left_ranges(spec, body, material, low, high)) {
     const std::string holds = fmt::format("its data hold from {:.1f} to {:.1f} degC",
                                           left.valid_from - k_zero_celsius, left.valid_to - k_zero_celsius);

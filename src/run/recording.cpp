@@ -38,6 +38,7 @@ results::MeshCounts counts(const CaseSpec& spec, const mesh::Mesh& mesh) {
 }
 
 results::RecorderOptions recorder_options(const Case& c, const RunOptions& options, const Assembly& a) {
+  // What is recorded follows from the case: probes, profiles, fields, and which columns the tables have.
   const CaseSpec& spec = c.spec;
   results::RecorderOptions r;
   r.kind = spec.analysis.kind;
@@ -61,6 +62,7 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.progress_options.melting = r.melting = spec.has_heat() && melts(a.materials);
   r.progress_options.largest_step = largest_adaptive_step(spec);
   r.progress_options.terminal = options.terminal;
+  // The summary gets what is known before the run: names, mesh, melts, and the number of processes.
   r.summary.case_file = c.file.string();
   r.summary.variant = results::default_run_folder(c.file, c.variant).filename().string();
   r.summary.title = spec.title;

@@ -159,6 +159,8 @@ std::vector<std::vector<Index>> tied_entries(const linear::MultiPointConstraints
 namespace {
 
 ExportReport export_history(const CaseSpec& spec, const Assembly& a, const ExportOptions& options) {
+  // A temperature history is exported without deformation, for a case of one stage, because bodies that come
+  // and go have no place in one deck.
   if (options.deformed)
     throw InputError({}, "a temperature history is that of the undeformed casting", "no --deformed");
   if (spec.stages.size() > 1)
@@ -181,6 +183,7 @@ ExportReport export_history(const CaseSpec& spec, const Assembly& a, const Expor
       .force = {},
       .history = results::read_temperature_history(options.folder / "fields.pvd", a.mesh, active)};
   for (const BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
+  // What only contact held is given supports in the deck, and the report says how many.
   deck.supports = results::missing_supports(a.mesh, active, spec.analysis.kind, deck.fixed, deck.constraints);
   ExportReport report{deck.history.back().time, 0, 0, deck.history.size(), deck.supports.size()};
   for (const mesh::ElementBlock& block : a.mesh.blocks)
@@ -192,6 +195,8 @@ ExportReport export_history(const CaseSpec& spec, const Assembly& a, const Expor
 }  // namespace
 
 ExportReport export_state(const Case& c, const ExportOptions& options) {
+  // The state of the checkpoint is brought into equilibrium once more at its temperatures, in a step so short
+  // that nothing flows, because the deck needs stresses that balance its loads.
   CaseSpec spec = c.spec;  // with the contacts that its interfaces make
   check_exportable(spec);
   Assembly a;
@@ -200,6 +205,7 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
   require_sound_mesh(spec);
   build(spec, a);
   if (options.temperature_history) return export_history(spec, a, options);
+  // The checkpoint has to be that of this case and mesh.
   results::Checkpoint from =
       results::CheckpointFolder(options.folder)
           .read(a.mesh, fingerprint(spec, a.mesh, a.materials, a.initial.heat.temperature), a.initial);
@@ -225,11 +231,13 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
                                                                         .stores_stress = true},
                                                                        effort);
 
+  // How far nodes moved is told: it says how well the stored state was in balance.
   ExportReport report{state.time, 0, 0, 0, 0};
   for (std::size_t i = 0; i < state.mechanics.displacement.size(); ++i)
     report.adjusted = std::max(report.adjusted,
                                std::abs(still.mechanics.displacement[i] - state.mechanics.displacement[i]));
 
+  // The deck holds the stresses of all points of active bodies, without contact, whose forces become loads.
   const linear::ActiveSet& active = a.mechanics->active();
   results::StructuralDeck deck{
       .title = spec.title.empty() ? "Solidus" : spec.title,

@@ -77,6 +77,8 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
       friction_lag_(a.phases.contacts, may_map_slip_again(spec, keeps_strain(spec, a.materials, a.start)),
                     slips_after_heat(spec, keeps_strain(spec, a.materials, a.start))),
       gaps_(a.phases.contacts) {
+  // Observers see each step in the order in which they are added. The recorder comes after those that watch
+  // the run, so that what they find in a step precedes what it writes of it.
   simulation_.add(range_);
   if (a.heat) simulation_.add(bounds_.emplace(spec, *a.heat));
   if (a.phases.coherency != nullptr) {
@@ -92,10 +94,13 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
   if (spec.has_heat()) simulation_.add(first_law_);
   if (recorder != nullptr) simulation_.add(*recorder);
   simulation_.add(why_);
+  // Criteria, loads and burning are followed by the simulation itself, since their state belongs to it.
   if (a.criteria) simulation_.follow(*a.criteria);
   if (a.heat) simulation_.follow_loads(*a.heat);
   if (!a.initial.burning.lit.empty()) simulation_.follow_burning(*a.heat);
   simulation_.stop_when(options.stop_asked);
+  // Failures are explained by diagnose(), stages are set up by apply(): both need the case, which the
+  // simulation does not know.
   simulation_.diagnose_by([this](const coupling::State& last, const StepRejected& rejected, double dt) {
     return diagnose(spec_, a_, melts_ ? melts_->ran_out() : std::string(), last, rejected, dt);
   });
