@@ -93,6 +93,9 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
     displacement_ = &matrix.displacement();
     displacement_slots_.bind(*displacement_, n_owned_, partners_.n_points());
   }
+  // Each point adds ∂r_a by what moves with the displacement (gap, weight, trial traction, place on the master)
+  // times the rate of that at every node. Points with the same nodes are summed in one run of blocks, which is
+  // then added to the matrix.
   const auto components = static_cast<std::size_t>(matrix.components());
   std::vector<double> per_gap, per_trial, per_share, per_weight;  // ∂r_a
   Run run;

@@ -159,9 +159,8 @@ Table points_of(const Value& table, const Key& key, Argument of) {
   }
 }
 
+// A table has a value or points, or a formula or file where the key takes one. The rest is refused.
 Function read_function_table(const Value& table, const Key& key) {
-  // A function is a table with either a value or points, or a formula or file where the key takes one.
-  // Anything else in it is a slip, and is refused.
   if (key.place == Key::Place::none && is_place(table))
     throw InputError(
         table.where, fmt::format("'{}' is a formula or a file, which this key does not take", key.name),
