@@ -59,6 +59,8 @@ void NodeGraph::add_cliques(std::span<const Index> nodes, int n) {
 }
 
 void NodeGraph::compress(std::vector<std::int64_t>& row_start, std::vector<Index>& columns, bool upper) {
+  // Each row gets its diagonal, and its columns in rising order without doubles; of a symmetric matrix those
+  // from the diagonal on.
   std::size_t n_columns = 0;
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
     auto& list = rows_[at(row)];
@@ -68,6 +70,7 @@ void NodeGraph::compress(std::vector<std::int64_t>& row_start, std::vector<Index
     if (upper) list.erase(list.begin(), std::lower_bound(list.begin(), list.end(), row));
     n_columns += list.size();
   }
+  // The rows are then laid end to end, and the lists of the graph are given up.
   row_start.assign(1, 0);
   row_start.reserve(rows_.size() + 1);
   std::vector<Index>().swap(columns);
@@ -197,6 +200,8 @@ void BlockMatrix::set_zero() {
 
 void BlockMatrix::set_fixed(std::vector<char> fixed) {
   assert(fixed.size() == at(mesh_.n_nodes()) * static_cast<std::size_t>(block_size_));
+  // The entries of fixed rows and columns are listed once, so that masking them costs nothing else later.
+  // Those on the diagonal are listed apart, since they become one (or the mean of the diagonal).
   fixed_ = std::move(fixed);
   masked_.clear();
   fixed_diagonal_.clear();
@@ -218,17 +223,21 @@ void BlockMatrix::set_fixed(std::vector<char> fixed) {
 }
 
 Mat BlockMatrix::matrix() {
+  // PETSc's matrix is made at the first call. Tied unknowns need one whose rows are summed by PETSc; without
+  // them the blocks are copied in place.
   if (!petsc_->matrix) {
     if (constraints_.empty())
       create_petsc_matrix();
     else
       create_tied_matrix();
   }
+  // Fixed rows get the mean of the diagonal, so that they do not disturb the scale of the matrix.
   const double mean = any_fixed_ || !constraints_.empty() ? mean_diagonal() : 1.0;
   mask(mean);  // PETSc copies the values
   if (constraints_.empty()) {
     copy_to_petsc();
   } else {
+    // Followers of ties have a row of their own with that number alone.
     std::fill(values_.end() - static_cast<std::ptrdiff_t>(constraints_.followers().size()), values_.end(),
               mean);
     petsc::check(MatSetValuesCOO(petsc_->matrix, block(0), INSERT_VALUES), "MatSetValuesCOO");
@@ -279,6 +288,8 @@ void BlockMatrix::constrain(std::vector<std::vector<Index>> groups) {
 }
 
 void BlockMatrix::create_tied_matrix() {
+  // Each entry of a block goes to the row and column of its unknown, which several members of a group share;
+  // PETSc adds what comes to one place.
   const auto bs = static_cast<std::size_t>(block_size_);
   values_.resize((columns_.size() + 1) * bs * bs + constraints_.followers().size(), 0.0);
   std::vector<PetscInt> rows, columns;
@@ -292,6 +303,7 @@ void BlockMatrix::create_tied_matrix() {
           rows.push_back(static_cast<PetscInt>(constraints_.unknown(row * block_size_ + a)));
           columns.push_back(static_cast<PetscInt>(constraints_.unknown(column)));
         }
+  // Rows of followers, which no entry belongs to, get one on the diagonal behind the blocks.
   for (const Index follower : constraints_.followers()) {
     rows.push_back(static_cast<PetscInt>(mesh_.first_owned * block_size_ + follower));
     columns.push_back(rows.back());

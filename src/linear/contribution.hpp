@@ -42,7 +42,7 @@ class Contribution {
   virtual void begin_stage(const RungeKuttaStage& /*stage*/, std::span<const double> /*x*/) {}
 };
 
-/// Whether a matrix with these terms must be made anew, on any process. Collective only where that may be.
+/// Whether a matrix with these terms must be made again, on any process. Collective only where that may be.
 bool graph_outdated(std::span<Contribution* const> contributions);
 
 }  // namespace solidus::linear

@@ -45,7 +45,7 @@ class CoupledMatrix {
   SaddleMatrix* saddle() { return saddle_; }
   int pressures() const { return saddle_ != nullptr ? saddle_->fields() : 0; }
 
-  /// Sets the rectangular blocks to zero. They are made anew if the pattern of a diagonal block has changed;
+  /// Sets the rectangular blocks to zero. They are made again if the pattern of a diagonal block has changed;
   /// returns whether they were. Collective.
   bool set_zero();
   /// ∂r_u/∂Θ of a pair (row node, column node), [component][field]; slots of `displacement`, also the one

@@ -35,8 +35,11 @@ CoupledSolver::~CoupledSolver() = default;
 LinearReport CoupledSolver::solve(CoupledMatrix& a, std::span<const double> force,
                                   std::span<const double> heat, FieldWeights weights, std::span<double> u,
                                   std::span<double> temperature, double forcing) {
+  // Both fields are scaled by their weights, so that one tolerance holds for the whole residual.
   weights_ = in_use(weights);
   Mat matrix = a.matrix(weights_.force, weights_.heat);
+  // A direct solver needs one assembled matrix, whose pattern is kept from call to call; an iterative one
+  // works on the blocks as they are.
   if (direct_) {
     const MatReuse reuse = petsc_->assembled ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX;
     Mat assembled = petsc_->assembled;
@@ -50,6 +53,8 @@ LinearReport CoupledSolver::solve(CoupledMatrix& a, std::span<const double> forc
   right_.resize(force.size() + heat.size());
   solution_.resize(right_.size());
   const auto middle = static_cast<std::ptrdiff_t>(force.size());
+  // The right-hand side is scaled in the same way; the solution needs no scaling back, because columns are
+  // not scaled.
   std::transform(force.begin(), force.end(), right_.begin(), [&](double r) { return weights_.force * r; });
   std::transform(heat.begin(), heat.end(), right_.begin() + middle,
                  [&](double r) { return weights_.heat * r; });

@@ -57,15 +57,19 @@ CoupledUnknowns::CoupledUnknowns(const mesh::Mesh& mesh, CoupledMatrix& matrix,
     : saddle_(mesh, *matrix.saddle(), no_pressure, ghosts),
       n_saddle_(at(mesh.n_owned_nodes) * at(matrix.components() + matrix.pressures())) {
   assert(matrix.fields() == 1 && matrix.temperature().constraints().empty());
+  // Free temperatures of this process are counted besides the unknowns of the saddle point.
   const std::vector<char>& fixed = matrix.temperature().fixed();
   for (Index node = 0; node < mesh.n_owned_nodes; ++node)
     if (!fixed[at(node)]) temperatures_of_process_.push_back(node);
+  // Unknowns are numbered process by process: displacements and pressures first, temperatures behind them, so
+  // that each process owns one range of rows.
   const std::vector<std::int64_t> n_saddle = processes::gather(static_cast<std::int64_t>(saddle_.size())),
                                   n_temperatures = processes::gather(std::ssize(temperatures_of_process_));
   first_of_saddle_ = sums_before(n_saddle);
   temperatures_before_ = sums_before(n_temperatures);
   n_global_ = saddle_.n_global() + temperatures_before_.back() + n_temperatures.back();
 
+  // Ghosts get the numbers of their owners.
   const int rank = processes::rank();
   auto number =
       static_cast<double>(first_of_saddle_[at(rank)] + n_saddle[at(rank)] + temperatures_before_[at(rank)]);

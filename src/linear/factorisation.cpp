@@ -100,6 +100,8 @@ std::string Factorisation::failure(Mat matrix) const {
 }
 
 double foreseen_operations(Mat matrix, bool symmetric) {
+  // MUMPS foresees the number of operations from the pattern alone. Matching by values is switched off,
+  // because values change and the answer must not.
   petsc::check(MatSetOption(matrix, MAT_SYMMETRIC, symmetric ? PETSC_TRUE : PETSC_FALSE), "MatSetOption");
   petsc::MatHandle factor;
   petsc::check(

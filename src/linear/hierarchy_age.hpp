@@ -1,5 +1,5 @@
 /// Decides whether a multigrid hierarchy that was made for one matrix is used for the next one too. Setting
-/// up costs as much as twenty iterations or more: it is made anew where the matrix has become several times
+/// up costs as much as twenty iterations or more: it is made again where the matrix has become several times
 /// stiffer at some node (stiffness_growth.hpp), or where a solve takes half as many iterations again for a
 /// digit as the first one with it, and a few more.
 #pragma once

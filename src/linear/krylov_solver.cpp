@@ -36,6 +36,8 @@ struct KrylovSolver::Implementation {
 };
 
 void KrylovSolver::Implementation::create() {
+  // Flexible GMRES, preconditioned from the right, so that its norm is that of the true residual; directions
+  // are orthogonalised a second time where rounding asks for it.
   petsc::make_scalar_products_reproducible();
   petsc::check(KSPCreate(PETSC_COMM_WORLD, ksp.out()), "KSPCreate");
   petsc::check(KSPSetOptionsPrefix(ksp, options.prefix.c_str()), "KSPSetOptionsPrefix");
@@ -47,6 +49,7 @@ void KrylovSolver::Implementation::create() {
                "KSPGMRESSetCGSRefinementType");
   petsc::check(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED), "KSPSetNormType");
   watch_for_interruption(ksp);
+  // The preconditioner is a factorisation of the given matrix, of the kind that its symmetry allows.
   PC pc = nullptr;
   petsc::check(KSPGetPC(ksp, &pc), "KSPGetPC");
   PetscInt n_unknowns = 0;
@@ -57,6 +60,8 @@ void KrylovSolver::Implementation::create() {
 }
 
 KSPConvergedReason KrylovSolver::Implementation::run(int& iterations) {
+  // Set-up and solve are timed apart, and a signal is looked for around them. What the factorisation frees
+  // stays with the program, since the next one takes it again.
   check_interruption();
   PetscLogDouble t0 = 0, t1 = 0, t2 = 0;
   PetscTime(&t0);

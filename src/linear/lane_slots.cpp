@@ -15,6 +15,7 @@ constexpr std::uint16_t k_no_place = std::numeric_limits<std::uint16_t>::max();
 
 LaneSlots::LaneSlots(const BlockMatrix& matrix, std::span<const Index> nodes, int n, Index n_elements)
     : matrix_(&matrix), nodes_(nodes), n_(static_cast<std::size_t>(n)), n_elements_(n_elements) {
+  // The place of each block within its row is stored in two bytes; the slot itself would take eight.
   const std::size_t n_batches = nodes.size() / (n_ * k_lanes);
   held_.resize(n_ * n_ * k_lanes);
   places_.resize(n_batches * held_.size());
@@ -28,6 +29,7 @@ LaneSlots::LaneSlots(const BlockMatrix& matrix, std::span<const Index> nodes, in
           const Index row = of_batch[a * k_lanes + lane];
           [[maybe_unused]] const Index column = of_batch[b * k_lanes + lane];
           const Slot slot = matrix.slot(row, column);
+          // Rows of other processes, and the mirror half of a symmetric matrix, have no slot.
           if (slot == BlockMatrix::k_no_slot) {
             assert((row >= static_cast<Index>(row_start.size()) - 1 ||
                     (matrix.storage() == BlockMatrix::Storage::upper && column < row)) &&
@@ -43,6 +45,8 @@ LaneSlots::LaneSlots(const BlockMatrix& matrix, std::span<const Index> nodes, in
 }
 
 void LaneSlots::hold(Index batch) const {
+  // The slots of one batch are put together from the starts of the rows and the stored places. Lanes beyond
+  // the last element get none.
   const std::span<const std::int64_t> row_start = matrix_->row_start();
   const auto n_owned = static_cast<Index>(row_start.size()) - 1;
   const Index* const of_batch = nodes_.data() + static_cast<std::size_t>(batch) * n_ * k_lanes;

@@ -68,6 +68,8 @@ LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std:
 }
 
 LinearReport LinearSolver::solve(Mat matrix, std::span<const double> b, std::span<double> x, double forcing) {
+  // A matrix seen for the first time is told about its symmetry and near null space, and makes what was set
+  // up before useless.
   Implementation& my = *implementation_;
   my.gradients.reset();
   if (!my.ksp) my.create(matrix);
@@ -82,6 +84,7 @@ LinearReport LinearSolver::solve(Mat matrix, std::span<const double> b, std::spa
   petsc::check(KSPSetOperators(my.ksp, matrix, matrix), "KSPSetOperators");
   LinearReport report = solve_again(b, x, forcing);
   if (report.converged || my.kind != SolverKind::field_split || !my.multigrid) return report;
+  // A field split with our own multigrid that has not converged is tried once more with PETSc's.
   const int spent = report.iterations;
   reset();
   my.split_failed = true;
@@ -133,7 +136,7 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
 void LinearSolver::forget() {
   // MUMPS chooses the order of elimination by the values of the first matrix that it analyses, for LU and,
   // where the diagonal is small beside the rest, for LDLᵀ too. A hierarchy that is only set up again keeps
-  // its interpolation and goes on with its random numbers. All of them are made anew.
+  // its interpolation and goes on with its random numbers. All of them are made again.
   if (implementation_->ksp) reset();
 }
 

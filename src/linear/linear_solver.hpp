@@ -17,7 +17,8 @@ enum class SolverKind {
   jacobi,      ///< CG + Jacobi
   incomplete,  ///< CG + incomplete Cholesky, on each process for itself (GMRES + incomplete LU when
                ///< unsymmetric); that of incomplete_cholesky.hpp where half of the matrix is kept
-  field_split  ///< FGMRES, blocks of a MATNEST in turn: multigrid on the first, incomplete LU on the second
+  field_split  ///< FGMRES, blocks of a MATNEST one after the other: multigrid on the first, incomplete LU on
+               ///< the second
 };
 
 struct LinearSolverOptions {
@@ -51,7 +52,7 @@ class TangentSolver {
                              double forcing) = 0;
   /// Solves with the matrix of the last solve(), as it was then. Collective.
   virtual LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing) = 0;
-  /// Sets everything up anew at the next solve, so that it depends on the matrix alone (checkpoints).
+  /// Sets everything up again at the next solve, so that it depends on the matrix alone (checkpoints).
   virtual void forget() = 0;
   /// The next matrix has another pattern: nothing stays.
   virtual void reset() = 0;

@@ -11,18 +11,22 @@ namespace solidus::linear {
 MultiPointConstraints::MultiPointConstraints(const mesh::Mesh& mesh, int block_size,
                                              std::vector<std::vector<Index>> groups) {
   if (groups.empty()) return;
+  // Members of a group are one unknown, that of their leader: the member with the lowest global number over
+  // all processes.
   const auto global = [&](Index entry) {
     return mesh.global_node[static_cast<std::size_t>(entry / block_size)] * block_size + entry % block_size;
   };
   unknown_.resize(mesh.x.size() * static_cast<std::size_t>(block_size));
   for (std::size_t i = 0; i < unknown_.size(); ++i) unknown_[i] = global(static_cast<Index>(i));
 
+  // A process may hold a part of a group only, so the leader is found by a minimum over them.
   std::vector<GlobalIndex> leaders(groups.size(), std::numeric_limits<GlobalIndex>::max());
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const Index entry : groups[g]) leaders[g] = std::min(leaders[g], global(entry));
   static_assert(sizeof(GlobalIndex) == sizeof(std::int64_t));
   processes::least(leaders);
 
+  // Owned members are kept, because sums over the group go through them; all but the leader are followers.
   const Index n_owned = mesh.n_owned_nodes * block_size;
   groups_.resize(groups.size());
   for (std::size_t g = 0; g < groups.size(); ++g)

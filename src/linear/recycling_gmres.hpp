@@ -22,7 +22,7 @@ namespace solidus::linear {
 struct RecyclingOptions {
   int directions = 60;       ///< of a cycle, besides those that are kept
   int kept = 40;             ///< at most, from one system to the next
-  int worthwhile = 25;       ///< iterations of a cycle from which on the recycled space is chosen anew
+  int worthwhile = 25;       ///< iterations of a cycle from which on the recycled space is chosen again
   int max_iterations = 500;  ///< of a solve
 };
 
