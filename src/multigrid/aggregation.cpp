@@ -227,6 +227,8 @@ void galerkin_pattern(const MatrixView& a, const BlockRows<float>& p, Index n_lo
 
 template <int size, int modes>
 void galerkin(const MatrixView& a, const BlockRows<float>& p, Index n_local, BlockRows<double>& coarse) {
+  // Row by row of A the product A P is formed, and with the transposed row of P its share of the coarse
+  // matrix, whose pattern has been made before.
   RowSum product(n_local, size * modes);
   for (Index row = 0; row < a.n_rows(); ++row) {
     product.clear();

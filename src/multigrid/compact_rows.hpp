@@ -10,7 +10,7 @@
 
 namespace solidus::multigrid {
 
-/// A copy of the rows that are left, numbered anew in their old order.
+/// A copy of the rows that are left, numbered again in their old order.
 struct CompactRows {
   std::vector<Index> rows;  ///< [new owned row] the owned row that it was
   Numbering numbering;

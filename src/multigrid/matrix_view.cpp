@@ -4,6 +4,8 @@ namespace solidus::multigrid {
 
 LowerPart::LowerPart(std::span<const std::int64_t> start, std::span<const Index> column)
     : start_(start.size(), 0) {
+  // For every row the blocks below the diagonal are those above it in other rows, seen from the side. The
+  // first pass counts them, the second notes the row and the place in it.
   const auto n = static_cast<Index>(start.size()) - 1;
   const auto each_above = [&](const auto& f) {
     for (Index row = 0; row < n; ++row) {

@@ -139,6 +139,8 @@ void Multigrid::Level::residual() {
 }
 
 void Multigrid::Level::smooth(bool from_zero, int sweeps, double interval) {
+  // Chebyshev's iteration with Jacobi's preconditioner on the interval from `low` to `high`: it damps the
+  // upper part of the spectrum, and leaves the rest to the coarser level.
   const double high = k_margin * largest, low = interval * largest;
   const double centre = 0.5 * (high + low), radius = 0.5 * (high - low), sigma = centre / radius;
   const std::size_t n = n_owned();
@@ -149,6 +151,7 @@ void Multigrid::Level::smooth(bool from_zero, int sweeps, double interval) {
     d[i] = first * inverse_diagonal[i] * defect[i];
     x[i] = from_zero ? d[i] : x[i] + d[i];
   }
+  // The three-term recurrence keeps a share of the last step d and adds the new defect.
   double rho = 1 / sigma;
   for (int k = 1; k < sweeps; ++k) {
     residual();

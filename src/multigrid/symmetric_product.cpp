@@ -75,6 +75,8 @@ void multiply_symmetric(int size, std::span<const std::int64_t> start, const Ind
                         const Number* blocks, const Number* x, Number* y, std::vector<Number>& scratch,
                         Index n_local) {
   const auto n = static_cast<std::ptrdiff_t>(start.size()) - 1;
+  // A product reads each block once, for its row and for its column. Where a block row does not fill a
+  // register (three components), vectors are widened to whole registers while the product runs.
   with_block_sizes(size, size, [&]<int rows, int columns>() {
     constexpr std::ptrdiff_t lanes = Register<Number, rows>::lanes;
     if constexpr (rows == lanes) {
