@@ -56,6 +56,8 @@ std::size_t Pieces::index(double x) const {
 }
 
 Pieces::Line<Lane> Pieces::line_by_look_up(const Lane& x) const {
+  // Buckets of equal width say near which piece an argument lies; a few comparisons with falling stride find
+  // the piece itself. Rounding to an integer is done by adding 2^52, whose last bits then hold it.
   const Lane zero(0.0), last(static_cast<double>(bucket_.size() - 1));
   Lane place = (x - Lane(start_[0])) * Lane(bucket_scale_);
   place = select(place > zero, place, zero);  // a NaN too
@@ -65,6 +67,7 @@ Pieces::Line<Lane> Pieces::line_by_look_up(const Lane& x) const {
     i[lane] = bucket_[static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(place[lane]))];
   for (std::size_t stride = first_stride_; stride > 0; stride /= 2)
     for (int lane = 0; lane < k_lanes; ++lane) i[lane] += x[lane] >= start_[i[lane] + stride] ? stride : 0;
+  // The numbers of the pieces are gathered lane by lane, since each lane may be in another one.
   Lane start, value, slope;
   for (int lane = 0; lane < k_lanes; ++lane) {
     const Piece& piece = pieces_[i[lane]];

@@ -28,6 +28,8 @@ Table::Table(double y) : y_{y} {
 
 Table::Table(std::vector<double> x, std::vector<double> y, Extrapolation extrapolation)
     : x_(std::move(x)), y_(std::move(y)), extrapolation_(extrapolation) {
+  // A table without points, with numbers that are none, or with arguments that do not rise is refused with
+  // the place of the point.
   if (x_.size() != y_.size()) throw std::invalid_argument("a table needs as many values as arguments");
   if (x_.empty()) throw std::invalid_argument("a table needs at least one point");
   for (std::size_t i = 0; i < x_.size(); ++i) {
@@ -38,6 +40,7 @@ Table::Table(std::vector<double> x, std::vector<double> y, Extrapolation extrapo
       throw std::invalid_argument(place + " is not beyond the point before it");
   }
   if (constant()) return;
+  // Pieces begin at each point with their value and slope. One more at the last point makes its value exact.
   std::vector<Pieces::Piece> pieces;
   for (std::size_t i = 0; i + 1 < x_.size(); ++i)
     pieces.push_back({x_[i], y_[i], (y_[i + 1] - y_[i]) / (x_[i + 1] - x_[i])});
@@ -66,6 +69,8 @@ Table::Line<Lane> Table::line_of_lanes(const Lane& x) const {
 
 template <class Part>
 double Table::add_parts(double a, double b, Part part) const {
+  // The interval is cut at the points of the table; each part is given its ends, the value at its start and
+  // its slope. Beyond the table values are constant, or go on along the last line.
   if (a > b) return -add_parts(b, a, part);
   if (constant()) return part(a, b, y_[0], 0.0);
   double total = 0;

@@ -83,6 +83,8 @@ class Zoom {
 std::vector<double> corners(const Table& table, double from, double to, double tolerance) {
   std::vector<double> chosen;
   if (table.constant() || !(from < to)) return chosen;
+  // Corners are chosen by Douglas and Peucker's method: the point that lies farthest from the straight line
+  // between its neighbours first, until none is farther off than the tolerance.
   std::vector<Corner> points{{from, table.value(from)}};
   const auto x = table.x(), y = table.y();
   for (std::size_t i = 0; i < x.size(); ++i)
