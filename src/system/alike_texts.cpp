@@ -48,6 +48,8 @@ std::size_t end_of_number(const std::string& text, std::size_t begin) {
 }
 
 Text read(const std::string& text) {
+  // Two texts are alike if they differ in names and numbers alone: both are taken out here, and what is left
+  // is the form.
   Text out;
   for (std::size_t i = 0; i < text.size();) {
     if (text[i] == '\'') {

@@ -11,7 +11,7 @@ namespace solidus {
 
 #ifdef __GLIBC__
 namespace {
-/// The end of the heap grows and shrinks by this much at once: every page that comes anew has to be cleared
+/// The end of the heap grows and shrinks by this much at once: every page that comes again has to be cleared
 /// by the system, which was a quarter of the time of cases of some thousand nodes. What is not written takes
 /// no memory.
 constexpr int k_end_of_heap = 64 << 20;

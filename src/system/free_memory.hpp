@@ -19,7 +19,7 @@ void give_large_arrays_back();
 
 /// While it lives, freed arrays stay with the program for the next ones of their size, whatever
 /// give_large_arrays_back() has said; without it nothing changes. For libraries that allocate the same large
-/// arrays anew in each call: the system clears every page that it gives.
+/// arrays again in each call: the system clears every page that it gives.
 class FreedArraysStay {
  public:
   FreedArraysStay();

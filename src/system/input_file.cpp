@@ -10,6 +10,8 @@
 namespace solidus {
 
 void require_readable(const std::filesystem::path& file, const SourceLocation& where, double most) {
+  // Each reason why a file cannot be read has its own message: it does not exist, is a folder, a device, too
+  // large, or not permitted.
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   const std::string name = where.file == file.string() ? "this" : "'" + file.string() + "'";

@@ -23,7 +23,7 @@ class Part {
   Part& operator=(const Part&) = delete;
 };
 
-/// Starts anew from zero; nothing but the caller's own parts may be running.
+/// Starts again from zero; nothing but the caller's own parts may be running.
 void begin();
 /// A row for each part in the order of their first time, with its time less that of the parts within it, and
 /// "other" for what no part has taken [s]. The running parts count up to now. The rows add up to total().

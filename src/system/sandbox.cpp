@@ -80,6 +80,8 @@ void refuse_to_open_for_writing(long call, std::size_t argument, std::vector<soc
 }
 
 std::vector<sock_filter> filter_program() {
+  // The filter looks at the architecture first, then at the number of the call. Opening is allowed for
+  // reading alone; calls of the list are refused, all others pass.
   std::vector<sock_filter> program;
   program.push_back(load(offsetof(seccomp_data, arch)));
   program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, k_architecture, 1, 0));
