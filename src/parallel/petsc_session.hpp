@@ -6,7 +6,7 @@
 
 namespace solidus::petsc {
 
-/// Starts PETSc, and MPI, where nobody has.
+/// Starts PETSc, and MPI, where neither runs yet.
 /// @param options  of PETSc, as on a command line. A .petscrc of the present folder or the home is not read,
 ///                 for it would change answers in silence, and signals stay the caller's.
 /// Returns false where PETSc cannot start; its message then stands on the standard error. Throws InputError
