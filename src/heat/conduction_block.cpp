@@ -140,6 +140,8 @@ class Conduction final : public ConductionBlock {
 
   void add_batch(Index batch, double factor, std::span<const double> columns,
                  const linear::LaneSlots::Slot* slots, linear::BlockMatrix& matrix) const {
+    // The element matrix is ∫ ∇N_a·∇N_b, of which one half is computed. Elements at re-entrant edges lose a
+    // part across the edge.
     ConductionMatrix<n_nodes> m{};
     const auto loss = losses_.find(batch);
     for (int q = 0; q < geometry_.n_points; ++q) {
@@ -155,6 +157,7 @@ class Conduction final : public ConductionBlock {
     }
     for (std::size_t a = 0; a < n_nodes; ++a)
       for (std::size_t b = 0; b < a; ++b) m[a][b] = m[b][a];
+    // With a conductivity that varies at the nodes, column b has that of node b.
     if (!columns.empty()) {
       const Nodal column = gather<n_nodes>(geometry_, batch, columns);
       for (std::size_t a = 0; a < n_nodes; ++a)

@@ -26,7 +26,7 @@ namespace solidus::heat {
 class ConductionBlock {
  public:
   virtual ~ConductionBlock() = default;
-  /// The matrix has a new graph: places in it are found anew.
+  /// The matrix has a new graph: places in it are found again.
   virtual void bind(const linear::BlockMatrix& matrix) = 0;
   /// matrix_ab += factor ∫ ∇N_a · ∇N_b dV columns_b.
   /// @param columns  [local node]; empty: one

@@ -34,6 +34,8 @@ void ConductionLimiter::clear() {
 }
 
 void ConductionLimiter::add_body(int body, linear::BlockMatrix& matrix) {
+  // A pair of nodes needs a limit where its entry of the conduction matrix is positive, beyond rounding
+  // against the smaller of the two diagonals.
   const auto n = at(mesh_.n_owned_nodes);
   std::vector<double> diagonal(mesh_.x.size());
   for (std::size_t i = 0; i < n; ++i) diagonal[i] = *matrix.diagonal_block(static_cast<Index>(i));
@@ -49,6 +51,7 @@ void ConductionLimiter::add_body(int body, linear::BlockMatrix& matrix) {
         of_body.pairs.push_back({static_cast<Index>(i), j, k, s, matrix.slot(j, static_cast<Index>(i))});
     }
   of_body.pairs.shrink_to_fit();
+  // Diagonals are kept for the bounds.
   for (std::size_t i = 0; i < n; ++i)
     if (diagonal[i] > 0) of_body.diagonal.push_back({static_cast<Index>(i), diagonal[i]});
   bodies_.push_back(std::move(of_body));
@@ -169,6 +172,8 @@ void ConductionLimiter::find_factors() {
 }
 
 void ConductionLimiter::find_extremes(std::span<const double> temperature) {
+  // The highest and lowest temperature around each node, over its row. Of a matrix stored by halves each
+  // entry serves both of its nodes.
   const std::span<const std::int64_t> start = matrix_->row_start();
   const std::span<const Index> columns = matrix_->columns();
   for (std::size_t i = 0; i < highest_.size(); ++i) highest_[i] = lowest_[i] = temperature[i];

@@ -19,7 +19,7 @@
 /// between two nodes: no heat is lost. γ_i is such that α = 1 for every linear field around an inner node:
 /// linear fields are exact, and the order of the elements stays.
 ///
-/// The shares α are found at given temperatures and held until they are found anew, so that conduction stays
+/// The shares α are found at given temperatures and held until they are found again, so that conduction stays
 /// linear in u, symmetric and positive semi-definite, and the iteration of a step converges as it does
 /// without them. The solver of a step updates them at the temperatures reached.
 ///
@@ -45,7 +45,7 @@ class ConductionLimiter {
   /// @param potentials  one per body; must outlive this object, as the mesh must
   ConductionLimiter(const mesh::Mesh& mesh, std::span<const KirchhoffPotential> potentials);
 
-  /// Collects the pairs of all bodies anew: clear(), add_body() for each one, finish().
+  /// Collects the pairs of all bodies again: clear(), add_body() for each one, finish().
   void clear();
   /// @param matrix  Σ K_ij of the body alone
   void add_body(int body, linear::BlockMatrix& matrix);

@@ -137,12 +137,16 @@ bool along_edge(const Point& between, const mesh::Wedge& a, const mesh::Wedge& b
 }  // namespace
 
 EdgeConduction::EdgeConduction(const mesh::Mesh& mesh) {
+  // Linear triangles and tetrahedra alone are corrected, and only if the mesh has a re-entrant edge
+  // somewhere.
   const bool simplices = std::any_of(mesh.blocks.begin(), mesh.blocks.end(), [](const auto& block) {
     return block.shape == mesh::Shape::tri3 || block.shape == mesh::Shape::tet4;
   });
   if (!parallel::any_process(simplices)) return;
   const auto owned = mesh::reentrant_wedges(mesh);
   if (!parallel::any_process(!owned.empty())) return;
+  // The wedge of a node is known to its owner: its bisector, the direction of the edge and the angle go to
+  // the ghosts as seven numbers.
   constexpr int k_numbers = 7;
   std::vector<double> all(mesh.x.size() * k_numbers, 0.0);
   for (const auto& [node, wedge] : owned) {

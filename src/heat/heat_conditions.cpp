@@ -24,6 +24,8 @@ const typename Map::mapped_type& find(const Map& groups, const std::string& name
 }  // namespace
 
 void HeatSystem::add_conditions(const ThermalConditions& conditions) {
+  // Surfaces are restricted to faces of active bodies. Fluxes, films and radiation have one kind of object,
+  // whose law differs.
   const auto add_surface = [&](const auto& condition) {
     surfaces_.emplace_back(mesh_, kind_,
                            active_.part(mesh_, find(mesh_.surfaces, condition.surface, "surface")),
@@ -35,6 +37,8 @@ void HeatSystem::add_conditions(const ThermalConditions& conditions) {
   add_sources(conditions.sources);
   add_burning(conditions.exothermics);
   add_prescribed(conditions.temperatures);
+  // Storage for the power of each condition is made here; whether anything depends on place decides what has
+  // to be integrated again.
   surface_power_.resize(surfaces_.size());
   source_power_.resize(sources_.size());
   placed_ =
@@ -63,6 +67,8 @@ void HeatSystem::add_sources(const std::vector<Source>& sources) {
 }
 
 void HeatSystem::add_burning(const std::vector<Exothermic>& exothermics) {
+  // A sleeve is a source whose power follows from the state of its nodes. A node of several sleeves ignites
+  // at the lowest of their temperatures.
   if (!exothermics.empty()) ignition_.assign(mesh_.x.size(), HUGE_VAL);
   for (const Exothermic& burning : exothermics) {
     const int body = body_named(burning.body);
@@ -82,6 +88,7 @@ void HeatSystem::add_burning(const std::vector<Exothermic>& exothermics) {
 }
 
 void HeatSystem::add_prescribed(const std::vector<PrescribedTemperature>& conditions) {
+  // A node may be in several groups; the condition that comes last holds it.
   std::vector<int> holder(mesh_.x.size(), -1);  // the later condition in the list holds
   for (std::size_t i = 0; i < conditions.size(); ++i)
     for (Index node : find(mesh_.node_sets, conditions[i].node_set, "group"))
@@ -89,6 +96,7 @@ void HeatSystem::add_prescribed(const std::vector<PrescribedTemperature>& condit
   for (const PrescribedTemperature& c : conditions) prescribed_.push_back({c.name, c.value, {}, {}, {}});
   fixed_.assign(mesh_.x.size(), 0);
   for (std::size_t node = 0; node < holder.size(); ++node) {
+    // Nodes of absent bodies have no equation, and are fixed.
     if (!active_.node(static_cast<Index>(node))) {
       fixed_[node] = 1;
       continue;
@@ -103,6 +111,8 @@ void HeatSystem::add_prescribed(const std::vector<PrescribedTemperature>& condit
 }
 
 void HeatSystem::add_nodal_shares(int body, Volume& volume) const {
+  // The share of a node is the integral of its shape function over the body, or the lumped weight where heat
+  // is stored at the nodes.
   std::vector<double> weight(static_cast<std::size_t>(mesh_.n_owned_nodes), 0.0);
   for (const mesh::ElementBlock& block : mesh_.blocks) {
     if (block.body != body || !active_.body(body)) continue;

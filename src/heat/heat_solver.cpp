@@ -41,16 +41,20 @@ void HeatSolver::begin(bool transient) {
 
 linear::LinearReport HeatSolver::solve(linear::BlockMatrix& a, std::span<const double> b, std::span<double> x,
                                        double forcing) {
+  // The quick solver (incomplete factors) serves until it is slow: then a stronger one takes over for the
+  // rest.
   if (!use_quick_) {
     last_ = &strong();
     return last_->solve(a, b, x, forcing);
   }
   last_ = quick_.get();
   keeps_nothing_ = a.storage() == linear::BlockMatrix::Storage::upper;  // PETSc's factors keep their pattern
+  // How many iterations a digit takes decides whether it is asked again.
   linear::LinearReport report = quick_->solve(a, b, x, forcing);
   const double digits = -std::log10(std::max(forcing, options_.relative_tolerance));
   use_quick_ = report.converged && report.iterations <= k_slow * digits;
   if (report.converged) return report;
+  // A failure costs what was spent, and the stronger solver repeats the solve.
   const int spent = report.iterations;
   last_ = &strong();
   report = last_->solve(a, b, x, forcing);

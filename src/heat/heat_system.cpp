@@ -19,14 +19,18 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
                        bool closed, std::vector<linear::Contribution*> contributions,
                        linear::BlockMatrix::Storage storage, bool correct_edges)
     : mesh_(mesh), kind_(kind), closed_(closed), contributions_(std::move(contributions)), active_(mesh) {
+  // Contributions that bring heat of their own make bounds of temperature impossible; those that only store
+  // do not.
   contributions_heat_ = std::any_of(contributions_.begin(), contributions_.end(),
                                     [](const linear::Contribution* c) { return !c->stores(); });
   for (const material::Material& m : materials) at_nodes_.push_back(closed || m.changes_isothermally());
+  // Conduction comes before the conditions, since conditions on nodes ask where heat is stored.
   if (correct_edges) edges_ = EdgeConduction(mesh);
   add_conduction(materials);
   if (!conditions.absent_bodies.empty()) throw std::invalid_argument("every body is there when a run begins");
   add_conditions(conditions);
 
+  // The matrix has room for all that adds to it, contact included.
   nodal_ = std::make_unique<NodalPotential>(mesh, potentials_, active_);
   matrix_ = std::make_unique<linear::BlockMatrix>(mesh, 1, graph(), storage);
   matrix_->set_fixed(fixed_);
@@ -80,7 +84,7 @@ bool HeatSystem::set_conditions(const ThermalConditions& conditions) {
   return others;
 }
 
-/// Conduction of a body that comes back is computed anew when it is asked for.
+/// Conduction of a body that comes back is computed again when it is asked for.
 void HeatSystem::change_bodies(const linear::ActiveSet& active) {
   for (std::size_t b = 0; b < conduction_.size(); ++b)
     if (!active.body(mesh_.blocks[b].body)) conduction_[b].reset();
@@ -149,6 +153,8 @@ void HeatSystem::release_work() {
 }
 
 double HeatSystem::residual(std::span<const double> temperature, std::span<double> r) {
+  // The residual is the sum of flows out of the nodes: conduction, surfaces and sources, less what limits
+  // hold back.
   double moved = 0;
   std::fill(supplied_.begin(), supplied_.end(), 0.0);
   std::fill(surface_power_.begin(), surface_power_.end(), 0.0);
@@ -160,6 +166,8 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
   std::copy_n(local_.begin(), r.size(), r.begin());
   if (limiter_ && exchange_) limiter_->add_heat(temperature, r);
   storing_.clear();
+  // Contributions add theirs; the ones that store are summed apart, because the balance of a step treats them
+  // as storage.
   for (std::size_t c = 0; c < contributions_.size(); ++c) {
     contribution_power_[c] = 0;
     if (!exchange_ && !contributions_[c]->stores()) continue;

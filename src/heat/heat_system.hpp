@@ -69,7 +69,7 @@ class HeatSystem {
   /// Whether conduction is limited from here on (conduction_limiter.hpp). Off at first, and with the open
   /// rule.
   void limit(bool on);
-  /// Finds the limits of conduction anew at these temperatures; they hold until the next call. Returns
+  /// Finds the limits of conduction again at these temperatures; they hold until the next call. Returns
   /// whether they have changed: a change of the flows there by no more than `negligible` [W] over all
   /// processes is left out. Collective.
   bool find_limits(std::span<const double> temperature, double negligible = -1);
@@ -96,7 +96,7 @@ class HeatSystem {
   /// r on owned nodes [W]. Returns this process's share of the heat moved by surfaces, sources and
   /// contributions, magnitudes before they cancel.
   double residual(std::span<const double> temperature, std::span<double> r);
-  /// Frees the vectors that residual() and assemble() work with; the next call makes them anew.
+  /// Frees the vectors that residual() and assemble() work with; the next call makes them again.
   void release_work();
   /// Fills the matrix with ∂r/∂Θ, which is unsymmetric where a conductivity varies.
   void assemble(std::span<const double> temperature);

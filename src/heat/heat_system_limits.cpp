@@ -103,6 +103,7 @@ TemperatureRange HeatSystem::surroundings() const {
 }
 
 TemperatureRange HeatSystem::ambient_range(bool with_contributions) const {
+  // A flux or a source may heat or cool beyond any temperature, so that there is no bound on that side.
   double cooling = 0, heating = 0;
   for (const SurfaceHeat& surface : surfaces_) {
     if (surface.ambient()) continue;
@@ -110,6 +111,7 @@ TemperatureRange HeatSystem::ambient_range(bool with_contributions) const {
     cooling = std::min(cooling, least);
     heating = std::max(heating, greatest);
   }
+  // Films and radiation have surroundings, which are the bounds otherwise.
   for (const Volume& source : sources_)
     for (const double heat : source.heat) {
       cooling = std::min(cooling, heat);

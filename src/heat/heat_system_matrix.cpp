@@ -12,11 +12,14 @@ namespace solidus::heat {
 void HeatSystem::assemble(std::span<const double> temperature) {
   assert((nodal_->identity() || matrix_->storage() == linear::BlockMatrix::Storage::whole) &&
          "it is not symmetric");
+  // The matrix of the temperature formulation: contributions first, then conduction with the conductivity at
+  // the nodes.
   keep_conduction_apart();
   matrix_->set_zero();
   for (linear::Contribution* contribution : contributions_)
     if (exchange_ || contribution->stores()) contribution->add_tangent(temperature, *matrix_);
   if (!exchange_) return;
+  // Conductivities are evaluated once for the nodes of each body whose table needs it.
   for (std::size_t b = 0; b < fields_.size(); ++b) {
     if (!fields_[b].nodes.empty()) fields_[b].value.resize(mesh_.x.size());
     for (const Index node : fields_[b].nodes) {
@@ -24,6 +27,7 @@ void HeatSystem::assemble(std::span<const double> temperature) {
       fields_[b].value[i] = potentials_[b].conductivity(temperature[i]);
     }
   }
+  // A constant conductivity is a factor of the whole block.
   for (std::size_t b = 0; b < conduction_.size(); ++b) {
     const auto body = static_cast<std::size_t>(mesh_.blocks[b].body);
     if (!active_.body(static_cast<int>(body))) continue;
@@ -112,7 +116,7 @@ void HeatSystem::keep_conduction_apart() {
   std::vector<double>().swap(kept_diagonal_);
 }
 
-/// ∂r/∂v where the matrix keeps conduction: its diagonal is found anew.
+/// ∂r/∂v where the matrix keeps conduction: its diagonal is found again.
 void HeatSystem::assemble_diagonal(std::span<const double> temperature, std::span<const double> slopes) {
   for (std::size_t i = 0; i < kept_diagonal_.size(); ++i) *matrix_->diagonal_block(static_cast<Index>(i)) = 0;
   for (const SurfaceHeat& surface : surfaces_) surface.add_tangent(temperature, *matrix_);
@@ -212,10 +216,13 @@ void HeatSystem::add_kept_conduction(std::span<const double> temperature, std::s
 void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::span<const double> slopes,
                                     const std::function<void(linear::BlockMatrix&)>& further,
                                     SharedNodes shared) {
+  // The symmetric matrix of Kirchhoff's potential: conduction is kept from step to step, so that only the
+  // diagonal changes where nothing else adds to it.
   if (exchange_ && !keeps_conduction()) keep_conduction();
   unsymmetric_.clear();
   if (!kept_diagonal_.empty() && exchange_ && !further && only_diagonal_beside_conduction())
     return assemble_diagonal(temperature, slopes);
+  // Otherwise all parts are assembled, and scaled from temperature to potential.
   keep_conduction_apart();
   matrix_->set_zero();
   for (linear::Contribution* contribution : contributions_)

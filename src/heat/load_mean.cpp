@@ -131,6 +131,7 @@ std::vector<TimePoint> time_points(const LoadWindow& window, std::span<const Pla
 }
 
 LoadValues mean_load(const LoadWindow& window, const LoadLaw& law) {
+  // Loads that do not depend on time are evaluated once.
   if (window.n_parts == 0 || law.steady()) return law.values_at(window.time);
   const std::vector<const PlaceFunction*> functions = law.pointers();
   const bool smooth = std::ranges::all_of(functions, [](const PlaceFunction* f) { return f->tabulated(); });
@@ -138,12 +139,15 @@ LoadValues mean_load(const LoadWindow& window, const LoadLaw& law) {
   const auto add = [&](double share, const LoadValues& v) {
     for (std::size_t k = 0; k < v.size(); ++k) sum[k] += share * v[k];
   };
+  // Tables are smooth between their points, so that Gauss points between these are exact enough.
   if (smooth) {
     constexpr int k_points = 4;
     for (const TimePoint& point : time_points(window, functions, k_points))
       add(point.weight, law.values_at(point.time));
     return sum;
   }
+  // Formulas may jump anywhere: each part of the window is cut into pieces, whose means are refined by
+  // bisection where halves differ.
   constexpr int k_parts = 8;
   Bisection bisection(law);
   for (int p = 0; p < window.n_parts; ++p) {

@@ -8,6 +8,7 @@ namespace solidus::heat {
 LocalSweeps::LocalSweeps(const linear::BlockMatrix& matrix, std::span<const double> residual,
                          std::span<const char> fixed, const parallel::GhostExchange& ghosts)
     : ghosts_(ghosts) {
+  // The nodes that are swept are those whose residual is above the mean: the front.
   const std::size_t n = residual.size();
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i)
@@ -19,6 +20,8 @@ LocalSweeps::LocalSweeps(const linear::BlockMatrix& matrix, std::span<const doub
     nodes_.push_back(static_cast<std::uint32_t>(i));
     residual_.push_back(residual[i]);
   }
+  // Their rows are copied in single precision. Rows of other processes are reached by couplings of their own,
+  // and changes are exchanged.
   copy_rows(matrix, n);
   if (parallel::any_process(n < fixed.size())) {
     copy_couplings(matrix, n);

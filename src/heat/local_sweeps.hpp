@@ -64,7 +64,7 @@ class LocalSweeps {
   static constexpr int k_rounds = 6;
   struct Neighbour {
     std::uint32_t position;  ///< among the chosen nodes
-    float entry;             ///< of the matrix: F is evaluated anew after these sweeps
+    float entry;             ///< of the matrix: F is evaluated again after these sweeps
   };
   /// An entry of a chosen node's row whose column belongs to another process.
   struct Coupling {

@@ -53,6 +53,8 @@ PlacedLoad::PlacedLoad(const mesh::Mesh& mesh, AnalysisKind kind, std::string na
       cells_(mesh, kind, std::move(cells)),
       points_(std::move(points)),
       shares_(std::move(shares)) {
+  // A power that is a product of a distribution and a factor without place is split, so that the distribution
+  // is integrated once.
   if (splits(law_)) {
     scale_ = LoadLaw{LoadLaw::Kind::power, {}};
     std::erase_if(law_.functions, [&](const PlaceFunction& f) {
@@ -60,10 +62,12 @@ PlacedLoad::PlacedLoad(const mesh::Mesh& mesh, AnalysisKind kind, std::string na
       return f.uniform();
     });
   }
+  // Points that lie on no node are evaluated one by one.
   for (const Point& p : points_)
     if (p.node < 0) x_.push_back(p.x);
   heat_.resize(at(mesh.n_owned_nodes));
   kept_.resize(law_.functions.size());
+  // The extent of the load's cells is known to every process.
   for (std::size_t i = 0; i < 3; ++i) {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (const Position& x : cells_.points()) low = std::min(low, x[i]), high = std::max(high, x[i]);
@@ -139,8 +143,10 @@ CellIntegrals::Result PlacedLoad::integrate(const LoadLaw& law, std::span<const 
 }
 
 void PlacedLoad::set(const LoadWindow& window) {
+  // The same window as before needs nothing. Otherwise the distribution is integrated unless it is steady.
   if (window_ && same(*window_, window)) return;
   if (!window_ || !(scale_ || law_.steady())) {
+    // A load that moves is integrated in as many parts of the step as it takes to overlap with itself.
     constexpr int k_points = 2, k_most_parts = 64;
     int parts = 1;
     if (moves() && window.n_parts > 0) {
@@ -149,6 +155,8 @@ void PlacedLoad::set(const LoadWindow& window) {
           static_cast<int>(std::min<double>(k_most_parts, std::ceil((end - begin) / lasting(begin, end))));
       parts = std::max(parts, 1);
     }
+    // Cells give the integrals, points the values there; the kind of the load says how both become nodal
+    // heat.
     const std::vector<TimePoint> times = time_points(window, law_.pointers(), k_points, parts);
     const CellIntegrals::Result integrals = integrate(law_, times, false);
     std::vector<LoadValues> apart(x_.size()), at_points(points_.size());
@@ -163,12 +171,15 @@ void PlacedLoad::set(const LoadWindow& window) {
     if (scale_) steady_heat_ = heat_;
   }
   window_ = window;
+  // A factor of time multiplies the distribution by its mean over the step.
   if (!scale_) return;
   const LoadValues mean = mean_load(window, *scale_);
   for (std::size_t i = 0; i < heat_.size(); ++i) heat_[i] = (mean[0] - mean[1]) * steady_heat_[i];
 }
 
 void PlacedLoad::set_power(const CellIntegrals::Result& integrals, std::span<const LoadValues> at_points) {
+  // Nodal heat is a mean of two forms, with the same total: values at the points, or integrals with the
+  // nodes' weights where points would miss the total. Heating and cooling are treated apart.
   std::fill(heat_.begin(), heat_.end(), 0.0);
   double least = 1;
   for (std::size_t k = 0; k < 2; ++k) {

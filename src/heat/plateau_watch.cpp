@@ -9,6 +9,8 @@ PlateauWatch::PlateauWatch(const mesh::Mesh& mesh, const NodalEnthalpy& storage,
     : mesh_(mesh), storage_(storage), matrix_(matrix), ghosts_(ghosts) {}
 
 bool PlateauWatch::passed_in_depth(std::span<const double> heat, std::span<const double> temperature) {
+  // The branch of a node says on which side of its plateaus it is. A node in depth is one that has changed
+  // its branch together with all its neighbours.
   if (!storage_.has_plateaus()) return false;
   const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes);
   const bool first = branch_.empty();
@@ -20,8 +22,10 @@ bool PlateauWatch::passed_in_depth(std::span<const double> heat, std::span<const
     moved[i] = branch != branch_[i] ? 1.0F : 0.0F;
     branch_[i] = branch;
   }
+  // The first look only notes the branches.
   if (parallel::any_process(first)) return false;
   ghosts_.update(moved, 1);
+  // A row shows both neighbours of an entry, so that a matrix stored by halves is enough.
   std::vector<char> inside(n, 1);
   const std::span<const std::int64_t> start = matrix_.row_start();
   const std::span<const Index> columns = matrix_.columns();

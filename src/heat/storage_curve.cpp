@@ -33,6 +33,7 @@ StorageCurve::StorageCurve(const material::EnthalpyCurve& enthalpy, const Kirchh
 
 std::vector<StorageCurve::Piece> StorageCurve::pieces_of(const material::EnthalpyCurve& enthalpy,
                                                          const KirchhoffPotential& potential) {
+  // Pieces end where the enthalpy or the potential bends: within one both are quadratic.
   std::vector<double> breaks;
   for (const material::EnthalpyCurve::Piece& piece : enthalpy.pieces()) breaks.push_back(piece.t0);
   breaks.push_back(enthalpy.pieces().back().t1);
@@ -43,6 +44,8 @@ std::vector<StorageCurve::Piece> StorageCurve::pieces_of(const material::Enthalp
 
   const Potential v{potential};
   std::vector<Piece> pieces;
+  // Each piece has value, slope and curvature of heat and potential at its start. The last one goes on
+  // without end.
   for (std::size_t i = 0; i < breaks.size(); ++i) {
     const double t0 = breaks[i], h0 = enthalpy.upper(t0), c0 = enthalpy.capacity(t0), k0 = v.slope(t0);
     const double jump = h0 - enthalpy.lower(t0);

@@ -261,6 +261,8 @@ std::pair<double, double> SurfaceHeat::flux_range() const {
 }
 
 void SurfaceHeat::add_corners(const mesh::ElementBlock& faces, const mesh::FaceGeometry& g) {
+  // At the corners of quadratic quadrilaterals weights are negative: their part of the flow is an exchange
+  // with the middles beside them, which the limiter may cut.
   const int corners = g.n_nodes / 2;
   for (Index face = 0; face < g.n_faces; ++face) {
     const Index* nodes = faces.element(face);
@@ -271,6 +273,7 @@ void SurfaceHeat::add_corners(const mesh::ElementBlock& faces, const mesh::FaceG
         flows_.push_back({nodes[a], nodes[middle]});
         flow_weight_.push_back(-0.5 * weight);
       }
+      // Products of corner and middle that are negative are exchanges between pairs.
       for (int middle = corners; middle < g.n_nodes; ++middle) {
         const double product = integral(g, face, {a, middle});
         if (product < 0) pairs_.push_back({nodes[a], nodes[middle], -product});

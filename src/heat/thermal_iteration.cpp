@@ -52,6 +52,8 @@ void ThermalIteration::begin(const ThermalState& old, double dt, const LoadWindo
 
 void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& stage, double factor,
                                    double dt, const LoadWindow& loads) {
+  // An iteration within the coupled Newton method begins a stage: contributions learn the stage, and the
+  // limits of conduction are found for it.
   old_ = &old;
   dt_ = dt;
   phase_.system_->exchange(true);
@@ -63,6 +65,7 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
   now_ = phase_.start(stage, loads);
   range_ = phase_.limit_conduction(stage, old).range;
   at_start_ = range_of(old.temperature, stage.temperature);
+  // With heat at the nodes the heat that the stage starts from is extrapolated through the stage before.
   if (nodal()) {
     stored_from_ = old.enthalpy;
     for (std::size_t i = 0; i < stored_from_.size(); ++i)
@@ -70,6 +73,7 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
     newton_ = std::make_unique<EnthalpyNewton>(phase_.mesh_, *phase_.system_, *phase_.storage_,
                                                phase_.ghosts_, tolerance());
     newton_->begin(stored_from_, dt, now_.enthalpy);
+    // Otherwise points store their heat, which they extrapolate themselves.
   } else {
     for (const auto& block : phase_.points_) {
       block->start(old.temperature, dt);

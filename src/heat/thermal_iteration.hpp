@@ -59,12 +59,12 @@ class ThermalIteration {
   double tolerance() const;
   /// Goes back to a state that state() was in since the step or stage began, for a further attempt.
   void restart(const ThermalState& state);
-  /// Limits conduction anew where the Θ of now have left the range of those at t_n and around the bodies
+  /// Limits conduction again where the Θ of now have left the range of those at t_n and around the bodies
   /// (conduction_limiter.hpp). True where that has changed F: the unknowns then solve it no more. Collective.
   bool revise_limits();
   int max_iterations() const { return phase_.options_.max_iterations; }
 
-  /// Makes the matrix anew where nodes meet that did not before; then true. Collective.
+  /// Makes the matrix again where nodes meet that did not before; then true. Collective.
   bool follow_graph() { return phase_.follow_graph(); }
   /// ∂F/∂Θ with the exact conductivity and the storage, plateaus held. May move the plateaus (and F) of a
   /// start that lies far off. `iteration` counts from zero.

@@ -232,7 +232,7 @@ class ThermalPhase {
 
  private:
   friend class ThermalIteration;
-  /// Makes the matrix anew where a contribution asks for it; then true. Collective.
+  /// Makes the matrix again where a contribution asks for it; then true. Collective.
   bool follow_graph();
   /// Throws StepRejected like require() unless `newton_steps` limits the iteration.
   /// @param residual  at the solution, [owned node] [W]

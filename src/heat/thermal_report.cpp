@@ -115,6 +115,7 @@ double ThermalPhase::mean_solid_fraction(const ThermalState& state) const {
 }
 
 EntropyChange ThermalPhase::entropy_change(const ThermalState& from, const ThermalState& to) const {
+  // The entropy of a step is summed over points or nodes, with the size of its parts as a scale of rounding.
   EntropyChange sum;
   const auto add = [&sum](const EntropyChange& part) {
     sum.change += part.change;
@@ -129,6 +130,7 @@ EntropyChange ThermalPhase::entropy_change(const ThermalState& from, const Therm
       const double heat = from.enthalpy[at(i)], temperature = from.temperature[at(i)];
       const double before = storage_->entropy(i, heat, temperature);
       const double after = storage_->entropy(i, to.enthalpy[at(i)], to.temperature[at(i)]);
+      // What the iteration has left between heat and temperature of a node is counted as `behind`.
       const double behind =
           std::max({0.0, storage_->lower(i, temperature) - heat, heat - storage_->upper(i, temperature)});
       add({after - before, std::abs(before), behind / temperature});

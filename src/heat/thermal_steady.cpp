@@ -27,8 +27,8 @@ namespace {
 
 constexpr int k_one_component[] = {1};
 
-/// In the steady state the limits of conduction are found anew so often at most; a change of flows by them of
-/// this share of the heat moved stays out.
+/// In the steady state the limits of conduction are found again so often at most; a change of flows by them
+/// of this share of the heat moved stays out.
 constexpr int k_steady_revisions = 20;
 constexpr double k_limit_change = 1e-6;
 
@@ -44,6 +44,8 @@ void add_iterations(linear::NewtonReport& report, linear::NewtonReport last) {
 }  // namespace
 
 ThermalReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& trial, double time) {
+  // A steady state has no storage. The first solution is without limits of conduction, since smooth fields
+  // need none.
   assert(start.temperature.size() == mesh_.x.size());
   follow_graph();
   system_->set_time(time);
@@ -59,6 +61,8 @@ ThermalReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState
   system_->clear_limits();  // a linear field, say, needs none
   report.newton = solve_temperature(temperature, residual);
   const double moved = temperature_system_->moved();
+  // Limits are then found and the system solved again until they stay, and nodes that leave the range lose
+  // their share.
   for (int i = 0; i < k_steady_revisions && system_->find_limits(temperature, k_limit_change * moved); ++i)
     add_iterations(report.newton, solve_temperature(temperature, residual));
   for (int i = 0;
@@ -67,6 +71,7 @@ ThermalReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState
     system_->find_limits(temperature);
     add_iterations(report.newton, solve_temperature(temperature, residual));
   }
+  // The balance is that of the last residual.
   report.balance = measure(temperature, residual, 1.0);
   report.balance.exchanged = temperature_system_->moved();
   trial = initial_state_at_nodes(temperature);
@@ -75,6 +80,8 @@ ThermalReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState
 
 linear::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperature, std::span<double> r,
                                                      int newton_steps) {
+  // The tolerance is that of the open rule; the linear systems are solved far, because an iteration costs as
+  // much as many of theirs.
   temperature_system_->residual(temperature, r);
   temperature_system_->tangent(temperature);
   linear::NewtonOptions newton;
@@ -86,6 +93,7 @@ linear::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperatu
   const linear::NewtonReport report =
       linear::newton(*temperature_system_, *temperature_system_->solver(solver_->strong()), ghosts_,
                      k_one_component, temperature, newton);
+  // The residual is evaluated once more at the solution, since the report of the balance is made of it.
   temperature_system_->residual(temperature, r);
   require_positive(temperature);
   if (!may_end(report, newton_steps)) require(report, r, temperature);

@@ -56,12 +56,15 @@ void add_stage(ThermalReport& report, double carried, ThermalReport& last) {
 
 ThermalReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass) {
   assert(old.temperature.size() == mesh_.x.size() && pass.dt > 0);
+  // Contact may have changed the graph. An adiabatic pass exchanges nothing: the nodes only take what
+  // deformation has warmed.
   follow_graph();
   solver_->begin(true);
   system_->exchange(!pass.adiabatic);
   ThermalState next;
   ThermalReport report;
   const bool flows = nodal() && !pass.adiabatic;
+  // A step has one stage or two. The flow at its end is kept for the error estimate of the next one.
   if (pass.stepping == ThermalStepping::sdirk2) {
     report = solve_two_stages(old, pass, next);
   } else {

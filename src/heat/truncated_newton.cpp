@@ -155,7 +155,7 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
       evaluate();
       continue;
     }
-    // Limits that are found anew where the solution is nearly known need hardly be looked at again at its
+    // Limits that are found again where the solution is nearly known need hardly be looked at again at its
     // end.
     if (!looked_ahead && newton_steps == 0 && norm_ <= k_nearly * moved_) {
       looked_ahead = true;

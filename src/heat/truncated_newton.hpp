@@ -12,7 +12,7 @@
 ///   1. a nonlinear sweep of Gauss and Seidel's method over the nodes, there and back: each node takes the
 ///      H_i that balances its own equation, so it may come to lie on a plateau, or leave it. It is swept on
 ///      over the nodes where F is concentrated then, those at the front (local_sweeps.hpp): they find out
-///      among themselves which of them freeze. F is evaluated anew; where it is small enough now, the
+///      among themselves which of them freeze. F is evaluated again; where it is small enough now, the
 ///      iteration ends;
 ///   2. a step of Newton's method (D + A) δ = −F, D_i = 1/(Δt dv_i/dH_i), for the nodes that do not lie on a
 ///      plateau: the others are held (truncated). The linear solver goes as far as the step is good for;
@@ -25,7 +25,7 @@
 ///      change moves by as many layers of nodes as the heat allows. For the kink of E that a plateau is, that
 ///      is iteratively reweighted least squares (I. Daubechies, R. DeVore, M. Fornasier and C. S. Güntürk,
 ///      Comm. Pure Appl. Math. 63 (2010) 1). Where chords have just been used without gain and a step of
-///      tangents comes out shorter than 1e-3, it is found anew with those nodes held that cut it short: they
+///      tangents comes out shorter than 1e-3, it is found again with those nodes held that cut it short: they
 ///      lie next to a plateau and are driven on to it.
 /// No part lets E rise, and the sweeps alone converge, so the iteration converges from any start, for every
 /// step and curve; near the solution it is Newton's method. The number of iterations hardly depends on the
@@ -73,7 +73,7 @@ class TruncatedNewton {
   /// From the start values in `temperature` and `heat` ([local node]), a point of each node's graph;
   /// `old_heat` is H*. Where the temperature is prescribed, `temperature` already holds it. Collective.
   /// Conduction is limited as it was before the call; where the iteration has converged the limits are found
-  /// anew, and it goes on if that changes much. Not if `newton_steps` says when it ends.
+  /// again, and it goes on if that changes much. Not if `newton_steps` says when it ends.
   /// @param bounds        temperatures that conduction should not leave
   /// @param newton_steps  at most so many iterations; zero: the limit of the options
   linear::NewtonReport solve(std::span<const double> old_heat, double dt, std::span<double> temperature,
@@ -85,7 +85,7 @@ class TruncatedNewton {
   double moved() const { return moved_; }  ///< heat moved per time in the last residual, all processes [W]
 
  private:
-  static constexpr double k_short_step = 0.2;   ///< length below which a step is found anew by chords
+  static constexpr double k_short_step = 0.2;   ///< length below which a step is found again by chords
   static constexpr double k_stuck_step = 1e-3;  ///< or with those nodes held that cut it short
 
   /// The vectors of a solve live as long as it does: criteria and files need the memory in between.
