@@ -1,5 +1,5 @@
-/// The block-iterative scheme (monograph 4.1.2, 4.2–4.4): both phases in turn until they agree. What they
-/// agree on is the solution of both at once (4.1.1, backward Euler), whatever the passes:
+/// The block-iterative scheme (monograph 4.1.2, 4.2–4.4): both phases in alternation until they agree. What
+/// they agree on is the solution of both at once (4.1.1, backward Euler), whatever the passes:
 ///
 ///   isothermal:  equilibrium with σ(ε, z, Θ⁽ⁱ⁾)                                              (4.46)
 ///   isentropic:  equilibrium with σ(ε, z, Θ̄),  S(ε, z, Θ̄) = S(ε⁽ⁱ⁾, z⁽ⁱ⁾, Θ⁽ⁱ⁾)            (4.40)

@@ -35,6 +35,8 @@ Coherency::Coherency(const mesh::Mesh& mesh, const std::vector<material::Materia
 std::vector<double> Coherency::of(std::span<const double> solid_fraction,
                                   const mechanics::BodyFields& fields) const {
   if (!melts_) return {};
+  // The coherency of a node is the least of its elements: a wall lets go of elements, and an element is as
+  // coherent as the mean of its vertices.
   constexpr double k_unknown = -1;
   std::vector<double> coherency(mesh_.x.size(), k_unknown);
   for (const mesh::ElementBlock* block : blocks_) {
@@ -55,6 +57,7 @@ std::vector<double> Coherency::of(std::span<const double> solid_fraction,
       }
     }
   }
+  // Nodes of bodies that do not melt are coherent.
   std::ranges::replace(coherency, k_unknown, 1.0);
   parallel::GhostExchange(mesh_).update(coherency, 1);
   return coherency;

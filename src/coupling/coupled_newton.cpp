@@ -91,6 +91,8 @@ CoupledNewton::CoupledNewton(const Phases& phases, linear::CoupledSolverKind sol
       matrix_(mechanics_.mesh(), mechanics_.matrix(), thermal_->matrix(),
               mechanics_.saddle() != nullptr ? &mechanics_.saddle()->matrix() : nullptr),
       ghosts_(mechanics_.mesh()) {
+  // The solver depends on the elements: those with a pressure make a saddle point, others two fields. Kernels
+  // are bound to both matrices.
   const mesh::Mesh& mesh = mechanics_.mesh();
   const double tolerance = mechanics_.options().linear_tolerance;
   if (mechanics_.pressure() != nullptr)
@@ -118,6 +120,8 @@ std::size_t CoupledNewton::n_owned_displacements() const {
 
 CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
                                         const mechanics::MechanicalPass& pass, std::span<const double> x) {
+  // The residual of both fields at one iterate: contact and mechanics at its temperatures, then heat with the
+  // deformation that mechanics has found.
   release_deformation();
   mechanics_.prepare(old, pass);
   set_contact_temperatures();
@@ -173,6 +177,7 @@ bool CoupledNewton::converged() const {
 
 linear::CoupledMatrix& CoupledNewton::assemble(const mechanics::MechanicalState& old,
                                                std::span<const double> x, int iteration) {
+  // Tangents of both fields; if contact has changed the graph of heat, kernels are bound again.
   mechanics_.tangent(x);
   if (thermal_->follow_graph())
     for (mechanics::CoupledKernel* kernel : kernels_) kernel->bind_heat(thermal_->matrix());
@@ -201,6 +206,8 @@ void CoupledNewton::multiply_heat(std::span<const double> x, std::span<double> h
 
 void CoupledNewton::multiply(std::span<const double> x, std::span<const double> temperature,
                              std::span<double> force, std::span<double> heat) {
+  // The product of the whole coupled matrix, block by block: forces by temperature and displacement, volume
+  // by both, heat by temperature and motion.
   const std::span<const double> u = x.first(mechanics_.n_displacements()), p = x.subspan(u.size());
   const std::span<double> of_u = force.first(n_owned_displacements()), of_p = force.subspan(of_u.size());
   const std::span<double> part = std::span(work_).first(force.size());
@@ -296,6 +303,8 @@ CoupledResidual CoupledNewton::evaluate_at(double alpha, const mechanics::Mechan
   const double coldest =
       temperature.empty() ? 1.0 : *std::min_element(temperature.begin(), temperature.end());
   if (!(parallel::global_min(coldest) > 0)) return k_nowhere;
+  // Where iterates are kept in equilibrium, forces are solved for at the trial temperatures. Too many without
+  // any equilibrium end the attempt.
   if (in_equilibrium_) {
     const bool whole = tangent_ == Tangent::whole;
     if (!whole) x = start_u_;  // in equilibrium with the temperatures there
@@ -310,6 +319,8 @@ CoupledResidual CoupledNewton::evaluate_at(double alpha, const mechanics::Mechan
 
 bool CoupledNewton::equilibrate(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass,
                                 std::vector<double>& x) {
+  // Equilibrium at the temperatures of the iterate, by the mechanical phase itself, from the iterate's
+  // displacements and pressures.
   mechanics::MechanicalState iterate = old;
   const auto n_u = static_cast<std::ptrdiff_t>(mechanics_.n_displacements());
   iterate.displacement.assign(x.begin(), x.begin() + n_u);
@@ -332,6 +343,7 @@ bool CoupledNewton::equilibrate(const mechanics::MechanicalState& old, mechanics
 
 double CoupledNewton::move(const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
                            std::vector<double>& x, const CoupledReport& report) {
+  // A step is accepted if the residual stays below the largest of the last few iterations.
   start_u_ = x;
   double highest = 0;
   const std::size_t n = report.residuals.size();
@@ -342,6 +354,7 @@ double CoupledNewton::move(const mechanics::MechanicalState& old, const mechanic
   double alpha = 1;
   if (const double most = k_longest_way * diagonal(mechanics_.mesh()); way > most) alpha = most / way;
   double best = alpha, least = std::numeric_limits<double>::infinity();
+  // Steps are halved until one is acceptable; else the best one is taken, unless it is far worse.
   for (int k = 0; k <= k_halvings; ++k, alpha *= 0.5) {
     const double size = evaluate_at(alpha, old, pass, x).size();
     if (std::isfinite(size) && (full || size <= highest || balanced())) return alpha;
@@ -357,6 +370,8 @@ double CoupledNewton::move(const mechanics::MechanicalState& old, const mechanic
 
 CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechanics::MechanicalPass& pass,
                                    std::vector<double>& x) {
+  // The first attempt uses the whole tangent. If it fails, both fields are set back and the second one leaves
+  // the heat of the motion out.
   const std::vector<double> start = x;
   const heat::ThermalState thermal_start = thermal_->state();
   tangent_ = Tangent::whole;
@@ -378,12 +393,11 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
 
 CoupledReport CoupledNewton::iterate(const mechanics::MechanicalState& old, mechanics::MechanicalPass& pass,
                                      std::vector<double>& x) {
-  // The first attempt uses the whole tangent. The second one leaves the heat of motion out of it, and so
-  // takes more iterations.
+  // Without the heat of motion the tangent is not exact, and more iterations are allowed.
   const bool whole = tangent_ == Tangent::whole;
   const int most = std::max(mechanics_.options().newton.max_iterations, thermal_->max_iterations());
   const int max_iterations = whole ? most : 2 * most;
-  // The state of the iteration starts anew: no equilibrium between iterates is asked for but in the second
+  // The state of the iteration starts again: no equilibrium between iterates is asked for but in the second
   // attempt, and no iteration has been lost yet.
   pass.iterate_temperature = thermal_->temperature();
   CoupledReport report;
@@ -398,8 +412,7 @@ CoupledReport CoupledNewton::iterate(const mechanics::MechanicalState& old, mech
     if (!equilibrate(old, pass, x)) mechanics_.reject("no equilibrium at the temperatures of the start", x);
   }
   CoupledResidual residual = evaluate(old, pass, x);
-  // One pass of the loop judges the residual, assembles the tangent, solves for a direction and moves along
-  // it.
+  // Each iteration judges the residual, assembles the tangent, finds a direction and moves along it.
   while (true) {
     report.residuals.push_back(residual);
     if (!std::isfinite(residual.size())) mechanics_.reject("the residual is not a number", x);

@@ -118,6 +118,8 @@ void CoupledSaddleSolver::weight(std::span<double> whole, bool divide) const {
 }
 
 void CoupledSaddleSolver::multiply(std::span<const double> x, std::span<double> y) {
+  // The vector holds free unknowns alone: it is expanded to displacements, pressures and temperatures, whose
+  // ghosts are then brought up to date.
   const std::size_t n_u = n_displacements(), n_p = n_pressures();
   unknowns_->expand(x, whole_);
   std::copy_n(whole_.begin(), n_u, local_u_.begin());
@@ -132,6 +134,7 @@ void CoupledSaddleSolver::multiply(std::span<const double> x, std::span<double> 
   const auto add_part = [&] {
     for (std::size_t i = 0; i < product_.size(); ++i) product_[i] += part_[i];
   };
+  // Each block of the matrix adds its product, and the rows are weighted as the right-hand side is.
   matrix_.saddle()->multiply(local_u_, local_p_, of_u(product_), of_p(product_));
   pressure_.add_projection_to(of_p(whole_), 1.0, of_p(product_));
   matrix_.temperature().multiply(local_t_, of_t(product_));

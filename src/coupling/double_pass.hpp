@@ -19,7 +19,7 @@
 /// Isothermal passes hold a temperature in steps 1 and 3 and do not know what their own deformation does to
 /// it. Each of them is therefore repeated at the temperature that its deformation leads to, by a thermal
 /// phase over Δt/2 in step 1 and by step 4 in step 3, until that settles; one iteration gains a factor of the
-/// coupling number. Where deformation exchanges no heat one turn is all.
+/// coupling number. Where deformation exchanges no heat one iteration is all.
 ///
 /// With inertia each half is a step of the integrator over Δt/2, whose means over its ends make the forces of
 /// a half of second order, and each half works with the stress of its own (docs/theory/dynamics.md).
@@ -67,7 +67,7 @@ class DoublePass final : public CouplingScheme {
   bool repeats() const;
 
   /// Step 2 or 4 after a mechanical pass from `start`.
-  /// @param deformation  of that pass; replaced where metal flows anew
+  /// @param deformation  of that pass; replaced where metal flows again
   void thermal_half(const State& start, State& end, mechanics::StepDeformation& deformation,
                     const heat::ThermalPass& heat, const mechanics::MechanicalPass& moved,
                     StepEffort& effort) const;

@@ -9,7 +9,7 @@ namespace solidus::coupling {
 namespace {
 
 /// Whether structural energy of a body with its specific heat at constant strain follows from the fields: it
-/// is evaluated anew where a phase or the line of a table changes, and none does.
+/// is evaluated again where a phase or the line of a table changes, and none does.
 bool keeps_its_lines(const material::Material& m) {
   const auto constant = [](const Table& table) { return table.constant(); };
   if (!m.phase_changes.empty() || !constant(m.young_modulus) || !constant(m.poisson_ratio) ||

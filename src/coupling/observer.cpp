@@ -54,6 +54,8 @@ StabilityAudit& StabilityAudit::operator+=(const StabilityAudit& next) {
 }
 
 StepEffort& StepEffort::operator+=(const StepEffort& next) {
+  // The effort of two parts of a step is added as a user would: work and energies are summed, numbers that
+  // say how hard a part was are the larger ones, and the fields of the later part hold.
   StepEffort first = std::move(*this);
   *this = next;
   const auto add = [](PhaseEffort& sum, const PhaseEffort& before) {

@@ -100,7 +100,7 @@ struct ContactSummary {
 /// Report of a scheme on a step that it took.
 struct StepEffort {
   PhaseEffort heat, mechanics;
-  int coupling_iterations = 1;  ///< turns that the phases took until they agreed
+  int coupling_iterations = 1;  ///< solutions of both phases until they agreed
   EnergyAudit energy;
   StabilityAudit stability;
   std::vector<ContactSummary> contacts;

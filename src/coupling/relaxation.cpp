@@ -16,6 +16,8 @@ double Relaxation::factor(std::span<const double> change) {
   if (options_.kind == Kind::none) return 1;
   if (options_.kind == Kind::fixed) return options_.factor;
 
+  // Aitken's factor follows from the last two changes: it is that which would have brought the second one to
+  // zero.
   double sums[2] = {0, 0};  // r_old · Δr, |Δr|²
   for (std::size_t i = 0; i < last_.size(); ++i) {
     const double difference = change[i] - last_[i];

@@ -10,7 +10,7 @@ namespace solidus::coupling {
 
 namespace {
 
-constexpr double k_worse = 2;           ///< change of a shot over that of the one before: begin anew
+constexpr double k_worse = 2;           ///< change of a shot over that of the one before: begin again
 constexpr double k_independent = 1e-6;  ///< what is left of a difference of changes beside the newer ones
 constexpr double k_farthest = 0.5;      ///< of the range of temperatures, by which a node may be moved
 
@@ -58,6 +58,7 @@ double ShotMap::begin(State& state, ShotHistory& history) const {
 }
 
 ShotRecord ShotMap::end(const State& state, ShotHistory& history) const {
+  // The change of a shot is that of the temperatures of what stays, from its start to its end.
   ShotIterate iterate;
   iterate.change.assign(volume_.size(), 0.0);
   double change = 0;
@@ -66,10 +67,14 @@ ShotRecord ShotMap::end(const State& state, ShotHistory& history) const {
     iterate.change[i] = state.heat.temperature[i] - history.start[i];
     change = std::max(change, std::abs(iterate.change[i]));
   }
+  // If it has become much larger than that of the shot before, the iterates of Anderson's method mislead, and
+  // are dropped.
   change = parallel::global_max(change);
   if (change > k_worse * history.change) history.iterates.clear();
   history.change = change;
   ++history.shots;
+  // With acceleration the iterate is kept with its heat and displacement, the oldest one beyond the depth is
+  // dropped.
   if (options_.tolerance > 0 && options_.accelerate) {
     iterate.heat = state.heat.enthalpy.empty() ? state.heat.temperature : state.heat.enthalpy;
     iterate.displacement = state.mechanics.displacement;

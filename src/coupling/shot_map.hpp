@@ -14,7 +14,7 @@
 ///
 /// A combination is not taken beyond the highest temperature of the run, nor farther than half the range of
 /// its temperatures. After a shot whose change is twice as large as that of the one before, the search begins
-/// anew from there.
+/// again from there.
 #pragma once
 
 #include "coupling/shot.hpp"

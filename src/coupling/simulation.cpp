@@ -149,7 +149,7 @@ std::vector<TimeEvent> Simulation::events(const Progress& p) const {
 }
 
 /// Gives the phases the conditions of the stage.
-/// @param anew            the stage begins at the committed time
+/// @param again            the stage begins at the committed time
 /// @param changed_before  the state has been changed for it: a run that was stopped before the first step
 /// goes on
 void Simulation::begin_bodies(Progress& p, bool anew, bool changed_before) {

@@ -24,7 +24,7 @@ class ThermalPhase;
 
 namespace solidus::coupling {
 
-/// A part of the run with conditions of its own. Its first step starts anew: no step size, no rates and no
+/// A part of the run with conditions of its own. Its first step starts again: no step size, no rates and no
 /// history of a two-step method from before.
 struct Stage {
   std::string name;

@@ -37,6 +37,7 @@ double smallest_of_failures(const StepOptions& options) {
 StepControl::StepControl(const StepOptions& options, double start, std::vector<double> landings,
                          std::vector<TimeEvent> events)
     : options_(options), landings_(std::move(landings)) {
+  // The options have to make sense together; what a user gives has been checked with its place before.
   if (!(options_.step > 0)) throw std::invalid_argument("the time step must be positive");
   options_.max_step = options_.largest();
   if (smallest_of_errors(options_) > options_.step || options_.max_step < options_.step)
@@ -46,6 +47,7 @@ StepControl::StepControl(const StepOptions& options, double start, std::vector<d
   const StepLimits& limits = options_.limits;
   if (!(limits.temperature > 0) || !(limits.displacement > 0) || !(limits.solid_fraction > 0))
     throw std::invalid_argument("the limits of a step must be positive");
+  // Landings up to the start are past. The last one is the end.
   std::sort(landings_.begin(), landings_.end());
   const std::vector<double> all = landings_;
   std::erase_if(landings_, [start](double t) { return t <= start; });
@@ -107,7 +109,7 @@ PlannedStep StepControl::plan(double time, double at_most) const {
 }
 
 void StepControl::accepted(const PlannedStep& step, const StepMeasure& measure) {
-  // Where turns have ended early they may do so in the steps that follow, which need not fail anew.
+  // Where augmentations have ended early they may do so in the steps that follow, which need not fail again.
   if (!measure.ended_early) state_.failures = 0;
   if (!options_.adaptive) return recover();
   const Strictest limit = strictest(options_.limits, measure);

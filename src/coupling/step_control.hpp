@@ -45,7 +45,7 @@ struct ControlState {
   std::string reason = "as asked";  ///< why
   /// Data of the first step from here that exceeded a limit, and the size wanted before it; zero: none did.
   double refused = 0, refused_ratio = 0, before_refusal = 0;
-  /// Tries that did not go through since the last step that did, with turns of contact that settled.
+  /// Tries that did not go through since the last step that did, with augmentations that converged.
   int failures = 0;
 };
 
@@ -77,7 +77,7 @@ class StepControl {
   /// The step was too long.
   /// @param what  has happened to it, for the reason of the next one
   void shortened(const PlannedStep& step, const StepMeasure& measure, const std::string& what = "rejected");
-  /// Whether so many tries have failed that turns of contact need not settle any more.
+  /// Whether so many tries have failed that augmentations need not converge any more.
   bool may_end_early() const { return state_.failures >= k_patience; }
 
   const ControlState& state() const { return state_; }

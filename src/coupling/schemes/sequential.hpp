@@ -1,5 +1,5 @@
-/// The common description of the isentropic and the isothermal split: both solve the phases in turn, in
-/// an order (sequential_split.hpp).
+/// The common description of the isentropic and the isothermal split: both solve the phases one after the
+/// other, in an order (sequential_split.hpp).
 #pragma once
 
 #include "coupling/add_scheme.hpp"
@@ -50,7 +50,8 @@ struct SequentialScheme {
     s.choice(
          "order", static_cast<std::optional<PhaseOrder> Scheme::*>(&SequentialScheme::order),
          {{"automatic", std::nullopt,
-           "heat_first; mechanics_first with friction where nothing gets hot enough to melt and nothing yields "
+           "heat_first; mechanics_first with friction where nothing gets hot enough to melt and nothing "
+           "yields "
            "while temperatures differ, whose heat is then conducted in the step that makes it, with "
            "thermal_return_mapping, with inertia and with printed forms of structural heat"},
           {"heat_first", PhaseOrder::heat_first,
