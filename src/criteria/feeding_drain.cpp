@@ -104,6 +104,8 @@ std::vector<double> Feeding::drain_from(Step& step, std::vector<double>& reached
                                         const std::vector<double>& asked, bool at_surface) const {
   std::vector<DrainedNode> nodes;
   std::vector<PoolLevel> levels;
+  // A node gives melt from the whole room that still moves in it. At the surface of a pool the melt spreads
+  // to the nodes that its sinking level reaches, and the levels are found again until none is reached.
   do {
     nodes.clear();
     for (std::size_t i = 0; i < step.demands.size(); ++i) {
@@ -117,6 +119,8 @@ std::vector<double> Feeding::drain_from(Step& step, std::vector<double>& reached
     }
     levels = find_levels(nodes, asked);
   } while (at_surface && spread(step, levels, reached));
+  // A pool that cannot give all that is asked gives what it holds; the others are emptied by exactly what was
+  // asked, whatever the search for the level left.
   std::vector<double> given(asked.size(), 0.0);
   for (std::size_t p = 0; p < asked.size(); ++p)
     given[p] = levels[p].given < (1 - k_exact) * asked[p] ? levels[p].given : asked[p];

@@ -130,6 +130,8 @@ void FeedingGraph::measure(const mesh::Mesh& mesh, const FeedingOptions& options
     if (options.bodies[static_cast<std::size_t>(block.body)] == 0) continue;
     const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
     const auto n_vertices = static_cast<std::size_t>(mesh::vertex_count(block.shape));
+    // The share of a node reaches half of the way to the lowest and highest vertex of its elements; of a
+    // vertex of quadratic elements a quarter, as the node in the middle of the edge owns the rest.
     for (Index e = 0; e < block.size(); ++e) {
       double low = std::numeric_limits<double>::infinity(), high = -low;
       const std::span<const Index> nodes{block.element(e), n};

@@ -23,7 +23,7 @@ struct FeedingPools {
   std::size_t size() const { return label.size(); }
 };
 
-/// Vectors have the length of the local nodes unless something else is said.
+/// Vectors have the length of the local nodes unless their comment says otherwise.
 struct Feeding::Step {
   Step(const mesh::Mesh& mesh, FeedingRows rows_, const CriterionInput& old, const CriterionInput& next)
       : rows(rows_),

@@ -100,6 +100,8 @@ Freezing::Freezing(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalE
       held_(held_mush(mesh, storage)),
       patches_(mesh, kind, freezing_bodies(mesh, storage, options.bodies)),
       ghosts_(mesh) {
+  // The levels of temperature of each material: between solidus and liquidus stands the one at which the
+  // gradient is evaluated; a material that evaluates at its solidus does so at the end of freezing.
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     const material::Material& material = storage.material(static_cast<int>(b));
     feeding_.push_back(FeedingLaw::of(material));
@@ -248,6 +250,7 @@ void Freezing::evaluate(const Passage& passage, const Step& step, std::span<doub
   double* const h = history.data() + static_cast<std::size_t>(passage.who.node) * k_width;
   const Levels& levels = levels_[static_cast<std::size_t>(passage.who.body)];
   const PatchGradient g = recover(passage.who, step, passage.at, history, false);
+  // A front sharper than the patch of elements is seen from the side behind it alone.
   const bool sharp = levels.at_end || g.drop > levels.liquidus - levels.evaluation;
   if (h[k_mode] != 0)  // passed before, and warmed up since without melting: there are no sums
     for (const Slot sum : {k_sum_time, k_sum_gradient, k_sum_magnitude}) h[sum] = 0;
@@ -304,6 +307,7 @@ void Freezing::step(const CriterionInput& old, const CriterionInput& next, Crite
   const Step step{old, next, storage_};
   std::vector<Passage> passages;
   std::vector<FreezingNode> waiting, freezing;
+  // First the own nodes: who passes a level in this step, who waits for a neighbour, who freezes.
   for (const FreezingNode& who : nodes_) {
     const double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
     if (h[k_mode] == k_waiting) waiting.push_back(who);
@@ -312,6 +316,7 @@ void Freezing::step(const CriterionInput& old, const CriterionInput& next, Crite
   }
   if (!parallel::any_process(!passages.empty() || !waiting.empty() || !freezing.empty())) return;
   ghosts_.update(history, k_width);  // times of neighbours say what lies behind the front
+  // Patches of elements are gathered only around the nodes that need a gradient.
   std::vector<Index> needed;
   for (const Passage& passage : passages) needed.push_back(passage.who.node);
   for (const auto* list : {&freezing, &waiting})

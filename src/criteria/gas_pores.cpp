@@ -77,6 +77,7 @@ std::vector<CriterionResult> GasPores::findings(const CriterionRecord& record) c
 
 std::vector<CriterionResult> gas_findings(const mesh::Mesh& mesh, std::span<const double> pores,
                                           std::span<const double> room) {
+  // The mean over the own nodes and the densest own place, then the densest of all processes.
   double volume = 0, all = 0;
   std::vector<double> own{-1, 0, 0, 0};  // densest: share, place
   for (std::size_t i = 0; i < room.size(); ++i) {

@@ -11,6 +11,8 @@ MetalVolume::MetalVolume(const material::Material& material)
       held_from_(material.casting.coherency_fraction) {
   const material::PhaseFraction& fraction = material.solidification()->fraction;
   const std::vector<std::pair<double, double>>& points = fraction.points();
+  // Where the fraction jumps over the coherency (a eutectic, a pure metal), mobile melt ends before the jump
+  // and held metal begins after it; both are fractions on the table.
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const auto [temperature, before] = points[i + 1];  // temperature rises: the later point has less solid
     if (points[i].first != temperature) continue;

@@ -183,6 +183,8 @@ std::array<double, MushStrain::k_fields> MushStrain::values_of(const OfBlock& bl
   for (std::size_t f = 0; f < k_fields; ++f) values[f] = *fields::k_of_mush_strain[f]->no_value;
   auto& [tendency, cracking] = values;
   const material::Casting& casting = block.material->casting;
+  // The tendency to tear needs means over the time of freezing: gradient, cooling rate, arm spacing and rate
+  // of strain.
   const std::optional<double> spacing =
       row[k_mush_freezing] > 0 ? casting.secondary_arm_spacing(row[k_mush_freezing]) : std::nullopt;
   if (block.tearing && spacing && row[k_mush_time] > 0 && row[k_mush_gradient] > 0 &&
@@ -194,6 +196,7 @@ std::array<double, MushStrain::k_fields> MushStrain::values_of(const OfBlock& bl
     tendency = block.tearing->tendency({row[k_mush_gradient] / time, row[k_mush_cooling] / time, *spacing},
                                        strained);
   }
+  // Cracking is the strain of the brittle range over the critical one at its rate.
   if (casting.crack_strain && block.brittle_width > 0 && row[k_time_in_brittle] > 0) {
     const double strain = largest_principal(tensor_at(&row[k_strain_in_brittle]));
     cracking = strain > 0 ? strain / critical_crack_strain(casting, strain / row[k_time_in_brittle],

@@ -30,6 +30,8 @@ std::optional<FeedingLaw> FeedingLaw::of(const material::Material& material) {
     if (other.fraction.liquidus() > change->fraction.solidus()) volume_change += other.volume_change;
   if (range <= 0 || volume_change >= 0) return {};
   FeedingLaw law;
+  // The critical pressure drop of the flow through the mush (Darcy) gives the factor; the integral over the
+  // fraction of liquid is summed a piece of the table at a time.
   law.shrinkage_ = -volume_change;
   const double beta = law.shrinkage_ / (1 - law.shrinkage_);
   law.factor_ = std::sqrt(casting.critical_pressure_drop / (*casting.melt_viscosity * beta * range));

@@ -60,6 +60,7 @@ void Patches::gather(std::span<const Index> owned) {
       }
     });
   };
+  // A compressed row for each node: counted first, then filled.
   start_.assign(owned.size() + 1, 0);
   std::size_t places = 0;
   each([&](std::uint32_t position, std::uint32_t) {

@@ -56,6 +56,8 @@ Melt gathered(const Melt& own) {
   std::map<double, MeltPart> parts;
   std::map<std::pair<double, int>, double> overlaps;
   std::map<int, LastNode> last;
+  // Each kind of row is sent to all processes as plain numbers and joined by its label: volumes add, of the
+  // last nodes the later one stays.
   std::vector<double> rows;
   for (const MeltPart& p : own.parts)
     rows.insert(rows.end(), {p.label, p.volume, p.solid, p.whole ? 1.0 : 0.0, p.fed ? 1.0 : 0.0,

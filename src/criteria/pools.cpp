@@ -183,7 +183,7 @@ void Pools::track(const CriterionInput* old, const CriterionInput& next, Criteri
   const Melt all = gathered(melt);
   const std::vector<int> numbers = follow_pools(pools, all, next.time, whole_, !options_.feeders.empty());
   std::map<double, int> of_label;
-  // Numbers go back to the nodes, and the table of pools is written anew.
+  // Numbers go back to the nodes, and the table of pools is written again.
   for (std::size_t k = 0; k < all.parts.size(); ++k) of_label[all.parts[k].label] = numbers[k];
   for (std::size_t i = 0; i < number.size(); ++i)
     number[i] = inside[i] != 0 ? of_label.at(parts.label[i]) : 0;

@@ -51,6 +51,7 @@ CriterionRecord Resolution::initial(const CriterionInput& start) const {
 void Resolution::step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) {
   std::vector<double>& within = record.columns[0].values;
   bool melt = false, changed = false;
+  // The step within which a node freezes bounds how well the time of freezing is resolved.
   for (const Index node : freezing_) {
     const auto i = static_cast<std::size_t>(node);
     if (old.solid_fraction[i] >= 1) continue;
@@ -63,6 +64,8 @@ void Resolution::step(const CriterionInput& old, const CriterionInput& next, Cri
   std::vector<double>& sums = record.tables[0].values;
   const double start = sums[0], last = sums[1];
   if (next.time < last + k_sampling * (last - start) || !parallel::any_process(melt)) return;
+  // The error of the heat flow is costly; it is sampled at times that grow with the time already covered, and
+  // summed over time for its mean.
   const std::vector<double> errors = flow_errors(next.heat.temperature);
   for (std::size_t b = 0; b < errors.size(); ++b) {
     sums[k_width * (b + 1)] += errors[b] * (next.time - last);

@@ -47,6 +47,7 @@ StrainCriteria::StrainCriteria(const mesh::Mesh& mesh, AnalysisKind kind,
       ghosts_(mesh),
       rigid_(mesh, kind) {
   std::size_t first = 0;
+  // The nodes of bodies that freeze, each once, and where the points of each block begin in the history.
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
     blocks_.push_back(
@@ -142,6 +143,8 @@ std::span<const quantities::Quantity* const> StrainCriteria::fields() const {
 void StrainCriteria::fill(const CriterionInput& now, const CriterionRecord& record,
                           std::span<const std::span<double>> values) const {
   const std::vector<double>& u = now.mechanics.displacement;
+  // Of each element, in lanes: the strain in the liquid, that since coherency, and the largest principal
+  // strain of the brittle range.
   for (const OfBlock& block : blocks_)
     for (Index batch = 0; batch < block.strain.n_batches(); ++batch) {
       const std::size_t first = block.first + static_cast<std::size_t>(batch) * k_lanes;
@@ -158,6 +161,7 @@ void StrainCriteria::fill(const CriterionInput& now, const CriterionRecord& reco
       }
     }
 
+  // Distortion is the displacement since coherency without the rigid motion of its body, which is fitted.
   const std::vector<double>& start = record.columns[k_displacement].values;
   const std::span<double> distortion = values[3];
   for (std::size_t i = 0; i < u.size(); ++i) distortion[i] = u[i] - start[i];
@@ -172,6 +176,7 @@ std::vector<CriterionResult> StrainCriteria::findings(const CriterionRecord& rec
   double mine = 0;
   CriterionResult finding{largest_of(fields::k_brittle_strain), "1", 0, true, {}};
   std::size_t element = 0;
+  // The largest strain of the own elements and the centre of its element; then of all processes.
   for (const mesh::ElementBlock& block : mesh_.blocks)
     for (Index e = 0; e < block.size(); ++e, ++element) {
       const double value =
