@@ -109,6 +109,8 @@ void BodyBalance::add_volume_change(std::span<const double> change, int fields) 
 }
 
 double BodyBalance::reference() {
+  // The sums of squares of each group of bodies are added up over the processes, and the worst ratio of
+  // residual to scale counts.
   std::vector<Sums> sums = sums_;
   static_assert(sizeof(Sums) == 5 * sizeof(double));
   processes::sum(std::span(reinterpret_cast<double*>(sums.data()), 5 * sums.size()));
@@ -119,6 +121,8 @@ double BodyBalance::reference() {
       worst = std::max(worst, reference > 0 ? residual / reference : std::numeric_limits<double>::infinity());
   };
   for (const Sums& group : sums) {
+    // The scale is what a body exchanges, and at least a share of its internal forces; for pressures it is
+    // the change of volume.
     const double reference = std::max(group.exchanged, k_internal_share * k_internal_share * group.internal);
     largest = std::max(largest, reference);
     look(group.residual, reference);
@@ -128,6 +132,8 @@ double BodyBalance::reference() {
 }
 
 double BodyBalance::relative_step(std::span<const double> step, std::span<const double> increment) const {
+  // The step of Newton's iteration is compared with the motion of the time step, group by group. A group that
+  // hardly moves is compared with its extent instead.
   struct Squares {
     double step = 0, increment = 0, entries = 0;
   };

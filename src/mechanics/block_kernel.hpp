@@ -129,7 +129,7 @@ class BlockKernel {
   virtual void add_tangent(std::span<const double> u, linear::BlockMatrix& matrix) = 0;
   /// Writes the new history and what else `end` asks for.
   virtual BlockWork finish(std::span<const double> old_u, std::span<const double> u, const BlockEnd& end) = 0;
-  /// Finds the flow of solid metal anew at `pass_temperature`, the strains being those at `u` and the flow
+  /// Finds the flow of solid metal again at `pass_temperature`, the strains being those at `u` and the flow
   /// that of t_n (4.45, 4.49, 4.54). Melt and mush keep the flow of the mechanical phase, and the stress
   /// power stays. Follows prepare() with the arguments of that phase.
   /// @param start  temperatures, phases and melt

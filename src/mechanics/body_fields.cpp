@@ -8,6 +8,8 @@ namespace solidus::mechanics {
 
 BodyFields body_fields(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                        const std::vector<char>& blocks) {
+  // Bodies of different materials that share a node need a field of their own there, because the same
+  // temperature gives them different fractions.
   const std::size_t n = mesh.bodies.size();
   std::vector<char> at_node(mesh.x.size() * n, 0);
   std::vector<int> touching(n * n, 0);
@@ -20,6 +22,7 @@ BodyFields body_fields(const mesh::Mesh& mesh, const std::vector<material::Mater
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; at_node[node * n + a] && b < n; ++b)
         if (at_node[node * n + b] && materials[a].name != materials[b].name) touching[a * n + b] = 1;
+  // Fields are given greedily: each body takes the first one that no touching body has.
   processes::largest(touching);
   BodyFields fields{1, std::vector<int>(n, 0)};
   for (std::size_t a = 0; a < n; ++a) {

@@ -47,6 +47,8 @@ double largest_rate(const BlockHistory& rate, const CreepField& before, std::siz
 }  // namespace
 
 CreepError::CreepError(const MechanicalPhase& phase) : phase_(phase) {
+  // Only blocks whose law flows by a rate have such an error. Volumes of elements are those of their nodal
+  // weights.
   const mesh::Mesh& mesh = phase.mesh();
   for (const mesh::ElementBlock& block : mesh.blocks) {
     Block& b = blocks_.emplace_back();
@@ -67,6 +69,8 @@ CreepError::CreepError(const MechanicalPhase& phase) : phase_(phase) {
 }
 
 CreepField CreepError::flow(const MechanicalState& from, const MechanicalState& to, double factor) const {
+  // The flow of a step is the difference of the viscoplastic strain in both histories, times a factor (a
+  // rate, or a share of the step).
   CreepField field(blocks_.size());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     if (!blocks_[b].creeps || b >= to.history.size() || b >= from.history.size()) continue;

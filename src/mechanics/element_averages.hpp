@@ -53,7 +53,7 @@ class ElementAverages final : public ElementValues {
 /// which are at hand from then on.
 template <class Values>
 ElementAverages<Values>& averages_to_write(SharedElementValues& at_hand, Index n_elements, Index n_batches) {
-  // Made here and never shared with this state alone as its owner: writing to it is seen by nobody else.
+  // Made here and never shared with this state alone as its owner: writing to it is seen by no other state.
   if (at_hand && at_hand.use_count() == 1)
     if (const auto* own = dynamic_cast<const ElementAverages<Values>*>(at_hand.get()))
       return *const_cast<ElementAverages<Values>*>(own);

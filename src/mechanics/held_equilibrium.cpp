@@ -101,6 +101,7 @@ linear::NewtonReport attempt_again(MechanicalPhase& phase, const MechanicalState
                                    linear::TangentSolver& solver, const parallel::GhostExchange& ghosts,
                                    std::span<const int> fields, std::vector<double>& x,
                                    linear::NewtonOptions options, double share) {
+  // No node may go farther in an iteration than a hundredth of the mesh's diagonal.
   constexpr double k_longest_way = 0.01;
   double diagonal = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -108,6 +109,8 @@ linear::NewtonReport attempt_again(MechanicalPhase& phase, const MechanicalState
     for (const mesh::Point& p : phase.mesh().x) low = std::min(low, p[i]), high = std::max(high, p[i]);
     diagonal = std::hypot(diagonal, parallel::global_max(high) - parallel::global_min(low));
   }
+  // The second attempt has twice as many iterations, may go downhill, and holds open points by a share that
+  // falls from step to step.
   options.max_iterations *= 2;
   options.descends = true;
   HeldEquilibrium held(phase, old, share);

@@ -47,6 +47,8 @@ std::size_t MassMatrix::place(Index row, Index column) const {
 
 void MassMatrix::add_consistent(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind,
                                 double density) {
+  // The mass matrix is ρ ∫ N_a N_b, by a rule that is exact for the product. Rows of other processes are
+  // theirs.
   const mesh::BlockGeometry g(mesh, block, kind, mass_rule(block.shape, kind));
   const auto n_owned = static_cast<Index>(row_start_.size()) - 1;
   for (Index e = 0; e < g.n_elements; ++e)

@@ -25,6 +25,8 @@ InertialForces::InertialForces(const mesh::Mesh& mesh, AnalysisKind kind, int co
 
 void InertialForces::set_initial_velocity(const mesh::Mesh& mesh, AnalysisKind kind,
                                           std::span<const double> density) {
+  // A node of several bodies gets the mean of their velocities, weighted by their lumped masses, so that the
+  // momentum is that of the bodies.
   const auto n = static_cast<std::size_t>(components_);
   std::vector<double> mass(n_owned_ / n, 0.0), of_body(mass.size());
   const std::vector<double> ones(mesh.x.size(), 1.0);
@@ -44,6 +46,7 @@ void InertialForces::set_initial_velocity(const mesh::Mesh& mesh, AnalysisKind k
 
 void InertialForces::begin(const MechanicalState& old, double dt) {
   assert(old.velocity.size() == increment_.size() && old.acceleration.size() == increment_.size());
+  // The part of the inertial force that does not depend on the displacement of the step is computed once.
   const Motion& m = options_.motion;
   old_ = &old;
   dt_ = dt;
@@ -51,10 +54,12 @@ void InertialForces::begin(const MechanicalState& old, double dt) {
     increment_[i] = (1 - m.alpha_m) * m.acceleration(0.0, old.velocity[i], old.acceleration[i], dt) +
                     m.alpha_m * old.acceleration[i];
   mass_.multiply(increment_, components_, constant_);
+  // Integrators that evaluate forces within the step take the forces of the start into it.
   if (m.alpha_f > 0)
     for (std::size_t i = 0; i < n_owned_; ++i)
       constant_[i] = (constant_[i] + m.alpha_f * old.net_force[i]) / (1 - m.alpha_f);
 
+  // What rounding of the displacements makes of inertia is the scale below which a residual says nothing.
   for (std::size_t i = 0; i < increment_.size(); ++i) increment_[i] = std::abs(old.displacement[i]);
   std::vector<double> scale(n_owned_);
   mass_.multiply(increment_, components_, scale);

@@ -131,6 +131,7 @@ void put(ElementField which, const ViscoelasticValues<double>& values, double* t
 }
 
 void put(ElementField which, const ViscoplasticValues<double>& values, double* to) {
+  // Fields that only the viscoplastic law has; all others are common to the laws.
   switch (which) {
     case ElementField::plastic_strain:
       return put(values.plastic_strain, to);

@@ -92,8 +92,11 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, MechanicalConditions con
       constant_(static_cast<std::size_t>(mesh.n_owned_nodes * components_), 0.0),
       fixed_(static_cast<std::size_t>(mesh.n_nodes() * components_), 0),
       supported_(fixed_.size(), 0) {
+  // Loads on surfaces come first, then supports, then faces that stay plane, since those look at what is
+  // prescribed.
   for (const Pressure& pressure : conditions_.pressures) add_surface(mesh, kind, active, pressure);
   for (const Traction& traction : conditions_.tractions) add_surface(mesh, kind, active, traction);
+  // Around an axis the radial displacement on the axis is zero, though no condition says it.
   if (kind == AnalysisKind::axisymmetric) {
     double largest = 0;
     for (const mesh::Point& x : mesh.x) largest = std::max(largest, std::abs(x[0]));
@@ -106,6 +109,7 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, MechanicalConditions con
   }
   for (const PrescribedDisplacement& condition : conditions_.displacements)
     add_support(mesh, active, condition, start);
+  // Prescribed entries are marked for all conditions together.
   for (const Support& support : supports_)
     for (Index entry : support.entries) fixed_[static_cast<std::size_t>(entry)] = 1;
   std::vector<char> tied(conditions_.plane_faces.empty() ? 0 : fixed_.size(), 0);

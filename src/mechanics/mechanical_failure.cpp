@@ -52,6 +52,7 @@ std::vector<double> MechanicalPhase::flowing_shares(std::span<const double> x) c
 }
 
 std::string MechanicalPhase::worst_place(std::span<const double> x) {
+  // The largest unbalanced force at a free entry, over all processes, is told with its node, body and place.
   std::vector<double> r(n_residuals());
   residual(x, r);
   r.resize(n_forces());
@@ -64,6 +65,7 @@ std::string MechanicalPhase::worst_place(std::span<const double> x) {
     worst = size;
     entry = i;
   }
+  // The process that has it composes the text, which all others get.
   const int owner = processes::find_largest(worst).rank;
   std::string text;
   if (owner == processes::rank() && !r.empty()) {

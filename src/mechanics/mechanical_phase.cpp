@@ -230,10 +230,13 @@ void MechanicalPhase::create_solver() {
 }
 
 void MechanicalPhase::set_conditions(MechanicalConditions conditions, std::span<const double> start) {
+  // New conditions may change which bodies are active and which unknowns are tied: only then the matrix has
+  // to be made again.
   const linear::ActiveSet active(mesh_, conditions.absent_bodies);
   auto loads = std::make_unique<Loads>(mesh_, kind_, std::move(conditions), active, start);
   const bool same_matrix =
       active == active_ && !parallel::any_process(loads->constraint_groups() != loads_->constraint_groups());
+  // Bodies that have gone take their weight along.
   if (active != active_) {
     remove_bodies(active);
     find_weight(loads->conditions().gravity);
@@ -242,6 +245,7 @@ void MechanicalPhase::set_conditions(MechanicalConditions conditions, std::span<
   melt_ = melt_moduli(mesh_, kind_, materials_, active_, loads->conditions());
   loads_ = std::move(loads);
   create_pressure();
+  // With the same matrix fixed rows change, and the solver forgets what it knew.
   if (same_matrix && !pressure_) {
     matrix_->set_fixed(loads_->fixed());
     solver_->forget();

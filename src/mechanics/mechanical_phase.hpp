@@ -165,7 +165,7 @@ class MechanicalPhase {
   Mapping mapping() const { return options_.mapping; }
   const MechanicsOptions& options() const { return options_; }
   /// From here on other conditions hold; the state goes on as it is. Not between the passes of a step. A
-  /// matrix of this phase that others refer to may be made anew (coupling/scheme.hpp). The stress of bodies
+  /// matrix of this phase that others refer to may be made again (coupling/scheme.hpp). The stress of bodies
   /// that have gone is gone with the next step, in which what they held springs back; quasi-statics only.
   /// Collective.
   /// @param start  displacement that relative supports count from, [local node][component]; empty: zero
@@ -193,7 +193,7 @@ class MechanicalPhase {
     return solve(old, trial, {.time = time, .dt = dt, .temperature = temperature});
   }
 
-  /// The return mapping of the thermal phase (4.45, 4.49, 4.54): finds the flow of solid metal anew at the
+  /// The return mapping of the thermal phase (4.45, 4.49, 4.54): finds the flow of solid metal again at the
   /// temperatures of the step's end, from the internal variables at t_n, at the strain that solve() has
   /// found. Melt and mush keep the flow of that solve, of whose stress the work also stays; may be repeated.
   /// Throws StepRejected on all processes where a law finds no state. Collective.
@@ -250,7 +250,7 @@ class MechanicalPhase {
   /// @param failure  unless a law finds no state at x
   [[noreturn]] void reject(const std::string& reason, std::span<const double> x,
                            Failure failure = Failure::equilibrium);
-  /// The nodal pressure and the solver with its matrix, which are made anew with the conditions; null where
+  /// The nodal pressure and the solver with its matrix, which are made again with the conditions; null where
   /// no element is mixed.
   NodalPressure* pressure() { return pressure_.get(); }
   SaddleSolver* saddle() { return saddle_solver_; }

@@ -12,6 +12,8 @@ namespace solidus::mechanics {
 StepDeformation MechanicalPhase::held_deformation(const MechanicalState& state,
                                                   std::span<const double> temperature,
                                                   std::span<const double> plateau_share, bool expands) {
+  // The deformation of a state in which nothing moves, with what structural heat needs of it: both ends of
+  // the step are the state itself.
   StepDeformation deformation;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     deformation.push_back(
@@ -28,6 +30,7 @@ StepDeformation MechanicalPhase::held_deformation(const MechanicalState& state,
                                       .phases = nodal_phases_.evaluate(b, {temperature, plateau_share}, {}),
                                       .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)],
                                       .expands = expands}));
+  // The kernels have been given another step, so that the last residual is none of theirs.
   residual_is_known_ = false;
   return deformation;
 }

@@ -169,11 +169,14 @@ double MechanicalPhase::relative_step(const MechanicalState& old, std::span<cons
 linear::BlockMatrix& MechanicalPhase::tangent(std::span<const double> x) {
   const Stopwatch watch(seconds_assembly_);
   const profile::Part part("assembly");
+  // If contact has met new partners, the graph of the matrix grows, and everything bound to it is bound
+  // again.
   if (linear::graph_outdated(contributions_)) {
     matrix_->set_graph(graph());
     solver_->reset();
     bind();
   }
+  // Then every block, inertia and contact add their tangents.
   matrix_->set_zero();
   const std::span<const double> u = x.first(n_displacements());
   for (const auto& block : blocks_) block->add_tangent(u, *matrix_);
@@ -278,6 +281,8 @@ BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const do
                                   std::vector<StressAtWork>* at_work,
                                   std::vector<SharedElementValues>* elements, StepDeformation* deformation) {
   const profile::Part part("history");
+  // What the last iterate has found becomes history, block by block. Storage that is there already is
+  // overwritten.
   const std::span<const double> u = x.first(n_displacements());
   BlockWork total;
   history.resize(blocks_.size());
@@ -287,6 +292,7 @@ BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const do
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     history[b].n_components = old.history[b].n_components;
     history[b].n_points = old.history[b].n_points;
+    // Blocks of absent bodies keep the layout that a checkpoint expects, with zeros.
     if (active_.body(mesh_.blocks[b].body)) {
       history[b].values.resize(old.history[b].values.size());
     } else {  // of the layout that a checkpoint knows

@@ -33,11 +33,14 @@ std::vector<material::MeltModulus> melt_moduli(const mesh::Mesh& mesh, AnalysisK
                                                const std::vector<material::Material>& materials,
                                                const linear::ActiveSet& active,
                                                const MechanicalConditions& conditions) {
+  // The modulus of a melt is measured against the metallostatic head of its body along gravity, or against
+  // the atmosphere without gravity.
   const std::array<double, 3>& gravity = conditions.gravity;
   const double g = std::hypot(gravity[0], gravity[1], gravity[2]);
   std::array<double, 3> direction{};
   for (std::size_t i = 0; i < 3 && g > 0; ++i) direction[i] = gravity[i] / g;
   std::vector<material::MeltModulus> melt(materials.size());
+  // The section of a body is needed only if some material leaves its viscosity to the program.
   std::vector<double> section;
   for (std::size_t b = 0; b < materials.size(); ++b) {
     const auto body = static_cast<int>(b);

@@ -62,7 +62,7 @@ class NodalPressure {
   /// A step begins with no element that is full of pores (pores.hpp).
   void release_pores();
   /// After equilibrium: whether further elements have filled with pores at these unknowns, so that it must be
-  /// sought anew from there. Throws StepRejected after too many turns. Collective.
+  /// sought again from there. Throws StepRejected after too many turns. Collective.
   /// @param turn  from one
   bool fill_pores(std::span<const double> unknowns, int turn);
 

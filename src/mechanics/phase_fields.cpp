@@ -92,6 +92,8 @@ std::vector<double> NodalPhases::mean_solid_fraction(std::span<const double> bef
 
 PhaseFields NodalPhases::evaluate(std::size_t block, const FractionPlace& at,
                                   std::span<const double> before) {
+  // The fractions of the block's material at its nodes, from temperature and share of a plateau. The law
+  // works with the mean of the step where a fraction at its start is known.
   const OfBlock& of = blocks_[block];
   if (of.material == nullptr) return {};
   const material::PhaseChange* const freezing = of.material->solidification();
@@ -104,6 +106,7 @@ PhaseFields NodalPhases::evaluate(std::size_t block, const FractionPlace& at,
       solid_fraction_[i] = before.empty() ? now : 0.5 * (now + old);
       freezing_[i] = freezing->volume_change * (now - old);
     }
+    // Straining is counted from the initial state of the node.
     if (of.strains)
       straining_[i] = straining(*of.material, at.temperature[i], share) - of.initial_straining[n];
   }

@@ -1,4 +1,4 @@
-/// The return mapping of the thermal phase at the points (4.45, 4.49, 4.54): solid metal flows anew at the
+/// The return mapping of the thermal phase at the points (4.45, 4.49, 4.54): solid metal flows again at the
 /// temperatures of the step's end, from the internal variables at t_n.
 #pragma once
 

@@ -29,6 +29,8 @@ SaddlePreconditioner::SaddlePreconditioner(const mesh::Mesh& mesh, linear::Saddl
       pressure_(pressure),
       ghosts_(ghosts),
       multigrid_(mesh, matrix.components(), linear::rigid_body_modes, symmetric, k_coarsest) {
+  // Where melt flows the Schur complement is a Laplacian and needs multigrid; elsewhere it is a mass matrix
+  // with incomplete factors.
   const auto fields = static_cast<std::size_t>(pressure.fields());
   const auto& kernels = pressure.kernels();
   if (std::any_of(kernels.begin(), kernels.end(), [](const MixedKernel* kernel) { return kernel->flows(); }))
@@ -36,6 +38,7 @@ SaddlePreconditioner::SaddlePreconditioner(const mesh::Mesh& mesh, linear::Saddl
       schur_cycles_.push_back(std::make_unique<linear::BlockMultigrid>(mesh, 1, linear::constants, true));
   else
     factors_.resize(fields);
+  // Each pressure field has a Schur complement of its own, without rows where a node has no pressure of it.
   for (std::size_t field = 0; field < fields; ++field) {
     schur_.push_back(std::make_unique<linear::BlockMatrix>(mesh, 1, pressure.graph(),
                                                            linear::BlockMatrix::Storage::upper));

@@ -67,6 +67,8 @@ void SaddleSolver::choose() {
 }
 
 void SaddleSolver::make_solver() {
+  // Either a factorisation or an iterative solver with its preconditioner is kept, never both: each needs the
+  // memory of the other.
   made_ = true;
   hierarchy_.renew();
   copy_.reset();

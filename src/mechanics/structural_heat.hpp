@@ -23,7 +23,7 @@
 /// values in the mechanical phase within a step (4.81). Where they are brought up to date, and with them the
 /// lines of the tables, E_n and S_n stay those that the last step ended with: the energy of a transformation
 /// free of stress is the latent heat, and the work p Δe^pc under stress is exchanged with the heat of the
-/// point. (With the specific heat at constant strain E_n and S_n are evaluated anew: the latent heat is then
+/// point. (With the specific heat at constant strain E_n and S_n are evaluated again: the latent heat is then
 /// that at fixed strain.) In the mushy zone the deviatoric elastic energy (s:s f_S/4G, about 1e-7 of the
 /// latent heat) is left out.
 #pragma once

@@ -180,6 +180,8 @@ StructuralPoints::State StructuralPoints::state_now(std::size_t point, Lane temp
 
 StructuralPoints::Stage StructuralPoints::stage(const linear::RungeKuttaStage& stage,
                                                 std::span<const double> temperature) const {
+  // The second stage starts from entropy and energy that are extrapolated through the first one, with what
+  // was dissipated and done there.
   Stage result{stage, {}};
   if (stage.carried == 0) return result;
   result.carried.resize(points_.size());
@@ -260,9 +262,12 @@ StructuralDensities StructuralPoints::densities(Index batch, int point, Lane tem
 }
 
 void StructuralPoints::spread_as_stored(const PackVector<Lane>& weights) {
+  // Heat that is stored at the nodes is spread to them by the weights of the closed rule instead of the shape
+  // functions: the difference is kept as a correction.
   const auto n_nodes = static_cast<std::size_t>(geometry_.n_nodes);
   correction_ = weights;
   double largest = 0;
+  // Where both agree, up to rounding, there is none.
   for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
     Lane volume(0.0);
     for (int q = 0; q < geometry_.n_points; ++q) volume += geometry_.weight_at(batch, q);
@@ -283,6 +288,8 @@ void StructuralPoints::spread_as_stored(const PackVector<Lane>& weights) {
 
 void StructuralPoints::add_heat(StructuralForm form, const Stage& stage, std::span<const double> temperature,
                                 bool tangent, std::span<double> out) const {
+  // The heat of a point, or its slope, is its rate times the weight, and goes to the nodes by the shape
+  // functions.
   const Lane rate(1.0 / stage.stage.dt);
   for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
     const Index* nodes =
@@ -299,6 +306,7 @@ void StructuralPoints::add_heat(StructuralForm form, const Stage& stage, std::sp
         for (int lane = 0; lane < k_lanes; ++lane)
           out[static_cast<std::size_t>(nodes[a * k_lanes + lane])] += values[a] * density[lane];
     }
+    // The correction moves the element's total to the nodes that store it.
     const Lane* correction = spread(batch);
     if (correction == nullptr) continue;
     for (int a = 0; a < geometry_.n_nodes; ++a)

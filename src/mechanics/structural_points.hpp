@@ -29,10 +29,9 @@ struct StructuralBase {
   Lane solid;             ///< one where the point was solid, else zero
 };
 
-
-/// The largest share of the capacity at fixed strain that free expansion is expected to take up besides. Up to
-/// one the functional of stability falls whatever the deformation is (docs/theory/coupling_stability.md, 3); the
-/// rest is the room for steps that are not small.
+/// The largest share of the capacity at fixed strain that free expansion is expected to take up besides. Up
+/// to one the functional of stability falls whatever the deformation is (docs/theory/coupling_stability.md,
+/// 3); the rest is the room for steps that are not small.
 inline constexpr double k_most_expansion = 0.5;
 
 class StructuralPoints {
@@ -71,7 +70,7 @@ class StructuralPoints {
   void keep() { points_.resize(n_points_); }
   bool kept() const { return !points_.empty(); }
   /// Whether the energy goes on as it is where lines and phases change. With the specific heat at constant
-  /// strain the latent heat is that at fixed strain: the energy is evaluated anew (docs/theory/coupling.md).
+  /// strain the latent heat is that at fixed strain: the energy is evaluated again (docs/theory/coupling.md).
   bool carries_energy() const {
     return material_.specific_heat_at == material::SpecificHeatAt::constant_pressure;
   }
@@ -105,11 +104,13 @@ class StructuralPoints {
   void set_old(Index batch, int point, const Deformation& old, const StructuralBase& base);
   /// Fills all of a point whose deformation is held, with the base of its state, if kept.
   void hold_deformation(Index batch, int point, const Deformation& deformation, const StructuralBase& base);
-  /// From here on a held deformation stores besides what it would take up if it expanded at constant mean stress,
+  /// From here on a held deformation stores besides what it would take up if it expanded at constant mean
+  /// stress,
   ///
   ///   P (Θ − Θ_n) [J/m³]  and  P ln(Θ/Θ_n) [J/(m³ K)],   P = C_p − C_v = Θ (∂p/∂Θ)²/k,
   ///
-  /// p the mean stress at fixed strain and P of Θ_n, at most k_most_expansion of the capacity at fixed strain.
+  /// p the mean stress at fixed strain and P of Θ_n, at most k_most_expansion of the capacity at fixed
+  /// strain.
   void expect_expansion();
   /// What that comes to at a nodal temperature, [batch][point]; empty where it is not expected.
   PackVector<StructuralDensities> expected(std::span<const double> temperature) const;
@@ -187,9 +188,9 @@ class StructuralPoints {
   material::Material material_;  ///< without phase changes: their fraction and straining are held
   std::size_t n_points_;         ///< of all batches
   PackVector<Point> points_;
-  /// Point::now of the mechanical phase, where the thermal phase maps the flow anew; else empty.
+  /// Point::now of the mechanical phase, where the thermal phase maps the flow again; else empty.
   PackVector<Deformation> of_mechanics_;
-  PackVector<Lane> expansion_;               ///< P of expect_expansion(); empty: none is expected
+  PackVector<Lane> expansion_;             ///< P of expect_expansion(); empty: none is expected
   PackVector<StructuralDensities> ahead_;  ///< of begin_with(); empty: none
   PackVector<Lane> correction_;  ///< share of a node less that of the points, [batch][node]; empty: none
   double dt_ = 0;
