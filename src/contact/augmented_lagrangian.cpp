@@ -23,6 +23,8 @@ std::size_t at(Index i) {
 std::vector<double> AugmentedLagrangian::nodal_penetration(const ContactState& now) const {
   const mesh::Mesh& mesh = geometry_.mesh();
   const ContactKinematics& kinematics = geometry_.kinematics();
+  // The mean over the closed points around each node, weighted as they would enter the least squares of a
+  // nodal field that is lumped to its diagonal.
   std::vector<double> weight(mesh.x.size(), 0.0), mean(mesh.x.size(), 0.0);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactPointState& point = now.points[at(p)];
@@ -107,9 +109,9 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, Au
   std::vector<double> step_of_point;
   if (!by_means) step_of_point = step_of_points(now, step);
   const ContactKinematics& kinematics = geometry_.kinematics();
-  // Sticking keeps the compliance of its penalty where nobody asked for multipliers, and where turns by means
-  // have not settled: points that are more than a face can follow would drive their tangential tractions to
-  // and fro from turn to turn.
+  // Sticking keeps the compliance of its penalty where nobody asked for multipliers, and where augmentations
+  // by means have not settled: points that are more than a face can follow would drive their tangential
+  // tractions to and fro from one augmentation to the next.
   const bool tangential = !pressure_tolerance_ && by_means;
   if (tangential && step.start_traction.empty())
     for (const ContactPointState& from : step.from) step.start_traction.push_back(from.traction);
@@ -134,7 +136,7 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, Au
     if (tangential) from.traction = now.points[at(p)].traction;
   }
   if (by_means) return;
-  // The first turn by points takes friction back to its start as well, which no secant tells.
+  // The first augmentation by points takes friction back to its start as well, which no secant tells.
   if (std::exchange(by_points_, true))
     secants_.took(std::move(step_of_point));
   else
@@ -188,6 +190,8 @@ std::string AugmentedLagrangian::worst_penetration(const ContactState& now) cons
   const std::vector<double> penetration = nodal_penetration(now);
   double worst = -1;
   std::size_t node = 0;
+  // The largest of the own nodes first; the process that has the largest of all writes the text, which the
+  // others receive.
   for (std::size_t i = 0; i < penetration.size(); ++i) {
     if (std::abs(penetration[i]) <= worst) continue;
     worst = std::abs(penetration[i]);

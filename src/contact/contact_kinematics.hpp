@@ -125,7 +125,7 @@ class ContactKinematics {
   /// Returns the displacement of the master's particle at the partner, as last placed, by a prescribed motion
   /// from one time to another [m]: zero for masters with nodes.
   virtual Point master_way(Index /*point*/, double /*from*/, double /*to*/) const { return {}; }
-  /// True when nodes meet that did not at the last add_to_graph(): matrices must be made anew.
+  /// True when nodes meet that did not at the last add_to_graph(): matrices must be made again.
   virtual bool graph_outdated() const = 0;
   /// Cliques of nodes that may meet, with a margin for later displacements.
   /// @param add  called with each clique

@@ -5,6 +5,8 @@ namespace solidus::contact {
 std::optional<Surroundings> CoupledInterface::around(const PointMotion& motion) const {
   if (law == nullptr || !motion.partnered) return {};
   Surroundings s{.law = law, .time_step = time_step};
+  // Temperatures of both sides at the point; shares of the master are negative, as in the gap. A rigid tool
+  // has its own temperature, or takes no heat.
   const auto n_slave = static_cast<std::size_t>(motion.n_slave);
   for (std::size_t b = 0; b < motion.nodes.size(); ++b) {
     const double part = motion.share[b] * temperature[static_cast<std::size_t>(motion.nodes[b])];

@@ -19,6 +19,7 @@ std::optional<Objection> CurveCoefficient::objection() const {
                        "curves that start at an internal variable of 0"};
     if (const auto wrong = not_positive(curve.coefficient.min_value())) return wrong;
   }
+  // Curves are in order of temperature, one for each, and may not start higher where it is hotter.
   for (std::size_t i = 1; i < curves_.size(); ++i) {
     const FrictionCurve &a = curves_[i - 1], &b = curves_[i];
     if (a.temperature == b.temperature)
@@ -51,6 +52,8 @@ CoefficientValue CurveCoefficient::value(const InternalValue& in, double theta) 
 
 CoefficientPoint CurveCoefficient::point(const InternalValue& in, double theta) const {
   const Between at = between(theta);
+  // On one curve: value, slope by the internal variable, and the work above the initial value, which is
+  // stored.
   const auto one = [&](const Table& table) {
     const auto line = table.line(in.z);
     const double initial = table.value(0);
@@ -66,6 +69,8 @@ CoefficientPoint CurveCoefficient::point(const InternalValue& in, double theta) 
   CoefficientPoint r = one(*at.first);
   if (at.second == at.first) return r;
   const CoefficientPoint b = one(*at.second);
+  // Between two curves everything is linear in temperature; what depends on hardening changes apart from the
+  // initial value.
   const auto mix = [&](double& first, double second) {
     const double difference = second - first;
     first += at.share * difference;

@@ -35,7 +35,7 @@ class ContactForces {
   const MechanicsTerm& term() const { return term_; }
   /// Whether the derivative of the term is symmetric.
   bool symmetric() const { return symmetric_; }
-  /// The next turn of the augmented Lagrangian, how far it still is from its end, and where
+  /// The next augmentation of the Lagrangian, how far it still is from its end, and where
   /// (augmented_lagrangian.hpp). Collective.
   void augment(const ContactState& now, ContactStep& step, AugmentedBy by);
   double excess(const ContactState& now) const;
@@ -44,7 +44,7 @@ class ContactForces {
   const AugmentedLagrangian& multipliers() const { return multipliers_; }
   /// Whether multipliers hold the penetration now.
   bool multiplies() const { return active_ && multipliers_.acts(); }
-  /// AugmentedLagrangian::take_back, after which the term starts anew.
+  /// AugmentedLagrangian::take_back, after which the term starts again.
   void take_back_turn(ContactStep& step);
   std::string worst_penetration(const ContactState& now) const { return multipliers_.worst_penetration(now); }
   /// Points that changed between open, sticking and slipping at the last residual. Collective.

@@ -130,12 +130,16 @@ bool FrictionLaw::unique(const FrictionInput& in, const FrictionResponse& r) con
 bool FrictionLaw::unique_between(const FrictionInput& in, const FrictionResponse& r, double from, double to,
                                  int halvings) const {
   const double held = in.held().temperature;
+  // Bounds on the slope of the coefficient over the range of slip, at both temperatures that the return
+  // mapping may have.
   auto slope = coefficient_.slopes(from, to, held);
   if (r.temperature != held) {
     const auto other = coefficient_.slopes(from, to, r.temperature);
     slope = {std::min(slope.low, other.low), std::max(slope.high, other.high)};
   }
   const double p = in.pressure;
+  // The residual is strictly monotonic if the tangential penalty outweighs the softening; where the bounds
+  // are too coarse to show it, each half is asked for itself.
   double growth = 1;  // the largest dζ/dγ
   if (kind_ == InternalVariable::normal_work) growth = p;
   if (kind_ == InternalVariable::frictional_work)

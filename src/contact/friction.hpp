@@ -33,7 +33,7 @@ struct FrictionParameters {
   double tangential_penalty_factor = 1;
   /// Drops the unsymmetric part of the tangent: ∂‖T‖/∂t_N in it, not in the forces.
   bool symmetric = false;
-  /// The thermal phase of a split finds slip and Θ_c anew (5.40–5.51) instead of keeping the slip of the
+  /// The thermal phase of a split finds slip and Θ_c again (5.40–5.51) instead of keeping the slip of the
   /// mechanical phase.
   bool thermal_return_mapping = false;
   SourceLocation where;

@@ -93,6 +93,8 @@ bool PairSurfaces::linear() const {
 ContactParameters with_roles(const mesh::Mesh& mesh, ContactParameters spec,
                              std::span<const double> body_modulus) {
   if (!spec.choose_roles) return spec;
+  // The slave is the side with smaller faces or, when they are alike, the softer side. Whatever is told of a
+  // side changes with the roles.
   constexpr double k_alike = 0.05;  // sizes of faces
   const ContactSurface first(mesh, spec.slave), second(mesh, spec.master);
   const double ratio = first.mean_face_size() / second.mean_face_size();
@@ -200,6 +202,7 @@ std::vector<SurfaceCurvature> ContactGeometry::master_curvatures(AnalysisKind ki
   if (std::ranges::all_of(of_face, [](const auto& c) { return c.first == 0 && c.second == 0; })) return {};
   std::vector<SurfaceCurvature> at_node(mesh_.x.size());
   std::vector<double> faces(mesh_.x.size(), 0.0);
+  // At a node the mean of the curvatures of its faces.
   for (Index f = 0; f < surfaces.master->n_faces(); ++f)
     for (const Index node : surfaces.master->nodes(f)) {
       at_node[index_of(node)].first += of_face[index_of(f)].first;

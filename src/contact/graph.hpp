@@ -19,9 +19,9 @@ class ContactGraph {
   bool renewed(int version) const { return version != version_; }
   /// The same, or whether a matrix with the cliques of this version lacks places.
   bool outdated(int version) const { return renewed(version) || kinematics_.graph_outdated(); }
-  /// Adds the cliques, recorded anew where nodes meet that did not. Returns their version.
+  /// Adds the cliques, recorded again where nodes meet that did not. Returns their version.
   int add_to(linear::NodeGraph& graph);
-  /// Makes the next add_to() record anew, so that it depends on the present configuration alone
+  /// Makes the next add_to() record again, so that it depends on the present configuration alone
   /// (checkpoints).
   void forget() {
     if (may_change()) version_ = 0;

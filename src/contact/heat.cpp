@@ -83,7 +83,7 @@ HeatPoint ContactHeat::point(const ContactStep& step, const ContactPointState& f
                   .has_temperature = has_temperature() && step.dt > 0 && from.temperature > 0,
                   .step = {},
                   .joint = forces.joint};
-  // 5.40 anew in the thermal phase; the other schemes have solved it, or iterate to it.
+  // 5.40 again in the thermal phase; the other schemes have solved it, or iterate to it.
   if (point_law_.friction && spec_.friction->thermal_return_mapping && step.coupled.law == nullptr &&
       step.iterate.empty() && forces.status != PointStatus::open) {
     point.friction = &*point_law_.friction;
@@ -213,6 +213,8 @@ void ContactHeat::add_displacement_tangent(const ContactKinematics& kinematics, 
   std::vector<Point> trial, share;
   const auto rates_of = [&](Index p) -> HeatRates {
     const ContactPointState& from = step.from[at(p)];
+    // How the pairing changes with displacements: shares, penetration, weight and, where it rubs, the trial
+    // traction, whose size grows with slip and with the traction carried along.
     const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::rates);
     if (!motion.partnered) return {};  // of no node of this process
     const std::size_t n = motion.nodes.size();

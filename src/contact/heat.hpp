@@ -73,7 +73,7 @@ class ContactHeat {
  private:
   HeatPoint point(const ContactStep& step, const ContactPointState& from, const ContactPointState& now,
                   const PointForces& forces) const;
-  /// Takes over the slip that the thermal phase has found anew.
+  /// Takes over the slip that the thermal phase has found again.
   void take_slip(std::span<const double> temperature, const ContactStep& step,
                  std::vector<ContactPointState>& now);
   /// Sets the heat for results to that of both passes of a step in two halves, over the time of both.

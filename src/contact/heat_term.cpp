@@ -76,6 +76,8 @@ void HeatTerm::share_out() {
   if (limited_nodes_.empty()) return;
   positive_ = partners_.share;
   std::vector<double> n, l;
+  // Only quadratic faces have negative shares; on both sides they are replaced by positive ones with the same
+  // sum, so that the limiter bounds temperatures.
   for (Index p = 0; p < partners_.n_points(); ++p) {
     if (!limited(p)) continue;
     const std::size_t first = partners_.first[at(p)], end = partners_.first[at(p) + 1],
@@ -381,6 +383,7 @@ void HeatTerm::add_tangent(std::span<const double> x, linear::BlockMatrix& matri
     const auto slots = slots_.slots(run.first, run.nodes);
     for (std::size_t e = 0; e < run.values.size(); ++e) *matrix.block(slots[e]) += run.values[e];
   };
+  // Successive points of the same nodes are summed before they go into the matrix.
   for (Index p = 0; p < partners_.n_points(); ++p) {
     if (partners_.partnered[at(p)] == 0) continue;
     const AtPoint s = see(p, x);

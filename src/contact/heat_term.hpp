@@ -28,7 +28,7 @@ struct HeatPoint {
   double pressure_slope = 0;     ///< ∂t_N/∂g_N [Pa/m]
   bool has_temperature = false;  ///< friction acts or the interface stores heat: Θ_c is balanced, from `step`
   InterfaceStep step;
-  /// Where the thermal phase finds the slip anew (5.40–5.51): the law and its input. `step` then has the
+  /// Where the thermal phase finds the slip again (5.40–5.51): the law and its input. `step` then has the
   /// dissipation and the entropy of the mechanical phase, which are not used.
   const FrictionLaw* friction = nullptr;
   FrictionInput slip{};
@@ -156,7 +156,7 @@ class HeatTerm : public linear::Contribution {
                    std::span<const double> temperature) const;
   /// Θ_c of every point at these temperatures [K]; where friction does not act, as it was at t_n.
   std::vector<double> interface_temperatures(std::span<const double> temperature) const;
-  /// Slip at these temperatures of every point where this phase finds it anew (HeatPoint::friction); its
+  /// Slip at these temperatures of every point where this phase finds it again (HeatPoint::friction); its
   /// dissipation is what the phase has made of it, in both stages. Otherwise nothing. From now on the points
   /// keep it. Before end_phase().
   std::vector<std::optional<FrictionResponse>> keep_slip(std::span<const double> temperature);

@@ -74,6 +74,7 @@ void HeatTerm::add_share_slopes(const AtPoint& s, std::span<const double> temper
     for (std::size_t b = s.n_slave; b < n; ++b) add_share_slope(s, temperature, b, heat.subspan(b * n, n));
     return;
   }
+  // Where positive shares are in use they change with the place through the plain ones: the chain rule.
   std::vector<double> shares(n_master), positive(n_master), slope(n_master * n_master, 0.0), of_positive(n);
   for (std::size_t b = 0; b < n_master; ++b) shares[b] = -partners_.share_of(s.point)[s.n_slave + b];
   positive_shares(dimension_, shares, positive, slope);
@@ -93,9 +94,9 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
     displacement_ = &matrix.displacement();
     displacement_slots_.bind(*displacement_, n_owned_, partners_.n_points());
   }
-  // Each point adds ∂r_a by what moves with the displacement (gap, weight, trial traction, place on the master)
-  // times the rate of that at every node. Points with the same nodes are summed in one run of blocks, which is
-  // then added to the matrix.
+  // Each point adds ∂r_a by what moves with the displacement (gap, weight, trial traction, place on the
+  // master) times the rate of that at every node. Points with the same nodes are summed in one run of blocks,
+  // which is then added to the matrix.
   const auto components = static_cast<std::size_t>(matrix.components());
   std::vector<double> per_gap, per_trial, per_share, per_weight;  // ∂r_a
   Run run;

@@ -79,6 +79,8 @@ GapHeat HeatTerm::gap_heat(std::span<const HeatGap> used, std::span<const HeatGa
                            std::span<const double> temperature) const {
   GapHeat heat;
   if (!active_) return heat;
+  // The heat that the gap of the step has passed, and how much of it would have passed otherwise with the gap
+  // as it turned out.
   for (Index p = 0; p < partners_.n_points(); ++p) {
     if (partners_.counted[at(p)] == 0 || !used[at(p)].partnered || !right[at(p)].partnered) continue;
     const AtPoint s = see(p, temperature);
@@ -116,6 +118,7 @@ std::vector<double> HeatTerm::interface_temperatures(std::span<const double> tem
 InterfaceHeat HeatTerm::interface_heat(std::span<const double> temperature) const {
   InterfaceHeat heat;
   if (!active_) return heat;
+  // A point without a partner keeps the heat of its friction; others give it to both sides.
   for (Index p = 0; p < partners_.n_points(); ++p) {
     const HeatPoint& point = points_[at(p)];
     if (!point.has_temperature || partners_.counted[at(p)] == 0) continue;

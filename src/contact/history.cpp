@@ -31,6 +31,8 @@ ContactState ContactHistory::initial() const {
   ContactState state;
   state.points.resize(at(kinematics.n_points()));
   for (Index p = 0; p < kinematics.n_points(); ++p) {
+    // Each point with a partner is anchored where it projects; those that overlap or touch start closed,
+    // sticking where there is friction, with the pressure of their penetration.
     ContactPointState& point = state.points[at(p)];
     const ContactKinematics::Particle particle = kinematics.particle(p);
     point.number = particle.number;
@@ -56,6 +58,8 @@ ContactState ContactHistory::renewed(const ContactState& old, bool new_slave, bo
   ContactState state = initial();
   if (!spec_.rigid_master) {
     const ContactKinematics& kinematics = geometry_.at(time, displacement);
+    // In the present geometry the gap of the drawing is kept: the offset makes up for how far the sides have
+    // moved.
     for (Index p = 0; p < kinematics.n_points(); ++p) {
       ContactPointState& point = state.points[at(p)];
       if (!point.anchored) continue;  // without a partner in the drawing
@@ -67,6 +71,7 @@ ContactState ContactHistory::renewed(const ContactState& old, bool new_slave, bo
     }
   }
   if (old.points.empty()) return state;
+  // Quantities that belong to the surface stay with a side that is not new.
   if (!new_slave)
     for (std::size_t p = 0; p < state.points.size(); ++p)
       for (auto field : {&ContactPointState::internal_variable, &ContactPointState::slip,
@@ -97,6 +102,8 @@ void ContactHistory::find_skins(const Solidity& of_nodes, ContactStep& step) con
   if (any || mushy) geometry_.at(step.begun, step.displacement);
   const ContactKinematics& kinematics = geometry_.kinematics();
   step.liquid.assign(step.from.size(), 0);
+  // A molten skin may be held by the pressure of the atmosphere and rubs as a liquid; a mushy one has a share
+  // of the penalty.
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     ContactPointState& from = step.from[at(p)];
     const bool touched = from.status != PointStatus::open || from.suction > 0;
@@ -122,6 +129,8 @@ void ContactHistory::find_temperatures(std::span<const double> temperature, doub
   const auto known = [&](const ContactPointState& from) { return balances && from.temperature > 0; };
   if (std::ranges::all_of(step.from, known)) return;
   const ContactKinematics& kinematics = geometry_.at(step.begun, step.displacement);
+  // The mean of both sides with the share of the slave in the resistance; a tool without nodes has the
+  // temperature given.
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     ContactPointState& from = step.from[at(p)];
     if (known(from)) continue;

@@ -108,6 +108,7 @@ std::span<const Index> MasterTopology::at_edge(Index face, int e) const {
 Feature MasterTopology::feature(Index face, const Point& xi) const {
   const mesh::Shape shape = surface_.shape(face);
   const auto v = reference_vertices(shape);
+  // Vertices before edges, since a vertex lies on edges too.
   for (std::size_t a = 0; a < v.size(); ++a)
     if (distance(xi, v[a]) <= k_on_rim) {
       const int local = static_cast<int>(a);

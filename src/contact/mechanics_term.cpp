@@ -192,6 +192,7 @@ void MechanicsTerm::flush(Run& run, linear::BlockMatrix& matrix) {
   const auto entry = [&](std::size_t b, std::size_t c, std::size_t i, std::size_t j) -> double& {
     return run.k[((b * n + c) * dim + i) * dim + j];
   };
+  // For a symmetric solver the mean of the block and its transpose.
   if (symmetric_)
     for (std::size_t b = 0; b < n; ++b)
       for (std::size_t c = 0; c <= b; ++c)
@@ -218,6 +219,7 @@ void MechanicsTerm::add_tangents(linear::BlockMatrix& matrix) {
     if (!motion.partnered || std::none_of(motion.nodes.begin(), motion.nodes.end(),
                                           [this](Index node) { return node < n_owned_; }))
       continue;
+    // Successive points of the same nodes are summed in one dense block before they go into the matrix.
     if (!std::equal(motion.nodes.begin(), motion.nodes.end(), run.nodes.begin(), run.nodes.end())) {
       if (run.first >= 0) flush<dim>(run, matrix);
       run.first = p;

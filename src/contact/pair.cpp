@@ -57,6 +57,8 @@ void ContactPair::set_temperature(std::span<const double> temperature) {
 }
 
 void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
+  // What the pass is made of: history at the start of the step, kind of split, time, displacements and skins
+  // of that moment.
   history_->set_out_from(old, step_);
   forces_->begin(pass.isentropic, pass.share, pass.further);
   step_.dt = pass.dt;
@@ -66,6 +68,7 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   history_->find_skins(active_ ? pass.solidity : Solidity{}, step_);
   const bool rubs = forces_->law().friction.has_value();
   step_.coupled = {};
+  // When both phases are solved at once, temperatures enter the return mapping of friction.
   if (pass.simultaneous && heat_ && rubs)
     step_.coupled = {.law = &heat_->law(),
                      .time_step = pass.dt,
@@ -75,6 +78,7 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
     history_->find_temperatures(pass.temperature,
                                 heat_ ? HeatTransferLaw::slave_share(heat_->law().slave_resistance()) : 0.5,
                                 has_temperature(), tool_temperature_at(step_.begun), step_);
+  // Of an earlier pass of the same step temperatures, internal variables and multipliers go on.
   step_.iterate.clear();
   if (pass.iterate == nullptr || pass.iterate->points.size() != step_.from.size()) return;
   for (std::size_t p = 0; p < step_.from.size(); ++p) {
@@ -98,12 +102,14 @@ const ContactState& ContactPair::update(std::span<const double> displacement) {
   std::vector<ContactPointState>& points = end_.state.points;
   points.resize(step_.from.size());
   end_.state.master = step_.worn_from;
+  // Partners that cannot change are stored once.
   const bool fixed = !kinematics.partners_change() && partners_.n_points() > 0;
   if (!fixed) partners_.clear();
   if (heat_) {
     heat_->term().set_tool_temperature(tool_temperature());
     heat_->clear(points.size());
   }
+  // At each point the motion gives forces, these the next history, wear and heat.
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactPointState& from = step_.from[at(p)];
     ContactPointState& now = points[at(p)];

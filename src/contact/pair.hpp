@@ -1,6 +1,6 @@
 /// A pair of surfaces that may touch and part: forces and heat between them as terms of the two phases.
 ///
-/// A pair is made of parts with one purpose each, which it gives their turn:
+/// A pair is made of parts with one purpose each, which it calls one after the other:
 ///
 ///   geometry (geometry.hpp)        surfaces, points, partners in a configuration
 ///   history  (history.hpp)         what points and nodes remember from step to step
@@ -43,11 +43,11 @@ struct ContactPass {
   Solidity solidity{};                     ///< at t_n
   bool isentropic = false;                 ///< the pass holds the entropy of the interface, not Θ_c
   bool simultaneous = false;  ///< Θ_c is found together with the slip (5.40), see set_temperature()
-  /// Result of the pass before in a scheme whose phases take turns within the step: friction holds its Θ_c,
-  /// or its entropy, and multipliers start from the ones found there, so that passes that have not come to
-  /// their end go on where they were. Null: that of t_n.
+  /// Result of the pass before in a scheme whose phases are solved in alternation within the step: friction
+  /// holds its Θ_c, or its entropy, and multipliers start from the ones found there, so that passes that have
+  /// not come to their end go on where they were. Null: that of t_n.
   const ContactState* iterate = nullptr;
-  bool further = false;  ///< a further pass of the same step: turns that ended early stay ended
+  bool further = false;  ///< a further pass of the same step: augmentations that ended early stay ended
   double share = 1;      ///< s of normal.hpp
 };
 
@@ -62,7 +62,7 @@ class ContactPair {
   ContactPair& operator=(const ContactPair&) = delete;
 
   /// Off: open at every point, without force, heat, energy or stabilisation, whatever the gap; gaps are still
-  /// measured. Friction's history stays, but slip is counted anew after it. Between steps; holds from the
+  /// measured. Friction's history stays, but slip is counted again after it. Between steps; holds from the
   /// next update() or restore() on.
   void activate(bool on);
   bool active() const { return active_; }
@@ -71,7 +71,7 @@ class ContactPair {
   const ContactGeometry& geometry() const { return *geometry_; }
   const ContactHistory& history() const { return *history_; }
   const ContactForces& forces() const { return *forces_; }
-  /// Whether points find their partners anew as they slide.
+  /// Whether points find their partners again as they slide.
   bool slides() const { return geometry_->kinematics().partners_change(); }
   /// MechanicsTerm::follow_weights; at first where forces() are unsymmetric anyway.
   void follow_weights(bool on) { forces_->term().follow_weights(on); }
@@ -148,18 +148,19 @@ class ContactPair {
   /// commits them to state(). Zero without friction or heat. Collective.
   InterfaceSums commit_heat(std::span<const double> temperature);
 
-  /// Takes a turn of the augmented Lagrangian from the last update() (augmented_lagrangian.hpp). Collective.
+  /// Augments the multipliers once, from the last update() (augmented_lagrangian.hpp). Collective.
   void augment(AugmentedBy by = AugmentedBy::means) { forces_->augment(end_.state, step_, by); }
   /// The largest mean penetration around a node of the slave at the last update(), over closed points, as a
   /// share of what is allowed; zero where there is no augmented Lagrangian. Collective.
   double excess() const { return forces_->excess(end_.state); }
-  /// Lets turns that do not settle end early, from now on: a last resort (augmented_lagrangian.hpp).
+  /// Lets augmentations that do not settle end early, from now on: a last resort (augmented_lagrangian.hpp).
   void allow_early_end(bool on) { forces_->multipliers().allow_early_end(on); }
-  /// Takes the last turn back and ends the turns of the step; ends them with the multipliers of now.
+  /// Takes the last augmentation back and ends the augmentations of the step; ends them with the multipliers
+  /// of now.
   void take_back_turn() { forces_->take_back_turn(step_); }
   void end_turns() { forces_->multipliers().end_turns(); }
-  /// The largest mean penetration around a node where the turns of the present step have ended early, as a
-  /// share of the mean size of the slave's faces; zero elsewhere. Collective.
+  /// The largest mean penetration around a node where the augmentations of the present step have ended early,
+  /// as a share of the mean size of the slave's faces; zero elsewhere. Collective.
   double left_penetration() const;
   /// The same as a share of what the penalty alone would leave. Collective.
   double pressure_error() const { return forces_->pressure_error(end_.state); }

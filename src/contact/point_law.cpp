@@ -12,6 +12,8 @@ constexpr double k_on_the_cone = 1e-6;
 
 FrictionResponse PointLaw::respond(const FrictionInput& in, const std::optional<Surroundings>& around,
                                    double conductance, std::optional<JointSlopes>& joint) const {
+  // Without surroundings the temperature of the interface is known; else it follows from the balance of heat
+  // along with the return mapping.
   if (!around || !(in.temperature > 0)) return isentropic ? friction->isentropic(in) : friction->update(in);
   const InterfaceSides sides = around->sides(conductance, in.pressure);
   const InterfaceReturn r = interface_return_mapping(*friction, in, around->time_step, sides);
@@ -21,6 +23,8 @@ FrictionResponse PointLaw::respond(const FrictionInput& in, const std::optional<
     return f;
   }
   f.temperature = r.heat.temperature;
+  // Slopes by trial traction and pressure run over the temperature too, which the balance moves by source
+  // over stiffness.
   f.trial_slope += r.traction_by_temperature * r.source_by_trial / r.heat.stiffness;
   f.pressure_slope += r.traction_by_temperature * r.source_by_pressure / r.heat.stiffness;
   joint = JointSlopes{r.heat.stiffness, r.source_by_trial, r.source_by_pressure, 0, {}};
@@ -100,6 +104,8 @@ ContactPointState PointLaw::next(const PointMotion& motion, const ContactPointSt
   to.status = f.status;
   to.pressure = f.normal.pressure;
   to.balance_pressure = f.normal.balance_pressure;
+  // A point that opens loses its multiplier down to the least one; without friction or pressure nothing else
+  // changes.
   if (!f.normal.closed)
     to.multiplier = normal.kind == NormalKind::augmented_lagrangian ? least_multiplier(from) : 0.0;
   to.traction = f.traction;

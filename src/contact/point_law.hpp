@@ -108,7 +108,7 @@ struct PointLaw {
   void stiffen(double strength, ContactPointState& state) const;
   /// @param from the state at t_n with the present multipliers: λ_N, and T_n or the traction that replaces it
   /// @param around   where slip and Θ_c are found together: the simultaneous scheme
-  /// @param iterate  of a scheme whose phases take turns within the step
+  /// @param iterate  of a scheme whose phases are solved in alternation within the step
   PointForces forces(const PointMotion& motion, const ContactPointState& from,
                      const std::optional<Surroundings>& around = {},
                      const std::optional<FrictionInput::Iterate>& iterate = {}) const;

@@ -120,6 +120,7 @@ FaceShares shares_of_quadrangle(std::span<const double> n) {
 
 void positive_shares(int dimension, std::span<const double> n, std::span<double> l, std::span<double> slope) {
   const std::size_t size = n.size();
+  // Only quadratic faces have shape functions that become negative.
   if (size != 8 && size != 6 && !(size == 3 && dimension == 2)) {
     std::copy(n.begin(), n.end(), l.begin());
     if (!slope.empty())

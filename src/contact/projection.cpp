@@ -126,6 +126,8 @@ Projection closest_point(const Face& face, const Point& p) {
     try_line(face, p, best);
   } else {
     const auto vertices = reference_vertices(face.shape);
+    // Newton's method from the centre finds the minimum of a face with one; others are tried from near each
+    // vertex too, and the edges bound the face.
     try_interior(face, p, reference_centre(face.shape), best);
     const bool one = one_minimum(face, p);
     const bool done = one && best.value < std::numeric_limits<double>::max();

@@ -3,6 +3,7 @@
 namespace solidus::contact {
 
 RotationRates rotation_rates(const Point& a, const Point& b, const Point& s) {
+  // The least rotation of a onto b: R s = s - (a + b) (a + b)·s/(1 + a·b) + 2 b (a·s), and its derivatives.
   const Point sum = add(a, b);
   const double c = 1 / (1 + dot(a, b)), along = dot(sum, s);
   RotationRates r;

@@ -16,7 +16,7 @@ struct SurfacePoint {
   Projection projection;
 };
 
-/// Looks in the configuration it was built in; build it anew when the surface has moved. Results do not
+/// Looks in the configuration it was built in; build it again when the surface has moved. Results do not
 /// depend on the order of queries or the number of processes; of equally near faces the one with the lowest
 /// number is taken.
 class FaceSearch {

@@ -32,6 +32,7 @@ SegmentKinematics::SegmentKinematics(const mesh::Mesh& mesh, AnalysisKind kind, 
       n_owned_(mesh.n_owned_nodes) {
   add_cells();
   place(std::vector<double>(mesh.x.size() * components_, 0.0));
+  // The share of the slave's area that faces the master.
   double whole = 0, covered = 0;
   for (std::size_t c = 0; c < face_.size(); ++c) {
     whole += whole_[c];
@@ -59,6 +60,8 @@ void SegmentKinematics::add_cells() {
     const Face face = slave_.reference_face(f);
     first_cell_.push_back(n_points());
     Index number = 0;
+    // A cell is where one value of pressure lives: its area, its centre and the mean of the shape functions
+    // on it.
     for (const std::vector<Point>& cell : face_cells(face.shape)) {
       face_.push_back(f);
       number_.push_back(number++);
@@ -100,6 +103,7 @@ void SegmentKinematics::cut(Index slave_face, const Face& now, const FaceSearch&
   (now.dimension() == 1 ? cut_line : cut_face)(
       now, master, candidates, {.search_distance = reach_, .cells = true, .degree = degree_}, pieces);
   const auto cell = [&](const PairedPoint& p) { return cell_of(now.shape, p.slave_xi); };
+  // Pieces in order of their cells, with weights of the undeformed slave.
   std::ranges::stable_sort(pieces, {}, cell);
   std::size_t next = 0;
   for (const Index last = first_cell_[at(slave_face) + 1]; static_cast<Index>(first_place_.size()) <= last;) {

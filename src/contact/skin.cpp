@@ -9,6 +9,7 @@ Skin skin_at(std::span<const Index> nodes, std::span<const double> share, std::s
              const Solidity& of_nodes) {
   std::array<double, 2> side{}, solid{};
   std::array<bool, 2> molten{true, true};
+  // Coherency of both sides at the point, and that which it would have as a solid.
   for (std::size_t b = 0; b < nodes.size(); ++b) {
     const std::size_t of = b < n_slave ? 0 : 1;
     const auto node = static_cast<std::size_t>(nodes[b]);
@@ -18,6 +19,8 @@ Skin skin_at(std::span<const Index> nodes, std::span<const double> share, std::s
     molten[of] = molten[of] && at_node < k_coherent;
   }
   Skin skin;
+  // Strength is coherency above 1 as a share of the solid's, and the weaker side decides; a side below
+  // coherency is molten.
   for (std::size_t of = 0; of < (nodes.size() > n_slave ? 2 : 1); ++of) {
     const double range = solid[of] - 1, above = side[of] - 1;
     skin.strength =

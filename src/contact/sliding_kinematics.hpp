@@ -1,4 +1,4 @@
-/// Large sliding: points fixed on the slave, partners found anew in every configuration x = X + u.
+/// Large sliding: points fixed on the slave, partners found again in every configuration x = X + u.
 ///
 /// A point's partner ȳ = y(ξ̄) is the closest point of the master (3.4), or, with smoothing, the point on the
 /// line along the averaged normals, x_s = y(ξ̄) − g_N ν(ξ̄). Both are the root of

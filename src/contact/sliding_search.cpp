@@ -86,6 +86,8 @@ void SlidingSearch::collect(const Point& p, double radius, const Point& facing,
                             const SurfacePoint& known) const {
   near_.clear();
   double best = radius;
+  // Faces as near as the nearest one within rounding, on the side that they face; the box of a face is asked
+  // first.
   const auto consider = [&](const Entry& entry) {
     const Face& face = faces_[static_cast<std::size_t>(entry.second)];
     const double slack = k_same * (best + 1e-3 * size_);

@@ -17,7 +17,7 @@ class SlidingSearch {
   SlidingSearch(std::span<const Face> faces, double margin);
   ~SlidingSearch();
 
-  /// The surface has moved to `faces`, which must live until the next move. Builds the tree anew when a node
+  /// The surface has moved to `faces`, which must live until the next move. Builds the tree again when a node
   /// is farther than the margin from where it was at the last build.
   void move(std::span<const Face> faces);
   /// The closest point of the surface within `max_distance` (3.4) on faces that look against the unit normal

@@ -10,9 +10,9 @@
 namespace solidus::contact {
 
 struct ContactStep {
-  /// At t_n, one per point; multipliers and tractions are those of the last turn of the augmented Lagrangian.
+  /// At t_n, one per point; multipliers and tractions are those of the last augmentation of the Lagrangian.
   std::vector<ContactPointState> from;
-  /// The tractions at t_n where the turns of the augmented Lagrangian have replaced those of `from`, [point]
+  /// The tractions at t_n where the augmentations of the Lagrangian have replaced those of `from`, [point]
   /// [Pa]; else empty.
   std::vector<Point> start_traction;
   std::vector<WornNode> worn_from;   ///< of a master that wears, at t_n; else empty
