@@ -20,6 +20,7 @@ CouplingNumber coupling_number(const Material& material, double temperature) {
 }
 
 double strongest_coupling(const Material& material, double from, double to) {
+  // Between the points of all tables the number is smooth; it is sampled there.
   std::vector<double> ends{from, to};
   for (const Table* table :
        {&material.young_modulus, &material.poisson_ratio, &material.expansion, &material.specific_heat})

@@ -75,6 +75,8 @@ ExternalLaw::ExternalLaw(ExternalData data, std::shared_ptr<const ExternalLibrar
       initial_(data_.initial_state) {
   initial_.resize(n_internal_);
   constexpr std::array<std::size_t, 6> component{0, 1, 2, 3, 5, 4};  // of Sym, of each of the library's
+  // Where each entry of the library's tangent goes: by rows or columns, with factors where shear strains are
+  // halved.
   const TangentForm form = library_->tangent_form();
   for (std::size_t i = 0; i < 6; ++i)
     for (std::size_t j = 0; j < 6; ++j) {

@@ -78,6 +78,7 @@ std::shared_ptr<const ExternalLaw> load_external_law(const Material& material, c
                     "loading it is as if you ran a program of its author",
                     material.name, data.library),
         "--trust-laws, where you trust it");
+  // The library is tried with a small strain at several temperatures before it is trusted with a run.
   const auto try_out = [&](const std::function<void(const std::string&)>& note) {
     note("loading");
     const auto loaded = open(data);

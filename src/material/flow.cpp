@@ -21,6 +21,7 @@ std::vector<Property> Flow::properties() const {
   const auto add = [&used](const LawParameter& parameter, const Table& table) {
     used.push_back({std::string("plasticity.") + parameter.key, parameter.unit, &table});
   };
+  // Tables in the order of the keys: isotropic hardening, kinematic hardening, rate dependence, heat.
   const auto of_isotropic = hardening_law(isotropic).parameters();
   for (std::size_t i = 0; i < of_isotropic.size(); ++i) add(of_isotropic[i], hardening[i]);
   if (kinematic != KinematicHardening::none)

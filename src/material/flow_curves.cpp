@@ -76,6 +76,7 @@ FlowCurves::FlowCurves(std::vector<double> strains, std::vector<double> temperat
     throw std::invalid_argument("the flow curves have " + std::to_string(stresses.size()) + " stresses for " +
                                 std::to_string(n) + " strains and " + std::to_string(temperatures.size()) +
                                 " temperatures");
+  // A piece of a curve from each strain: stress beyond the initial one, slope, and the energy up to there.
   for (std::size_t row = 0; row < temperatures.size(); ++row) {
     const double* sigma = stresses.data() + row * n;
     check_curve(sigma, n);
@@ -126,6 +127,7 @@ FlowCurves::Piece FlowCurves::on_curve(std::size_t row, std::size_t interval, do
 FlowCurves::Value FlowCurves::at(double strain, double temperature) const {
   const std::size_t i = strain_.interval(strain);
   const double beyond = strain - strain_.points[i];
+  // Outside of the temperatures the nearest curve holds; between two of them everything is linear.
   const std::vector<double>& thetas = temperature_.points;
   if (thetas.size() == 1 || temperature < thetas.front() || temperature > thetas.back()) {
     const Piece one = on_curve(temperature > thetas.front() ? thetas.size() - 1 : 0, i, beyond);

@@ -112,6 +112,8 @@ void add_curves(Material& material, Flow& flow, const FlowData& data) {
   std::vector<FlowCurve> curves;
   std::vector<double> temperatures, at_zero;
   PropertyNote note{"plasticity.flow_curve", "", given.front().temperature, given.back().temperature};
+  // The flow stress at zero strain is a table over temperature of its own, of which thermal softening is
+  // asked.
   for (const FlowCurveData& curve : given) {
     const auto strain = curve.stress.table.x(), sigma = curve.stress.table.y();
     curves.push_back({curve.temperature, {strain.begin(), strain.end()}, {sigma.begin(), sigma.end()}});

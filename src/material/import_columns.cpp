@@ -146,6 +146,7 @@ void read_column(const Quantity& quantity, const Column& column, const ColumnTab
                  const ImportOptions& options, ImportColumns& result) {
   const units::Conversion convert = conversion_of(quantity, column, options, table.file);
   std::vector<double> values;
+  // Every row needs a number; temperature is kept apart from the other columns.
   for (std::size_t row = 0; row < column.values.size(); ++row) {
     if (!std::isfinite(column.values[row]))
       throw InputError(table.place(column, row), fmt::format("'{}' has no number here", column.header),
@@ -210,6 +211,7 @@ constexpr double k_rounding = 1e-6;  ///< of a fraction, as programs print it
 void check_fractions(ImportColumns& c) {
   const bool liquid = !c.has("solid_fraction");
   auto& values = c.values[liquid ? "liquid_fraction" : "solid_fraction"];
+  // Fractions within rounding of 0 to 1, then that of the solid, which must not rise with temperature.
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i] < -k_rounding || values[i] > 1 + k_rounding)
       throw InputError(c.place(i),

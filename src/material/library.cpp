@@ -33,6 +33,7 @@ double volume_change_of(const Material& material, const PhaseChangeData& data) {
 }
 
 void add_phase_change(Material& material, const PhaseChangeData& data) {
+  // Names are unique, and one change at most is the solidification.
   for (const PhaseChange& other : material.phase_changes) {
     if (other.name == data.name)
       throw InputError(data.where, "there are two phase changes named '" + data.name + "'");
@@ -329,6 +330,8 @@ std::vector<LeftRange> left_ranges(const Material& material, double coldest, dou
       return name == p.name && (p.table->outside(coldest) || p.table->outside(hottest));
     });
   };
+  // A table that refuses temperatures beyond its ends is named once, by its own range and not by that of its
+  // source.
   for (const Property& p : properties)
     if (refused(p.name)) left.push_back({p.name, p.table->x().front(), p.table->x().back(), true});
   for (const PropertyNote& note : material.notes) {

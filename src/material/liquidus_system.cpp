@@ -32,6 +32,8 @@ const Solute& solute(const LiquidusSystem& system, const std::string& name, cons
 }
 
 void check(const LiquidusSystem& system) {
+  // A solute that lowers the liquidus is rejected by the solid and the reverse; a eutectic lies below the
+  // melting point.
   for (const Solute& s : system.solutes)
     if (!(s.slope * (s.partition - 1) > 0))
       throw InputError(
@@ -207,6 +209,7 @@ LiquidusSystem find_liquidus_system(const std::string& solvent, std::span<const 
   std::vector<std::string> solvents;
   for (const fs::path& folder : library) {
     std::error_code unreadable;
+    // Files in order of their names, so that the answer does not depend on the disk.
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder / "liquidus", unreadable))
       if (entry.path().extension() == ".toml") files.push_back(entry.path());

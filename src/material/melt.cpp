@@ -54,6 +54,8 @@ MeltModulus melt_modulus(const Material& material, double gravity, double extent
     melt.reference = reference;
     melt.bound = bound;
   };
+  // A multiple of the pressure of the melt's own weight, less where the shell is weaker than that, but no
+  // less than what the arithmetic can tell from the bulk modulus.
   if (head > 0)
     set(k_melt_heads, head, Bound::head);
   else

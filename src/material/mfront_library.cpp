@@ -142,6 +142,7 @@ class MfrontLibrary final : public ExternalLibrary {
     check_kind(s);
     entry_ = s.entry();
     std::vector<std::string> wanted;
+    // Elastic moduli come before the properties that the behaviour names itself.
     if (s.own_number("requiresStiffnessTensor") != 0) wanted = {"YoungModulus", "PoissonRatio"};
     for (const std::string& name : s.names("MaterialProperties")) wanted.push_back(name);
     if (wanted.size() != data.properties.size())
@@ -150,6 +151,7 @@ class MfrontLibrary final : public ExternalLibrary {
                "properties, in this order and in the units of the law");
     properties_ = data.properties;
 
+    // Scalars and tensors of the internal state are named component by component.
     const auto names = s.names("InternalStateVariables");
     const auto types = s.types("InternalStateVariables", names.size());
     for (std::size_t i = 0; i < names.size(); ++i) {

@@ -20,6 +20,7 @@ PhaseFraction::PhaseFraction(std::vector<Point> points) : points_(std::move(poin
   for (const auto& [temperature, fraction] : points_)
     if (!std::isfinite(temperature) || !std::isfinite(fraction))
       throw std::invalid_argument("a point of the phase fraction is not a finite number");
+  // From cold to hot, from 1 to 0, neither temperature nor fraction against the order.
   if (points_.front().first > points_.back().first) std::reverse(points_.begin(), points_.end());
   if (points_.front().second < points_.back().second)  // both at one temperature, or wrong
     if (points_.front().first == points_.back().first) std::reverse(points_.begin(), points_.end());
@@ -33,6 +34,7 @@ PhaseFraction::PhaseFraction(std::vector<Point> points) : points_(std::move(poin
     throw std::invalid_argument("the phase fraction must be 1 at its coldest point and 0 at its hottest");
 
   std::vector<Pieces::Piece> pieces{{solidus() - 1, 1.0, 0.0}};
+  // Points at one temperature are a jump; between jumps the fraction is linear.
   for (std::size_t i = 0; i < points_.size();) {
     const auto [t, from] = points_[i];
     while (i + 1 < points_.size() && points_[i + 1].first == t) ++i;

@@ -21,6 +21,7 @@ RateDependence add_rate_law(const RateLaw& law) {
 }
 RateCompletion Perzyna::complete(RateTables& tables, const GivenRates& given, const Material& material) {
   RateCompletion c;
+  // A viscosity that is not given is that of the liquid; a law that is not linear needs its drag stress.
   if (!given[viscosity]) {
     if (!(material.liquid_viscosity.max_value() > 0)) {
       c.blamed = viscosity;

@@ -38,6 +38,7 @@ const Section<Spread>& spread_keys() {
 }
 
 void check_spread(const Spread& spread, bool of_temperature, const std::string& what) {
+  // One width of the kind that fits the quantity, and where it comes from.
   const int given =
       int{spread.relative.has_value()} + int{spread.factor.has_value()} + int{spread.shift.has_value()};
   const char* const allowed = of_temperature ? "{ shift = \"5 K\", estimate = true }, for example"

@@ -64,6 +64,7 @@ class UmatLibrary final : public ExternalLibrary {
     static constexpr double unused[9] = {nan, nan, nan, nan, nan, nan, nan, nan, nan};
     static constexpr double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     c.tangent.fill(0.0);
+    // Shear strains of a UMAT are doubled, and its components in another order.
     Vector stress = components(c.old_stress, 1);
     const Vector strain = components(c.old_strain, 2), change = components(c.strain - c.old_strain, 2);
     double stress_by_temperature[6] = {}, heat_by_strain[6] = {};
@@ -71,6 +72,8 @@ class UmatLibrary final : public ExternalLibrary {
     const double time[2] = {c.time, c.time}, warming = c.temperature - c.old_temperature, field = 0;
     const int n_state = static_cast<int>(n_state_);
     c.heat = 0;
+    // What Solidus does not know of an element or of the geometry is not a number, so that a law that reads
+    // it shows.
     umat_(stress.data(), n_state_ > 0 ? c.internal : &no_state, c.tangent.data(), &c.energies[0],
           &c.energies[1], &c.energies[2], &c.heat, stress_by_temperature, heat_by_strain,
           &heat_by_temperature, strain.data(), change.data(), time, &c.dt, &c.old_temperature, &warming,

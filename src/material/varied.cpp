@@ -167,6 +167,7 @@ Section<MaterialSpreads> material_spread_keys() {
 
 void vary(Material& material, const MaterialFactors& factors, const SourceLocation& where) {
   constexpr MaterialFactors k_none;
+  // A factor that is not neutral needs the property that it acts on; Poisson's ratio may not leave its range.
   for (const VariedProperty& row : varied_properties()) {
     const double by = factors.*row.factor;
     if (by == k_none.*row.factor) continue;
@@ -188,6 +189,8 @@ void check_spreads(MaterialSpreads& spreads, const Material& material, const std
   std::vector<std::string> there;
   for (const VariedProperty& row : varied_properties())
     if (row.has(material)) there.emplace_back(row.key);
+  // A spread of this file names only properties that the material has; one inherited from another card is
+  // left out.
   for (const VariedProperty& row : varied_properties()) {
     std::optional<Spread>& spread = spreads.*row.spread;
     if (!spread) continue;
