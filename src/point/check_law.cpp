@@ -83,6 +83,8 @@ class Checks {
         turned_(material, program.options) {}
 
   std::vector<LawCheck> run() {
+    // Along the history of the case every step is checked: at some the answers against differences, at all
+    // the rotated law and the energies.
     for (const Segment& segment : program_.segments) {
       const Path path(segment, point_.state().strain, point_.state().stress, point_.state().temperature);
       point_.restart();

@@ -76,6 +76,7 @@ MaterialPoint::MaterialPoint(const material::Material& material, const Options& 
                        "integration = \"backward_euler\"");
     now_.outside.assign(outside_->size(), 0.0);
   }
+  // The strain of the free material at the start, from the temperature at which it has none.
   now_.temperature = options.temperature;
   const double thermal =
       law_.properties_at(options.temperature, options.strain_reference).elastic.thermal_strain;

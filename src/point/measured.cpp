@@ -41,6 +41,7 @@ struct Heading {
 };
 
 Heading heading(std::string_view text, const SourceLocation& where) {
+  // A name of a column, and a unit in brackets that can be converted to that of the column.
   const std::size_t bracket = text.find('[');
   const std::string name(trimmed(text.substr(0, bracket)));
   const RecordColumn* column = find_column(name);
@@ -98,6 +99,7 @@ Measured read_measured(const std::filesystem::path& file, const SourceLocation& 
   Measured measured;
   std::vector<Heading> headings;
   std::string line;
+  // The first row that is neither empty nor a comment holds the headings; each other one is a point.
   for (int n = 1; std::getline(in, line); ++n) {
     const SourceLocation here{file.string(), n, 0};
     if (trimmed(line).empty() || line.front() == '#') continue;
@@ -122,6 +124,7 @@ std::vector<Deviation> deviations(const Measured& measured, const std::vector<Ma
   std::vector<Deviation> result;
   const RecordColumn& x = *measured.columns.front();
   if (!one_way(x, history)) return result;
+  // The root of the mean square of the differences at those abscissas that the history reaches.
   for (std::size_t c = 1; c < measured.columns.size(); ++c) {
     double squares = 0, largest = 0;
     int points = 0;

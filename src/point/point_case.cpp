@@ -50,6 +50,7 @@ std::array<ComponentRamp, 6> loaded_components(const SegmentSpec& s) {
 
 std::array<ComponentRamp, 6> named_components(const SegmentSpec& s) {
   std::array<ComponentRamp, 6> ramps;
+  // Of each component one thing may be said; what is not named keeps its stress.
   for (int i = 0; i < 6; ++i) {
     const std::string name = k_component_names[i];
     const bool held = std::find(s.hold_strain.begin(), s.hold_strain.end(), name) != s.hold_strain.end();
@@ -85,6 +86,7 @@ Segment make_segment(const SegmentSpec& s) {
 
 std::vector<Segment> make_segments(std::vector<SegmentSpec> specs, const CurveSpec& curve) {
   std::vector<Segment> segments;
+  // A repetition copies the segments before it; the curve may change the rate and the stress of each.
   for (SegmentSpec& s : specs) {
     if (s.kind == SegmentKind::repeat) {
       const auto last = static_cast<std::size_t>(s.last);
@@ -135,6 +137,7 @@ void refuse_temperatures(const std::vector<SegmentSpec>& segments) {
 }
 
 Curve make_curve(const PointSpec& spec, const CurveSpec& curve, std::span<const fs::path> library) {
+  // What a curve does not change is that of the case.
   const SourceLocation& where = curve.where.file.empty() ? spec.where : curve.where;
   check_overrides(curve, spec.segments);
   Curve result{curve.name, curve.label.empty() ? curve.name : curve.label, {}, {}, std::nullopt};
@@ -211,6 +214,7 @@ PointCase make_point_case(Value document, std::span<const fs::path> library) {
   if (spec.segments.empty()) throw InputError(spec.where, "there is no loading", "at least one [[segment]]");
   if (spec.curves.empty()) spec.curves.emplace_back().name = "history";
   std::set<std::string> names;
+  // Curves and pictures become files, so that their names are unique.
   for (const CurveSpec& curve : spec.curves) {
     check_file_name(curve.name, curve.where);
     if (!names.insert(curve.name).second)

@@ -77,6 +77,7 @@ MaterialPointRecord record_of(const MaterialPoint& point, const StepResult& step
 
 std::string failure(const MaterialPoint& point, const MaterialPointRecord& last, const Segment& segment,
                     std::size_t number, const StepResult& step) {
+  // The cause that the numbers point to, from the law itself to the way of loading.
   bool stress_controlled = false;
   for (const ComponentRamp& ramp : segment.components)
     stress_controlled = stress_controlled || (ramp.of == Control::stress && !ramp.held());
@@ -132,6 +133,7 @@ History run(const material::Material& material, const Program& program) {
   const MaterialPointRecord first = record_of(point, point.state());
   history.records.push_back(first);
   history.records.back().internal_energy = history.records.back().entropy = 0;  // counted from here
+  // Each segment starts from the state that the last one left; energies count from the first state.
   for (std::size_t i = 0; i < program.segments.size(); ++i) {
     const Segment& segment = program.segments[i];
     const Path path(segment, point.state().strain, point.state().stress, point.state().temperature);
