@@ -31,6 +31,8 @@ std::optional<Shape> shape_with(int dimension, int nodes) {
 std::optional<Shape> shape_of_abaqus_type(std::string_view type) {
   for (const Family& family : k_families) {
     if (!type.starts_with(family.prefix)) continue;
+    // The number behind the prefix of the family is that of the nodes, but for beams, whose second digit is
+    // their order.
     std::string_view rest = type.substr(family.prefix.size());
     int digits = 0, number = 0;
     while (static_cast<std::size_t>(digits) < rest.size() &&

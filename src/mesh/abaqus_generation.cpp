@@ -110,6 +110,7 @@ Point between(const Point& a, const Point& b, double share) {
 }
 
 void Generator::nodes_between(const AbaqusLine& line) {
+  // Numbers go from the first to the last in equal steps; so do the places, on a line or an arc.
   const GlobalIndex first = line.integer(0), last = line.integer(1), step = line.integer(2, 1);
   const GlobalIndex span = last - first;
   if (step == 0 || span == 0 || span % step != 0 || span / step < 0)
@@ -159,6 +160,7 @@ void Generator::fill(const AbaqusLine& line) {
                   " nodes and goes in " + std::to_string(lines) + " steps of " + std::to_string(step),
               "as many nodes in both, and at least one step of numbers other than zero");
   if (lines > k_most) line.fail("*NFILL makes too many nodes in one line");
+  // Between each pair of both sets lie equal steps.
   const auto give = [&](GlobalIndex number) { add_to(scope_.node_sets, "NSET", number); };
   for (std::size_t k = 0; k < one.size(); ++k) {
     const Point a = place(one[k], line.at), b = place(other[k], line.at);

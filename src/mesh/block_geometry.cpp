@@ -27,6 +27,7 @@ Jacobian<dim> invert(const std::array<std::array<Lane, dim>, dim>& j) {
     const Lane s = Lane(1.0) / r.determinant;
     r.inverse = {{{s * j[1][1], -s * j[0][1]}, {-s * j[1][0], s * j[0][0]}}};
   } else {
+    // The inverse is the transpose of the cofactors over the determinant.
     const auto cofactor = [&j](std::size_t a, std::size_t b) {
       const std::size_t a1 = (a + 1) % 3, a2 = (a + 2) % 3, b1 = (b + 1) % 3, b2 = (b + 2) % 3;
       return j[a1][b1] * j[a2][b2] - j[a1][b2] * j[a2][b1];

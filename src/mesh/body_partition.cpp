@@ -151,6 +151,7 @@ class Choice {
       if (any) holders.push_back("'" + all_[k].name + "'");
     }
     std::ranges::sort(holders);
+    // A set that is the union of chosen bodies is no body; any other one overlaps some of them.
     std::size_t whole = 0;
     for (const std::size_t k : chosen_)
       if (inside(all_[k].members, all_[i].members)) whole += all_[k].members.size();

@@ -123,6 +123,8 @@ class MeshingInTurn {
     geometry_.attempt = way;
     ++tried_;
     double spent = 0;
+    // Complaints are kept for the message, should no way go through; a geometry that none can mesh ends the
+    // search.
     try {
       RawMesh mesh = read_in_one_way(source_, &geometry_, time, &spent);
       take(std::move(mesh), way);
@@ -165,6 +167,7 @@ class MeshingInTurn {
   RawMesh finish() {
     const std::string worst = best_ && quality_ < k_sound_quality ? worst_tetrahedron_text(*best_) : "";
     if (best_ && kept_ != nullptr) kept_->keep_way({way_, quality_, quality_ < enough_, worst});
+    // Without a mesh all complaints are told; a mesh of poor quality gets a warning with its worst element.
     if (!best_) {
       std::string all;
       for (const std::string& complaint : complaints_) all += "\n    " + complaint;

@@ -45,7 +45,7 @@ struct CastingGeometry {
   std::optional<MouldBlock> mould;
   std::optional<RiserCylinder> riser;
   std::optional<HalfSpace> symmetry;
-  /// Number of the way (meshing_ways.hpp), from zero: mesh_casting() takes them in turn.
+  /// Number of the way (meshing_ways.hpp), from zero: mesh_casting() tries them one after the other.
   int attempt = 0;
   /// The way that mesh_casting() takes first, and the only one where it gives a mesh.
   std::optional<int> only_way;
@@ -65,9 +65,9 @@ inline constexpr double k_usable_quality = 0.05;
 /// Meshes a STEP, BREP, IGES or STL file, or what the skins of the bodies of a mesh enclose, in one way after
 /// the other until every body has elements and the least quality is k_sound_quality, those that are much
 /// finer only where the least quality of the others is below k_usable_quality; else takes the best of those
-/// that gave a mesh, with a warning. The first way of those that succeeds is said where it is not the first
-/// of all. With `only_way` that way is taken where it gives a mesh. Each way is a reader process of its own.
-/// Throws InputError with the complaints of each way where none gives a mesh.
+/// that gave a mesh, with a warning. The first way of those that succeeds is reported where it is not the
+/// first of all. With `only_way` that way is taken where it gives a mesh. Each way is a reader process of its
+/// own. Throws InputError with the complaints of each way where none gives a mesh.
 /// @param enough  the least quality, 0 where any mesh will do
 RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double enough = k_sound_quality);
 

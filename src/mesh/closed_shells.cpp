@@ -45,6 +45,7 @@ class Welder {
   explicit Welder(double tolerance) : tolerance_(tolerance) {}
 
   Index number(const Point& p) {
+    // Cells are twice the tolerance wide, so that a point within it lies in this cell or in one next to it.
     Cell here{};
     for (std::size_t i = 0; i < 3; ++i) here[i] = static_cast<long>(std::floor(p[i] / (2 * tolerance_)));
     for (long dx = -1; dx <= 1; ++dx)
@@ -197,6 +198,8 @@ double winding_number(const ClosedShells& all, const Shell& shell, const Point& 
 }
 
 void nest_shells(ClosedShells& all) {
+  // Shells look outward first; how many others are around the corner of one tells whether it is metal or
+  // cavity, and the smallest of them is the one around it.
   std::vector<double> volumes;
   for (Shell& shell : all.shells) {
     volumes.push_back(enclosed_volume(all, shell));
@@ -231,6 +234,7 @@ ClosedShells closed_shells(const std::vector<Facets>& parts, const std::string& 
   if (!(extent > 0)) throw UnusableGeometry({path}, "the skin has no triangles, or no extent");
   Welder welder(k_weld * extent);
   std::vector<Triangle> triangles;
+  // Corners within the tolerance are one node; triangles that lose a side by this go.
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (const auto& corners : parts[p].triangles) {
       Triangle t{{welder.number(corners[0]), welder.number(corners[1]), welder.number(corners[2])}, p};
@@ -240,6 +244,7 @@ ClosedShells closed_shells(const std::vector<Facets>& parts, const std::string& 
   ClosedShells all;
   all.points = std::move(welder).points();
   const Neighbours neighbours(triangles, all.points, path);
+  // From each triangle that is left the shell is followed over its neighbours.
   std::vector<char> taken(triangles.size(), 0);
   for (std::size_t t = 0; t < triangles.size(); ++t)
     if (taken[t] == 0) {

@@ -53,6 +53,8 @@ bool keeps_topology(const Tetrahedra& mesh, Index from, Index to, const std::vec
   const std::vector<SurfaceFace>& faces = here.faces();
   std::set<Index> ring;
   std::set<Edge> ring_edges;
+  // The links of both nodes may share only what lies around their edge (the link condition), in the volume
+  // and on the surface.
   for (const std::size_t t : between) {
     const auto [p, q] = mesh[t].beside(from, to);
     ring.insert({p, q});

@@ -19,6 +19,8 @@ class BestTriangulation {
  public:
   BestTriangulation(const Tetrahedra& mesh, Index a, Index b, const RingPart& part)
       : a_(a), b_(b), part_(part), n_(part.nodes.size()), best_(n_ * n_, 1.0), middle_(n_ * n_, 0) {
+    // The best triangulation of the ring by dynamic programming: that between two nodes is the best of all
+    // third nodes, and its quality that of the worst tetrahedron.
     for (std::size_t length = 2; length < n_; ++length)
       for (std::size_t i = 0; i + length < n_; ++i) {
         const std::size_t j = i + length;
@@ -136,6 +138,7 @@ Change without_edge(const Tetrahedra& mesh, Index a, Index b) {
   if (change.old.empty() || change.old.size() > k_most || (mesh.is_locked(a) && mesh.is_locked(b))) return {};
   const std::vector<RingPart> parts = ring_parts(mesh, a, b, change.old);
   if (parts.empty()) return {};
+  // On the surface two faces turn about the edge, which must be allowed there.
   const bool of_surface = parts.size() > 1 || parts.front().nodes.size() == change.old.size() + 1;
   if (of_surface) {
     const Index c = parts.front().nodes.front(), d = parts.front().nodes.back();

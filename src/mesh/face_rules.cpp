@@ -116,6 +116,8 @@ void add_faces_by_rule(RawMesh& mesh, const std::vector<std::string>& bodies, co
   std::vector<std::vector<SkinFace>> skins;
   for (const std::string& body : bodies)
     if (rule.owner.empty() || body == rule.owner) skins.push_back(skin_of(mesh, body));
+  // Faces of each body that fit, each once where two bodies share it; of them those nearest to a point, if
+  // asked.
   std::vector<const SkinFace*> chosen;
   std::set<std::array<Index, 4>> seen;
   for (const std::vector<SkinFace>& skin : skins)

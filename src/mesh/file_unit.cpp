@@ -188,6 +188,7 @@ std::optional<LengthUnit> iges_unit(const std::string& path) {
   static const std::map<std::string, std::string> named = {
       {"INCH", "1"}, {"IN", "1"},  {"MM", "2"}, {"FT", "4"},  {"MI", "5"},  {"M", "6"},
       {"KM", "7"},   {"MIL", "8"}, {"UM", "9"}, {"CM", "10"}, {"UIN", "11"}};
+  // The flag names the unit, 3 that the name does.
   std::string flag = parameters[k_flag];
   if (flag.empty()) flag = "1";  // the default of the format
   if (flag == "3" && parameters.size() > k_name) {
@@ -231,6 +232,7 @@ double metres_of_unit(const std::string& path, const std::string& told, const st
   } catch (const InputError&) {  // NOLINT: the reader says what is wrong with the file
   }
   constexpr double k_mm = 1e-3;
+  // What the user says, unless the file says otherwise; without both mm for geometries of CAD.
   if (!own) return units::convert(1, !told.empty() ? told : in_mm ? "mm" : otherwise, "m");
   if (!told.empty()) {
     constexpr double k_rounding = 1e-5;

@@ -189,6 +189,7 @@ void Reader::read_names() {
 void Reader::read_entities() {
   std::size_t n[4];
   for (std::size_t& of_dimension : n) of_dimension = file_.count(file_.number<std::int64_t>(), 8);
+  // Of each entity only the physical groups matter; boxes and boundaries are passed over.
   for (int dimension = 0; dimension < 4; ++dimension)
     for (std::size_t i = 0; i < n[dimension]; ++i) {
       const int tag = file_.number<std::int32_t>();
@@ -224,6 +225,7 @@ void Reader::read_nodes_2() {
 void Reader::read_nodes_4() {
   const std::size_t n_blocks = file_.count(file_.number<std::int64_t>(), 8);
   for (int k = 0; k < 3; ++k) file_.number<std::int64_t>();  // number of nodes, least and largest tag
+  // Each block belongs to an entity and has first all tags and then all coordinates.
   for (std::size_t b = 0; b < n_blocks; ++b) {
     const int dimension = file_.number<std::int32_t>();
     file_.number<std::int32_t>();
@@ -287,6 +289,7 @@ void Reader::read_elements_4() {
   const std::size_t n_blocks = file_.count(file_.number<std::int64_t>(), 8);
   for (int k = 0; k < 3; ++k) file_.number<std::int64_t>();
   std::vector<std::int64_t> nodes;
+  // Each block has elements of one type of one entity, which its dimension must fit.
   for (std::size_t b = 0; b < n_blocks; ++b) {
     const int dimension = file_.number<std::int32_t>(), entity = file_.number<std::int32_t>();
     const int type = file_.number<std::int32_t>();
@@ -341,6 +344,7 @@ std::optional<RawMesh> Reader::read() {
 
 void Reader::add_blocks(const PieceKey& piece, const std::unordered_map<std::int64_t, Index>& index,
                         RawGroup& group) const {
+  // Elements of one shape go into one block, their nodes by the numbers of this mesh.
   for (const auto& [type, elements] : pieces_.at(piece)) {
     const GmshElement& element = element_type(type);
     if (!element.shape)

@@ -68,6 +68,7 @@ class Scanner {
   }
 
   void step() {
+    // The first character tells what follows.
     const char c = here();
     if (c == '\n') return new_line();
     if (c == ' ' || c == '\t' || (c == '\r' && here(1) == '\n')) {
@@ -121,6 +122,8 @@ class Scanner {
   }
 
   void string(char quote) {
+    // Texts are bounded in length, in one line, print plain numbers only and hold no marks that a simpler
+    // reader could take for structure.
     const std::size_t begin = ++at_;
     for (; here() != quote || at_ >= text_.size(); ++at_)
       if (at_ >= text_.size() || static_cast<unsigned char>(here()) < 0x20)

@@ -74,6 +74,7 @@ class Lattice {
   }
 
   Index node(const Offset& at) {
+    // Nodes are made when the first element asks for one; odd positions are the middles of cells.
     Index& number = node_[(static_cast<std::size_t>(at[2]) * static_cast<std::size_t>(extent_[1]) +
                            static_cast<std::size_t>(at[1])) *
                               static_cast<std::size_t>(extent_[0]) +
@@ -244,6 +245,7 @@ void add_grid(RawMesh& mesh, const Grid& grid) {
   group.dimension = mesh.dimension;
   Cells cells;
   std::vector<Index>& elements = cells.elements;
+  // Cells that the grid leaves out have no elements; for others the pattern gives the nodes.
   for (int k = 0; k < n_cells[2]; ++k)
     for (int j = 0; j < n_cells[1]; ++j)
       for (int i = 0; i < n_cells[0]; ++i) {

@@ -86,6 +86,8 @@ double orientation(const RawMesh& mesh, const RawGroup& body, const FaceOwner& o
 
 void add_corners(const RawMesh& mesh, const WallFace& face, double sign, std::vector<Corner>& corners) {
   const int n = face.n_vertices;
+  // The normal at each corner, weighted by the angle there, so that it does not depend on how faces are
+  // divided.
   for (int a = 0; a < n; ++a) {
     const auto node = [&](int b) { return face.nodes[static_cast<std::size_t>((a + b + n) % n)]; };
     const Point& x = mesh.x[at(node(0))];

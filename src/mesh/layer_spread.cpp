@@ -66,6 +66,7 @@ LayerSpread::LayerSpread(const RawMesh& mesh, const RawGroup& body, const WallTo
 }
 
 void LayerSpread::find_neighbours(const RawMesh& mesh, const RawGroup& body) {
+  // All edges in both directions, each once; they weigh the inverse of their length.
   std::vector<Edge> edges;
   for (const RawBlock& block : body.blocks) {
     const std::vector<LocalEdge> local = edges_of(block.shape);
@@ -164,6 +165,7 @@ void LayerSpread::find_owners(const WallTopology& wall) {
 }
 
 void LayerSpread::sweep(std::vector<Point>& u, int n_sweeps) const {
+  // Gauss-Seidel sweeps: each node takes the weighted mean of its neighbours, without what its guides forbid.
   for (int sweep = 0; sweep < n_sweeps; ++sweep)
     for (std::size_t m = 0; m < moving_.size(); ++m) {
       const Index node = moving_[m];

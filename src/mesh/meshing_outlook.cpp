@@ -40,6 +40,8 @@ double expected_nodes(const std::vector<SkinPiece>& skin, double volume, double 
   for (const SkinPiece& piece : skin) area += piece.area;
   if (!(area > 0)) return largest > 0 ? k_per_cube * volume / std::pow(largest, 3) : 0;
   const double depth = volume / area;  // of a wall half its thickness, as the skin lies on both of its sides
+  // Edges grow with the distance from the skin until they reach the largest; nodes are the integral of their
+  // density over that depth and over the rest of the wall.
   double nodes = 0;
   for (const SkinPiece& piece : skin) {
     const double s = std::min(piece.size, largest);

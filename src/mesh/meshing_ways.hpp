@@ -1,4 +1,4 @@
-/// Ways of meshing a geometry, which mesh_casting() (casting_geometry.hpp) takes in turn.
+/// Ways of meshing a geometry, which mesh_casting() (casting_geometry.hpp) tries one after the other.
 #pragma once
 
 #include <cstddef>

@@ -69,6 +69,7 @@ class Cards {
     std::ifstream file(path);
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error) || !file) fail("there is no file '" + path + "'");
+    // Includes are bounded, so that files that include each other end.
     if (depth > 20) fail("INCLUDE goes around in circles");
     if (++n_files_ > 1000) fail("INCLUDE asks for more than 1 000 files");
     const SourceLocation outer = at_;
@@ -104,7 +105,7 @@ class Cards {
 
 void Cards::take(const std::string& line, int depth) {
   // A deck is read line by line. An entry may go on over several lines, so it is kept until one that begins
-  // anew.
+  // again.
   const std::string_view text = without_blanks(line);
   if (text.empty()) return;
   const std::string begin = capitals(text.substr(0, 12));

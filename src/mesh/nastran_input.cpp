@@ -115,6 +115,8 @@ void Reader::take(const NastranCard& card) {
     defaults_ = card;
     return;
   }
+  // Coordinate systems and elements have readers of their own; entries that would make or move nodes unseen
+  // are refused, all others say nothing about the mesh.
   if (systems_.take(card)) return;
   for (const ElementCard& kind : k_elements)
     if (name == kind.name) return take_element(card, kind);
@@ -166,6 +168,7 @@ void Reader::take_element(const NastranCard& card, const ElementCard& kind) {
   Element e{kind.first, card.integer(0), card.integer(1, 0), {}, card.at};
   const auto corners = static_cast<std::size_t>(node_count(kind.first)),
              all = static_cast<std::size_t>(node_count(kind.second));
+  // The second order needs all of its nodes; without any the element is of first order.
   std::size_t given = 0;
   for (std::size_t a = 0; a < all; ++a)
     if (card.has(2 + a)) {

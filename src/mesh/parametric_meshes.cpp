@@ -52,6 +52,7 @@ RawMesh make_block(const OneBlock& b, Shape shape) {
 RawMesh make_two_blocks(const TwoBlocks& b, Shape shape) {
   RawMesh mesh;
   const std::string last = dimension(shape) == 2 ? "y" : "z";
+  // The faces that meet carry the names of the contact; all others that of their body and direction.
   const auto add = [&](const std::string& body, std::vector<double> origin, const std::vector<double>& size,
                        const std::vector<int>& divisions, const std::string& contact_side,
                        const std::string& contact) {

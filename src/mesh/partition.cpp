@@ -85,6 +85,7 @@ NodeNeighbours neighbours(Index n_nodes, const std::vector<const RawBlock*>& blo
   NodeNeighbours graph;
   graph.start.reserve(at(n_nodes) + 1);
   graph.start.push_back(0);
+  // A row for each node: the nodes of its elements, each once.
   std::vector<Index> row, seen_from(at(n_nodes), -1);
   const auto find_row = [&](Index i) {
     row.clear();
@@ -110,6 +111,7 @@ NodeWork node_work(const NodeNeighbours& graph, const std::vector<const RawBlock
                    const std::vector<BodyWork>& of_block, std::span<const char> in_contact) {
   const std::size_t n = at(graph.n_nodes());
   NodeWork work{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
+  // The work of the elements at each node, then that of its row of the matrix and of contact.
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const bool mechanics = of_block[b] == BodyWork::all;
     const int nn = node_count(blocks[b]->shape);

@@ -48,6 +48,8 @@ class Repair {
   }
 
   bool improve(std::size_t t) {
+    // Moving its nodes is tried first; if that does not do, the best of all changes at its edges that gains
+    // enough.
     const std::array<Index, 4> nodes = tets_[t].nodes;
     for (const Index node : nodes) move(node);
     if (tets_.quality(t) >= below_) return true;

@@ -113,6 +113,7 @@ Rule gauss_rule(Shape shape, int degree) {
   if (degree < 0 || degree > k_highest_degree)
     throw std::invalid_argument("quadrature degree " + std::to_string(degree) + " is not between 0 and " +
                                 std::to_string(k_highest_degree));
+  // Gauss's rule of n points integrates degree 2 n - 1.
   const int n = degree / 2 + 1;
   const ShapeRow& row = row_of(shape);
   switch (row.reference) {

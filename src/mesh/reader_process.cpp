@@ -120,7 +120,7 @@ class Reader {
   TimeOfWay time_;
   double nodes_ = 0;        ///< that are expected; 0: not known
   double processor_ = 0;    ///< [s]
-  double next_report_ = 5;  ///< after so many seconds, then after twice as many, it is said that it goes on
+  double next_report_ = 5;  ///< after so many seconds, then after twice as many, it reports that it goes on
   pid_t pid_ = -1;
   int to_ = -1, from_ = -1;
 };
@@ -228,6 +228,7 @@ void Reader::check_time() {
 
 void Reader::hear(const MeshingOutlook& outlook) {
   const std::string text = outlook_text(outlook);
+  // A geometry that would take more memory than allowed is refused before it is meshed.
   if (const double memory = meshing_memory(outlook); memory > limits_.memory)
     throw UnusableGeometry(
         {source_.path},
@@ -281,6 +282,7 @@ std::optional<int> Reader::status() {
 }
 
 void Reader::ended() {
+  // How the program ended tells whether memory ran out, it crashed, or it could not start.
   const std::optional<int> how = status();
   if (!how)
     throw InputError({source_.path},
@@ -318,6 +320,7 @@ void Reader::ended() {
 
 RawMesh take_answer(Reader& reader, const MeshSource& source, const ReaderLimits& limits) {
   const TakeBytes take = [&](void* bytes, std::size_t n) { reader.take(bytes, n); };
+  // Outlooks come before the answer itself, any number of them.
   ReaderAnswer answer = ReaderAnswer::internal;
   take(&answer, sizeof answer);
   while (answer == ReaderAnswer::outlook) {
@@ -350,6 +353,7 @@ RawMesh read_in_own_process(const MeshSource& source, const CastingGeometry* cas
   const auto note_time = [&] {
     if (spent != nullptr) *spent = reader.processor_time();
   };
+  // The time is noted also when the geometry could not be meshed.
   try {
     RawMesh mesh = take_answer(reader, source, limits);
     note_time();

@@ -31,7 +31,7 @@ struct ReaderLimits {
 };
 /// Without a word of the environment: geometries half of the machine's memory and half an hour, meshes what
 /// their size makes likely. Throws InputError for a limit that cannot be read.
-/// @param meshes  what the file holds is meshed anew, whatever it is
+/// @param meshes  what the file holds is meshed again, whatever it is
 ReaderLimits reader_limits(const MeshSource& source, bool meshes = false);
 
 /// The processor time that a reader may use for one way of meshing, beside the limits above.

@@ -92,6 +92,8 @@ void cube_values(int dim, int order, int n_nodes, Edges edges, const Point& xi, 
 
 void cube_gradients(int dim, int order, int n_nodes, Edges edges, const Point& xi, std::span<double> g) {
   const auto d = static_cast<std::size_t>(dim);
+  // Products of factors along the axes; vertices of quadratic serendipity elements have a sum as one more
+  // factor.
   for (int a = 0; a < n_nodes; ++a) {
     const CubeNode node = cube_node(dim, a, edges);
     double value = 1, sum = 1.0 - dim;

@@ -60,6 +60,7 @@ void measure(SkinFace& face) {
   face.centre = {};
   for (const Point& p : x)
     for (std::size_t i = 0; i < 3; ++i) face.centre[i] += p[i] / static_cast<double>(x.size());
+  // The normal of a line lies to its right; a quadrilateral has the mean of its two triangles.
   Point n{};
   if (x.size() == 2) {
     const Point d = x[1] - x[0];

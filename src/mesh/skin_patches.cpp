@@ -57,6 +57,7 @@ std::vector<SkinPatch> skin_patches(const RawMesh& mesh, const std::vector<std::
 std::string to_text(const std::vector<SkinPatch>& patches) {
   std::string text = fmt::format("\n{:>4}  {:<20} {:>7} {:>11}  {:<27} {:<21} {:<24} {}\n", "face", "owner",
                                  "faces", "area [mm2]", "centre [mm]", "normal", "size [mm]", "neighbours");
+  // A line for each patch; a patch is plane when its normals hardly differ.
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const SkinPatch& p = patches[k];
     std::string neighbours;

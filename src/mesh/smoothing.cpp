@@ -16,6 +16,7 @@ namespace {
 class Smoothing {
  public:
   explicit Smoothing(RawMesh& mesh) : mesh_(mesh), around_(mesh.x.size()), fixed_(mesh.x.size(), 0) {
+    // Nodes of anything but tetrahedra, and of the skin, are fixed.
     for (const auto& [name, group] : mesh.groups)
       for (const RawBlock& block : group.blocks) {
         const bool moves = group.dimension == mesh.dimension && block.shape == Shape::tet4;
@@ -85,6 +86,7 @@ class Smoothing {
     Point& x = mesh_.x[node];
     double worst = worst_around(node, positive);
     bool moved = false;
+    // Along each axis in halved steps, as long as the worst element around becomes better.
     for (double step = 0.3 * size; step > 0.01 * size; step /= 2)
       for (std::size_t i = 0; i < 3; ++i)
         for (const double sign : {-1.0, 1.0}) {

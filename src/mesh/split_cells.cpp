@@ -153,6 +153,7 @@ class Splitter {
 
 void Splitter::find_cells() {
   std::set<std::vector<Index>> seen;  // a cell of several groups is counted once
+  // Cells that cannot stay: wedges, pyramids, and hexahedra with nodes that fall together.
   for (const auto& [name, group] : mesh_.groups)
     for (const RawBlock& block : group.blocks) {
       if (faces_of(block.shape).empty()) continue;
@@ -206,6 +207,8 @@ void Splitter::add_parts(const Cell& cell, RawBlock& to) const {
   const Corners corners = cell.corners();
   const Index lowest = std::ranges::min(corners);
   const auto x = [&](Index node) -> const Point& { return mesh_.x[static_cast<std::size_t>(node)]; };
+  // From the lowest node a tetrahedron to each triangle of the faces that do not have it, so that neighbours
+  // cut their common face alike.
   std::size_t n_positive = 0, n_parts = 0;
   for (const auto& face : faces_of(cell.block->shape))
     for (const Triangle& t : triangles_of(face_corners(corners, face))) {
@@ -227,6 +230,7 @@ void Splitter::split_blocks() {
   for (auto& [name, group] : mesh_.groups) {
     RawBlock parts{Shape::tet4, {}, {}};
     std::vector<RawBlock> kept;
+    // Cells that are split leave their block; their parts join the tetrahedra of the group.
     for (RawBlock& block : group.blocks) {
       const auto all = static_cast<std::size_t>(node_count(block.shape));
       RawBlock whole{block.shape, {}, {}};

@@ -76,6 +76,7 @@ class TextReader {
   }
 
   void take(const std::vector<std::string>& words) {
+    // Only solids, facets and vertices say something; any other word is an error.
     const std::string& word = words.front();
     if (word == "solid") {
       if (in_solid_) refuse("a solid begins within a solid");

@@ -44,6 +44,8 @@ Point normal_of(const Tetrahedra& mesh, const SurfaceFace& face) {
 SurfaceNode::SurfaceNode(const Tetrahedra& mesh, Index node)
     : mesh_(mesh), node_(node), faces_(mesh.surface(node)) {
   std::map<Index, std::vector<std::size_t>> at;
+  // The mean normal by area, and which other nodes lie on the surface; edges where it bends or bodies change
+  // are curves.
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const Point n = normal_of(mesh, faces_[f]);
     for (std::size_t i = 0; i < 3; ++i) mean_[i] += n[i];
@@ -81,6 +83,7 @@ std::vector<Point> SurfaceNode::on_surface(double step) const {
   for (const SurfaceFace& face : faces_)
     around.push_back(face_through({mesh_.x(face.nodes[0]), mesh_.x(face.nodes[1]), mesh_.x(face.nodes[2])}));
   std::vector<Point> all;
+  // Steps along two tangents both ways, each drawn back onto the faces around.
   for (const Point& way : {first, second})
     for (const double sign : {-1.0, 1.0}) {
       const Point wanted = moved(mesh_.x(node_), way, sign * step);

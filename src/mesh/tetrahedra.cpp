@@ -61,6 +61,7 @@ double mean_ratio(const Point& a, const Point& b, const Point& c, const Point& d
 }
 
 Tetrahedra::Tetrahedra(RawMesh& mesh) : mesh_(mesh), locked_(mesh.x.size(), 0), around_(mesh.x.size()) {
+  // Nodes of anything but tetrahedra may not move; tetrahedra are oriented.
   for (const auto& [name, group] : mesh.groups) {
     if (group.dimension == mesh.dimension) bodies_.push_back(name);
     for (const RawBlock& block : group.blocks) {
@@ -148,6 +149,7 @@ std::set<Index> Tetrahedra::neighbours(Index node) const {
 }
 
 std::vector<SurfaceFace> Tetrahedra::surface(Index node) const {
+  // Of the faces at the node those that one tetrahedron alone has, or two of different bodies.
   std::map<Triangle, std::vector<std::pair<int, Triangle>>> sides;
   for (const std::size_t t : around(node))
     for (const Index other : tets_[t].nodes)

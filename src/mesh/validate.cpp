@@ -114,6 +114,7 @@ void check_block(RawMesh& mesh, const std::string& group, RawBlock& block, const
 }  // namespace
 
 void validate_and_orient(RawMesh& mesh, const std::string& path) {
+  // Places are finite, in the plane for two dimensions; there is a body, and each block is sound.
   for (std::size_t i = 0; i < mesh.x.size(); ++i)
     for (const double c : mesh.x[i])
       if (!std::isfinite(c) || std::abs(c) > 1e9)

@@ -343,6 +343,7 @@ void Reader::attributes() {
 std::optional<RawMesh> Reader::mesh(double unit) {
   header();
   if (lower(word()) != "unstructured_grid") return std::nullopt;
+  // Parts come in any order until the types are read.
   while (types_.empty() && skip_blanks()) {
     const std::string kind = lower(word());
     if (kind == "points")

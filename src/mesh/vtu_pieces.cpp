@@ -108,6 +108,7 @@ const ptree& points_array(const VtuFile& file, const ptree& piece) {
 
 CellTable cell_table(std::span<const double> types, std::span<const double> offsets,
                      std::span<const double> corners, std::size_t n_points, const FailVtk& fail) {
+  // Offsets rise and stay within the corners, types are small numbers, and corners are points of the piece.
   double end = 0;
   for (const double offset : offsets) {
     if (!(offset >= end && offset <= static_cast<double>(corners.size())))

@@ -328,6 +328,7 @@ std::vector<WallLayerReport> add_wall_layers(RawMesh& mesh, const std::vector<Wa
   WallTopology wall = find_wall(mesh, surfaces, layers.body, source);
   const RawGroup& body = mesh.groups.at(layers.body);
   const std::vector<double> levels = shares(layers);
+  // The whole thickness follows from the first layer or from the edges at the wall.
   std::vector<WallLayerReport> reports(together.size());
   std::vector<double> thickness;
   for (std::size_t s = 0; s < together.size(); ++s) {
@@ -336,6 +337,7 @@ std::vector<WallLayerReport> add_wall_layers(RawMesh& mesh, const std::vector<Wa
     reports[s].first = reports[s].whole * levels.front();
     thickness.push_back(reports[s].whole);
   }
+  // The mesh makes room before layers are put in.
   std::vector<Point> u = layer_displacement(mesh, body, wall, thickness, levels);
   require_room(mesh, wall, body, u, source, together);
   for (std::size_t s = 0; s < together.size(); ++s) count_columns(wall, static_cast<int>(s), u, reports[s]);

@@ -66,6 +66,7 @@ void hold_at_other_bodies(const RawMesh& mesh, const std::string& body, const st
 std::vector<LocalEdge> edges_of(Shape shape) {
   std::vector<LocalEdge> edges;
   if (dimension(shape) == 1) return {{0, 1, order(shape) == 2 ? 2 : -1}};
+  // Each edge once, with the node in its middle where the element is quadratic.
   const auto add = [&](int a, int b, int middle) {
     for (const LocalEdge& e : edges)
       if ((e.a == a && e.b == b) || (e.a == b && e.b == a)) return;

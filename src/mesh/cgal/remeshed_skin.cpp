@@ -93,6 +93,7 @@ RemeshedSkin remeshed_skin(const ClosedShells& all, const SkinRemeshing& how, co
   RemeshedSkin made;
   TriangleSurface whole;
   SkinDeviation& d = made.deviation;
+  // Each shell for itself; cavities count as negative volume.
   for (std::size_t s = 0; s < all.shells.size(); ++s) {
     const TriangleSurface facets = surface_of(all, all.shells[s]);
     const TriangleSurface skin = new_skin(facets, how, how.sizes[s]);
@@ -105,6 +106,7 @@ RemeshedSkin remeshed_skin(const ClosedShells& all, const SkinRemeshing& how, co
     append_shells(skin, all.shells[s].name, made.shells);
     CGAL::copy_face_graph(skin, whole);
   }
+  // The new skin must neither cross itself nor enclose another volume.
   if (const std::string place = first_crossing(whole); !place.empty())
     throw InputError({path}, "the new skin crosses itself near " + place);
   if (std::abs(d.volume - d.facets_volume) > k_skin_tolerance * d.facets_volume)

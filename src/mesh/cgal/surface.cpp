@@ -17,6 +17,7 @@ TriangleSurface surface_of(const ClosedShells& all, const Shell& shell) {
   std::vector<Kernel::Point_3> points;
   std::vector<std::vector<std::size_t>> triangles;
   std::map<Index, std::size_t> number_of;
+  // Nodes are numbered as triangles ask for them; then all triangles look the same way.
   for (const std::array<Index, 3>& nodes : shell.triangles) {
     std::vector<std::size_t>& triangle = triangles.emplace_back();
     for (const Index node : nodes) {
@@ -40,6 +41,7 @@ void append_shells(const TriangleSurface& surface, const std::string& name, Clos
   const std::size_t first = all.shells.size();
   for (std::size_t p = 0; p < n_parts; ++p) all.shells.emplace_back().name = name;
   std::map<TriangleSurface::Vertex_index, Index> number_of;
+  // A shell of its own for each connected part.
   for (const TriangleSurface::Face_index face : surface.faces()) {
     std::array<Index, 3> triangle{};
     std::size_t k = 0;

@@ -100,6 +100,7 @@ class Union {
   void unite(std::size_t first, std::size_t next) {
     TriangleSurface result;
     bool valid = false;
+    // Where skins cross themselves no union is defined; the message tells where.
     try {
       valid = PMP::corefine_and_compute_union(surfaces_[first], surfaces_[next], result,
                                               PMP::parameters::throw_on_self_intersection(true));

@@ -133,6 +133,7 @@ class PartMaker {
 
   void halve() {
     const auto axis = static_cast<std::size_t>(geometry_.symmetry->axis);
+    // A box that reaches from outside to the plane is what is kept of each body.
     Extent box = extent_of(all_volumes());
     const double margin = box.diagonal(), at = geometry_.symmetry->at / unit_;
     if (!(at > box.low[axis] && at < box.high[axis]))

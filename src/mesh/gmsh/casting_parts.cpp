@@ -72,6 +72,7 @@ std::string place_of_complaints(const std::vector<BodyVolumes>& parts) {
                                  [](const std::string& line) { return line.starts_with("Error"); });
   std::string text;
   std::size_t said = 0;
+  // The faces that Gmsh complains of, with their bodies and boxes, the first few of them.
   for (const int face : surfaces_at_fault()) {
     constexpr std::size_t k_most = 4;
     if (said == k_most) break;

@@ -132,6 +132,7 @@ class Faces {
 };
 
 Faces::Faces(const gmsh::vectorpair& all, double tolerance) {
+  // All faces are cut along one another; a piece that two faces share counts twice.
   gmsh::vectorpair faces = all, out;
   std::vector<gmsh::vectorpair> pieces;
   const gmsh::vectorpair last = {faces.back()};
@@ -164,6 +165,7 @@ std::vector<std::set<int>> Faces::patches(int n) const {
     if (copies > 0)
       for (const auto& [curve, times] : sides_.at(face)) faces_at[curve].push_back(face);
   }
+  // Faces that meet at a curve where no third one does are one patch.
   std::vector<std::set<int>> patches;
   while (!left.empty()) {
     std::set<int> patch;

@@ -1,4 +1,4 @@
-/// Solids of faces that lie beside each other without belonging together, as IGES files and some STEP files
+/// Solids of faces that lie next to each other without belonging together, as IGES files and some STEP files
 /// have them. In the reader's process, while Gmsh has the geometry open.
 #pragma once
 

@@ -191,6 +191,7 @@ void move(std::vector<Place> places, RawMesh& mesh) {
 }  // namespace
 
 Point vertex_displacement(std::span<const FaceAtVertex> faces) {
+  // Planes hold the vertex in their normal; it may move only in what they leave free.
   std::vector<FaceAtVertex> curved;
   std::vector<Point> done;  // orthonormal directions in which the vertex must not, or need not, move further
   for (const FaceAtVertex& face : faces) {
@@ -202,6 +203,7 @@ Point vertex_displacement(std::span<const FaceAtVertex> faces) {
       done.push_back(n);
     }
   }
+  // The offset of each curved face in its normal, made orthogonal to what is done already.
   Point u{};
   for (const FaceAtVertex& face : curved) {
     Point n = face.normal;
@@ -219,6 +221,7 @@ void enclose_curved_volume(const std::unordered_map<std::size_t, Index>& index, 
   gmsh::model::getEntities(entities, 2);
   std::unordered_map<Index, std::vector<FaceAtVertex>> faces;
   bool any = false;
+  // The offsets of curved faces at the vertices that enclose their volume.
   for (const auto& [dimension, face] : entities) {
     std::string type;
     gmsh::model::getType(dimension, face, type);

@@ -69,6 +69,7 @@ class SmoothFaces {
   void join_faces_of(int solid) {
     gmsh::vectorpair bounds;
     gmsh::model::getBoundary({{3, solid}}, bounds, false, true, false);
+    // At a curve between two faces these are one when they continue one another smoothly.
     std::map<int, std::vector<std::pair<int, int>>> at_curve;  // faces with their sense
     for (const auto& [dimension, signed_face] : bounds) {
       const int face = std::abs(signed_face);

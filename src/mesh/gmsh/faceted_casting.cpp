@@ -144,6 +144,7 @@ class FacetedMaker {
   void make_volumes() {
     namespace geo = gmsh::model::geo;
     Tags loop_of;
+    // A region lies between its outer shell and those within it; the mould lies around all outer shells.
     for (const Tags& faces : faces_) loop_of.push_back(geo::addSurfaceLoop(faces));
     for (FacetedRegion& region : regions_) {
       Tags loops;
@@ -189,6 +190,7 @@ class FacetedMaker {
 
   void mesh() {
     using gmsh::option::setNumber;
+    // Sizes come from the callback alone; after the first mesh poor elements are improved twice.
     setNumber("Mesh.MeshSizeFromPoints", 0);
     setNumber("Mesh.MeshSizeFromCurvature", 0);
     setNumber("Mesh.MeshSizeExtendFromBoundary", 0);

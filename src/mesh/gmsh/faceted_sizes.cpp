@@ -59,6 +59,8 @@ std::vector<FacetedRegion> faceted_regions(const ClosedShells& all, const Castin
     if (shell.depth % 2 == 0) ++outer[tidy(shell.name)];
     cavities += shell.depth % 2;
   }
+  // A shell at an even depth is metal; at an odd depth it is a cavity, which becomes a core where there is a
+  // mould.
   for (std::size_t s = 0; s < all.shells.size(); ++s) {
     const bool metal = all.shells[s].depth % 2 == 0;
     if (!metal && !geometry.mould) continue;
@@ -182,6 +184,7 @@ std::vector<double> FacetedSizes::sizes_of_shells() const {
     double most = coarse_;
     for (const FacetedRegion& region : regions_)
       if (std::ranges::count(region.shells, s) > 0) most = std::min(most, largest(region.body));
+    // The one size that gives as many triangles as the field of sizes asks for.
     double area = 0, triangles = 0;
     for (const std::array<Point, 3>& t : corners_of(all_, all_.shells[s])) {
       const SkinPiece piece = skin_piece(t, field, most);
@@ -195,6 +198,8 @@ std::vector<double> FacetedSizes::sizes_of_shells() const {
 
 MeshingOutlook FacetedSizes::outlook(int element_order) const {
   MeshingOutlook o;
+  // For each region the nodes that its skin and volume will have, and the sides and sizes of elements of the
+  // parts.
   for (const FacetedRegion& region : regions_) {
     const double most = largest(region.body), volume = volume_of(region);
     std::vector<SkinPiece> pieces;

@@ -136,6 +136,7 @@ void make_geometry_groups(const std::string& path, const GeometryChoice& choice,
     gmsh::model::occ::removeAllDuplicates();
     gmsh::model::occ::synchronize();
   }
+  // Bodies are entities of the full dimension, surfaces of one below; an entity is in one body at most.
   const int full = entities(3).empty() ? 2 : 3;
   const Choice choose(path, unit_in_metres);
   for (const GeometryGroup& group : choice.groups) {

@@ -65,6 +65,7 @@ RawMesh read_format(const MeshSource& source, FileFormat format, const CastingGe
 RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting) {
   const std::string& path = source.path;
   check_readable(path);
+  // What the format cannot have is refused before the file is opened.
   const FileFormat format = file_format(path);
   if (casting != nullptr && !is_cad(format)) return mesh_skins(source, format, *casting);
   if (format == FileFormat::stl)

@@ -53,6 +53,7 @@ std::string open_faces_text(double unit) {
   std::size_t n_open = 0;
   double longest = 0;
   int where = 0;
+  // A curve of one face alone is open; the longest one is told with its place.
   for (const auto& [curve, sides] : of) {
     if (sides.size() != 1) continue;
     double length = 0;

@@ -107,6 +107,7 @@ void cut(std::vector<BodyVolumes>& parts, const Plane& plane) {
   gmsh::vectorpair volumes, out;
   for (const BodyVolumes& part : parts)
     volumes.insert(volumes.end(), part.volumes.begin(), part.volumes.end());
+  // A square larger than all bodies cuts them; pieces come back in the order of the volumes.
   const int square = add_square(plane, 2 * extent_of(volumes).diagonal());
   std::vector<gmsh::vectorpair> pieces;
   occ::fragment(volumes, {{2, square}}, out, pieces);

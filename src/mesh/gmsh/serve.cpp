@@ -34,7 +34,7 @@ void tell_memory_at_exit() {
   try {
     const ReaderAnswer answer = ReaderAnswer::memory;
     put_all(k_answer_descriptor, &answer, sizeof answer);
-  } catch (const MessageError&) {  // NOLINT: nobody listens any more
+  } catch (const MessageError&) {  // NOLINT: the program has stopped listening
   }
 }
 

@@ -254,6 +254,7 @@ void read_entity(const std::string& path, int dimension, int entity,
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> elements, nodes;
   gmsh::model::mesh::getElements(types, elements, nodes, dimension, entity);
+  // Elements of one shape go into one block, their nodes by the numbers of this mesh.
   for (std::size_t t = 0; t < types.size(); ++t) {
     const GmshElement* const element = gmsh_element(types[t]);
     if (element == nullptr || !element->shape) {
@@ -403,6 +404,7 @@ RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const Castin
   const std::string& path = source.path;
   check_constants(path, source.constants);
   const Session session(source.constants);
+  // A casting is meshed by its own sizes, another geometry by one, and a mesh is read as it is.
   open(path, format);
   if (casting != nullptr) {
     make_casting(source, [&] { make_casting_mesh(source, *casting); });

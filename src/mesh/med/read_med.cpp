@@ -280,6 +280,7 @@ void Reader::refuse_others(const Step& step) const {
 
 std::map<med_int, std::vector<std::string>> Reader::families_of(const Step& step) const {
   std::map<med_int, std::vector<std::string>> groups;
+  // A family stands for a combination of groups; elements name their family alone.
   const med_int n = MEDnFamily(file_, step.name.c_str());
   for (int i = 1; i <= n; ++i) {
     const med_int n_groups = MEDnFamilyGroup(file_, step.name.c_str(), i);
