@@ -42,6 +42,7 @@ void compare_errors(ErrorPart part, double ratio, const Answers& beside,
                     const std::vector<criteria::CriterionResult>& beside_criteria, Answers& answers,
                     const std::vector<criteria::CriterionResult>& criteria) {
   const Comparison comparison(part, ratio);
+  // Answer by answer with the same one of the other run; criteria are found by their names.
   for (std::size_t i = 0; i < answers.castings.size() && i < beside.castings.size(); ++i)
     comparison.take(answers.castings[i].froze, beside.castings[i].froze);
   compare_gaps(comparison, beside.gaps, answers.gaps);

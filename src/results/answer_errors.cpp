@@ -144,6 +144,7 @@ double ErrorFinder::change_of_shape(const std::optional<Spot>& spot) const {
   double square = 0, n = 0;
   for (std::size_t i = 0; i < n_owned; ++i) n += cast_nodes_[i];
   n = parallel::global_sum(n);
+  // The change without its mean over the castings, which is rigid; at a spot, or all over.
   for (std::size_t k = 0; k < now.components(); ++k) {
     const auto change = [&](std::size_t i) {
       return now[i * now.components() + k] - before[i * now.components() + k];
@@ -182,6 +183,7 @@ std::optional<ErrorBand> ErrorFinder::of_criterion(const criteria::CriterionResu
 }
 
 void ErrorFinder::find(Answers& answers, const std::vector<criteria::CriterionResult>& criteria) {
+  // Freezing comes first, since the errors of flow in it are those of pores.
   std::vector<char> cast(mesh_.bodies.size(), 0);
   for (CastAnswer& body : answers.castings) {
     cast[static_cast<std::size_t>(body.cast.body)] = 1;

@@ -258,7 +258,7 @@ std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, 
     for (const auto& [name, of_finding] : answers.criteria_errors)
       if (name == wanted) error = of_finding;
     ValueAt value{f->value, f->where, error};
-    // Where a runner freezes is nobody's concern.
+    // Where a runner freezes does not matter.
     if (const ValueAt* of_parts = least_niyama_of_parts(answers);
         of_parts && field == &criteria::fields::k_niyama)
       value = *of_parts;

@@ -147,6 +147,7 @@ void take_history(TableReader& in, const std::string& name, const std::string& v
                   const mesh::ElementBlock& block, mechanics::BlockHistory& history) {
   const auto per_element = static_cast<std::size_t>(history.n_points * history.n_components);
   if (per_element == 0) return;
+  // Rows are found by the element's number, so that another division into processes can go on.
   const Places places = places_of(block.input_element);
   Taken taken(places.size());
   in.each(name + "/element", values, {}, [&](std::int64_t number, std::span<const double> row) {
@@ -159,6 +160,7 @@ void take_history(TableReader& in, const std::string& name, const std::string& v
   });
   in.require(taken.all(), values);
   const std::size_t n = places.size();
+  // Lanes beyond the last element repeat it, so that their arithmetic is that of an element.
   if (n == 0) return;
   const std::size_t last = (n - 1) / k_lanes;
   for (std::size_t k = 0; k < per_element; ++k)

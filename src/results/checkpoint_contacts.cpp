@@ -58,6 +58,7 @@ void write_contacts(TableWriter& out, const std::vector<contact::ContactState>& 
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     std::vector<std::int64_t> keys;
     std::vector<double> values;
+    // Each point is written by the process that counts it, under its number.
     for (const contact::ContactPointState& point : contacts[i].points) {
       if (!point.counted) continue;
       keys.push_back(point.number);
@@ -103,6 +104,7 @@ void take_master(TableReader& in, const std::string& pair, std::vector<contact::
 void take_contacts(TableReader& in, std::vector<contact::ContactState>& contacts) {
   const std::size_t width = numbers_of({}).size();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
+    // Points are found by their numbers, and every one must be there.
     std::vector<contact::ContactPointState>& points = contacts[i].points;
     std::unordered_map<std::int64_t, std::size_t> places;
     for (std::size_t p = 0; p < points.size(); ++p) places.emplace(points[p].number, p);

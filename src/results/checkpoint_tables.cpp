@@ -159,6 +159,7 @@ void TableReader::each(const std::string& keys, const std::string& values, const
     const auto width = static_cast<std::size_t>(file_->width(values));
     if (file_->rows(keys) != n_rows || file_->width(keys) != 1 || width > k_widest)
       throw OutputError(path_.string(), "its '" + values + "' does not fit its '" + keys + "'");
+    // A block of rows at a time; numbers out of their range are refused, for the file may be damaged.
     std::vector<std::int64_t> number;
     std::vector<double> row;
     for (std::int64_t first = 0; first < n_rows; first += k_rows_at_once) {

@@ -29,6 +29,7 @@ const Field* FieldSet::find(std::string_view name) const {
 }
 
 FieldSet FieldSet::select(const std::vector<std::string>& names) const {
+  // Without names all but those on request; a name that there is not is an error.
   if (names.empty()) {
     FieldSet usual;
     usual.active_ = active_;

@@ -232,6 +232,7 @@ void Hdf5Reader::take(void* bytes, std::size_t n) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(seconds_);
   const auto receive = [&](std::size_t at, std::size_t left) -> ssize_t {
+    // The copy that reads may hang on a damaged file; then it is ended when its time is over.
     for (;;) {
       const auto still = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
       if (still <= 0) {

@@ -44,6 +44,7 @@ std::string Json::text() const {
 void Json::append(std::string& out, int depth, const std::string& key) const {
   const std::string line = "\n" + std::string(static_cast<std::size_t>(2 * (depth + 1)), ' ');
   const std::string last = "\n" + std::string(static_cast<std::size_t>(2 * depth), ' ');
+  // By the kind of value; members of lists and objects go deeper by one level.
   if (const auto* flag = std::get_if<bool>(&value_)) {
     out += *flag ? "true" : "false";
   } else if (const auto* whole = std::get_if<std::int64_t>(&value_)) {

@@ -67,6 +67,7 @@ std::vector<CellBlock> cell_blocks(const FieldMoment& moment) {
   for (const FieldMoment::Piece& piece : moment.pieces()) {
     const mesh::CellTable table = read_cells(*piece.file, *piece.tree, piece.n_cells, piece.n_points);
     std::size_t begin = 0;
+    // Cells of one kind go into one block, their nodes in the order of MED and counted from one.
     for (std::size_t c = 0; c < piece.n_cells; ++c) {
       const auto kind = std::find_if(mesh::med_cells().begin(), mesh::med_cells().end(),
                                      [&](const mesh::MedCell& k) { return k.vtk == table.types[c]; });
@@ -118,6 +119,7 @@ void write_mesh(const Writer& writer, const FieldMoment& moment, const std::vect
   }
   writer.check(MEDmeshCr(writer.file(), k_mesh, 3, solid ? 3 : 2, MED_UNSTRUCTURED_MESH, "fields of Solidus",
                          "s", MED_SORT_DTIT, MED_CARTESIAN, axes.c_str(), units.c_str()));
+  // The points of all pieces follow one another, then the blocks refer to them.
   std::vector<double> points;
   for (const FieldMoment::Piece& piece : moment.pieces()) {
     const std::vector<double> part =

@@ -102,6 +102,7 @@ std::string body_table(const Overview& o) {
 std::string skin_table(const Overview& o) {
   std::vector<std::vector<std::string>> rows;
   for (const SkinOverview& s : o.skins) {
+    // Of a contact the gap and the part that has a partner, of a condition neither.
     std::string gap;
     if (s.least_gap && s.largest_gap) {
       const double largest = std::max(std::abs(*s.least_gap), std::abs(*s.largest_gap));
@@ -131,6 +132,7 @@ std::string pour_lines(const PourOverview& p) {
   std::string text =
       fmt::format("\n  poured      {}: at {:.0f} degC, {:.0f} K above its liquidus of {:.0f} degC", p.body,
                   celsius(p.pouring), p.pouring - p.liquidus, celsius(p.liquidus));
+  // When it freezes and what governs that, then the numbers behind the estimate.
   if (!p.no_estimate.empty()) return text + "\n  freezes     " + p.body + ": no estimate, " + p.no_estimate;
   if (p.freezing_time)
     text += fmt::format(

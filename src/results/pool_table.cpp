@@ -35,6 +35,7 @@ PoolTable::PoolTable(const std::filesystem::path& path, std::optional<double> fr
 void PoolTable::add(const coupling::State& state) {
   for (const criteria::CriterionRecord& record : state.criteria.records) {
     if (record.name != criteria::Pools::k_name) continue;
+    // Pools that exist or have ended within the step.
     for (const criteria::Pool& pool : criteria::Pools::pools(record)) {
       if (!pool.present() && !pool.ended) continue;
       const std::vector<double> row = {state.time,

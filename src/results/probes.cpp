@@ -182,6 +182,7 @@ int component_index(std::string_view name, int components, AnalysisKind kind) {
   using Names = std::vector<std::pair<std::string_view, int>>;
   const bool turned = kind == AnalysisKind::axisymmetric;
   Names names;
+  // Names depend on the number of components and on the kind of analysis; Cartesian ones always hold.
   if (components == 1)
     names = {{"", 0}};
   else if (components == 6)

@@ -44,6 +44,7 @@ ProfileTable::ProfileTable(const mesh::Mesh& mesh, AnalysisKind kind, Profile pr
     throw InputError(profile_.where, fmt::format("{}: there is no group '{}'", what, profile_.group),
                      "groups: " + known);
   }
+  // Each process has the own nodes of the group; the first one writes all of them.
   for (const Index node : group->second)
     if (node < mesh.n_owned_nodes) nodes_.push_back(node);
   if (!parallel::any_process(!nodes_.empty()))
@@ -73,6 +74,7 @@ std::vector<double> ProfileTable::gather(const FieldSet& fields) const {
   std::vector<double> mine;
   std::vector<const Field*> of_column;
   std::vector<std::vector<double>> storage(shown_.size());
+  // Coordinates first and then the columns of each own node.
   std::vector<std::span<const double>> values;
   for (std::size_t c = 0; c < shown_.size(); ++c) {
     of_column.push_back(fields.find(profile_.columns[c].field));

@@ -66,7 +66,7 @@ std::string Progress::left_text(const coupling::StepRecord& record, double share
   const double done = record.time - options_.start;
   const double end = share > 0 ? options_.start + done / share : options_.end;
   double seconds = remaining_.seconds_until(end);
-  // The steps of a die begin anew with every shot: those of the whole run tell more than the last ones.
+  // The steps of a die begin again with every shot: those of the whole run tell more than the last ones.
   if (record.cycle > 0 && share > 0) seconds = (options_.clock() - began_) * (1 - share) / share;
   return seconds < 0 ? "-" : duration_text(seconds);
 }

@@ -34,6 +34,7 @@ PvdCollection::PvdCollection(std::filesystem::path path, double time) : path_(st
   std::ifstream file(path_);
   std::string line, text, part, name;
   bool ours = false;
+  // Entries up to the time at which the run goes on are kept.
   while (std::getline(file, line)) {
     ours = ours || line.find("<Collection>") != std::string::npos;
     if (line.find("<DataSet") == std::string::npos) continue;

@@ -206,6 +206,8 @@ void Recorder::step(const coupling::StepRecord& taken, const coupling::State& st
   const profile::Part part("output");
   const double start = processes::wall_time();
   coupling::StepRecord record = taken;
+  // What belongs to the step itself first, then histories and tables, fields where the step asks for them,
+  // and the times that all this took.
   show_castings(record, state);
   measure_internal_energy(record, state);
   globals_.add(record, heat_of_bodies(state));

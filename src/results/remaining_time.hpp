@@ -16,7 +16,7 @@ class RemainingTime {
   /// @param time   of the casting [s]
   /// @param clock  of the machine [s]
   void step(double time, double clock);
-  /// Steps grow anew from here: a stage begins.
+  /// Steps grow again from here: a stage begins.
   void begin_anew();
 
   /// Seconds of the machine until the casting's time is `end`, at the pace of the last steps; negative where

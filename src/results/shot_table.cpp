@@ -91,6 +91,7 @@ std::optional<double> time_to_solidify(const mesh::Mesh& mesh, const FieldSet& f
   const std::span<const double> solidified = field->read(storage);
   double last = 0;
   bool liquid = false;
+  // The latest node of the castings; while one is liquid there is no time.
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (std::none_of(castings.begin(), castings.end(),
                      [&](const CastBody& cast) { return cast.body == block.body; }))

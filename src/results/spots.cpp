@@ -33,6 +33,7 @@ std::optional<Spot> node_spot(const mesh::Mesh& mesh, const mesh::Point& where,
                               const std::vector<char>& counts) {
   std::size_t own = 0;
   const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
+  // The own node at that place, and its neighbours over elements.
   while (own < n_owned && (counts[own] == 0 || mesh.x[own] != where)) ++own;
   if (own == n_owned) return {};
   Spot spot{own, {}};
@@ -60,6 +61,7 @@ std::optional<Spot> element_spot(const mesh::Mesh& mesh, const mesh::Point& wher
       first += static_cast<std::size_t>(block.size());
     }
   };
+  // The element whose centre is there, then all of its body that share a node with it.
   visit([&](const mesh::ElementBlock& block, Index e, std::size_t at) {
     if (spot || e >= block.n_counted || centre(mesh, block, e) != where) return;
     spot = Spot{at, {}};

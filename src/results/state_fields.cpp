@@ -164,6 +164,7 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
 void StateFields::find_side_areas(AnalysisKind kind) {
   if (phases_.contacts.empty()) return;
   covered_.assign(mesh_.x.size(), 0.0);
+  // For each side of each contact the area that belongs to each node.
   for (const contact::ContactPair* pair : phases_.contacts) {
     auto& sides = side_area_.emplace_back();
     for (std::size_t side = 0; side < 2; ++side) {
@@ -230,6 +231,7 @@ void StateFields::add_heat_flux() {
 }
 
 void StateFields::add_nodal_stress() {
+  // Recovered stress is costly and computed only when it is read.
   const auto nodal = [this](int body) {
     if (!recovery_) recovery_ = std::make_unique<StressRecovery>(mesh_, kind_);
     return recovery_->at_nodes(mechanics::element_field(mesh_, shown_, ElementField::stress), body);
@@ -276,6 +278,7 @@ void StateFields::update_criteria(const coupling::State& state) {
 }
 
 void StateFields::update(const coupling::State& state) {
+  // Bodies that are not there in the stage have no values.
   const linear::ActiveSet& there =
       phases_.heat != nullptr ? phases_.heat->active() : phases_.mechanics->active();
   const linear::ActiveSet* active = there.complete() ? nullptr : &there;

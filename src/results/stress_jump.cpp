@@ -91,6 +91,7 @@ void tell_stress_jumps(const mesh::Mesh& mesh, AnalysisKind kind, const FieldSet
                        std::span<const CastBody> castings) {
   constexpr double k_much = 0.5;
   const std::vector<double> jumps = stress_jumps(mesh, kind, fields);
+  // Only elements of first order are meant, as those of second order follow bending.
   for (std::size_t b = 0; b < jumps.size(); ++b) {
     if (!(jumps[b] > k_much) || !of_first_order(mesh, static_cast<int>(b))) continue;
     const auto cast = std::ranges::find(castings, static_cast<int>(b), &CastBody::body);

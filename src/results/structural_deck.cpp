@@ -56,6 +56,7 @@ class Writer {
   }
 
   std::string text() {
+    // The order of the deck: what the model is, then how it starts, then its steps.
     heading();
     nodes();
     elements();
@@ -119,6 +120,7 @@ class Writer {
       if (!there(b)) continue;
       const mesh::ElementBlock& block = d_.mesh.blocks[b];
       line("*ELEMENT, TYPE={}, ELSET={}", deck_element_type(d_.kind, block.shape), body_set(block.body));
+      // Nodes in the order of the program that reads the deck.
       const auto order = mesh::abaqus_node_order(block.shape);
       const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
       std::vector<GlobalIndex> theirs(n);
@@ -204,6 +206,7 @@ class Writer {
   }
 
   void material(std::size_t body) {
+    // Each table at its own temperatures, in kelvins and SI units.
     const material::Material& m = d_.materials[body];
     line("*MATERIAL, NAME={}", names_("material", name_of(body)));
     line("*DENSITY");

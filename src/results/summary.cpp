@@ -75,6 +75,7 @@ MeshCounts count(const mesh::Mesh& mesh) {
   using mesh::Shape;
   constexpr std::array k_shapes = {Shape::line2, Shape::line3, Shape::tri3,  Shape::tri6, Shape::quad4,
                                    Shape::quad8, Shape::tet4,  Shape::tet10, Shape::hex8, Shape::hex20};
+  // Each element is counted by the process that owns it.
   const auto counted = [&](const auto& belongs) {
     Index n = 0;
     for (const mesh::ElementBlock& block : mesh.blocks)

@@ -51,7 +51,7 @@ struct LeftWall {
   double from = 0, to = 0;  ///< the first and the last time [s]
 };
 
-/// Steps whose turns of the augmented Lagrangian ended early, since the run began or went on.
+/// Steps whose augmentations of the Lagrangian ended early, since the run began or went on.
 struct UnsettledTurns {
   std::string contact;
   int steps = 0;

@@ -45,6 +45,7 @@ std::vector<TemperatureMoment> read_temperature_history(const fs::path& collecti
                                                         const linear::ActiveSet& active) {
   if (!fs::exists(collection))
     throw InputError({collection.string()}, "the run has left no fields", "[output] with `every` or `times`");
+  // Nodes are found by their numbers in the input, as files hold those of all processes.
   LocalNodes local;
   for (Index i = 0; i < mesh.n_nodes(); ++i)
     if (active.node(i)) local.emplace(mesh.input_node[static_cast<std::size_t>(i)], i);

@@ -127,6 +127,7 @@ void write_mesh(Writer& writer, const FieldMoment& moment, const std::vector<Fie
                 VtkHdfReport& report) {
   std::vector<std::int64_t> connectivity, offsets = {0};
   std::vector<std::uint8_t> types;
+  // Corners and offsets of each piece count on from those before it.
   for (const FieldMoment::Piece& piece : moment.pieces()) {
     const mesh::CellTable cells = read_cells(*piece.file, *piece.tree, piece.n_cells, piece.n_points);
     for (const Index corner : cells.corners)

@@ -35,6 +35,7 @@ struct Part {
 
 Part make_part(const Mesh& mesh, std::span<const ElementBlock> blocks, bool volume) {
   Part part{mesh, blocks, volume, {}, std::vector<Index>(mesh.x.size(), -1)};
+  // Nodes that the elements of this part use, numbered in the order of the mesh.
   for (const ElementBlock& block : blocks) {
     const auto n = static_cast<std::size_t>(block.n_counted);
     part.n_cells += n;
@@ -232,6 +233,7 @@ void write_pvtu(const std::filesystem::path& path, const std::vector<std::string
                        array_information(head));
   };
   std::string xml = vtk_head("PUnstructuredGrid") + "  <PUnstructuredGrid GhostLevel=\"0\">\n";
+  // The same arrays as in the parts, without values.
   xml += fmt::format("    <PPointData{}>\n", active(fields, mesh::FieldPlace::node));
   for (const Field& field : fields.all())
     if (field.place == mesh::FieldPlace::node) xml += array(head_of(field), vtk_type<double>());

@@ -47,6 +47,7 @@ class Reader {
   ReadField result(const fs::path& path) {
     mesh::Mesh& mesh = read_.mesh;
     int dimension = 0;
+    // Cells of the highest dimension are the body; those of surfaces are left out.
     for (const auto& [shape, nodes] : cells_) dimension = std::max(dimension, mesh::dimension(shape));
     if (dimension < 2) {
       if (body_ >= 0 && found_body_)
@@ -97,6 +98,7 @@ class Reader {
     if (body_ >= 0 && bodies.empty() && n_cells > 0)
       throw InputError(where_, "the file has no cell data `body`", "no 'body', or a file that has it");
     found_body_ = true;
+    // Cells of the body asked for, without copies of other processes, split into simplices and cubes.
     for (std::size_t c = 0; c < n_cells; ++c) {
       if (body_ >= 0 && bodies[c] != body_) continue;
       if (!ghosts.empty() && ghosts[c] != 0) continue;

@@ -22,6 +22,7 @@ std::string deflated(std::string_view bytes, Bytes like) {
   std::vector<unsigned char> part(std::size_t{1} << 16);
   std::size_t taken = 0;
   int state = Z_OK;
+  // Input and output go through the library in parts, as its counters are of 32 bits.
   while (state != Z_STREAM_END) {
     const std::size_t n = std::min<std::size_t>(bytes.size() - taken, std::size_t{1} << 30);
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data() + taken));

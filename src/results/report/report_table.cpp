@@ -82,6 +82,7 @@ ReportTable read_table(const std::filesystem::path& file, std::size_t most) {
   const std::vector<Row> rows = rows_of(text);
   ReportTable table;
   if (rows.empty()) return table;
+  // Every row has as many cells as the header; of too many rows every so many is kept, and the last one.
   for (std::size_t r = 1; r < rows.size(); ++r)
     if (rows[r].size() != rows[0].size())
       throw InputError(

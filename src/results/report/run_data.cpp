@@ -59,6 +59,7 @@ Json table_data(const ReportTable& table, Blocks& blocks) {
   Json out;
   out.add("rows", table.n_rows).add("rows_in_file", table.n_in_file);
   Json::Array columns;
+  // Numbers go into the binary blocks, texts as they are.
   for (const TableColumn& column : table.columns) {
     Json c;
     c.add("header", column.header);
@@ -127,6 +128,7 @@ Collection collection(const fs::path& folder, std::vector<std::string>& notes) {
   }
   std::size_t missing = 0;
   std::map<double, std::vector<fs::path>> surfaces;
+  // Volumes by time, surfaces of contact along with them; what is gone is counted and told.
   for (const auto& entry : entries) {
     const fs::path path = folder / entry.file;
     if (!fs::exists(path))
@@ -151,6 +153,7 @@ struct ContactParts {
 
 ContactParts contact_parts(const std::vector<fs::path>& files) {
   ContactParts parts;
+  // Which fields of contact the files have, and which nodes.
   for (const fs::path& path : files) {
     const FieldFile file(path);
     for (const FieldFile::Piece& piece : file.pieces()) {
@@ -204,6 +207,7 @@ Json packed(const PackedValues& v) {
 
 Json fields_data(const PackedMoments& packed_moments) {
   Json::Array columns;
+  // Of each column its values at all times and, for elements, the extremes of each body.
   for (std::size_t k = 0; k < packed_moments.columns.size(); ++k) {
     const FieldColumn& column = packed_moments.columns[k];
     Json c;
