@@ -12,6 +12,7 @@ namespace solidus::model {
 CheckedRun check_run(Case c) {
   Assembly a;
   a.materials = load_materials(c.spec);
+  // Everything that a run builds is built, so that its errors come now and not in the run.
   a.mesh = load_mesh(c.spec);
   build(c.spec, a);
   const CaseMeasures measures = measure(c.spec, a);

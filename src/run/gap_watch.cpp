@@ -26,6 +26,7 @@ void GapWatch::step(const coupling::StepRecord& record, const coupling::State& /
 void GapWatch::report() const {
   constexpr double k_worth_a_warning = 0.05, k_worth_saying = 0.01;
   constexpr double k_much_heat = 0.01;  // of what moved in the run: interfaces that pass less matter little
+  // Interfaces that misplaced a share of their heat worth a word, and passed enough heat to matter.
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const Pair& pair = pairs_[i];
     if (!(pair.late > k_worth_saying * pair.all && pair.all > k_much_heat * exchanged_)) continue;

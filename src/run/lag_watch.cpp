@@ -38,6 +38,7 @@ void LagWatch::step(const coupling::StepRecord& record, const coupling::State& s
 void LagWatch::end(const coupling::State&) {
   constexpr double k_least = 0.001;
   double last = 0, all = 0;
+  // The change of the last step as a share of all change in the run is what the lag of a step amounts to.
   for (std::size_t i = 0; i < now_.size(); ++i) {
     last = std::max(last, std::abs(now_[i] - before_[i]));
     all = std::max(all, std::abs(now_[i] - first_[i]));
@@ -73,6 +74,8 @@ void FrictionLagWatch::begin(const coupling::State& state) {
 }
 
 void FrictionLagWatch::step(const coupling::StepRecord&, const coupling::State& state) {
+  // The work of friction of this step at points that slip, and the part of it by which traction and friction
+  // coefficient at the temperature now differ.
   for (std::size_t i = 0; i < state.contacts.size() && i < pairs_.size(); ++i) {
     Pair& pair = pairs_[i];
     const auto& points = state.contacts[i].points;

@@ -41,7 +41,7 @@ class LagWatch : public coupling::Observer {
 class FrictionLagWatch : public coupling::Observer {
  public:
   /// @param contacts    kept by reference
-  /// @param maps_again  the scheme can find slip anew in its thermal phase (thermal_return_mapping)
+  /// @param maps_again  the scheme can find slip again in its thermal phase (thermal_return_mapping)
   /// @param after_heat  heat is conducted before surfaces slip
   FrictionLagWatch(const std::vector<contact::ContactPair*>& contacts, bool maps_again, bool after_heat);
   void begin(const coupling::State& state) override;

@@ -84,6 +84,7 @@ std::string left_data(const CaseSpec& spec, std::size_t body, const material::Ma
 
 void RangeWatch::look(const coupling::State& state) {
   const std::vector<double>& temperature = a_.heat ? state.heat.temperature : a_.phases.temperature;
+  // The range of temperatures of each body that takes part, over all processes.
   std::vector<double> low(spec_.bodies.size(), 1e300), high(spec_.bodies.size(), -1e300);
   for (const mesh::ElementBlock& block : a_.mesh.blocks) {
     if (a_.heat && !a_.heat->active().body(block.body)) continue;

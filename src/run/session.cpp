@@ -216,6 +216,8 @@ void Session::change(const std::string& assignment) {
     throw InputError(where, "this key cannot change within a run",
                      "keys of conditions, for example thermal_condition.NAME.ambient=50 degC");
   if (!p.transient) throw InputError(where, "a steady analysis has no steps between which something changes");
+  // The whole case is read and checked again with the change, as its first reading was; only conditions are
+  // taken over.
   Value document = p.c.document;
   apply_override(document, assignment);
   CaseSpec spec;

@@ -25,11 +25,11 @@ struct ExportReport {
   std::size_t supports = 0;  ///< degrees of freedom held besides, in parts that only contact held
 };
 
-/// Brings the state of the checkpoint into equilibrium at its own temperature (the phases take turns: the
-/// stress of the last step is that of the temperature before) and writes it; or writes the temperatures over
-/// time (then the run must have left fields, and no body may come or go). One process. Throws InputError
-/// for a case without mechanics or with inertia, for several processes, and as a restart does; StepRejected
-/// where there is no equilibrium.
+/// Brings the state of the checkpoint into equilibrium at its own temperature (the phases are solved in
+/// alternation: the stress of the last step is that of the temperature before) and writes it; or writes the
+/// temperatures over time (then the run must have left fields, and no body may come or go). One process.
+/// Throws InputError for a case without mechanics or with inertia, for several processes, and as a restart
+/// does; StepRejected where there is no equilibrium.
 ExportReport export_state(const Case& c, const ExportOptions& options);
 
 }  // namespace solidus::model

@@ -37,6 +37,8 @@ coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
     const StageRun& run = a.stages[stage];
     return time_events(spec, &run, run.start, run.end, first_step(*run.stage, spec.time));
   };
+  // A steady analysis has no error of time to estimate; others limit the displacement error of each step, of
+  // the stages too.
   std::optional<coupling::ErrorEstimate> estimate;
   if (!spec.time.steady) {
     coupling::BodyNorm norm(a.mesh, spec.analysis.kind);
