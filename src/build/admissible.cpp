@@ -75,6 +75,8 @@ double coldest_body(const CaseSpec& spec, double low) {
 
 void check_heat(const CaseSpec& spec, Admissibility& a) {
   using Kind = ThermalConditionSpec::Kind;
+  // No heat may come from outside but through surroundings, and these must all have the one ambient
+  // temperature, which does not change.
   for (const auto& c : spec.thermal_conditions) {
     if (c.kind == Kind::flux && !zero(c.flux))
       a.violations.push_back(fmt::format("'{}' is a flux", c.name));
@@ -106,6 +108,7 @@ bool begins_later(const CaseSpec& spec, const MechanicalConditionSpec& c) {
 
 void check_mechanics(const CaseSpec& spec, Admissibility& a) {
   using Kind = MechanicalConditionSpec::Kind;
+  // Supports must not move and loads must not vary, so that the work of the loads has a potential.
   for (const auto& c : spec.mechanical_conditions) {
     if (c.kind == Kind::displacement && (moves(c.ux) || moves(c.uy) || moves(c.uz) || moves(c.ur)))
       a.violations.push_back(fmt::format("the support '{}' moves", c.name));

@@ -80,6 +80,8 @@ void build_contacts(const CaseSpec& spec, Assembly& a) {
   for (std::size_t b = 0; b < moduli.size(); ++b)
     if (only_conducts(spec.bodies[b])) moduli[b] = 0;  // its stiffness makes no penalty
   const std::vector<double> sections = sections_of(spec, a.mesh);
+  // Each pair gets what follows from mesh and materials before it is built: walls, leaving gap, penalty,
+  // conductivity, direction of the normal.
   for (contact::ContactParameters& pair : contact_specs(spec)) {
     check_separate(a.mesh, pair);
     set_walls(spec, a.mesh, pair);
@@ -126,6 +128,7 @@ void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_te
 }
 
 void build_heat(const CaseSpec& spec, const InitialTemperatures& start, Assembly& a) {
+  // Contacts and the deforming structure add heat; the matrix is symmetric only if that of every contact is.
   std::vector<linear::Contribution*> contributions;
   for (const auto& pair : a.contacts)
     if (pair->heat() != nullptr) contributions.push_back(pair->heat());

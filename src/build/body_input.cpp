@@ -147,6 +147,7 @@ void check_new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, c
 }
 
 void set_walls(const CaseSpec& spec, const mesh::Mesh& mesh, contact::ContactParameters& pair) {
+  // A surface is a wall when no body behind it deforms. With free roles a lone wall becomes the master.
   std::vector<std::string> conductors;
   for (const BodySpec& body : spec.bodies)
     if (only_conducts(body)) conductors.push_back(body.mesh_group());

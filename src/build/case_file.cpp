@@ -63,6 +63,8 @@ Case load_case(const std::filesystem::path& path, const std::vector<std::string>
                std::optional<Physics> physics) {
   Case result;
   const CaseName name = case_named(path);
+  // Layers of files, then the command line, which has the last word; only the complete document is read and
+  // checked.
   result.file = name.file;
   result.variant = name.variant;
   Value document = load_layers(name);

@@ -24,7 +24,7 @@ namespace {
 constexpr double k_penalty_factor = 10, k_penalty_factor_of_means = 100;
 /// ContactSpec::pressure_tolerance of solid bodies: with the factor of segments it leaves 1e-4 of a pressure
 /// that follows from prescribed displacements. Where points slide their pressures change in every step, and
-/// turns for each change would double the cost: there it leaves 1e-3.
+/// augmentations for each change would double the cost: there it leaves 1e-3.
 constexpr double k_pressure_tolerance = 0.01, k_pressure_tolerance_of_slides = 0.05;
 /// Displacement by the atmosphere of a liquid skin that it holds on its wall, over the gap that counts as
 /// leaving it.
@@ -167,6 +167,8 @@ void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
                      contact::ContactParameters& pair) {
   constexpr double k_leaving_share = 0.01, k_room_temperature = 293.15;
   constexpr double k_sections = 10;  // across a casting
+  // A share of the contraction of the casting from its liquidus to the room, over ten sections; the least of
+  // the bodies that meet there.
   double least = 0;
   for (std::size_t b = 0; b < materials.size(); ++b) {
     const material::Material& m = materials[b];

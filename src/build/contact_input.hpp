@@ -30,7 +30,8 @@ void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
 
 /// Sets the penalty of solid skins beside a melt (after set_leaving_gap): the factor on the stiffness of the
 /// elements behind the softer of the two surfaces, whether their bodies deform or conduct heat alone. None
-/// where a body has no Young's modulus: nobody knows how hard such a wall is, most are of sand. Collective.
+/// where a body has no Young's modulus: how hard such a wall is remains unknown, most are of sand.
+/// Collective.
 void set_solid_penalty(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                        contact::ContactParameters& pair);
 

@@ -73,6 +73,7 @@ void check_dynamics(const CaseSpec& spec) {
                      "physics = \"mechanics\" or \"thermomechanical\", or no [dynamics]");
   if (d.method != Method::newmark) return;
   constexpr double k_rounding = 1e-12;  // as mechanics::Motion allows
+  // The least beta for which every step is stable follows from gamma.
   const double least = mechanics::Motion::least_beta(d.gamma);
   if (d.beta < least * (1 - k_rounding))
     throw InputError(

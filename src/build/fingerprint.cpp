@@ -128,6 +128,7 @@ std::string mesh_text(const mesh::Mesh& mesh) {
   std::string text = fmt::format("{} nodes", counts.nodes);
   for (const auto& [shape, n] : counts.elements_of_shape) text += fmt::format(", {} {}", n, shape);
   text += ", from (";
+  // Numbers and corners tell meshes apart and do not depend on the division into processes.
   std::array<double, 3> low{}, high{};
   for (std::size_t i = 0; i < 3; ++i) {
     low[i] = std::numeric_limits<double>::max();

@@ -22,6 +22,7 @@ std::map<std::string, Role> wanted_roles(const std::vector<std::string>& as) {
   std::map<std::string, Role> wanted;
   std::vector<std::string> names;
   for (const Role role : all) names.emplace_back(name(role));
+  // Each assignment names a body and one of the roles.
   for (const std::string& assignment : as) {
     const std::size_t equals = assignment.find('=');
     const std::string what = equals == std::string::npos ? "" : assignment.substr(equals + 1);
@@ -53,6 +54,8 @@ std::vector<GeometryBody> bodies_of(const mesh::RawMesh& mesh, const std::vector
     return wanted.contains(group) ? 3 : body_preference(group);
   });
   for (const std::string& note : partition.notes) logging::info("{}: {}", path, note);
+  // The role given by the user goes before the one that the name of the group tells; a body without either is
+  // a casting.
   for (const std::string& group : partition.bodies) {
     names.push_back(group);
     GeometryBody& body =
@@ -64,6 +67,7 @@ std::vector<GeometryBody> bodies_of(const mesh::RawMesh& mesh, const std::vector
       body.role = *told;
     }
   }
+  // What is left over names no body; and a part needs a casting.
   if (!wanted.empty())
     throw InputError({"--as"}, fmt::format("the geometry has no body '{}'", wanted.begin()->first),
                      one_of(names, wanted.begin()->first));

@@ -201,6 +201,8 @@ std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh&
 void add_contacts(const std::vector<FoundInterface>& found, CaseSpec& spec) {
   const contact::ContactParameters usual;
   for (const FoundInterface& f : found) {
+    // A contact of the usual parameters for each pair of bodies that meet; what the section of the case says
+    // stands in it, the law of heat by the roles of the two bodies.
     const BodyInterfaceSpec& section = spec.interfaces[f.section];
     ContactSpec contact;
     const std::string pair = spec.bodies[static_cast<std::size_t>(f.a)].name + "_" +
@@ -228,6 +230,7 @@ void add_rule_groups(const CaseSpec& spec, mesh::RawMesh& mesh, const std::strin
     names.push_back(body.name);
   }
   const auto point = [](const std::vector<double>& x) { return mesh::Point{x[0], x[1], x[2]}; };
+  // A rule finds faces by owner, angle, direction and place; what is not given bounds nothing.
   for (const MeshGroupSpec& g : spec.mesh.groups) {
     if (!g.by_rule()) continue;
     mesh::FaceRule rule;

@@ -72,6 +72,7 @@ mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec) {
   options.simplices = spec.mechanics.simplices;
   options.stabilisation = spec.mechanics.stabilisation;
   options.integration = spec.mechanics.integration;
+  // The mapping of the mechanical phase follows the scheme of the coupling.
   options.mapping = spec.isentropic()     ? mechanics::Mapping::isentropic
                     : spec.simultaneous() ? mechanics::Mapping::simultaneous
                                           : mechanics::Mapping::isothermal;

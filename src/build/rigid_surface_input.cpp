@@ -56,11 +56,13 @@ void check_motion(const RigidSurfaceSpec& s, AnalysisKind kind, int dimension) {
                      fmt::format("{} has a motion '{}', which this analysis does not have", text(s), key),
                      allowed);
   };
+  // Motions that the kind of analysis does not have.
   if (kind == AnalysisKind::plane_strain && s.uz) refuse("uz", "ux, uy, rotation");
   if (kind == AnalysisKind::axisymmetric && s.ux) refuse("ux", "uy (or uz), along the axis");
   if (kind == AnalysisKind::axisymmetric && s.rotation) refuse("rotation", "uy (or uz), along the axis");
   if (kind == AnalysisKind::axisymmetric && s.uy && s.uz)
     throw InputError(s.where, text(s) + " has its motion along the axis twice", "uy or uz");
+  // Then centre and axis, which mean nothing without a rotation and follow from z in plane strain.
   if (!s.rotation) {
     if (!s.rotation_centre.empty() || !s.rotation_axis.empty())
       throw InputError(s.where,
@@ -81,6 +83,8 @@ void check_motion(const RigidSurfaceSpec& s, AnalysisKind kind, int dimension) {
 }
 
 void check_contact(const CaseSpec& spec, const ContactSpec& c) {
+  // A rigid surface has no nodes, so that it cannot be the slave; the checks after that refuse what has no
+  // meaning on an exact shape.
   const auto as_slave = [&](const std::string& name) {
     if (spec.rigid_surface(name) != nullptr)
       throw InputError(
@@ -120,6 +124,7 @@ contact::RigidSurface rigid_surface(const RigidSurfaceSpec& spec, AnalysisKind k
   s.hollow = spec.hollow;
   if (spec.shape == Shape::plane) s.direction = point_of(spec.normal);
   if (spec.shape == Shape::cylinder) s.direction = solid ? point_of(spec.axis) : contact::Point{0, 0, 1};
+  // About the axis of symmetry a cylinder is a plane in the section, normal to the radius.
   if (spec.shape == Shape::cylinder && axisymmetric) {
     s.shape = Shape::plane;
     s.point[0] = spec.radius;

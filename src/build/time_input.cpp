@@ -102,6 +102,7 @@ void check_time(const CaseSpec& spec) {
   const TimeSpec& t = spec.time;
   check_until(t, spec);
   if (t.steady) return;
+  // Stages bring durations and steps of their own; a case without them needs an end and a step.
   if (!spec.stages.empty()) {  // steps and durations are checked with the stages
     check_limits(t, spec);
     double steps = 0;
@@ -137,6 +138,7 @@ coupling::TimeOptions time_options(const CaseSpec& spec) {
   options.output_at_stage_ends = spec.output.stage_ends;
   options.output_times = spec.output.times;
   options.checkpoint_every = spec.output.checkpoint_every.value_or(0);
+  // Multiples of the period up to the end; rounding must not lose the last one.
   if (spec.output.every) {
     const double every = *spec.output.every;
     const auto n = static_cast<long>(std::floor(options.end / every * (1 + 1e-12)));
