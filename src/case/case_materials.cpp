@@ -21,6 +21,7 @@ std::vector<fs::path> material_folders() {
     std::error_code error;
     if (fs::is_directory(folder, error)) folders.push_back(folder);
   };
+  // The folders of the user come first, then those installed with the program and those of its sources.
   if (const char* listed = std::getenv("SOLIDUS_MATERIALS")) {
     std::istringstream paths(listed);
     for (std::string path; std::getline(paths, path, ':');)
@@ -63,6 +64,7 @@ void check_melts(const CaseSpec& spec, const std::vector<material::Material>& ma
   for (std::size_t b = 0; b < materials.size(); ++b) {
     const BodySpec& body = spec.bodies[b];
     const material::PhaseChange* freezing = materials[b].solidification();
+    // Only a body with mechanics that is all melt at its start and has that model is meant.
     if (only_conducts(body) || freezing == nullptr ||
         materials[b].liquid_model != material::LiquidModel::modified_shear ||
         freezing->fraction.value(highest[b]) > 0)

@@ -26,6 +26,7 @@ std::string isothermal_schemes() {
 
 void check_scheme(const CaseSpec& spec, const material::Material& material) {
   const std::string of = "the law from outside of '" + material.name + "'";
+  // Only the isothermal split calls the law as it is: at a temperature, without derivatives by it.
   if (spec.coupled()) switch (spec.coupling.scheme->traits().mapping) {
       case mechanics::Mapping::isothermal:
         break;
@@ -63,6 +64,8 @@ Sym4<double> stiffness(const material::ExternalLaw& law, const material::PointPr
 }
 
 void check_moduli(const material::Material& material, const material::ExternalLaw& law) {
+  // Both stiffnesses of the undeformed solid are compared over the range of temperatures; the heat of
+  // deformation is computed with the moduli of the material.
   for (const double temperature : temperatures_of_law(material)) {
     const auto elastic =
         material::properties_at(material, temperature, temperature, material::PhaseState<double>{1.0, 0.0});

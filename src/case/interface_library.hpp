@@ -16,7 +16,7 @@ struct InterfaceSide {
   std::vector<std::string> roles;      ///< "casting", ...
 };
 
-/// A conductance that somebody measured, fitted to measured curves or recommends, with the place in print.
+/// A published conductance: measured, fitted to measured curves or recommended, with the place in print.
 struct PublishedConductance {
   std::string by, what;            ///< authors, journal and year; metal, mould and method
   double lowest = 0, highest = 0;  ///< [W/(m² K)]

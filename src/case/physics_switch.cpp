@@ -121,6 +121,7 @@ std::string switch_physics(Value& document, Physics physics) {
   const char* name = physics == Physics::heat        ? "heat"
                      : physics == Physics::mechanics ? "mechanics"
                                                      : "thermomechanical";
+  // Everything that only mechanics reads goes out of a document that only conducts heat.
   analysis->set("physics", Value(name));
   if (physics != Physics::heat) return {};
   Removal removal(document);

@@ -233,6 +233,7 @@ void check_stage_names(const CaseSpec& spec) {
       throw InputError(where, user + " counts the time of a stage, but the case has no stages",
                        "time = \"run\", or [[stage]] sections");
   };
+  // Every user of stages names only stages that the case has.
   for (const auto& c : spec.thermal_conditions) {
     const std::string user = "the thermal condition '" + c.name + "'";
     check(c.stages, c.where, user);
