@@ -95,6 +95,7 @@ void measure_part(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Element
     body.volume += element_volume(geometry, e);
     const Index* const nodes = block.element(e);
     double shortest = std::numeric_limits<double>::max(), longest = 0;
+    // The flattest element has the largest ratio of its edges.
     each_edge(block.shape, [&](int p, int q) {
       const double length = distance(at(mesh, nodes[p]), at(mesh, nodes[q]));
       shortest = std::min(shortest, length);
@@ -161,6 +162,7 @@ std::vector<BodyMeasures> measure_bodies(const mesh::Mesh& mesh, AnalysisKind ki
   none.shared_nodes.assign(n, 0);
   std::vector<BodyMeasures> bodies(n, none);
   std::vector<double> edges(n, 0.0), n_edges(n, 0.0);
+  // Sums over the own nodes, faces and elements first, reduced over the processes at last.
   measure_nodes(mesh, bodies);
   measure_skins(mesh, kind, bodies);
   for (const mesh::ElementBlock& block : mesh.blocks) {
@@ -178,6 +180,7 @@ double share_between(const mesh::Mesh& mesh, AnalysisKind kind, int body, const 
   double all = 0, between = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.body != body) continue;
+    // An element lies between when all of its nodes are marked.
     mesh::for_parts(block, [&](const mesh::ElementBlock& part, Index) {
       const mesh::BlockGeometry geometry(mesh, part, kind, mesh::stiffness_rule(part.shape));
       for (Index e = 0; e < part.n_counted; ++e) {

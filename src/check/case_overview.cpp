@@ -103,6 +103,7 @@ results::SkinOverview contact_overview(const CaseSpec& spec, const Assembly& a, 
     skin.largest_gap = m.largest_gap;
     skin.touches = std::max(std::abs(m.least_start), std::abs(m.largest_start)) < k_touches;
   }
+  // The law is told at the mean of the hottest and the coldest start.
   double hot = 0, cold = 1e300;
   for (const InitialTemperatureRange& r : a.start) hot = std::max(hot, r.high), cold = std::min(cold, r.low);
   if (!spec.has_heat()) return skin;
@@ -163,6 +164,8 @@ results::PourOverview pour_overview(const CaseSpec& spec, const Assembly& a, con
   p.solidus = metal.solidification()->fraction.solidus();
   p.no_estimate = pour.no_estimate;
   if (!p.no_estimate.empty()) return p;
+  // The modulus is volume over cooled area; the numbers of Biot and Fourier are formed with it and with the
+  // properties at the solidus.
   p.modulus = body.volume / pour.cooled_area;
   p.local_modulus = pour.local_modulus;
   p.depth = pour.depth;
@@ -182,6 +185,7 @@ results::PourOverview pour_overview(const CaseSpec& spec, const Assembly& a, con
 results::Overview overview(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
   results::Overview o;
   o.kind = spec.analysis.kind;
+  // A row each for bodies, contacts, cooled faces and pours, then effort and lag of the time step.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     o.bodies.push_back(body_overview(spec.bodies[b], m.bodies[b], a.start[b], a.materials[b].density));
   for (std::size_t c = 0; c < spec.contacts.size(); ++c)

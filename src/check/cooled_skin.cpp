@@ -221,6 +221,7 @@ std::function<double(double, double)> outer_heat(std::size_t mould, double coole
                                                  const Surroundings& in) {
   const Assembly& a = in.a;
   const CaseMeasures& m = in.m;
+  // Outer conditions of the mould, and contacts with larger bodies behind it that are not poured.
   std::vector<CooledSkin> skins = conditions_on(mould, in);
   for (CooledSkin& skin : contacts_of(mould, in)) {
     if (!skin.other || comes_in_molten(a, *skin.other) ||
@@ -230,6 +231,7 @@ std::function<double(double, double)> outer_heat(std::size_t mould, double coole
     skins.push_back(std::move(skin));
   }
   if (skins.empty()) return {};
+  // Their heat flux relates to the area of the metal, of which this is one part.
   return [skins, factor = part / cooled_area](double temperature, double time) {
     double q = 0;
     for (const CooledSkin& skin : skins) q += skin.area * factor * skin.heat(temperature, time);

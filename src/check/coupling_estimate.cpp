@@ -55,6 +55,8 @@ std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
   const bool plane = spec.analysis.kind == AnalysisKind::plane_strain ||
                      (spec.analysis.kind == AnalysisKind::axisymmetric && axially_held(spec, mesh));
   std::vector<CouplingEstimate> estimates;
+  // The coupling number of each body that deforms, at its start and at its worst within the range of
+  // temperatures.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     if (only_conducts(spec.bodies[b])) continue;
     CouplingEstimate e;
@@ -105,6 +107,8 @@ void announce_isothermal(const CaseSpec& spec, const std::vector<CouplingEstimat
   const CouplingEstimate& worst = *std::max_element(
       estimates.begin(), estimates.end(),
       [](const CouplingEstimate& a, const CouplingEstimate& b) { return a.decisive() < b.decisive(); });
+  // By the criterion for stability of the isothermal split: from inertia with Newmark's method no bound is
+  // known, weak coupling is stable, strong coupling needs short steps or is unstable.
   const std::string advice =
       fmt::format("scheme = \"{}\" in [coupling] has no such limit", coupling::k_stable_scheme);
   if (spec.dynamics && spec.dynamics->method != DynamicsSpec::Method::backward_euler) {

@@ -75,6 +75,7 @@ Effort estimate_effort(const CaseSpec& spec, const Assembly& a, const CaseMeasur
     effort.steps = effort.steps_known ? fixed_steps(spec, a) : adaptive_steps(spec, a);
   }
   const int n_processes = processes::count();
+  // Nodes that carry heat and displacements, times the cost of a node in a step.
   double heat = 0, mechanics = 0;  // nodes
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
     const auto nodes = static_cast<double>(m.bodies[b].nodes);

@@ -187,6 +187,7 @@ void find_in_alloys(const CaseSpec& spec, const Assembly& a, Findings& findings)
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::Material& m = a.materials[b];
     if (m.solidification() == nullptr) continue;
+    // Heat first, then the mechanical properties of bodies that deform.
     if (spec.has_heat()) compare_entropy_of_melting(spec.bodies[b], m, findings);
     if (spec.has_heat()) compare_heat_capacity(spec.bodies[b], m, findings);
     if (spec.has_heat()) compare_conductivity_of_light_metal(spec.bodies[b], m, findings);

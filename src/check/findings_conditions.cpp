@@ -118,6 +118,7 @@ void rooms_in_kelvins(const CaseSpec& spec, const Assembly& a, Findings& finding
       findings.push_back({false, where, fmt::format("{} of {:g} degC", what, temperature - k_zero_celsius),
                           "is it in K? 293 K are 20 degC"});
   };
+  // Surroundings and initial temperatures that would be plausible as kelvins.
   for (const ThermalConditionSpec& t : spec.thermal_conditions) {
     using Kind = ThermalConditionSpec::Kind;
     if ((t.kind == Kind::film || t.kind == Kind::radiation) && t.ambient.place == nullptr)

@@ -21,6 +21,8 @@ double machine_memory() {
 void find_in_effort(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   const Effort& effort = m.effort;
   const double memory = machine_memory();
+  // Memory against that of this machine, time against a month, outputs against what a disk and a reader can
+  // take.
   if (memory > 0 && effort.bytes > memory)
     findings.push_back({false, spec.mesh.where,
                         fmt::format("the run may take {:.3g} GB of memory; this machine has {:.3g} GB",

@@ -114,7 +114,7 @@ void bodies_without_a_way_for_heat(const CaseSpec& spec, const Assembly& a, Find
     }
 }
 
-/// Films of place or time take turns: each is one where the others are none.
+/// Films of place or time alternate: each is one where the others are none.
 bool always_the_same(const ThermalConditionSpec& film) {
   return is_number(film.coefficient) && is_number(film.factor);
 }
@@ -124,6 +124,7 @@ void films_beside_contacts(const CaseSpec& spec, const Assembly& a, Findings& fi
   for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
     const ThermalConditionSpec& film = spec.thermal_conditions[i];
     if (film.kind != Kind::film) continue;
+    // A film and a contact on one surface at one time cool it twice; two films add up too.
     for (const ContactSpec& contact : spec.contacts)
       if (contact.heat && always_the_same(film) && sides(contact).contains(film.group) &&
           beside(spec, a, film.stages, contact))
@@ -145,6 +146,8 @@ void films_beside_contacts(const CaseSpec& spec, const Assembly& a, Findings& fi
 
 void conductances(const CaseSpec& spec, Findings& findings) {
   for (const ContactSpec& contact : spec.contacts) {
+    // Capacities and emissivities that are out of range or meaningless alone, then what each law remarks of
+    // its own numbers.
     if (const double capacity = contact.interface.heat_capacity; capacity > 1e6)
       findings.push_back({false, contact.where,
                           fmt::format("the interface of '{}' stores {:g} J/m2/K", contact.name, capacity),

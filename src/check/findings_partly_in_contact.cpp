@@ -54,6 +54,7 @@ std::vector<Condition> conditions_of_surfaces(const CaseSpec& spec) {
 }  // namespace
 
 void find_partly_in_contact(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  // A condition whose faces lie partly in a contact acts on what cannot be meant: the whole group or none.
   for (const Condition& condition : conditions_of_surfaces(spec)) {
     const auto faces = mesh::body_face_keys(a.mesh, {condition.group});
     const double all = parallel::global_sum(static_cast<double>(faces.size()));

@@ -69,6 +69,8 @@ struct Supply {
 std::optional<Supply> supply_of(const CaseSpec& spec, const CaseMeasures& m,
                                 const std::vector<std::size_t>& group, std::size_t which) {
   Supply supply;
+  // Heat of sources and fluxes alone, in W; without numbers for all of them nothing can be told of the
+  // balance.
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
     const ThermalConditionSpec& c = spec.thermal_conditions[t];
     int body = m.surfaces[t].body;

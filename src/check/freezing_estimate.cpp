@@ -145,6 +145,7 @@ class Line {
     centre_ = cells_.size();
     const double width = radius_ / k_metal_cells;
     skin_half_ = width / 2;
+    // Shells of equal width from the centre to the skin; each is tied to the next one outwards.
     for (int i = 0; i < k_metal_cells; ++i) {
       const double inner = i * width, outer = (i + 1) * width;
       Cell c;

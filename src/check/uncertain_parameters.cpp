@@ -178,6 +178,7 @@ class Collector {
   void add_contact(std::size_t c) {
     const ContactSpec& contact = spec_.contacts[c];
     if (!spec_.has_heat() || !contact.heat) return;
+    // The case goes before the card of the interface, and the card before what is usual.
     const auto own = spec_.spread.contacts.find(contact.name);
     ContactSpreads by_case, by_card;
     if (own != spec_.spread.contacts.end()) by_case = own->second;
@@ -219,6 +220,8 @@ class Collector {
     if (!transient_heat()) return;
     const BodySpec& body = spec_.bodies[b];
     const auto own = spec_.spread.bodies.find(body.name);
+    // Poured bodies have a pouring temperature each; all others share one parameter unless the case gives
+    // them their own.
     const bool cast = m_.is_poured(b);
     constexpr double k_usual = 10;  // [K]
     const Known k = known(own == spec_.spread.bodies.end() ? std::nullopt : own->second.initial_temperature,
