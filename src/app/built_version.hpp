@@ -2,7 +2,7 @@
 
 namespace solidus::app {
 
-/// The version that this program was built from (cmake/version.cmake). Its file alone is compiled anew with
+/// The version that this program was built from (cmake/version.cmake). Its file alone is compiled again with
 /// every commit.
 const char* built_version();
 

@@ -94,6 +94,8 @@ ChildOutcome run_and_listen(std::vector<std::string> command, double seconds) {
   ::close(ends[1]);
   if (error != 0) {
     outcome.failure = std::strerror(error);
+    // Reads until the child closes its end. If the time is over before, its whole group of processes is
+    // ended; the child is waited for in both cases.
   } else {
     if (!take_all(ends[0], seconds, outcome.said)) {
       outcome.failure = fmt::format("it took longer than {:.0f} s", seconds);

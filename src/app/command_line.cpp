@@ -77,6 +77,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   std::string level = "info";
   program.add_option("--log", level, "debug, info, warn or silent")->type_name("LEVEL");
   std::vector<std::unique_ptr<Verb>> all;
+  // Verbs register themselves; the one chosen runs after the whole line is understood.
   for (const MakeVerb make : verbs()) all.push_back(make(program));
   for (CLI::App* verb : program.get_subcommands({})) verb->fallthrough();
 

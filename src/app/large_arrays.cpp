@@ -1,7 +1,7 @@
 /// The program's `operator new`: large arrays lie in large pages.
 ///
 /// Vectors of a million nodes take 8 MB each, and heat has some dozen of them, which come and go with every
-/// solve (decision 0010). In pages of 4 kB each costs two thousand faults whenever it is made anew, and
+/// solve (decision 0010). In pages of 4 kB each costs two thousand faults whenever it is made again, and
 /// look-ups of addresses wherever a kernel jumps between nodes. Small arrays and those of other programs that
 /// embed the library are as they were.
 #include <cstddef>

@@ -70,7 +70,7 @@ ExitCode import_material(const MaterialImportArguments& arguments) {
   if (!arguments.like.empty()) base = material::find_material(arguments.like, folders);
 
   // The card goes to the terminal, or to a file, which is then read as a run would read it: what is wrong
-  // with it is said now.
+  // with it is reported now.
   const material::ImportedCard card =
       material::import_card(read_column_table(arguments.file), options, base ? &*base : nullptr);
   const std::string text = to_toml(card.document);

@@ -76,6 +76,7 @@ SampledColumn property_column(const material::Property& p) {
 void write_properties(const Material& m, const fs::path& file) {
   const material::EnthalpyCurve enthalpy = m.enthalpy();
   const double at_room = enthalpy.upper(k_room);
+  // Enthalpy counts from room temperature; the other columns are the properties that the material has.
   std::vector<SampledColumn> columns{
       {{"temperature", "degC"}, [](double theta) { return theta - k_zero_celsius; }},
       {{"enthalpy", "kJ/kg"},

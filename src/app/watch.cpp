@@ -133,7 +133,7 @@ void Watch::serve() {
     for (const Visitor& visitor : visitors) wait.push_back({visitor.connection, POLLIN, 0});
     ::poll(wait.data(), wait.size(), 100);
     // A visitor is heard when it says something: one that only connects, as browsers do ahead of time, keeps
-    // nobody waiting.
+    // no client waiting.
     for (std::size_t i = visitors.size(); i-- > 0;) {
       const bool said = wait[i + 1].revents != 0;
       if (said ? hear(visitors[i]) : Clock::now() < visitors[i].until) continue;

@@ -1,4 +1,4 @@
-/// The reader of meshes, `solidus-reader`: the program starts it, nobody else has a use for it
+/// The reader of meshes, `solidus-reader`: the program starts it, nothing else uses it
 /// (mesh/reader_process.hpp).
 #include <unistd.h>
 

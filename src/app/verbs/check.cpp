@@ -55,6 +55,7 @@ std::string stage_lines(const model::CaseSpec& spec) {
 ExitCode check_case(const CaseArguments& arguments) {
   const model::Case c = load_case(arguments);
   const model::CaseSpec& spec = c.spec;
+  // All that a run needs is built first; the overview is printed only if that went well.
   const model::CheckedRun checked = model::check_run(c);
   const results::MeshCounts& counts = checked.mesh;
 

@@ -84,6 +84,7 @@ std::string page_of_fields() {
       "# Reference: fields\n\nFor those who choose probes and fields, and who read files of results. Files "
       "hold the "
       "unit in the second column; the report and pictures show the one in the third.\n";
+  // A table for each group of fields, in the order of the fields in the program.
   for (const quantities::Group group : {quantities::Group::heat, quantities::Group::mechanics,
                                         quantities::Group::contact, quantities::Group::criteria}) {
     std::string title(name(group));

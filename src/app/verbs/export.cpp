@@ -29,6 +29,7 @@ struct ExportArguments {
 };
 
 ExitCode export_fields(const ExportArguments& arguments) {
+  // Options of the other formats mean nothing here; the folder must be one of a run with fields.
   if (arguments.deformed || arguments.temperature_history)
     throw InputError({}, "--deformed and --temperature-history are for --calculix and --abaqus",
                      "displacements are among the fields: Warp By Vector in ParaView");

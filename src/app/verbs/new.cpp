@@ -28,6 +28,7 @@ ExitCode new_case(const NewArguments& arguments) {
   options.folder = arguments.folder;
   options.fineness = arguments.fineness;
   options.shots = arguments.shots;
+  // Options that only some values make sense of are checked before the geometry is read.
   if (!arguments.riser.empty() && arguments.riser != "auto")
     throw InputError({"--riser"}, fmt::format("'{}' is no riser", arguments.riser), "--riser auto");
   options.riser = arguments.riser == "auto";

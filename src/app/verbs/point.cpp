@@ -221,6 +221,7 @@ ExitCode run_point(const PointArguments& arguments) {
     write_curve(point_case.curves[i], histories[i], folder, summary);
 
   Json json;
+  // The summary holds the same numbers as the table printed, for programs.
   json.add("kind", "point").add("program", "Solidus " + program_version()).add("title", point_case.title);
   json.add("curves", std::move(summary.curves));
   Json::Array pictures;

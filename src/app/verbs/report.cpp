@@ -31,6 +31,7 @@ Json card(const material::Material& m) {
   Json out;
   out.add("title", m.title).add("density[kg/m3]", m.density);
   Json::Array properties, changes, sources;
+  // Tables of all properties, phase changes, and where each property comes from.
   for (const material::Property& p : m.properties()) {
     Json property;
     property.add("name", p.name).add("unit", p.unit);

@@ -40,6 +40,7 @@ Json json(const UncertainParameter& p) {
       .add("group", text(p.group))
       .add("mechanical", p.mechanical)
       .add("places", std::move(places));
+  // A spread is one of three: a share, a factor or a shift.
   if (p.spread.relative) json.add("relative", *p.spread.relative);
   if (p.spread.factor) json.add("factor", *p.spread.factor);
   if (p.spread.shift) json.add("shift[K]", *p.spread.shift);
@@ -87,6 +88,7 @@ class Uncertain final : public Verb {
   }
   ExitCode run() override {
     if (parameters_) return list_uncertain(case_);
+    // The runs are driven by the Python part; only options that were given are passed on.
     PythonArguments arguments = {case_.path};
     for (const std::string& assignment : case_.set) arguments.add("--set", assignment);
     if (output_.empty()) arguments.add("--results-root", results_root().string());
