@@ -135,6 +135,7 @@ std::optional<Layout> layout(const std::vector<Line>& lines, char separator) {
 ColumnTable parse_csv(const std::string& text, const std::string& name) {
   const std::vector<Line> lines = lines_of(text);
   std::optional<Layout> found;
+  // The separator is the one that gives the most columns below a line of names.
   for (const char separator : {';', '\t', ',', ' '})
     if (const auto one = layout(lines, separator); one && (!found || one->columns > found->columns))
       found = one;
@@ -145,6 +146,7 @@ ColumnTable parse_csv(const std::string& text, const std::string& name) {
   ColumnTable table{name, {}};
   for (std::string& header : header_cells(lines[found->header].text, found->separator, found->columns))
     table.columns.push_back(column_of(std::move(header)));
+  // A cell that is no number leaves a gap in its column; a line with another number of cells is an error.
   for (std::size_t i = found->header + 1; i < lines.size(); ++i) {
     const auto cells = cells_of(lines[i].text, found->separator);
     if (cells.size() != table.columns.size())

@@ -61,6 +61,7 @@ Value convert(const toml::node& node, const std::string& file, int depth = 0) {
 
 std::string quoted(const std::string& text) {
   std::string result = "\"";
+  // Only characters that TOML does not take as they are become escape sequences.
   for (const char c : text) {
     if (c == '"' || c == '\\') {
       result += '\\';
@@ -94,6 +95,7 @@ std::string inline_toml(const Value& value) {
     if (number.find_first_of(".e") == std::string::npos) number += ".0";
     return number;
   }
+  // Lists and tables are written in one line, their items by the same rules.
   std::string result;
   if (value.is_list()) {
     for (const Value& item : value.items()) result += (result.empty() ? "" : ", ") + inline_toml(item);
@@ -114,6 +116,7 @@ void write_section(const Value& table, const std::string& path, std::string& out
   const auto deferred = [](const Value& v) {
     return (v.is_table() && !v.written_inline) || is_list_of_sections(v);
   };
+  // Plain keys come first, as TOML would count them to the section above them otherwise.
   for (const auto& [key, where, value] : table.entries())
     if (!deferred(value)) out += fmt::format("{} = {}\n", bare_or_quoted(key), inline_toml(value));
   for (const auto& [key, where, value] : table.entries()) {

@@ -73,6 +73,8 @@ std::size_t operand_end(const std::string& text, std::size_t from, int step) {
 
 std::vector<std::unique_ptr<const Formula>> Formula::comparisons() const {
   std::vector<std::unique_ptr<const Formula>> found;
+  // Each comparison reaches from the operand before its sign to the one behind it and is a formula of its
+  // own.
   for (std::size_t i = 0; i < text_.size(); ++i) {
     const std::size_t length = comparison_at(text_, i);
     if (length == 0) continue;

@@ -53,6 +53,7 @@ class Reader {
     const char first = peek();
     const SourceLocation where = here();
     Value value;
+    // The first character tells the kind of value.
     if (first == '{') {
       value = object(depth);
     } else if (first == '[') {
@@ -74,6 +75,7 @@ class Reader {
     Value value;
     ++at_;
     if (peek() == '}') return ++at_, value;
+    // Members until the closing brace; a name may be given once.
     while (true) {
       if (peek() != '"') fail("expected the name of a member in quotes");
       const SourceLocation where = here();

@@ -115,6 +115,7 @@ void explain_key(const Key& key, const std::string& path, std::string& out) {
   out += fmt::format("{}\n  {}\n  type:    {}\n  default: {}\n", path, key.doc_text, type_text(key),
                      default_text(key));
   if (const std::string range = range_text(key); !range.empty()) out += "  range:   " + range + "\n";
+  // What may be chosen, when the key is used, and how its value is written, as far as it applies.
   for (std::size_t i = 0; i < key.allowed.size(); ++i)
     out += fmt::format("  {}{}{}\n", i == 0 ? "choices: " : "         ", key.allowed[i],
                        i < key.allowed_docs.size() ? "  " + key.allowed_docs[i] : "");
@@ -236,6 +237,8 @@ std::string schema_of_value(const Key& key, int depth) {
 std::string schema_of_section(const SectionInfo& info, int depth) {
   const std::string indent(static_cast<std::size_t>(2 * depth + 2), ' ');
   std::string properties;
+  // Each key becomes a property: its text with its conditions, its type, and the list around it where the key
+  // takes one.
   for (const Key& key : info.keys) {
     std::string description = key.doc_text;
     for (const std::string& more : {key.required ? std::string("required") : "", when_text(key)})

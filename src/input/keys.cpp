@@ -95,7 +95,6 @@ double read_quantity(const Value& value, const Key& key, std::string_view unit,
                    fmt::format("write it as text with its unit: \"{}\"", units::example(unit)));
 }
 
-/// A text of a table-valued quantity, empty when absent.
 std::string text_of(const Value& table, std::string_view name, const Key& key) {
   const Value* value = table.find(name);
   if (!value) return {};
@@ -159,7 +158,6 @@ Table points_of(const Value& table, const Key& key, Argument of) {
   }
 }
 
-// A table has a value or points, or a formula or file where the key takes one. The rest is refused.
 Function read_function_table(const Value& table, const Key& key) {
   if (key.place == Key::Place::none && is_place(table))
     throw InputError(
@@ -178,6 +176,7 @@ Function read_function_table(const Value& table, const Key& key) {
                        fmt::format("unknown key '{}' in the table-valued quantity '{}'", entry.key, key.name),
                        one_of(known, entry.key));
   const Value *value = table.find("value"), *points = table.find("points");
+  // Exactly one of value and points is asked for; a value allows none of the keys that describe points.
   if ((value == nullptr) == (points == nullptr))
     throw InputError(
         table.where, fmt::format("'{}' has {}", key.name, value ? "both a value and points" : "no value"),

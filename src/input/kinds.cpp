@@ -38,6 +38,8 @@ void SectionInfo::add_kind(const std::string& chosen_by, const std::string& kind
           fmt::format("the key '{}' of the kind '{}' has a condition of its own", key.name, kind));
     const auto there =
         std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == key.name; });
+    // A key of several kinds is listed once, with all kinds that have it; one of the whole section may not be
+    // one of a kind too.
     if (there == keys.end()) {
       keys.push_back(key);
       keys.back().when_key = chosen_by;

@@ -87,6 +87,7 @@ void read_velocity(const Value& table, const Key& key, bool with_time, PlaceSpec
     throw InputError(moving->where, fmt::format("'moving' of '{}' is {}", key.name, moving->describe()),
                      "a velocity, one component a direction: [\"0 mm/s\", \"-2.5 mm/s\"]");
   place.velocity_components = moving->items().size();
+  // Each component is a velocity with a unit of its own.
   for (std::size_t i = 0; i < moving->items().size(); ++i) {
     const Value& item = moving->items()[i];
     try {
@@ -162,6 +163,7 @@ bool is_place(const Value& table) {
 }
 
 std::shared_ptr<const PlaceSpec> read_place(const Value& table, const Key& key, bool with_time) {
+  // The range and unit of the key go with the place, since values are checked only where they are evaluated.
   auto place = std::make_shared<PlaceSpec>();
   place->key = key.name;
   place->key_unit = key.unit;

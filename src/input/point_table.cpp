@@ -119,6 +119,7 @@ PointTable::PointTable(const std::filesystem::path& file, const std::string& col
   Layout columns;
   std::size_t n_cells = 0;
   std::string line;
+  // The first row that is neither empty nor a comment names the columns; each other one is a point.
   for (int n = 1; std::getline(in, line); ++n) {
     const SourceLocation here{file.string(), n, 0};
     if (trimmed(line).empty() || line.front() == '#') continue;

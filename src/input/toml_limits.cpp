@@ -30,6 +30,8 @@ bool belongs_to_key(char c) {
 }  // namespace
 
 void check_key_lengths(std::string_view text, const std::string& name) {
+  // Counts the parts of dotted keys without parsing; strings and comments are skipped, as their dots mean
+  // nothing.
   int line = 1, parts = 1;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
