@@ -105,6 +105,8 @@ std::vector<DieChannel> die_channels(const mesh::RawMesh& mesh, const std::strin
   const std::unordered_set<Index> at_others = nodes_of(mesh, shared);
   std::map<std::size_t, std::vector<const SkinFace*>> faces_of;
   for (std::size_t f = 0; f < faces.size(); ++f) faces_of[parts.of_face[f]].push_back(faces[f]);
+  // A smooth part of the free faces is a channel if it opens into no other body and is as slender and as wide
+  // as bores for cooling are.
   std::vector<DieChannel> channels;
   for (const auto& [number, part] : faces_of) {
     const bool opens = std::ranges::any_of(part, [&](const SkinFace* face) {

@@ -124,6 +124,7 @@ class Choice {
 
   void choose_bodies() {
     int castings = 0;
+    // A single casting without a name of its own is called so; others keep the names of the geometry.
     for (const GeometryBody& body : part_.bodies) castings += body.role == Role::casting;
     for (const GeometryBody& body : part_.bodies) {
       DraftBody& draft = draft_.bodies.emplace_back();

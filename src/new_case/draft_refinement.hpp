@@ -18,7 +18,7 @@ struct DraftEstimate {
   double freezing = 0;                         ///< [s]
   double least_quality = 1;             ///< of elements where no way of meshing gave sound ones, else 1
   std::string worst_element;            ///< its place (mesh/worst_tetrahedron.hpp)
-  std::vector<std::string> skin_notes;  ///< what is said of new skins of facets (RawMesh::notes)
+  std::vector<std::string> skin_notes;  ///< remarks on new skins of facets (RawMesh::notes)
   std::string overlap;  ///< MeshingOutlook::overlap of the part; empty where no bodies overlap
 };
 

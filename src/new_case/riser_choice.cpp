@@ -133,6 +133,8 @@ DraftRiser choose_riser(const PartMeasures& part, double shrinkage,
     riser.hollow = hollow_above(view, place);
     return riser;
   };
+  // On the thickest place that can be fed from above. With a plane of symmetry a riser stands on the plane or
+  // takes half of the volume at its own side.
   const mesh::InscribedSphere* thickest = place_to_feed(part, view, part.spheres);
   if (!symmetry) return standing_on(*thickest, 1);
   constexpr std::size_t k_most = 8;
