@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-#include "contact/master_mesh.hpp"
-#include "contact/sliding_kinematics.hpp"
+#include "contact/points/sliding_kinematics.hpp"
+#include "contact/surfaces/master_mesh.hpp"
 
 namespace solidus::contact {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "contact/pair.hpp"
 #include "mechanics/mechanical_phase.hpp"
-#include "mesh/parametric_meshes.hpp"
+#include "mesh/making/parametric_meshes.hpp"
 
 namespace solidus {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact/interface_thermodynamics.hpp"
+#include "contact/interface/interface_thermodynamics.hpp"
 
 namespace solidus::contact {
 namespace {

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <memory>
 
-#include "heat/conduction_block.hpp"
-#include "heat/kirchhoff_potential.hpp"
-#include "heat/nodal_enthalpy.hpp"
-#include "heat/point_storage.hpp"
+#include "heat/conduction/conduction_block.hpp"
+#include "heat/conduction/kirchhoff_potential.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
+#include "heat/storage/point_storage.hpp"
 #include "lattice.hpp"
 
 namespace solidus {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "material/isentropic.hpp"
+#include "material/derivatives/isentropic.hpp"
 #include "material/laws/hardening_law.hpp"
 #include "material/laws/perzyna.hpp"
 #include "material/viscoplastic.hpp"

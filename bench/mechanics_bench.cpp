@@ -12,8 +12,8 @@
 #include "material/external_law.hpp"
 #include "material/hardening.hpp"
 #include "material/laws/perzyna.hpp"
-#include "material/mfront_library.hpp"
-#include "material/shared_object.hpp"
+#include "material/outside/mfront_library.hpp"
+#include "material/outside/shared_object.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/law_block.hpp"
 

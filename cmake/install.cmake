@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 set(shared ${CMAKE_INSTALL_DATADIR}/solidus)
 
 install(TARGETS solidus COMPONENT program)
-install(TARGETS solidus_reader DESTINATION libexec/solidus COMPONENT program) # found relative to the program (src/mesh/reader_process.cpp)
+install(TARGETS solidus_reader DESTINATION libexec/solidus COMPONENT program) # found relative to the program (src/mesh/making/reader_process.cpp)
 install(DIRECTORY materials interfaces DESTINATION ${shared} COMPONENT program)
 install(DIRECTORY python DESTINATION ${shared} COMPONENT program PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY cases DESTINATION ${shared} COMPONENT program PATTERN __pycache__ EXCLUDE PATTERN results EXCLUDE)

@@ -5,7 +5,7 @@
 # Seen on:   28 November 2026, Debian 12, x86-64
 # Matters:   numbers of nodes and elements beyond 2^31 all become one and the same valid number; formats on top of HDF5 (MED, CGNS,
 #            VTKHDF, Exodus) inherit it.
-# Solidus:   asks for the type that is stored and refuses another one (src/results/hdf5_file.cpp, hdf5_reader_test).
+# Solidus:   asks for the type that is stored and refuses another one (src/results/formats/hdf5_file.cpp, hdf5_reader_test).
 . "$(dirname "${BASH_SOURCE[0]}")/common/root.sh"
 
 make_root bookworm python3-h5py=3.7.0-8

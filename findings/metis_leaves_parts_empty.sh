@@ -4,7 +4,7 @@
 # Versions:  METIS 5.1.0 (Debian 12)
 # Seen on:   28 November 2026, Debian 12, x86-64
 # Matters:   a process without elements has matrices without rows; whether a solver takes that is found out on a coarse mesh.
-# Solidus:   gives a node to every process that METIS left without one (src/mesh/partition.cpp).
+# Solidus:   gives a node to every process that METIS left without one (src/mesh/parts/partition.cpp).
 . "$(dirname "${BASH_SOURCE[0]}")/common/root.sh"
 
 make_root bookworm metis=5.1.0.dfsg-7

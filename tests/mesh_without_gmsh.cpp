@@ -7,10 +7,10 @@
 #include <fstream>
 #include <string>
 
-#include "mesh/casting_geometry.hpp"
 #include "mesh/gmsh/import.hpp"
+#include "mesh/making/casting_geometry.hpp"
+#include "mesh/making/reader_process.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/reader_process.hpp"
 #include "system/errors.hpp"
 
 namespace {

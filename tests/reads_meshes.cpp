@@ -1,6 +1,6 @@
 // Lets the program it is linked with read meshes in its own process.
 #include "mesh/gmsh/import.hpp"
-#include "mesh/reader_process.hpp"
+#include "mesh/making/reader_process.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // Runs the first two seconds of a case from a program of one's own, and says how it ended.
 //   freeze CASE FOLDER
 #include <mesh/gmsh/import.hpp>
-#include <mesh/reader_process.hpp>
+#include <mesh/making/reader_process.hpp>
 #include <parallel/petsc_session.hpp>
 #include <run/session.hpp>
 

@@ -1,7 +1,7 @@
 """What the sources are like, in figures: rooms with their units and floors, comments, long functions, large classes.
 
-``./dev house`` prints them. A room is a folder of ``src`` with what lies in it, a unit a header with its source, or either
-alone. The floors of a room are the units on the longest chain of includes within it. Comments are counted in sources (.cpp)
+``./dev house`` prints them. A room is a folder of ``src``, and each folder within it counts by itself, a unit is a header with
+its source, or either alone. The floors of a folder are the units on the longest chain of includes within it. Comments are counted in sources (.cpp)
 as lines that hold nothing else; a function of TOLD lines and more tells its steps by a comment directly above its head or
 within its body. Sizes are read by a scanner of braces, not by a compiler: macros and preprocessor branches are text like any
 other.
@@ -187,13 +187,13 @@ def house(root: Path) -> House:
             function.comments = comments_of(function, lines)
         found.functions += functions
         found.classes += classes
-        room = found.rooms.setdefault(name.split("/")[0] if "/" in name else ".", Room())
+        room = found.rooms.setdefault(name.rpartition("/")[0] or ".", Room())
         room.files += 1
         if path.suffix == ".cpp":
             room.lines += len(lines)
             room.comments += sum(map(is_comment, lines))
     for room_name, room in found.rooms.items():
-        units = {unit for unit in includes if unit.split("/")[0] == room_name}
+        units = {unit for unit in includes if (unit.rpartition("/")[0] or ".") == room_name}
         room.units = len(units)
         room.floors = max((height(unit, units, includes, {}) for unit in units), default=0)
     return found
@@ -219,9 +219,9 @@ def untold(found: House) -> list[Function]:
 
 def text_of(found: House) -> str:
     """The figures as lines."""
-    lines = [f"{'room':14} {'files':>6} {'units':>6} {'floors':>7} {'comments':>9}"]
-    for name, room in sorted(found.rooms.items(), key=lambda item: -item[1].files):
-        lines.append(f"{name:14} {room.files:6} {room.units:6} {room.floors:7} {100 * room.comments / max(room.lines, 1):7.1f} %")
+    lines = [f"{'room':20} {'files':>6} {'units':>6} {'floors':>7} {'comments':>9}"]
+    for name, room in sorted(found.rooms.items()):
+        lines.append(f"{name:20} {room.files:6} {room.units:6} {room.floors:7} {100 * room.comments / max(room.lines, 1):7.1f} %")
     lines.append(f"\nComments are {100 * share_of_comments(found):.1f} % of {sum(room.lines for room in found.rooms.values())} lines of sources.")
     silent = untold(found)
     lines.append(f"{sum(f.lines >= TOLD for f in found.functions)} functions have {TOLD} lines or more, {len(silent)} of them no comment:")

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "build/case_file.hpp"
+#include "setup/case_file.hpp"
 
 namespace CLI {
 class App;

@@ -1,7 +1,7 @@
 #include "app/declared_files.hpp"
 
 #include "case/case_keys.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 #include "point/spec.hpp"
 
 namespace solidus::app {

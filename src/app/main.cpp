@@ -19,7 +19,7 @@
 #include "app/exit_code.hpp"
 #include "app/python_tools.hpp"
 #include "app/signals.hpp"
-#include "mesh/reader_process.hpp"
+#include "mesh/making/reader_process.hpp"
 #include "parallel/petsc_session.hpp"
 #include "system/blas_threads.hpp"
 #include "system/errors.hpp"

@@ -10,10 +10,10 @@
 #include "case/case_materials.hpp"
 #include "input/column_table.hpp"
 #include "input/units.hpp"
-#include "material/card_import.hpp"
-#include "material/library.hpp"
+#include "material/cards/card_import.hpp"
+#include "material/cards/library.hpp"
 #include "material/liquidus_system.hpp"
-#include "results/output_error.hpp"
+#include "results/output/output_error.hpp"
 
 namespace solidus::app {
 

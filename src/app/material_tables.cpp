@@ -11,7 +11,7 @@
 #include "input/units.hpp"
 #include "material/laws/hardening_law.hpp"
 #include "material/tensile.hpp"
-#include "results/csv.hpp"
+#include "results/output/csv.hpp"
 
 namespace solidus::app {
 

@@ -7,7 +7,7 @@
 
 #include "case/external_laws.hpp"
 #include "case/roles.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 #include "numbers/types.hpp"
 #include "system/program_path.hpp"
 

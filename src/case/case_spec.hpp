@@ -11,7 +11,7 @@
 #include "case/feeding_spec.hpp"
 #include "case/friction_spec.hpp"
 #include "case/variation.hpp"
-#include "contact/parameters.hpp"
+#include "contact/points/parameters.hpp"
 #include "coupling/scheme_kind.hpp"
 #include "coupling/step_limits.hpp"
 #include "heat/thermal_phase.hpp"
@@ -64,7 +64,7 @@ struct MeshConstantSpec {
 };
 
 /// Volumes or surfaces that get a name: of a geometry file by numbers, label or box
-/// (mesh/geometry_choice.hpp); faces of any mesh by a rule (mesh/face_rules.hpp).
+/// (mesh/geometry_choice.hpp); faces of any mesh by a rule (mesh/surfaces/face_rules.hpp).
 struct MeshGroupSpec {
   enum class Kind { body, surface };
   std::string name;
@@ -82,7 +82,7 @@ struct MeshGroupSpec {
   bool by_rule() const { return !owner.empty() || !normal.empty() || !plane.empty() || !nearest.empty(); }
 };
 
-/// Sizes of the elements of a body (mesh/casting_geometry.hpp).
+/// Sizes of the elements of a body (mesh/making/casting_geometry.hpp).
 struct MeshSizeSpec {
   std::string body;                ///< group of the mesh
   double size = 0;                 ///< the largest [m]
@@ -92,7 +92,7 @@ struct MeshSizeSpec {
   SourceLocation where;
 };
 
-/// A block of mould around what the geometry holds (mesh/casting_geometry.hpp).
+/// A block of mould around what the geometry holds (mesh/making/casting_geometry.hpp).
 struct MouldBlockSpec {
   std::string name;
   std::vector<double> walls;  ///< [m], one, or six: x lowest, x highest, y …, z …
@@ -100,7 +100,7 @@ struct MouldBlockSpec {
   SourceLocation where;
 };
 
-/// A cylindrical riser on top of a casting (mesh/casting_geometry.hpp). All in metres.
+/// A cylindrical riser on top of a casting (mesh/making/casting_geometry.hpp). All in metres.
 struct RiserBlockSpec {
   std::string name;
   std::vector<double> foot;  ///< centre of its foot
@@ -115,7 +115,7 @@ struct SymmetrySpec {
   SourceLocation where;
 };
 
-/// Layers of a body's elements on one of its surfaces (mesh/wall_layers.hpp).
+/// Layers of a body's elements on one of its surfaces (mesh/making/wall_layers.hpp).
 struct MeshLayersSpec {
   std::string name;
   std::string surface, body;  ///< groups of the mesh
@@ -245,7 +245,7 @@ struct MechanicalConditionSpec {
   SourceLocation where;
 };
 
-/// A contact pair; build/contact_input.hpp makes the contact room's specification of it.
+/// A contact pair; setup/contact_input.hpp makes the contact room's specification of it.
 struct ContactSpec {
   std::string name, slave, master;
   std::vector<std::string> surfaces;  ///< both, where the program chooses the slave
@@ -274,7 +274,7 @@ struct ContactSpec {
   SourceLocation where;
 };
 
-/// Contacts between bodies whose faces are found by themselves (build/interfaces.hpp).
+/// Contacts between bodies whose faces are found by themselves (setup/interfaces.hpp).
 struct BodyInterfaceSpec {
   std::string name;
   std::vector<std::string> bodies;                ///< names of two, or "all"
@@ -289,7 +289,7 @@ struct BodyInterfaceSpec {
   bool all() const { return bodies.size() == 1 && bodies[0] == "all"; }
 };
 
-/// A tool without a mesh; build/rigid_surface_input.hpp makes the contact room's surface of it.
+/// A tool without a mesh; setup/rigid_surface_input.hpp makes the contact room's surface of it.
 struct RigidSurfaceSpec {
   std::string name;
   contact::RigidSurface::Shape shape = contact::RigidSurface::Shape::plane;
@@ -318,7 +318,7 @@ struct MechanicsSpec {
   linear::SolverKind solver = linear::SolverKind::automatic;
 };
 
-/// Inertia (mechanics/motion.hpp, build/dynamics_input.hpp).
+/// Inertia (mechanics/motion.hpp, setup/dynamics_input.hpp).
 struct DynamicsSpec {
   enum class Method { backward_euler, newmark, trapezoidal, generalised_alpha };
   mechanics::MassKind mass = mechanics::MassKind::consistent;
@@ -376,7 +376,7 @@ struct OutputSpec {
   SourceLocation where;
 };
 
-/// Settings of the criteria that are evaluated on a freezing casting (build/criteria_input.hpp).
+/// Settings of the criteria that are evaluated on a freezing casting (setup/criteria_input.hpp).
 struct CriteriaSpec {
   bool follow = true;
   double evaluation = 0.1, feeding_limit = 0.7;

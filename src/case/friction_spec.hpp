@@ -1,5 +1,5 @@
 /// [contact.friction], [contact.wear] and [contact.interface] as the user wrote them, in SI
-/// (build/friction_input.hpp makes the contact room's specifications of them).
+/// (setup/friction_input.hpp makes the contact room's specifications of them).
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/friction.hpp"
+#include "contact/interface/friction.hpp"
 #include "input/keys.hpp"
 
 namespace solidus::model {

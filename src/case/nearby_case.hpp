@@ -1,5 +1,5 @@
 /// Cases beside a case, that differ from it in steps or mesh alone: what its answers are compared with
-/// (results/answer_comparison.hpp).
+/// (results/answers/answer_comparison.hpp).
 #pragma once
 
 #include <string>

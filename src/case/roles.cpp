@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "case/case_materials.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
 

@@ -23,7 +23,7 @@ struct BodySpreads : material::MaterialSpreads {
   std::optional<Spread> initial_temperature;
 };
 
-/// Variation of the heat transfer of a contact (contact/heat_transfer.hpp).
+/// Variation of the heat transfer of a contact (contact/interface/heat_transfer.hpp).
 struct ContactFactors {
   double conductance = 1, gap = 1;
 };

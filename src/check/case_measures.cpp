@@ -1,6 +1,6 @@
 #include "check/case_measures.hpp"
 
-#include "build/mechanics_input.hpp"
+#include "setup/mechanics_input.hpp"
 
 namespace solidus::model {
 

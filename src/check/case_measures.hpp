@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "build/assembly.hpp"
-#include "build/skin_measures.hpp"
 #include "check/body_measures.hpp"
 #include "check/freezing_estimate.hpp"
+#include "setup/assembly.hpp"
+#include "setup/skin_measures.hpp"
 
 namespace solidus::model {
 

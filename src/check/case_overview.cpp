@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <utility>
 
-#include "build/body_input.hpp"
-#include "build/mechanics_input.hpp"
-#include "build/scheme_input.hpp"
 #include "case/interface_library.hpp"
 #include "check/coupling_estimate.hpp"
-#include "contact/heat_transfer.hpp"
+#include "contact/interface/heat_transfer.hpp"
+#include "setup/body_input.hpp"
+#include "setup/mechanics_input.hpp"
+#include "setup/scheme_input.hpp"
 
 namespace solidus::model {
 

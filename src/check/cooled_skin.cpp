@@ -6,10 +6,10 @@
 #include <memory>
 #include <utility>
 
-#include "build/body_input.hpp"
-#include "build/heat_input.hpp"
-#include "contact/heat_transfer.hpp"
-#include "heat/surface_heat.hpp"
+#include "contact/interface/heat_transfer.hpp"
+#include "heat/loads/surface_heat.hpp"
+#include "setup/body_input.hpp"
+#include "setup/heat_input.hpp"
 
 namespace solidus::model {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "build/assembly.hpp"
 #include "check/case_measures.hpp"
 #include "mesh/mesh.hpp"
+#include "setup/assembly.hpp"
 
 namespace solidus::model {
 

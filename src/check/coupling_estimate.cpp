@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "build/body_input.hpp"
-#include "build/dynamics_input.hpp"
-#include "build/heat_input.hpp"
-#include "build/scheme_input.hpp"
 #include "mechanics/structural_points.hpp"
 #include "parallel/parallel.hpp"
+#include "setup/body_input.hpp"
+#include "setup/dynamics_input.hpp"
+#include "setup/heat_input.hpp"
+#include "setup/scheme_input.hpp"
 #include "system/log.hpp"
 
 namespace solidus::model {

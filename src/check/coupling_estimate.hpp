@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "build/initial_temperature.hpp"
 #include "case/case_spec.hpp"
-#include "material/coupling_number.hpp"
+#include "material/derivatives/coupling_number.hpp"
 #include "mesh/mesh.hpp"
+#include "setup/initial_temperature.hpp"
 
 namespace solidus::model {
 

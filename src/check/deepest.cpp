@@ -6,9 +6,9 @@
 #include <tuple>
 #include <utility>
 
-#include "build/skin_measures.hpp"
 #include "check/cooled_skin.hpp"
 #include "parallel/parallel.hpp"
+#include "setup/skin_measures.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::model {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "build/body_input.hpp"
 #include "case/stage_input.hpp"
 #include "check/case_measures.hpp"
+#include "setup/body_input.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::model {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "build/assembly.hpp"
 #include "case/case_spec.hpp"
 #include "check/case_measures.hpp"
+#include "setup/assembly.hpp"
 
 namespace solidus::model {
 

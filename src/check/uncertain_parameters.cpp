@@ -11,10 +11,10 @@
 #include <tuple>
 #include <utility>
 
-#include "build/body_input.hpp"
 #include "case/case_materials.hpp"
 #include "case/interface_library.hpp"
-#include "contact/heat_transfer.hpp"
+#include "contact/interface/heat_transfer.hpp"
+#include "setup/body_input.hpp"
 
 namespace solidus::model {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "contact/interface_thermodynamics.hpp"
-#include "contact/rotation.hpp"
-#include "contact/wall_distance.hpp"
+#include "contact/interface/interface_thermodynamics.hpp"
+#include "contact/points/wall_distance.hpp"
+#include "contact/surfaces/rotation.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "contact/heat.hpp"
-#include "contact/history.hpp"
-#include "contact/point_law.hpp"
-#include "contact/step.hpp"
+#include "contact/forces/history.hpp"
+#include "contact/forces/step.hpp"
+#include "contact/heat/heat.hpp"
+#include "contact/points/point_law.hpp"
 
 namespace solidus::contact {
 

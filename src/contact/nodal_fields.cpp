@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "contact/contact_report.hpp"
-#include "contact/rotation.hpp"
+#include "contact/surfaces/rotation.hpp"
 
 namespace solidus::contact {
 

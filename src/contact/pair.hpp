@@ -24,11 +24,11 @@
 #include <vector>
 
 #include "contact/contact_report.hpp"
-#include "contact/forces.hpp"
-#include "contact/geometry.hpp"
-#include "contact/heat.hpp"
-#include "contact/history.hpp"
-#include "contact/parameters.hpp"
+#include "contact/forces/forces.hpp"
+#include "contact/forces/history.hpp"
+#include "contact/heat/heat.hpp"
+#include "contact/points/geometry.hpp"
+#include "contact/points/parameters.hpp"
 #include "linear/contribution.hpp"
 #include "linear/coupled_matrix.hpp"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "contact/contact_report.hpp"
-#include "contact/rotation.hpp"
+#include "contact/surfaces/rotation.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::contact {

@@ -13,7 +13,7 @@
 #include "coupling/passes.hpp"
 #include "coupling/phase_iterate.hpp"
 #include "coupling/stability_audit.hpp"
-#include "heat/worst_node.hpp"
+#include "heat/iteration/worst_node.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "heat/thermal_state.hpp"
+#include "heat/loads/thermal_state.hpp"
 #include "linear/active_set.hpp"
 #include "material/material.hpp"
 #include "mechanics/body_fields.hpp"

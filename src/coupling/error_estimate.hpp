@@ -1,9 +1,9 @@
 /// Estimate of the error of a step in temperature, displacement and stress.
 ///
 /// Temperature, where nodes hold the heat and the phase is solved once a step: heat::time_error() of the
-/// flows of heat, spread to temperatures (heat/heat_spread.hpp), for backward Euler and SDIRK2. The part of
-/// this local error that shifts the mean of a body lasts, because conduction within the body does not level
-/// it: a casting that loses its heat too slowly is late until it has frozen. Steps are to commit it in
+/// flows of heat, spread to temperatures (heat/iteration/heat_spread.hpp), for backward Euler and SDIRK2. The
+/// part of this local error that shifts the mean of a body lasts, because conduction within the body does not
+/// level it: a casting that loses its heat too slowly is late until it has frozen. Steps are to commit it in
 /// proportion to the heat they move: with ε̄ the mean and s the change of heat in the step, S that of all
 /// steps so far,
 ///
@@ -45,7 +45,7 @@
 #include "coupling/phases.hpp"
 #include "coupling/rates.hpp"
 #include "coupling/state.hpp"
-#include "heat/time_error.hpp"
+#include "heat/loads/time_error.hpp"
 
 namespace solidus::coupling {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "heat/nodal_enthalpy.hpp"
-#include "heat/worst_node.hpp"
+#include "heat/iteration/worst_node.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
 #include "numbers/types.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"

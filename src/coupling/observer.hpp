@@ -7,7 +7,7 @@
 
 #include "contact/pair.hpp"
 #include "coupling/restart_data.hpp"
-#include "heat/time_error.hpp"
+#include "heat/loads/time_error.hpp"
 
 namespace solidus::coupling {
 

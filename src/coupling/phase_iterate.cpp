@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "coupling/largest_difference.hpp"
-#include "heat/nodal_enthalpy.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
 
 namespace solidus::coupling {
 

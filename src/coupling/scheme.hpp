@@ -28,7 +28,7 @@ class CouplingScheme {
   /// The phases got other conditions, and with them perhaps other matrices; synchronise() follows.
   virtual void conditions_changed() {}
   /// Whether augmentations of the Lagrangian that do not converge may end early in the steps that follow
-  /// (contact/augmented_lagrangian.hpp): where shorter steps have not helped.
+  /// (contact/forces/augmented_lagrangian.hpp): where shorter steps have not helped.
   virtual void allow_early_end(bool /*on*/) {}
   /// Advances from `old` (t_n) to `trial` (old.time + dt). Collective. Throws StepRejected on every process
   /// alike when the physics does not go through; `trial` is then meaningless and `old` untouched.

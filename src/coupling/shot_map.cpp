@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "heat/nodal_enthalpy.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::coupling {

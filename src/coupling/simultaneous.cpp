@@ -11,7 +11,7 @@
 #include "coupling/passes.hpp"
 #include "coupling/phase_iterate.hpp"
 #include "coupling/stability_audit.hpp"
-#include "heat/stage_loads.hpp"
+#include "heat/loads/stage_loads.hpp"
 #include "material/time_integration.hpp"
 #include "mechanics/nodal_pressure.hpp"
 #include "system/errors.hpp"

@@ -9,9 +9,9 @@
 /// points, structural entropy and energy. Work and heat of a step are (1−γ)/γ times those of the first stage
 /// plus those of the second, so the energy form closes the first law in both. The phase fractions that the
 /// mechanics sees follow the temperatures of the end of each stage (phase_iterate.hpp).
-/// Where y* is no place to start from (heat/extrapolation_guard.hpp), the second stage is backward Euler over
-/// the rest of the step, from Y_1: two stages of second order are not monotone in steps far beyond what a
-/// chill takes. R. Alexander, SIAM J. Numer. Anal. 14 (1977) 1006.
+/// Where y* is no place to start from (heat/iteration/extrapolation_guard.hpp), the second stage is backward
+/// Euler over the rest of the step, from Y_1: two stages of second order are not monotone in steps far beyond
+/// what a chill takes. R. Alexander, SIAM J. Numer. Anal. 14 (1977) 1006.
 #pragma once
 
 #include <optional>

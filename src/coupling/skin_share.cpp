@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/surface.hpp"
+#include "contact/surfaces/surface.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::coupling {

@@ -5,7 +5,7 @@
 /// U internal energy with latent heat, S = S^E + S^pc, K kinetic energy, E_c energy in contact penalties, W
 /// work of the loads and supports, Θ_a the ambient temperature. U and S are summed where the phases keep
 /// them: sensible and latent parts at the nodes or the points of the open rule, structural ones at the
-/// mechanical points. Where 𝓛 must not grow: build/admissible.hpp, docs/theory/coupling_stability.md.
+/// mechanical points. Where 𝓛 must not grow: setup/admissible.hpp, docs/theory/coupling_stability.md.
 #pragma once
 
 #include "coupling/phases.hpp"

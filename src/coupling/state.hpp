@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "contact/contact_state.hpp"
+#include "contact/points/contact_state.hpp"
 #include "criteria/criteria_state.hpp"
-#include "heat/exothermic.hpp"
-#include "heat/thermal_state.hpp"
+#include "heat/loads/exothermic.hpp"
+#include "heat/loads/thermal_state.hpp"
 #include "mechanics/mechanical_state.hpp"
 
 namespace solidus::coupling {

@@ -10,7 +10,7 @@
 #include "coupling/largest_difference.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/relaxation.hpp"
-#include "heat/worst_node.hpp"
+#include "heat/iteration/worst_node.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 

@@ -28,7 +28,7 @@ struct StepMeasure {
   double stress_error = 0;                               ///< [1]; zero where nothing creeps
   double solid_fraction_change = 0;
   double skin_change = 0;    ///< largest change of the coherent share of a skin (coupling/skin_share.hpp)
-  bool ended_early = false;  ///< augmentations did not converge (contact/augmented_lagrangian.hpp)
+  bool ended_early = false;  ///< augmentations did not converge (contact/forces/augmented_lagrangian.hpp)
 };
 
 /// The limit that wants the smallest step.

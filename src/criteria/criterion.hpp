@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "criteria/criteria_state.hpp"
-#include "heat/thermal_state.hpp"
+#include "heat/loads/thermal_state.hpp"
 #include "mechanics/mechanical_state.hpp"
 #include "quantities/quantity.hpp"
 

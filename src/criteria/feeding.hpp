@@ -31,7 +31,7 @@
 #include "criteria/feeding_graph.hpp"
 #include "criteria/feeding_nodes.hpp"
 #include "criteria/mush_flow.hpp"
-#include "heat/nodal_enthalpy.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::criteria {

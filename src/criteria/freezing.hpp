@@ -35,7 +35,7 @@
 #include "criteria/hot_tearing.hpp"
 #include "criteria/niyama.hpp"
 #include "criteria/patches.hpp"
-#include "heat/nodal_enthalpy.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::criteria {

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "criteria/criterion.hpp"
-#include "heat/nodal_enthalpy.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
 
 namespace solidus::criteria {
 

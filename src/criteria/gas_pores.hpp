@@ -7,7 +7,7 @@
 
 #include "criteria/criterion.hpp"
 #include "criteria/gas_law.hpp"
-#include "heat/nodal_enthalpy.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::criteria {

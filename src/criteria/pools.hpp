@@ -14,7 +14,7 @@
 #include "criteria/connectivity.hpp"
 #include "criteria/criterion.hpp"
 #include "criteria/freezing_levels.hpp"
-#include "heat/nodal_enthalpy.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
 
 namespace solidus::criteria {
 

@@ -1,5 +1,5 @@
 /// How well mesh and steps resolve the heat of the freezing, from the solution itself: what the errors of the
-/// answers are estimated from (results/answer_errors.hpp, docs/theory/step_and_mesh.md).
+/// answers are estimated from (results/answers/answer_errors.hpp, docs/theory/step_and_mesh.md).
 ///
 /// Mesh: the gradient g of temperature of each element against the mean G of the elements of its body around
 /// each of its nodes, weighted by volume V (the recovery of Zienkiewicz and Zhu 1987, integrated at the

@@ -3,15 +3,15 @@
 #include <cassert>
 #include <stdexcept>
 
-#include "heat/consistent_heat.hpp"
-#include "heat/heat_solver.hpp"
-#include "heat/heat_system.hpp"
-#include "heat/nodal_enthalpy.hpp"
-#include "heat/point_storage.hpp"
-#include "heat/printed_heat.hpp"
-#include "heat/temperature_system.hpp"
+#include "heat/iteration/heat_solver.hpp"
+#include "heat/iteration/heat_system.hpp"
+#include "heat/iteration/temperature_system.hpp"
+#include "heat/iteration/truncated_newton.hpp"
+#include "heat/storage/consistent_heat.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
+#include "heat/storage/point_storage.hpp"
+#include "heat/storage/printed_heat.hpp"
 #include "heat/thermal_phase.hpp"
-#include "heat/truncated_newton.hpp"
 
 namespace solidus::heat {
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include "heat/consistent_heat.hpp"
-#include "heat/enthalpy_newton.hpp"
-#include "heat/extrapolation_guard.hpp"
-#include "heat/heat_system.hpp"
-#include "heat/point_storage.hpp"
-#include "heat/printed_heat.hpp"
-#include "heat/temperature_system.hpp"
+#include "heat/iteration/enthalpy_newton.hpp"
+#include "heat/iteration/extrapolation_guard.hpp"
+#include "heat/iteration/heat_system.hpp"
+#include "heat/iteration/temperature_system.hpp"
+#include "heat/storage/consistent_heat.hpp"
+#include "heat/storage/point_storage.hpp"
+#include "heat/storage/printed_heat.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 

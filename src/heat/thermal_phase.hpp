@@ -26,10 +26,10 @@
 #include <string>
 #include <vector>
 
-#include "heat/sensible_form.hpp"
-#include "heat/thermal_conditions.hpp"
-#include "heat/thermal_state.hpp"
-#include "heat/time_error.hpp"
+#include "heat/loads/thermal_conditions.hpp"
+#include "heat/loads/thermal_state.hpp"
+#include "heat/loads/time_error.hpp"
+#include "heat/storage/sensible_form.hpp"
 #include "linear/active_set.hpp"
 #include "linear/contribution.hpp"
 #include "material/material.hpp"
@@ -155,8 +155,8 @@ class ThermalPhase {
   /// fifths of itself (placed_load.hpp); infinite where none moves that far. Collective.
   double lasting_loads(double from, double to) const;
 
-  /// Gives bodies that burn the power of the step that begins (heat/exothermic.hpp), constant in all its
-  /// passes.
+  /// Gives bodies that burn the power of the step that begins (heat/loads/exothermic.hpp), constant in all
+  /// its passes.
   /// @param state  at the start of the step; empty: nothing burns
   void begin_burning(const BurningState& state, double begin, double end);
   /// The burning state at the end of that step, from the temperatures at its ends; empty if `state` is.

@@ -1,14 +1,14 @@
 /// Measures of the thermal phase: the heat balance of a step; fractions, entropy and heat of a state.
 #include <cmath>
 
-#include "heat/consistent_heat.hpp"
-#include "heat/heat_system.hpp"
-#include "heat/nodal_enthalpy.hpp"
-#include "heat/point_storage.hpp"
-#include "heat/printed_heat.hpp"
-#include "heat/temperature_system.hpp"
+#include "heat/iteration/heat_system.hpp"
+#include "heat/iteration/temperature_system.hpp"
+#include "heat/iteration/truncated_newton.hpp"
+#include "heat/storage/consistent_heat.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
+#include "heat/storage/point_storage.hpp"
+#include "heat/storage/printed_heat.hpp"
 #include "heat/thermal_phase.hpp"
-#include "heat/truncated_newton.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::heat {

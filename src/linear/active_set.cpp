@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <unordered_set>
 
-#include "mesh/faces.hpp"
+#include "mesh/surfaces/faces.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::linear {

@@ -27,7 +27,7 @@ class ActiveSet {
   /// Returns the active faces of a surface of that mesh, in blocks like its own; without its nodes.
   mesh::Surface part(const mesh::Mesh& mesh, const mesh::Surface& surface) const;
   /// Whether the faces belong to an inactive body (where two bodies share nodes, faces belong to the first of
-  /// them, mesh/faces.hpp): the other body lies on the side to which their normals point.
+  /// them, mesh/surfaces/faces.hpp): the other body lies on the side to which their normals point.
   bool reversed(const mesh::ElementBlock& faces) const { return faces.body >= 0 && !body(faces.body); }
 
   bool operator==(const ActiveSet&) const = default;

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "material/isentropic.hpp"
+#include "material/derivatives/isentropic.hpp"
 #include "material/viscoelastic.hpp"
 #include "material/viscoplastic.hpp"
 #include "mechanics/block_kernel.hpp"

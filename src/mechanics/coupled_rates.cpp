@@ -1,8 +1,8 @@
 #include "mechanics/coupled_rates.hpp"
 
-#include "material/structural_lines.hpp"
-#include "material/structural_partials.hpp"
-#include "material/thermal_derivatives_impl.hpp"
+#include "material/derivatives/structural_lines.hpp"
+#include "material/derivatives/structural_partials.hpp"
+#include "material/derivatives/thermal_derivatives_impl.hpp"
 
 namespace solidus::mechanics {
 namespace {

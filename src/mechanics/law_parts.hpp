@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "material/isentropic.hpp"
+#include "material/derivatives/isentropic.hpp"
 #include "material/viscoelastic.hpp"
 #include "material/viscoplastic.hpp"
 #include "mechanics/element_field.hpp"

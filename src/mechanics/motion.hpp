@@ -42,7 +42,7 @@ struct Motion {
     return v + dt * ((1.0 - gamma) * a + gamma * a_new);
   }
   /// Share of the forces at t_{n+1} in the change of velocity, for forces that act as a mean over the step
-  /// (contact/normal.hpp). With it a force that has ended leaves nothing that grows.
+  /// (contact/interface/normal.hpp). With it a force that has ended leaves nothing that grows.
   double force_share() const { return alpha_f > 0 ? 1 - alpha_f : gamma; }
   /// Whether a step needs the forces and the stress of t_n.
   bool remembers() const { return work_share < 1 || alpha_f > 0; }

@@ -8,8 +8,8 @@
 #include <span>
 
 #include "mesh/block_geometry.hpp"
-#include "mesh/faces.hpp"
 #include "mesh/quadrature.hpp"
+#include "mesh/surfaces/faces.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 

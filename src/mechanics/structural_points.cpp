@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "material/structural_lines.hpp"
-#include "material/structural_partials.hpp"
+#include "material/derivatives/structural_lines.hpp"
+#include "material/derivatives/structural_partials.hpp"
 #include "material/thermal_potential.hpp"
 
 namespace solidus::mechanics {

@@ -21,8 +21,8 @@ struct Deformation {
 };
 
 /// The data with which energy and entropy of a point are evaluated, beside its deformation and temperature:
-/// the tables' lines (material/structural_lines.hpp) and the phases, those of the last mechanical phase. A
-/// part of the state: the energy of a state is a function of the state alone.
+/// the tables' lines (material/derivatives/structural_lines.hpp) and the phases, those of the last mechanical
+/// phase. A part of the state: the energy of a state is a function of the state alone.
 struct StructuralBase {
   Lane line_temperature;  ///< Θ of the lines [K]
   Lane strain_offset;     ///< e^θ less 3 α (Θ − Θ_ref)

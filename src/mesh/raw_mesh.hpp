@@ -63,11 +63,11 @@ struct MeshSource {
   std::map<std::string, double> constants = {};
   GeometryChoice geometry = {};  ///< groups of files that Gmsh meshes
   /// Run a script without checks, and the options file beside a mesh: it can do whatever a program can do.
-  /// Else a script may only make geometry (mesh/gmsh_script.hpp).
+  /// Else a script may only make geometry (mesh/files/gmsh_script.hpp).
   bool trust_script = false;
 };
 
-/// Reads a mesh, or makes one of a geometry (mesh/file_format.hpp lists the formats). Rank 0 only.
+/// Reads a mesh, or makes one of a geometry (mesh/files/file_format.hpp lists the formats). Rank 0 only.
 /// Throws InputError naming the file for a missing, empty, truncated or meaningless mesh, for one that is not
 /// what its name says, for a script that does more than geometry, and for a constant that a script does not
 /// declare.

@@ -9,8 +9,8 @@
 
 namespace solidus::mesh {
 
-/// Wedges and pyramids are cells of files alone: mesh/split_cells.hpp makes tetrahedra of them before a mesh
-/// is used, and what follows here of bases, faces and quadrature is of the other shapes.
+/// Wedges and pyramids are cells of files alone: mesh/files/split_cells.hpp makes tetrahedra of them before a
+/// mesh is used, and what follows here of bases, faces and quadrature is of the other shapes.
 enum class Shape {
   point1,
   line2,

@@ -14,7 +14,7 @@
 namespace solidus::mesh {
 
 /// The reference element, of a dimension: a simplex in [0, 1], a cube in [−1, 1]; or none, for cells that are
-/// split into simplices (mesh/split_cells.hpp).
+/// split into simplices (mesh/files/split_cells.hpp).
 enum class Reference { point, line, simplex, cube, split };
 
 using Edges = std::span<const std::pair<int, int>>;

@@ -6,7 +6,7 @@
 
 #include "case/case_materials.hpp"
 #include "input/keys.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 #include "new_case/new_case.hpp"
 
 namespace solidus::model {

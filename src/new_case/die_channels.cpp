@@ -7,9 +7,9 @@
 #include <numbers>
 #include <unordered_set>
 
-#include "mesh/faces.hpp"
-#include "mesh/skin.hpp"
-#include "mesh/smooth_parts.hpp"
+#include "mesh/surfaces/faces.hpp"
+#include "mesh/surfaces/skin.hpp"
+#include "mesh/surfaces/smooth_parts.hpp"
 
 namespace solidus::model {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "case/case_materials.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 #include "new_case/rounding.hpp"
 
 namespace solidus::model {

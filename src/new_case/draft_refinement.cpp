@@ -10,18 +10,18 @@
 #include <optional>
 #include <string>
 
-#include "build/case_file.hpp"
-#include "build/geometry_bodies.hpp"
-#include "build/mesh_input.hpp"
 #include "case/roles.hpp"
 #include "input/keys.hpp"
-#include "mesh/kept_mesh.hpp"
-#include "mesh/meshing_outlook.hpp"
+#include "mesh/making/kept_mesh.hpp"
+#include "mesh/making/meshing_outlook.hpp"
 #include "mesh/quality.hpp"
 #include "new_case/draft_choice.hpp"
 #include "new_case/draft_layers.hpp"
 #include "new_case/rounding.hpp"
 #include "run/session.hpp"
+#include "setup/case_file.hpp"
+#include "setup/geometry_bodies.hpp"
+#include "setup/mesh_input.hpp"
 #include "system/log.hpp"
 
 namespace solidus::model {

@@ -17,7 +17,7 @@ struct DraftEstimate {
   double shortest_edge = 0, longest_edge = 0;  ///< of the elements of what is poured [m]
   double freezing = 0;                         ///< [s]
   double least_quality = 1;             ///< of elements where no way of meshing gave sound ones, else 1
-  std::string worst_element;            ///< its place (mesh/worst_tetrahedron.hpp)
+  std::string worst_element;            ///< its place (mesh/making/worst_tetrahedron.hpp)
   std::vector<std::string> skin_notes;  ///< remarks on new skins of facets (RawMesh::notes)
   std::string overlap;  ///< MeshingOutlook::overlap of the part; empty where no bodies overlap
 };
@@ -28,7 +28,7 @@ void write_draft(const Draft& draft);
 /// Builds, checks and writes the case until its sizes and walls fit, at most four times.
 /// @param alloy     what is cast: its heat is what the channels of a die take, shot after shot
 /// @param fineness  so many times as many elements along each edge as usual
-/// @param time_of_direct_ways  what measuring the part has left of it (mesh/kept_mesh.hpp) [s]
+/// @param time_of_direct_ways  what measuring the part has left of it (mesh/making/kept_mesh.hpp) [s]
 /// Throws InputError, and then leaves no case.toml.
 DraftEstimate refine_draft(Draft& draft, const CastingProcess& process, const material::Material& alloy,
                            double fineness, double time_of_direct_ways);

@@ -5,7 +5,7 @@
 #include "case/case_materials.hpp"
 #include "case/roles.hpp"
 #include "input/keys.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 #include "new_case/casting_processes.hpp"
 #include "new_case/draft_choice.hpp"
 #include "new_case/draft_refinement.hpp"

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "case/roles.hpp"
-#include "mesh/casting_geometry.hpp"
+#include "mesh/making/casting_geometry.hpp"
 #include "new_case/casting_processes.hpp"
 #include "new_case/rounding.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "case/case_spec.hpp"
-#include "mesh/hot_spots.hpp"
+#include "mesh/making/hot_spots.hpp"
 #include "new_case/die_channels.hpp"
 
 namespace solidus::model {

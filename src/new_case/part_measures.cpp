@@ -5,10 +5,10 @@
 
 #include "case/roles.hpp"
 #include "input/keys.hpp"
-#include "mesh/casting_geometry.hpp"
-#include "mesh/file_format.hpp"
-#include "mesh/file_unit.hpp"
-#include "mesh/kept_mesh.hpp"
+#include "mesh/files/file_format.hpp"
+#include "mesh/files/file_unit.hpp"
+#include "mesh/making/casting_geometry.hpp"
+#include "mesh/making/kept_mesh.hpp"
 
 namespace solidus::model {
 

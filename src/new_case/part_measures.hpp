@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "build/geometry_bodies.hpp"
-#include "mesh/file_unit.hpp"
-#include "mesh/hot_spots.hpp"
+#include "mesh/files/file_unit.hpp"
+#include "mesh/making/hot_spots.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "new_case/new_case.hpp"
+#include "setup/geometry_bodies.hpp"
 
 namespace solidus::model {
 
@@ -24,7 +24,7 @@ struct PartMeasures {
   mesh::Point low{}, high{};       ///< corners of the box around all bodies
   double volume = 0, area = 0;     ///< of the metal
   std::vector<double> thickness;   ///< of its walls, by equal shares of the skin, rising; not empty
-  double time_of_direct_ways = 0;  ///< that meshing it has left (mesh/kept_mesh.hpp) [s]
+  double time_of_direct_ways = 0;  ///< that meshing it has left (mesh/making/kept_mesh.hpp) [s]
   std::vector<mesh::InscribedSphere> spheres;  ///< the largest that the metal holds, the largest first
 
   /// The thickness that a share of the skin has at most.

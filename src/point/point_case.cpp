@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 
 namespace solidus::point {
 

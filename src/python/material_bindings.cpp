@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "case/case_materials.hpp"
+#include "material/cards/library.hpp"
 #include "material/external_law.hpp"
-#include "material/library.hpp"
 #include "material/melt.hpp"
 #include "material/viscoplastic.hpp"
 #include "point/material_point.hpp"

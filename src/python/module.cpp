@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "app/built_version.hpp"
-#include "build/case_file.hpp"
 #include "linear/interruption.hpp"
 #include "parallel/petsc_session.hpp"
 #include "python/bindings.hpp"
+#include "setup/case_file.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
 #include "system/processes.hpp"

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <memory>
 
-#include "build/assembly.hpp"
 #include "material/external_law.hpp"
-#include "mesh/vtk_cells.hpp"
+#include "mesh/files/vtk_cells.hpp"
 #include "python/bindings.hpp"
-#include "results/state_fields.hpp"
-#include "results/vtu.hpp"
+#include "results/fields/state_fields.hpp"
+#include "results/formats/vtu.hpp"
 #include "run/session.hpp"
+#include "setup/assembly.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::python {

@@ -11,7 +11,7 @@
 
 #include "mesh/shape.hpp"
 #include "numbers/types.hpp"
-#include "results/json_document.hpp"
+#include "results/output/json_document.hpp"
 
 namespace solidus::results {
 

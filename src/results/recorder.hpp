@@ -9,20 +9,20 @@
 #include <vector>
 
 #include "coupling/phases.hpp"
-#include "results/answer_errors.hpp"
-#include "results/answers.hpp"
-#include "results/checkpoint.hpp"
-#include "results/feeding_table.hpp"
-#include "results/field_output.hpp"
-#include "results/pool_table.hpp"
-#include "results/probes.hpp"
-#include "results/profile_table.hpp"
+#include "results/answers/answer_errors.hpp"
+#include "results/answers/answers.hpp"
+#include "results/answers/shot_table.hpp"
+#include "results/checkpoint/checkpoint.hpp"
+#include "results/fields/state_fields.hpp"
+#include "results/formats/field_output.hpp"
+#include "results/output/run_folder.hpp"
 #include "results/progress.hpp"
-#include "results/run_folder.hpp"
-#include "results/shot_table.hpp"
-#include "results/state_fields.hpp"
-#include "results/step_columns.hpp"
 #include "results/summary.hpp"
+#include "results/tables/feeding_table.hpp"
+#include "results/tables/pool_table.hpp"
+#include "results/tables/probes.hpp"
+#include "results/tables/profile_table.hpp"
+#include "results/tables/step_columns.hpp"
 
 namespace solidus::results {
 

@@ -5,9 +5,9 @@
 #include <array>
 
 #include "parallel/parallel.hpp"
-#include "results/json_document.hpp"
-#include "results/output_file.hpp"
-#include "results/quantity_json.hpp"
+#include "results/output/json_document.hpp"
+#include "results/output/output_file.hpp"
+#include "results/output/quantity_json.hpp"
 #include "system/processes.hpp"
 #include "system/version.hpp"
 

@@ -12,7 +12,7 @@
 #include "criteria/criterion.hpp"
 #include "mesh/mesh.hpp"
 #include "quantities/quantity.hpp"
-#include "results/answers.hpp"
+#include "results/answers/answers.hpp"
 #include "results/load_balance.hpp"
 #include "results/overview.hpp"
 

@@ -2,9 +2,9 @@
 /// violation.
 #pragma once
 
-#include "build/admissible.hpp"
 #include "coupling/observer.hpp"
 #include "heat/thermal_phase.hpp"
+#include "setup/admissible.hpp"
 
 namespace solidus::model {
 

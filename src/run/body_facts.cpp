@@ -7,10 +7,10 @@
 #include <set>
 #include <string>
 
-#include "build/mechanics_input.hpp"
 #include "coupling/contact_states.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "parallel/parallel.hpp"
+#include "setup/mechanics_input.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::model {

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "build/assembly.hpp"
 #include "case/case_spec.hpp"
 #include "coupling/diagnosis.hpp"
 #include "mechanics/equilibrium_rejected.hpp"
+#include "setup/assembly.hpp"
 
 namespace solidus::model {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "heat/worst_node.hpp"
+#include "heat/iteration/worst_node.hpp"
 #include "parallel/parallel.hpp"
 #include "system/log.hpp"
 

@@ -8,8 +8,8 @@
 namespace solidus::model {
 
 /// As long as no flux, source or contribution brings heat, no temperature can leave that range. The closed
-/// rule keeps to it (heat/conduction_limiter.hpp); the open rule, the simultaneous scheme and heat.bounds =
-/// false need not.
+/// rule keeps to it (heat/conduction/conduction_limiter.hpp); the open rule, the simultaneous scheme and
+/// heat.bounds = false need not.
 class BoundsWatch final : public coupling::Observer {
  public:
   /// @param phase  of the run; must outlive this object

@@ -1,11 +1,11 @@
 /// A case is checked: everything that a run does before it computes.
-#include "build/assembly.hpp"
-#include "build/mesh_input.hpp"
 #include "case/case_materials.hpp"
 #include "check/case_overview.hpp"
 #include "check/findings.hpp"
 #include "run/recording.hpp"
 #include "run/session.hpp"
+#include "setup/assembly.hpp"
+#include "setup/mesh_input.hpp"
 
 namespace solidus::model {
 

@@ -7,8 +7,8 @@
 
 #include "coupling/contact_states.hpp"
 #include "coupling/largest_difference.hpp"
-#include "heat/heat_rejected.hpp"
-#include "heat/nodal_enthalpy.hpp"
+#include "heat/iteration/heat_rejected.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
 #include "mechanics/equilibrium_rejected.hpp"
 #include "parallel/parallel.hpp"
 #include "run/body_facts.hpp"

@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "build/assembly.hpp"
 #include "case/case_spec.hpp"
 #include "coupling/diagnosis.hpp"
+#include "setup/assembly.hpp"
 
 namespace solidus::model {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "case/nearby_case.hpp"
-#include "results/answer_comparison.hpp"
-#include "results/output_error.hpp"
+#include "results/answers/answer_comparison.hpp"
+#include "results/output/output_error.hpp"
 #include "results/progress.hpp"
 #include "system/log.hpp"
 #include "system/processes.hpp"

@@ -20,10 +20,10 @@ struct ErrorRuns {
 
 /// Runs the case with longer steps and with larger elements (case/nearby_case.hpp), in the folders
 /// sure/longer_steps and sure/larger_elements of the run's, and takes the errors of its answers from the
-/// differences (results/answer_comparison.hpp). A run beside it that cannot be made, does not end or does not
-/// differ enough leaves the estimate. Writes summary.json again. Collective.
+/// differences (results/answers/answer_comparison.hpp). A run beside it that cannot be made, does not end or
+/// does not differ enough leaves the estimate. Writes summary.json again. Collective.
 /// @param summary             of the run, which must have ended
-/// @param displacement_error  of the case (displacement_error() of build/time_input.hpp) [m]
+/// @param displacement_error  of the case (displacement_error() of setup/time_input.hpp) [m]
 /// @param options             of the run
 /// @param say                 told what is done, in sentences
 ErrorRuns run_beside(const Case& c, results::Summary summary, double displacement_error,

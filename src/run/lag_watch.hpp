@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "contact/friction_coefficient.hpp"
+#include "contact/interface/friction_coefficient.hpp"
 #include "contact/pair.hpp"
 #include "coupling/observer.hpp"
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "build/assembly.hpp"
 #include "case/case_spec.hpp"
 #include "coupling/observer.hpp"
+#include "setup/assembly.hpp"
 
 namespace solidus::model {
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "build/body_input.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 #include "parallel/parallel.hpp"
+#include "setup/body_input.hpp"
 #include "system/log.hpp"
 
 namespace solidus::model {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "build/assembly.hpp"
 #include "coupling/observer.hpp"
+#include "setup/assembly.hpp"
 
 namespace solidus::model {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "build/cast_bodies.hpp"
-#include "build/run_input.hpp"
-#include "build/time_input.hpp"
+#include "setup/cast_bodies.hpp"
+#include "setup/run_input.hpp"
+#include "setup/time_input.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::model {

@@ -1,9 +1,9 @@
 /// Options of the recorder of a run, from the case and what was built of it.
 #pragma once
 
-#include "build/assembly.hpp"
 #include "results/recorder.hpp"
 #include "run/session.hpp"
+#include "setup/assembly.hpp"
 
 namespace solidus::model {
 

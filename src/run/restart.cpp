@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "build/run_input.hpp"
-#include "build/time_input.hpp"
 #include "case/stage_input.hpp"
-#include "results/run_lock.hpp"
+#include "results/output/run_lock.hpp"
+#include "setup/run_input.hpp"
+#include "setup/time_input.hpp"
 #include "system/log.hpp"
 
 namespace solidus::model {

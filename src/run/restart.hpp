@@ -3,10 +3,10 @@
 
 #include <optional>
 
-#include "build/assembly.hpp"
-#include "build/fingerprint.hpp"
 #include "results/recorder.hpp"
 #include "run/session.hpp"
+#include "setup/assembly.hpp"
+#include "setup/fingerprint.hpp"
 
 namespace solidus::model {
 

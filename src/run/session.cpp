@@ -6,8 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "build/fingerprint.hpp"
-#include "build/mesh_input.hpp"
 #include "case/case_keys.hpp"
 #include "case/case_materials.hpp"
 #include "case/overrides.hpp"
@@ -16,13 +14,15 @@
 #include "check/findings.hpp"
 #include "coupling/steady.hpp"
 #include "linear/interruption.hpp"
-#include "results/run_lock.hpp"
+#include "results/output/run_lock.hpp"
 #include "run/advice.hpp"
 #include "run/diagnose.hpp"
 #include "run/recording.hpp"
 #include "run/restart.hpp"
 #include "run/session.hpp"
 #include "run/transient.hpp"
+#include "setup/fingerprint.hpp"
+#include "setup/mesh_input.hpp"
 #include "system/alike_texts.hpp"
 #include "system/free_memory.hpp"
 #include "system/log.hpp"

@@ -12,10 +12,10 @@
 #include "coupling/observer.hpp"
 #include "coupling/state.hpp"
 
-#include "build/case_file.hpp"
 #include "check/coupling_estimate.hpp"
 #include "check/uncertain_parameters.hpp"
 #include "results/summary.hpp"
+#include "setup/case_file.hpp"
 
 namespace solidus::model {
 

@@ -6,17 +6,17 @@
 #include <cmath>
 #include <map>
 
-#include "build/assembly.hpp"
-#include "build/fingerprint.hpp"
-#include "build/mesh_input.hpp"
 #include "case/case_materials.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/passes.hpp"
 #include "mesh/block_geometry.hpp"
-#include "results/checkpoint.hpp"
-#include "results/deck_supports.hpp"
-#include "results/output_file.hpp"
-#include "results/temperature_history.hpp"
+#include "results/checkpoint/checkpoint.hpp"
+#include "results/formats/deck_supports.hpp"
+#include "results/formats/temperature_history.hpp"
+#include "results/output/output_file.hpp"
+#include "setup/assembly.hpp"
+#include "setup/fingerprint.hpp"
+#include "setup/mesh_input.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::model {

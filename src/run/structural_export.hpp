@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "build/case_file.hpp"
-#include "results/structural_deck.hpp"
+#include "results/formats/structural_deck.hpp"
+#include "setup/case_file.hpp"
 
 namespace solidus::model {
 

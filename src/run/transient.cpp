@@ -2,11 +2,6 @@
 
 #include <utility>
 
-#include "build/event_input.hpp"
-#include "build/heat_input.hpp"
-#include "build/mechanics_input.hpp"
-#include "build/scheme_input.hpp"
-#include "build/time_input.hpp"
 #include "case/case_materials.hpp"
 #include "case/stage_input.hpp"
 #include "check/coupling_estimate.hpp"
@@ -14,6 +9,11 @@
 #include "run/advice.hpp"
 #include "run/diagnose.hpp"
 #include "run/recording.hpp"
+#include "setup/event_input.hpp"
+#include "setup/heat_input.hpp"
+#include "setup/mechanics_input.hpp"
+#include "setup/scheme_input.hpp"
+#include "setup/time_input.hpp"
 
 namespace solidus::model {
 

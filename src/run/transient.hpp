@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "build/assembly.hpp"
 #include "coupling/shot_map.hpp"
 #include "coupling/simulation.hpp"
 #include "results/recorder.hpp"
@@ -17,6 +16,7 @@
 #include "run/melt_watch.hpp"
 #include "run/range_watch.hpp"
 #include "run/session.hpp"
+#include "setup/assembly.hpp"
 
 namespace solidus::model {
 

@@ -1,5 +1,5 @@
 /// Restrictions that a process which reads foreign files puts on itself before it opens one
-/// (mesh/reader_process.hpp, results/hdf5_reader.hpp).
+/// (mesh/making/reader_process.hpp, results/formats/hdf5_reader.hpp).
 #pragma once
 
 namespace solidus::sandbox {

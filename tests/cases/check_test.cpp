@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "build/case_layers.hpp"
 #include "results/overview.hpp"
 #include "run/session.hpp"
+#include "setup/case_layers.hpp"
 #include "system/log.hpp"
 
 namespace {

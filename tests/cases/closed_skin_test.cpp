@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "build/assembly.hpp"
-#include "build/case_file.hpp"
-#include "build/mesh_input.hpp"
-#include "build/scheme_input.hpp"
 #include "case/case_materials.hpp"
 #include "case_folder.hpp"
 #include "coupling/contact_states.hpp"
+#include "setup/assembly.hpp"
+#include "setup/case_file.hpp"
+#include "setup/mesh_input.hpp"
+#include "setup/scheme_input.hpp"
 
 namespace solidus {
 namespace {

@@ -9,11 +9,11 @@
 #include <functional>
 #include <numbers>
 
-#include "mesh/casting_geometry.hpp"
-#include "mesh/meshing_outlook.hpp"
+#include "mesh/making/casting_geometry.hpp"
+#include "mesh/making/meshing_outlook.hpp"
+#include "mesh/making/reader_process.hpp"
+#include "mesh/making/worst_tetrahedron.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/reader_process.hpp"
-#include "mesh/worst_tetrahedron.hpp"
 #include "new_case/new_case.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 
 namespace solidus {
 namespace {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <set>
 
-#include "build/case_layers.hpp"
 #include "case_run.hpp"
+#include "setup/case_layers.hpp"
 
 namespace {
 

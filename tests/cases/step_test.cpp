@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "case_run.hpp"
-#include "mesh/kept_mesh.hpp"
-#include "mesh/meshing_ways.hpp"
+#include "mesh/making/kept_mesh.hpp"
+#include "mesh/making/meshing_ways.hpp"
 #include "new_case/new_case.hpp"
 
 namespace {

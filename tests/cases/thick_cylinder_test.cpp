@@ -12,8 +12,8 @@
 #include <set>
 #include <sstream>
 
-#include "build/case_layers.hpp"
 #include "case_run.hpp"
+#include "setup/case_layers.hpp"
 
 namespace {
 

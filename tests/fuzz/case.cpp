@@ -1,6 +1,6 @@
 /// Any bytes as a case file.
-#include "build/case_file.hpp"
 #include "input.hpp"
+#include "setup/case_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace solidus;

@@ -1,8 +1,8 @@
 /// Any bytes as a checkpoint: whatever is not, bit for bit, what the program wrote is refused before HDF5
 /// sees it.
 #include "input.hpp"
-#include "results/file_checksum.hpp"
-#include "results/output_error.hpp"
+#include "results/formats/file_checksum.hpp"
+#include "results/output/output_error.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace solidus;

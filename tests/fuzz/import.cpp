@@ -1,8 +1,8 @@
 /// Any bytes as a table of a thermodynamic program that becomes a material card.
 #include "input.hpp"
 #include "input/column_table.hpp"
-#include "material/card_import.hpp"
-#include "material/library.hpp"
+#include "material/cards/card_import.hpp"
+#include "material/cards/library.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace solidus;

@@ -1,6 +1,6 @@
 /// Any bytes as a material file.
 #include "input.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace solidus;

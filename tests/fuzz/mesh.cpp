@@ -1,12 +1,12 @@
 /// Any bytes as a mesh that Solidus reads itself: .msh, .inp, .bdf, .unv, .vtk or .vtu, which the first byte
 /// chooses.
 #include "input.hpp"
-#include "mesh/abaqus_input.hpp"
-#include "mesh/gmsh_mesh_file.hpp"
-#include "mesh/nastran_input.hpp"
-#include "mesh/universal_file.hpp"
-#include "mesh/vtk_legacy.hpp"
-#include "mesh/vtu_mesh.hpp"
+#include "mesh/files/abaqus_input.hpp"
+#include "mesh/files/gmsh_mesh_file.hpp"
+#include "mesh/files/nastran_input.hpp"
+#include "mesh/files/universal_file.hpp"
+#include "mesh/files/vtk_legacy.hpp"
+#include "mesh/files/vtu_mesh.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace solidus;

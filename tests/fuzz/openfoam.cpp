@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "input.hpp"
-#include "results/openfoam_reader.hpp"
+#include "results/formats/openfoam_reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace solidus;

@@ -2,8 +2,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "build/case_file.hpp"
 #include "input.hpp"
+#include "setup/case_file.hpp"
 
 namespace {
 

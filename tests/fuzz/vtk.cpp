@@ -1,11 +1,11 @@
 /// Any bytes as a file of VTK: as a field of another run, as the temperatures that a run has left, and as
 /// what becomes a file of VTKHDF.
 #include "input.hpp"
-#include "results/output_error.hpp"
-#include "results/pvd.hpp"
-#include "results/temperature_history.hpp"
-#include "results/vtkhdf.hpp"
-#include "results/vtu_reader.hpp"
+#include "results/formats/pvd.hpp"
+#include "results/formats/temperature_history.hpp"
+#include "results/formats/vtkhdf.hpp"
+#include "results/formats/vtu_reader.hpp"
+#include "results/output/output_error.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace solidus;

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "material/isentropic_impl.hpp"
+#include "material/derivatives/isentropic_impl.hpp"
 
 namespace solidus {
 

@@ -14,8 +14,8 @@
 
 #include "check/body_measures.hpp"
 #include "heat/thermal_phase.hpp"
-#include "mesh/distribute.hpp"
-#include "mesh/parametric_meshes.hpp"
+#include "mesh/making/parametric_meshes.hpp"
+#include "mesh/parts/distribute.hpp"
 
 namespace {
 

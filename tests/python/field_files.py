@@ -1,4 +1,4 @@
-"""Field files as Solidus writes them (src/results/vtu.cpp, vtk_data.cpp), in some lines of Python."""
+"""Field files as Solidus writes them (src/results/formats/vtu.cpp, vtk_data.cpp), in some lines of Python."""
 
 import struct
 import zlib

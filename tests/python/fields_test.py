@@ -15,12 +15,12 @@ NAMES = [row["name"] for row in json.loads((ROOT / "python/solidus_plots/fields.
 OTHERS = {
     "case/": "keys of a case", "material/": "keys and columns of material cards", "input/": "arguments of tables",
     "point/": "columns of the tables of a material point", "python/": "members of Python's dictionaries",
-    "results/step_columns.cpp": "columns of history.csv", "results/pool_table.cpp": "columns of pools.csv",
-    "results/checkpoint": "arrays of a checkpoint", "results/answers_json.cpp": "members of summary.json",
-    "results/temperature_history.cpp": "data of a structural deck", "app/material_tables.cpp": "columns of material tables",
-    "build/friction_input.cpp": "keys of friction", "criteria/strain_criteria.cpp": "the name of its record", "contact/laws/": "keys of laws", "check/uncertain_parameters.cpp": "keys of a case",
-    "coupling/add_scheme.hpp": "words of a key", "linear/": "names of blocks", "build/field_mapping.cpp": "the field of another run",
-    "check/findings_partly_in_contact.cpp": "a word of a key",
+    "results/tables/step_columns.cpp": "columns of history.csv", "results/tables/pool_table.cpp": "columns of pools.csv",
+    "results/checkpoint/checkpoint": "arrays of a checkpoint", "results/answers/answers_json.cpp": "members of summary.json",
+    "results/formats/temperature_history.cpp": "data of a structural deck", "app/material_tables.cpp": "columns of material tables",
+    "setup/friction_input.cpp": "keys of friction", "criteria/strain_criteria.cpp": "the name of its record", "contact/laws/": "keys of laws", "check/uncertain_parameters.cpp": "keys of a case",
+    "coupling/add_scheme.hpp": "words of a key", "linear/": "names of blocks", "setup/field_mapping.cpp": "the field of another run",
+    "check/findings/partly_in_contact.cpp": "a word of a key",
 }
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 QUOTED = re.compile(r"""["'`]([a-z_0-9]+)["'`]""")

@@ -42,7 +42,7 @@ class House(unittest.TestCase):
 
     def test_reads_all_rooms(self):
         found = house.house(links.ROOT)
-        self.assertEqual(set(found.rooms), {path.name for path in (links.ROOT / "src").iterdir() if path.is_dir()})
+        self.assertEqual({folder.split("/")[0] for folder in found.rooms}, {path.name for path in (links.ROOT / "src").iterdir() if path.is_dir()})
         text = house.text_of(found)
         self.assertIn("functions, the median has", text)
         self.assertIn("classes,", text)

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "foreign_files.hpp"
-#include "mesh/casting_geometry.hpp"
 #include "mesh/gmsh/import.hpp"
-#include "mesh/kept_mesh.hpp"
-#include "mesh/meshing_outlook.hpp"
-#include "mesh/reader_process.hpp"
+#include "mesh/making/casting_geometry.hpp"
+#include "mesh/making/kept_mesh.hpp"
+#include "mesh/making/meshing_outlook.hpp"
+#include "mesh/making/reader_process.hpp"
 #include "system/program_path.hpp"
 
 namespace {

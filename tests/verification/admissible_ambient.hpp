@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "contact/parameters.hpp"
-#include "heat/thermal_conditions.hpp"
+#include "contact/points/parameters.hpp"
+#include "heat/loads/thermal_conditions.hpp"
 #include "mechanics/mechanical_conditions.hpp"
 
 namespace solidus::verification {

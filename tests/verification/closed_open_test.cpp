@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 #include "strip.hpp"
 
 namespace solidus {

@@ -14,7 +14,7 @@
 
 #include "csv.hpp"
 #include "freezing_run.hpp"
-#include "mesh/grid.hpp"
+#include "mesh/making/grid.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 #include "strip.hpp"
 
 namespace solidus {

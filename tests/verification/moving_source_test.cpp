@@ -11,11 +11,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "build/assembly.hpp"
-#include "build/case_file.hpp"
-#include "build/mesh_input.hpp"
 #include "case/case_materials.hpp"
 #include "csv.hpp"
+#include "setup/assembly.hpp"
+#include "setup/case_file.hpp"
+#include "setup/mesh_input.hpp"
 
 namespace solidus {
 namespace {

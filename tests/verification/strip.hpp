@@ -7,7 +7,7 @@
 #include "csv.hpp"
 #include "heat/thermal_phase.hpp"
 #include "mesh/block_geometry.hpp"
-#include "mesh/parametric_meshes.hpp"
+#include "mesh/making/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::verification {

@@ -1,5 +1,5 @@
 /// The reader of meshes, `solidus-reader`: the program starts it, nothing else uses it
-/// (mesh/reader_process.hpp).
+/// (mesh/making/reader_process.hpp).
 #include <unistd.h>
 
 #include <cstdio>

@@ -6,7 +6,7 @@
 #include "case/case_keys.hpp"
 #include "case/case_materials.hpp"
 #include "input/key_docs.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 
 namespace solidus::app {
 

@@ -17,7 +17,7 @@
 #include "app/python_tools.hpp"
 #include "app/verb.hpp"
 #include "case/case_materials.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"

@@ -13,7 +13,7 @@
 #include "input/keys.hpp"
 #include "mechanics/quantities.hpp"
 #include "quantities/names.hpp"
-#include "results/quantity_json.hpp"
+#include "results/output/quantity_json.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::app {

@@ -10,9 +10,9 @@
 
 #include "app/case_arguments.hpp"
 #include "app/verb.hpp"
-#include "results/med.hpp"
+#include "results/formats/med.hpp"
+#include "results/formats/vtkhdf.hpp"
 #include "results/report/report_page.hpp"
-#include "results/vtkhdf.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 

@@ -12,9 +12,9 @@
 #include "app/verb.hpp"
 #include "case/case_keys.hpp"
 #include "input/key_docs.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 #include "point/spec.hpp"
-#include "results/output_file.hpp"
+#include "results/output/output_file.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::app {

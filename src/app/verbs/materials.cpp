@@ -10,13 +10,13 @@
 #include "app/verb.hpp"
 #include "case/case_materials.hpp"
 #include "input/units.hpp"
-#include "material/designations.hpp"
+#include "material/cards/designations.hpp"
+#include "material/cards/library.hpp"
 #include "material/laws/hardening_law.hpp"
 #include "material/laws/kinematic_law.hpp"
 #include "material/laws/liquid_law.hpp"
 #include "material/laws/rate_law.hpp"
-#include "material/library.hpp"
-#include "results/output_error.hpp"
+#include "results/output/output_error.hpp"
 
 namespace solidus::app {
 

@@ -10,7 +10,7 @@
 #include "app/report_page.hpp"
 #include "app/verb.hpp"
 #include "case/case_materials.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 #include "results/report/report_page.hpp"
 #include "system/errors.hpp"
 

@@ -6,7 +6,7 @@
 #include "app/places.hpp"
 #include "app/python_tools.hpp"
 #include "app/verb.hpp"
-#include "results/json_document.hpp"
+#include "results/output/json_document.hpp"
 #include "run/session.hpp"
 
 namespace solidus::app {

@@ -5,7 +5,7 @@
 
 #include "app/case_arguments.hpp"
 #include "app/verb.hpp"
-#include "build/case_layers.hpp"
+#include "setup/case_layers.hpp"
 
 namespace solidus::app {
 

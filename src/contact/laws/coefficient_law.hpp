@@ -27,7 +27,7 @@
 
 #include <algorithm>
 
-#include "contact/friction_coefficient.hpp"
+#include "contact/interface/friction_coefficient.hpp"
 #include "input/kinds.hpp"
 #include "numbers/jet.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "contact/friction_coefficient.hpp"
+#include "contact/interface/friction_coefficient.hpp"
 
 namespace solidus::contact {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact/friction_coefficient.hpp"
+#include "contact/interface/friction_coefficient.hpp"
 
 namespace solidus::contact {
 

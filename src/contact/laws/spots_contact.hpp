@@ -1,8 +1,8 @@
 /// Conduction through the spots where rough surfaces meet, beside the gas between them (monograph 3.46-3.48,
-/// contact/asperities.hpp): h = h_S(t_N, Θ_g) + h_G(t_N, Θ_g).
+/// contact/interface/asperities.hpp): h = h_S(t_N, Θ_g) + h_G(t_N, Θ_g).
 #pragma once
 
-#include "contact/asperities.hpp"
+#include "contact/interface/asperities.hpp"
 #include "contact/laws/power_contact.hpp"
 
 namespace solidus::contact {

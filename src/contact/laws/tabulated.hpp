@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "contact/interface/table_family.hpp"
 #include "contact/laws/contact_law.hpp"
 #include "contact/laws/gap_law.hpp"
-#include "contact/table_family.hpp"
 
 namespace solidus::contact {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/closed_shells.hpp"
+#include "mesh/making/closed_shells.hpp"
 
 namespace solidus::mesh {
 

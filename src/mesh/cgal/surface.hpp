@@ -5,7 +5,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
-#include "mesh/closed_shells.hpp"
+#include "mesh/making/closed_shells.hpp"
 
 namespace solidus::mesh {
 

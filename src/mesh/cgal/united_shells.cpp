@@ -12,8 +12,8 @@
 #include <algorithm>
 #include <set>
 
-#include "mesh/casting_geometry.hpp"
 #include "mesh/cgal/surface.hpp"
+#include "mesh/making/casting_geometry.hpp"
 
 namespace solidus::mesh {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/closed_shells.hpp"
+#include "mesh/making/closed_shells.hpp"
 
 namespace solidus::mesh {
 

@@ -1,4 +1,4 @@
-// One way to mesh parts and mould, in the reader's process (mesh/casting_geometry.hpp).
+// One way to mesh parts and mould, in the reader's process (mesh/making/casting_geometry.hpp).
 #include <gmsh.h>
 
 #include <algorithm>
@@ -6,15 +6,15 @@
 #include <utility>
 
 #include "input/keys.hpp"
-#include "mesh/casting_geometry.hpp"
 #include "mesh/gmsh/casting_mesh.hpp"
 #include "mesh/gmsh/casting_parts.hpp"
 #include "mesh/gmsh/casting_sizes.hpp"
 #include "mesh/gmsh/seam_cuts.hpp"
 #include "mesh/gmsh/size_callback.hpp"
-#include "mesh/meshing_outlook.hpp"
-#include "mesh/meshing_ways.hpp"
-#include "mesh/size_field.hpp"
+#include "mesh/making/casting_geometry.hpp"
+#include "mesh/making/meshing_outlook.hpp"
+#include "mesh/making/meshing_ways.hpp"
+#include "mesh/making/size_field.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {

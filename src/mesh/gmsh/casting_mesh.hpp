@@ -1,7 +1,7 @@
 /// Makes and meshes the bodies of a casting in its mould from solids of a CAD program.
 #pragma once
 
-#include "mesh/casting_geometry.hpp"
+#include "mesh/making/casting_geometry.hpp"
 
 namespace solidus::mesh {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/casting_geometry.hpp"
+#include "mesh/making/casting_geometry.hpp"
 
 namespace solidus::mesh {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "mesh/gmsh/casting_parts.hpp"
-#include "mesh/meshing_outlook.hpp"
-#include "mesh/size_field.hpp"
+#include "mesh/making/meshing_outlook.hpp"
+#include "mesh/making/size_field.hpp"
 
 namespace solidus::mesh {
 

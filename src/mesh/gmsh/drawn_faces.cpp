@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "mesh/faces.hpp"
+#include "mesh/surfaces/faces.hpp"
 
 namespace solidus::mesh {
 

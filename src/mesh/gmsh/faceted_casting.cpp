@@ -9,14 +9,14 @@
 
 #include "mesh/cgal/remeshed_skin.hpp"
 #include "mesh/cgal/united_shells.hpp"
-#include "mesh/closed_shells.hpp"
 #include "mesh/gmsh/casting_parts.hpp"
 #include "mesh/gmsh/faceted_sizes.hpp"
 #include "mesh/gmsh/session.hpp"
 #include "mesh/gmsh/size_callback.hpp"
-#include "mesh/meshing_outlook.hpp"
-#include "mesh/meshing_ways.hpp"
-#include "mesh/skin.hpp"
+#include "mesh/making/closed_shells.hpp"
+#include "mesh/making/meshing_outlook.hpp"
+#include "mesh/making/meshing_ways.hpp"
+#include "mesh/surfaces/skin.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {

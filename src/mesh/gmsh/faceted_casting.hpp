@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "mesh/casting_geometry.hpp"
+#include "mesh/files/stl_file.hpp"
+#include "mesh/making/casting_geometry.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/stl_file.hpp"
 
 namespace solidus::mesh {
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "mesh/casting_geometry.hpp"
-#include "mesh/closed_shells.hpp"
-#include "mesh/meshing_outlook.hpp"
-#include "mesh/meshing_ways.hpp"
-#include "mesh/size_field.hpp"
+#include "mesh/making/casting_geometry.hpp"
+#include "mesh/making/closed_shells.hpp"
+#include "mesh/making/meshing_outlook.hpp"
+#include "mesh/making/meshing_ways.hpp"
+#include "mesh/making/size_field.hpp"
 
 namespace solidus::mesh {
 

@@ -1,7 +1,7 @@
 /// Reads a mesh file, or meshes a geometry, by the reader of its format, in this process.
 #pragma once
 
-#include "mesh/casting_geometry.hpp"
+#include "mesh/making/casting_geometry.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::mesh {

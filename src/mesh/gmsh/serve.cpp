@@ -9,10 +9,10 @@
 #include <optional>
 #include <string>
 
-#include "mesh/casting_geometry.hpp"
 #include "mesh/gmsh/import.hpp"
-#include "mesh/meshing_outlook.hpp"
-#include "mesh/reader_message.hpp"
+#include "mesh/making/casting_geometry.hpp"
+#include "mesh/making/meshing_outlook.hpp"
+#include "mesh/making/reader_message.hpp"
 #include "system/errors.hpp"
 #include "system/sandbox.hpp"
 #include "system/version.hpp"

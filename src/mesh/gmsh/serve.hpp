@@ -1,4 +1,4 @@
-/// The work of the reader: a request from the pipe, an answer into it (mesh/reader_process.hpp).
+/// The work of the reader: a request from the pipe, an answer into it (mesh/making/reader_process.hpp).
 #pragma once
 
 namespace solidus::mesh {

@@ -16,16 +16,16 @@
 #include <unordered_map>
 
 #include "input/keys.hpp"
-#include "mesh/casting_geometry.hpp"
-#include "mesh/file_format.hpp"
+#include "mesh/files/file_format.hpp"
+#include "mesh/files/gmsh_elements.hpp"
 #include "mesh/gmsh/casting_mesh.hpp"
 #include "mesh/gmsh/closed_solids.hpp"
 #include "mesh/gmsh/curved_faces.hpp"
 #include "mesh/gmsh/drawn_faces.hpp"
 #include "mesh/gmsh/geometry_groups.hpp"
 #include "mesh/gmsh/session.hpp"
-#include "mesh/gmsh_elements.hpp"
-#include "mesh/meshing_outlook.hpp"
+#include "mesh/making/casting_geometry.hpp"
+#include "mesh/making/meshing_outlook.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "system/errors.hpp"
 

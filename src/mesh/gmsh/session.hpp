@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
-#include "mesh/casting_geometry.hpp"
-#include "mesh/file_format.hpp"
+#include "mesh/files/file_format.hpp"
+#include "mesh/making/casting_geometry.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::mesh {

@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "input/units.hpp"
+#include "mesh/files/med_cells.hpp"
+#include "mesh/files/vtk_cells.hpp"
 #include "mesh/med/hdf5_extents.hpp"
-#include "mesh/med_cells.hpp"
 #include "mesh/shape_table.hpp"
-#include "mesh/vtk_cells.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {

@@ -15,8 +15,8 @@ namespace solidus::mesh {
 /// one, the name of the mesh and a dot stand before it. A unit of length that the file names and that is not
 /// `unit_in_metres` is told in the notes.
 /// Throws InputError for structured meshes, other than Cartesian coordinates, cells that are none of
-/// mesh/med_cells.hpp, versions before 3, a file that is damaged or takes data from other files, and in a
-/// build without the MED library.
+/// mesh/files/med_cells.hpp, versions before 3, a file that is damaged or takes data from other files, and in
+/// a build without the MED library.
 RawMesh read_med_file(const std::string& path, double unit_in_metres);
 
 }  // namespace solidus::mesh

@@ -11,8 +11,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mesh/files/vtu_pieces.hpp"
 #include "mesh/shape.hpp"
-#include "mesh/vtu_pieces.hpp"
 
 namespace solidus::report {
 

@@ -6,11 +6,11 @@
 #include <ctime>
 #include <stdexcept>
 
-#include "results/output_file.hpp"
+#include "results/formats/vtk_data.hpp"
+#include "results/output/output_file.hpp"
 #include "results/report/pack.hpp"
 #include "results/report/run_data.hpp"
 #include "results/report/viewer.hpp"
-#include "results/vtk_data.hpp"
 #include "system/version.hpp"
 
 namespace solidus::report {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "results/json_document.hpp"
+#include "results/output/json_document.hpp"
 
 namespace solidus::report {
 

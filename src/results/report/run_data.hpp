@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "results/json_document.hpp"
+#include "results/output/json_document.hpp"
 #include "results/report/pack.hpp"
 #include "results/report/report_page.hpp"
 

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "build/body_input.hpp"
-#include "build/heat_input.hpp"
-#include "build/mechanics_input.hpp"
+#include "setup/body_input.hpp"
+#include "setup/heat_input.hpp"
+#include "setup/mechanics_input.hpp"
 #include "small_case.hpp"
 
 namespace solidus::model {

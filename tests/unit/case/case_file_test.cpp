@@ -1,4 +1,4 @@
-#include "build/case_file.hpp"
+#include "setup/case_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 
 #include "case/case_keys.hpp"
 #include "input/key_docs.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 
 namespace solidus::model {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "build/case_file.hpp"
-#include "build/case_layers.hpp"
+#include "setup/case_file.hpp"
+#include "setup/case_layers.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::model {

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "build/heat_input.hpp"
-#include "build/scheme_input.hpp"
 #include "run/advice.hpp"
+#include "setup/heat_input.hpp"
+#include "setup/scheme_input.hpp"
 #include "small_case.hpp"
 
 namespace solidus::model {

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "build/friction_input.hpp"
 #include "input/document.hpp"
+#include "setup/friction_input.hpp"
 #include "small_case.hpp"
 #include "system/errors.hpp"
 

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "build/mechanics_input.hpp"
 #include "coupling/schemes/block_iterative_keys.hpp"
+#include "setup/mechanics_input.hpp"
 #include "small_case.hpp"
 
 namespace solidus::model {

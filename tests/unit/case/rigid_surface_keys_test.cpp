@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "build/admissible.hpp"
-#include "build/contact_input.hpp"
-#include "build/mesh_input.hpp"
+#include "setup/admissible.hpp"
+#include "setup/contact_input.hpp"
+#include "setup/mesh_input.hpp"
 #include "small_case.hpp"
 
 namespace solidus::model {

@@ -7,12 +7,12 @@
 
 #include <array>
 
-#include "build/mesh_input.hpp"
 #include "case/case_materials.hpp"
 #include "case/interface_library.hpp"
 #include "case/physics_switch.hpp"
-#include "contact/heat_transfer.hpp"
-#include "material/library.hpp"
+#include "contact/interface/heat_transfer.hpp"
+#include "material/cards/library.hpp"
+#include "setup/mesh_input.hpp"
 #include "small_case.hpp"
 
 namespace solidus::model {
@@ -208,7 +208,8 @@ fields = ["temperature", "stress"]
 )",
                                   "case.toml");
   const std::string left_out = switch_physics(document, Physics::heat);
-  for (const char* what : {"[mechanics]", "'support'", "friction of contact 'wall'", "probe 's', 'pores'", "stress"})
+  for (const char* what :
+       {"[mechanics]", "'support'", "friction of contact 'wall'", "probe 's', 'pores'", "stress"})
     EXPECT_THAT(left_out, HasSubstr(what));
   EXPECT_THAT(left_out, Not(HasSubstr("'T'")));
   const CaseSpec spec = case_keys().read(document);

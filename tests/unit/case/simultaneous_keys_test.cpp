@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "build/mechanics_input.hpp"
 #include "coupling/schemes/simultaneous_keys.hpp"
 #include "mechanics/mechanical_phase.hpp"
+#include "setup/mechanics_input.hpp"
 #include "small_case.hpp"
 
 namespace solidus::model {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "build/case_file.hpp"
 #include "case/case_keys.hpp"
+#include "setup/case_file.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::test {

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "build/admissible.hpp"
-#include "build/heat_input.hpp"
-#include "build/mechanics_input.hpp"
-#include "build/time_input.hpp"
 #include "case/stage_input.hpp"
+#include "setup/admissible.hpp"
+#include "setup/heat_input.hpp"
+#include "setup/mechanics_input.hpp"
+#include "setup/time_input.hpp"
 #include "small_case.hpp"
 
 namespace solidus::model {

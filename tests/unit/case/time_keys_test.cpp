@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "build/case_file.hpp"
-#include "build/time_input.hpp"
 #include "case/case_keys.hpp"
+#include "setup/case_file.hpp"
+#include "setup/time_input.hpp"
 
 namespace solidus::model {
 namespace {

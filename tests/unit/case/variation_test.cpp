@@ -8,8 +8,8 @@
 
 #include "case/case_materials.hpp"
 #include "case/interface_library.hpp"
-#include "contact/heat_transfer.hpp"
-#include "material/library.hpp"
+#include "contact/interface/heat_transfer.hpp"
+#include "material/cards/library.hpp"
 #include "small_case.hpp"
 
 namespace solidus::model {

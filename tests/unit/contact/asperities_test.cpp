@@ -8,7 +8,7 @@
 ///
 /// A hardness that depends on the size of indentations, H_v = c_1 (d/1 µm)^c_2, is that of the square of the
 /// spots' area, d = √(2π) a = 4 σ/m exp(λ²) erfc λ (Song and Yovanovich 1987).
-#include "contact/asperities.hpp"
+#include "contact/interface/asperities.hpp"
 
 #include <gtest/gtest.h>
 

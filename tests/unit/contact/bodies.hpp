@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/making/parametric_meshes.hpp"
 #include "mesh/mesh.hpp"
-#include "mesh/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "system/processes.hpp"
 

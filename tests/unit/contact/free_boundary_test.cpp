@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "bodies.hpp"
-#include "contact/master_mesh.hpp"
 #include "contact/pair.hpp"
+#include "contact/surfaces/master_mesh.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::contact {

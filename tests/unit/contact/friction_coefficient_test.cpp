@@ -1,4 +1,4 @@
-#include "contact/friction_coefficient.hpp"
+#include "contact/interface/friction_coefficient.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

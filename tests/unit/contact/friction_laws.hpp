@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact/friction.hpp"
+#include "contact/interface/friction.hpp"
 
 namespace solidus::contact {
 

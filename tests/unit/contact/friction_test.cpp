@@ -1,4 +1,4 @@
-#include "contact/friction.hpp"
+#include "contact/interface/friction.hpp"
 
 #include <gtest/gtest.h>
 

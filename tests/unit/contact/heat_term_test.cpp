@@ -1,5 +1,5 @@
 /// Heat of friction as a term of the thermal phase: where a pair has slid in a step.
-#include "contact/heat_term.hpp"
+#include "contact/heat/heat_term.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "contact/heat_transfer.hpp"
+#include "contact/interface/heat_transfer.hpp"
 
 #include <gtest/gtest.h>
 

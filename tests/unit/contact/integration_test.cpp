@@ -1,4 +1,4 @@
-#include "contact/integration.hpp"
+#include "contact/points/integration.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "contact/interface_thermodynamics.hpp"
+#include "contact/interface/interface_thermodynamics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <functional>
 #include <random>
 
-#include "contact/wear.hpp"
+#include "contact/interface/wear.hpp"
 #include "friction_laws.hpp"
 
 namespace solidus::contact {

@@ -1,5 +1,5 @@
 /// Contact forces with friction as a term of the mechanical phase, of both formulations.
-#include "contact/mechanics_term.hpp"
+#include "contact/forces/mechanics_term.hpp"
 
 #include <gtest/gtest.h>
 

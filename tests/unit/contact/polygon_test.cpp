@@ -1,4 +1,4 @@
-#include "contact/polygon.hpp"
+#include "contact/surfaces/polygon.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// The functions of the linear parts of a quadratic face.
-#include "contact/positive_shares.hpp"
+#include "contact/points/positive_shares.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "contact/slave_rule.hpp"
+#include "contact/surfaces/slave_rule.hpp"
 #include "mesh/shape.hpp"
 
 namespace solidus::contact {

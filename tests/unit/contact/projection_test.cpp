@@ -2,8 +2,8 @@
 
 #include <random>
 
-#include "contact/projection.hpp"
-#include "contact/search.hpp"
+#include "contact/surfaces/projection.hpp"
+#include "contact/surfaces/search.hpp"
 
 namespace solidus::contact {
 namespace {

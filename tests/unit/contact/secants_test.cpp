@@ -1,4 +1,4 @@
-#include "contact/secants.hpp"
+#include "contact/forces/secants.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 /// Large sliding with segments: means over cells of the slave's faces.
-#include "contact/segment_kinematics.hpp"
+#include "contact/points/segment_kinematics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <memory>
 
-#include "contact/face_cells.hpp"
+#include "contact/surfaces/face_cells.hpp"
 #include "sliding_bodies.hpp"
 
 namespace solidus::contact {

@@ -1,5 +1,5 @@
 // The skin behind a contact point, and the penalty that follows it.
-#include "contact/skin.hpp"
+#include "contact/surfaces/skin.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "contact/point_law.hpp"
+#include "contact/points/point_law.hpp"
 
 namespace solidus::contact {
 namespace {

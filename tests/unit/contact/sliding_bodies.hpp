@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "bodies.hpp"
-#include "contact/master_mesh.hpp"
-#include "contact/sliding_kinematics.hpp"
+#include "contact/points/sliding_kinematics.hpp"
+#include "contact/surfaces/master_mesh.hpp"
 
 namespace solidus::test {
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "contact/master_analytic.hpp"
+#include "contact/surfaces/master_analytic.hpp"
 #include "sliding_bodies.hpp"
 
 namespace solidus::contact {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "contact/master_analytic.hpp"
+#include "contact/surfaces/master_analytic.hpp"
 #include "sliding_bodies.hpp"
 
 namespace solidus::contact {

@@ -1,4 +1,4 @@
-#include "contact/sliding_search.hpp"
+#include "contact/surfaces/sliding_search.hpp"
 
 #include <gtest/gtest.h>
 

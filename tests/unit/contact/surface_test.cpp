@@ -1,11 +1,11 @@
-#include "contact/surface.hpp"
+#include "contact/surfaces/surface.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "bodies.hpp"
-#include "contact/surface_curvature.hpp"
+#include "contact/surfaces/surface_curvature.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 

@@ -2,8 +2,8 @@
 /// bodies without mechanics, and of points with many nodes.
 #include <gtest/gtest.h>
 
-#include "contact/face.hpp"
-#include "contact/sliding_kinematics.hpp"
+#include "contact/points/sliding_kinematics.hpp"
+#include "contact/surfaces/face.hpp"
 #include "rubbing_blocks.hpp"
 
 namespace solidus {

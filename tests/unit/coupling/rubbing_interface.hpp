@@ -3,7 +3,7 @@
 
 #include "contact/laws/gas_gap.hpp"
 #include "contact/laws/power_contact.hpp"
-#include "contact/parameters.hpp"
+#include "contact/points/parameters.hpp"
 
 namespace solidus::test {
 

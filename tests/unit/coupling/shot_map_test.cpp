@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "../heat/block.hpp"
-#include "heat/nodal_enthalpy.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
 
 namespace solidus {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "criteria/feeding.hpp"
-#include "heat/nodal_enthalpy.hpp"
-#include "mesh/parametric_meshes.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
+#include "mesh/making/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"

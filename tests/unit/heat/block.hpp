@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "heat/thermal_phase.hpp"
-#include "mesh/parametric_meshes.hpp"
+#include "mesh/making/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "system/processes.hpp"
 

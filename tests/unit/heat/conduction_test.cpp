@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "block.hpp"
-#include "heat/heat_system.hpp"
+#include "heat/iteration/heat_system.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 

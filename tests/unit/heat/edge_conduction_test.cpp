@@ -13,8 +13,8 @@
 #include <numbers>
 
 #include "block.hpp"
-#include "heat/edge_conduction.hpp"
-#include "heat/heat_system.hpp"
+#include "heat/conduction/edge_conduction.hpp"
+#include "heat/iteration/heat_system.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus {

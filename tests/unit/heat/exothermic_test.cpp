@@ -1,6 +1,6 @@
 /// Bodies that burn: all of their heat and no more, whatever the steps and the rule are, and where it is hot
 /// enough alone.
-#include "heat/exothermic.hpp"
+#include "heat/loads/exothermic.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include "../mesh/split_block.hpp"
 #include "block.hpp"
-#include "heat/nodal_enthalpy.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
 #include "system/processes.hpp"
 
 namespace solidus {

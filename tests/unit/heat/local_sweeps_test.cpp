@@ -1,5 +1,5 @@
 /// Sweeps over the nodes where the residual of a step is concentrated, on any number of processes.
-#include "heat/local_sweeps.hpp"
+#include "heat/iteration/local_sweeps.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// The enthalpy graph of a node: inverse, slope, plateaus, several materials at one node.
-#include "heat/nodal_enthalpy.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
 
 #include <gtest/gtest.h>
 

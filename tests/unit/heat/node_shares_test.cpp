@@ -1,4 +1,4 @@
-#include "heat/node_shares.hpp"
+#include "heat/storage/node_shares.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "block.hpp"
-#include "heat/nodal_potential.hpp"
+#include "heat/conduction/nodal_potential.hpp"
 
 namespace solidus {
 namespace {

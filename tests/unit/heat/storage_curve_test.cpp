@@ -1,6 +1,6 @@
 /// Heat content, temperature and potential of a material by one look-up: as the curves say that it is made
 /// of.
-#include "heat/storage_curve.hpp"
+#include "heat/storage/storage_curve.hpp"
 
 #include <gtest/gtest.h>
 

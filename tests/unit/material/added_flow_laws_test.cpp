@@ -10,9 +10,9 @@
 #include "../../laws/marquis.hpp"
 #include "input/document.hpp"
 #include "input/key_docs.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
+#include "material/derivatives/thermal_derivatives.hpp"
 #include "material/tensile.hpp"
-#include "material/thermal_derivatives.hpp"
 #include "thermal_cases.hpp"
 
 namespace solidus::material::test {

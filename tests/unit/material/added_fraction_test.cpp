@@ -6,7 +6,7 @@
 
 #include "../../laws/power_fraction.hpp"
 #include "input/document.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 
 namespace solidus::material {
 namespace {

@@ -7,7 +7,7 @@
 #include "../../laws/logarithmic.hpp"
 #include "input/document.hpp"
 #include "input/key_docs.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 #include "thermal_cases.hpp"
 
 namespace solidus::material::test {

@@ -1,4 +1,4 @@
-#include "material/card_import.hpp"
+#include "material/cards/card_import.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,8 +11,8 @@
 #include <fstream>
 #include <functional>
 
-#include "material/library.hpp"
-#include "material/unit_spelling.hpp"
+#include "material/cards/library.hpp"
+#include "material/cards/unit_spelling.hpp"
 
 namespace solidus::material {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "input/document.hpp"
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::material {

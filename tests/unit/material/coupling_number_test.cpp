@@ -1,5 +1,5 @@
 /// Coupling numbers against the thick-walled cylinder of monograph 7.1, and the ratios between them.
-#include "material/coupling_number.hpp"
+#include "material/derivatives/coupling_number.hpp"
 
 #include <gtest/gtest.h>
 

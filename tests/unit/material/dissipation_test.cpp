@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "material/derivatives/isentropic.hpp"
 #include "material/hardening_heat.hpp"
-#include "material/isentropic.hpp"
 #include "thermal_cases.hpp"
 
 namespace solidus::material::test {

@@ -1,4 +1,4 @@
-#include "material/external_trial.hpp"
+#include "material/outside/external_trial.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

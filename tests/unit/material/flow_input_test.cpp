@@ -7,9 +7,9 @@
 #include "../../laws/hardening_parameter.hpp"
 #include "input/document.hpp"
 #include "input/key_docs.hpp"
+#include "material/cards/library.hpp"
 #include "material/hardening.hpp"
 #include "material/laws/perzyna.hpp"
-#include "material/library.hpp"
 
 namespace solidus::material {
 namespace {

@@ -1,5 +1,5 @@
 /// The isentropic return mapping: its tangent, its limit cases, adiabatic closed forms.
-#include "material/isentropic.hpp"
+#include "material/derivatives/isentropic.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "laws_on_duals.hpp"
 
-#include "material/isentropic_impl.hpp"
+#include "material/derivatives/isentropic_impl.hpp"
 
 namespace solidus::material {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dual.hpp"
-#include "material/isentropic.hpp"
+#include "material/derivatives/isentropic.hpp"
 
 namespace solidus::material::test {
 

@@ -11,9 +11,9 @@
 #include <string>
 
 #include "../../laws/hardening_parameter.hpp"
+#include "material/cards/library.hpp"
+#include "material/cards/source_grade.hpp"
 #include "material/hardening.hpp"
-#include "material/library.hpp"
-#include "material/source_grade.hpp"
 
 namespace solidus::material {
 namespace {

@@ -1,4 +1,4 @@
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "input/document.hpp"
-#include "material/designations.hpp"
+#include "material/cards/designations.hpp"
 #include "material/hardening.hpp"
 #include "material/laws/perzyna.hpp"
 

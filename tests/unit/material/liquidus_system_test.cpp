@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-#include "material/library.hpp"
+#include "material/cards/library.hpp"
 
 namespace solidus::material {
 namespace {

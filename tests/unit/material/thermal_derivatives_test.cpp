@@ -1,11 +1,11 @@
 /// The derivatives of the update with respect to temperature and strain against automatic differentiation.
-#include "material/thermal_derivatives_impl.hpp"
+#include "material/derivatives/thermal_derivatives_impl.hpp"
 
 #include <gtest/gtest.h>
 
 #include "dual.hpp"
+#include "material/derivatives/structural_partials.hpp"
 #include "material/free_energy.hpp"
-#include "material/structural_partials.hpp"
 #include "structural_state.hpp"
 #include "thermal_cases.hpp"
 

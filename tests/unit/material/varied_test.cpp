@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "material/cards/library.hpp"
 #include "material/laws/perzyna.hpp"
-#include "material/library.hpp"
 
 namespace solidus::material {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "mesh/parametric_meshes.hpp"
+#include "mesh/making/parametric_meshes.hpp"
 #include "parallel/parallel.hpp"
 
 namespace {

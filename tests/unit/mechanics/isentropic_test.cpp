@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "material/isentropic.hpp"
+#include "material/derivatives/isentropic.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "plastic_material.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "mesh/distribute.hpp"
+#include "mesh/parts/distribute.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus {

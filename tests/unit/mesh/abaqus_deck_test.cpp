@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "mesh/abaqus_deck.hpp"
-#include "mesh/abaqus_input.hpp"
+#include "mesh/files/abaqus_deck.hpp"
+#include "mesh/files/abaqus_input.hpp"
 #include "mesh/quality.hpp"
 #include "sample_mesh.hpp"
 #include "system/errors.hpp"

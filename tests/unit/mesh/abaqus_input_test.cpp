@@ -1,5 +1,5 @@
 // Input files of Abaqus and CalculiX, written as people write them.
-#include "mesh/abaqus_input.hpp"
+#include "mesh/files/abaqus_input.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "mesh/abaqus_elements.hpp"
+#include "mesh/files/abaqus_elements.hpp"
 #include "sample_mesh.hpp"
 #include "system/errors.hpp"
 

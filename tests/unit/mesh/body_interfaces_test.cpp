@@ -1,6 +1,6 @@
 /// Faces of bodies that face each other, nodes that bodies share, groups of faces by rule, and what is
 /// measured on geometries: thickness, inscribed spheres, sizes.
-#include "mesh/body_interfaces.hpp"
+#include "mesh/making/body_interfaces.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,11 +9,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/face_rules.hpp"
-#include "mesh/hot_spots.hpp"
-#include "mesh/parametric_meshes.hpp"
-#include "mesh/size_field.hpp"
-#include "mesh/skin.hpp"
+#include "mesh/making/hot_spots.hpp"
+#include "mesh/making/parametric_meshes.hpp"
+#include "mesh/making/size_field.hpp"
+#include "mesh/surfaces/face_rules.hpp"
+#include "mesh/surfaces/skin.hpp"
 #include "split_block.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"

@@ -1,5 +1,5 @@
 // Which of the groups that hold the same elements are bodies.
-#include "mesh/body_partition.hpp"
+#include "mesh/files/body_partition.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

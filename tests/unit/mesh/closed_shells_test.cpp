@@ -9,8 +9,8 @@
 #include <fstream>
 #include <string>
 
-#include "mesh/closed_shells.hpp"
-#include "mesh/stl_file.hpp"
+#include "mesh/files/stl_file.hpp"
+#include "mesh/making/closed_shells.hpp"
 #include "sample_mesh.hpp"
 #include "system/errors.hpp"
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "mesh/distribute.hpp"
+#include "mesh/parts/distribute.hpp"
 #include "sample_mesh.hpp"
 #include "system/common_failure.hpp"
 #include "system/errors.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "mesh/distribute.hpp"
-#include "mesh/parametric_meshes.hpp"
+#include "mesh/making/parametric_meshes.hpp"
+#include "mesh/parts/distribute.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::mesh {

@@ -1,5 +1,5 @@
 // Units of length that STEP and IGES files name. The boxes are of OpenCASCADE 7.6: 4 x 2 x 1 inch, and 0.1 m.
-#include "mesh/file_unit.hpp"
+#include "mesh/files/file_unit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Scripts of strangers: what a .geo may say, and that files are read as what they are.
-#include "mesh/gmsh_script.hpp"
+#include "mesh/files/gmsh_script.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/file_format.hpp"
+#include "mesh/files/file_format.hpp"
 #include "sample_mesh.hpp"
 #include "system/errors.hpp"
 

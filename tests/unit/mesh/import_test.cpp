@@ -8,9 +8,9 @@
 #include <functional>
 #include <sstream>
 
-#include "mesh/file_format.hpp"
+#include "mesh/files/file_format.hpp"
+#include "mesh/files/gmsh_mesh_file.hpp"
 #include "mesh/gmsh/session.hpp"
-#include "mesh/gmsh_mesh_file.hpp"
 #include "sample_mesh.hpp"
 #include "system/errors.hpp"
 

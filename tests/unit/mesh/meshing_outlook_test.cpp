@@ -1,12 +1,12 @@
 // The outlook on a mesh before it is made.
-#include "mesh/meshing_outlook.hpp"
+#include "mesh/making/meshing_outlook.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "mesh/reader_message.hpp"
+#include "mesh/making/reader_message.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Bulk data of Nastran, as programs and people write them.
-#include "mesh/nastran_input.hpp"
+#include "mesh/files/nastran_input.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Poor tetrahedra leave a mesh, and its bodies keep their shape.
-#include "mesh/poor_tetrahedra.hpp"
+#include "mesh/making/poor_tetrahedra.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@
 #include <map>
 #include <numbers>
 
-#include "mesh/edge_collapse.hpp"
-#include "mesh/edge_removal.hpp"
+#include "mesh/making/edge_collapse.hpp"
+#include "mesh/making/edge_removal.hpp"
+#include "mesh/making/surface_node.hpp"
+#include "mesh/making/worst_tetrahedron.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/surface_node.hpp"
 #include "mesh/tetrahedra.hpp"
-#include "mesh/worst_tetrahedron.hpp"
 #include "split_block.hpp"
 
 namespace solidus::test {

@@ -1,5 +1,5 @@
 // Messages between the program and the reader of meshes, and the restrictions of the reader.
-#include "mesh/reader_message.hpp"
+#include "mesh/making/reader_message.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -13,8 +13,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "mesh/parametric_meshes.hpp"
-#include "mesh/reader_process.hpp"
+#include "mesh/making/parametric_meshes.hpp"
+#include "mesh/making/reader_process.hpp"
 #include "system/errors.hpp"
 #include "system/sandbox.hpp"
 

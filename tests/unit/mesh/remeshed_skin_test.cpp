@@ -12,9 +12,9 @@
 #include <numbers>
 #include <string>
 
-#include "mesh/casting_geometry.hpp"
 #include "mesh/cgal/united_shells.hpp"
-#include "mesh/kept_mesh.hpp"
+#include "mesh/making/casting_geometry.hpp"
+#include "mesh/making/kept_mesh.hpp"
 #include "system/errors.hpp"
 
 namespace {

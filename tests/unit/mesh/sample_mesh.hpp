@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mesh/block_geometry.hpp"
-#include "mesh/parametric_meshes.hpp"
+#include "mesh/making/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "system/processes.hpp"
 

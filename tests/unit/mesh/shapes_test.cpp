@@ -1,5 +1,5 @@
 // The built-in shapes have the groups and sizes they promise.
-#include "mesh/parametric_meshes.hpp"
+#include "mesh/making/parametric_meshes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Meshes in which things are twice, inside, not joined or in one place.
-#include "mesh/soundness.hpp"
+#include "mesh/surfaces/soundness.hpp"
 
 #include <gtest/gtest.h>
 

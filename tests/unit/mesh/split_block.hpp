@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/parametric_meshes.hpp"
+#include "mesh/making/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::test {

@@ -1,5 +1,5 @@
 // Wedges, pyramids and bricks with corners that fall together become tetrahedra that fit their neighbours.
-#include "mesh/split_cells.hpp"
+#include "mesh/files/split_cells.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -12,10 +12,10 @@
 #include <numeric>
 #include <random>
 
-#include "mesh/abaqus_input.hpp"
+#include "mesh/files/abaqus_input.hpp"
 #include "mesh/gmsh/import.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/soundness.hpp"
+#include "mesh/surfaces/soundness.hpp"
 #include "sample_mesh.hpp"
 #include "system/errors.hpp"
 

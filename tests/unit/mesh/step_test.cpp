@@ -12,13 +12,13 @@
 #include <set>
 #include <sstream>
 
-#include "mesh/casting_geometry.hpp"
-#include "mesh/face_rules.hpp"
 #include "mesh/gmsh/curved_faces.hpp"
-#include "mesh/meshing_ways.hpp"
+#include "mesh/making/casting_geometry.hpp"
+#include "mesh/making/meshing_ways.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/skin.hpp"
+#include "mesh/surfaces/face_rules.hpp"
+#include "mesh/surfaces/skin.hpp"
 #include "sample_mesh.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"

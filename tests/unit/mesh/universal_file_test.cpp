@@ -1,5 +1,5 @@
 // Universal files (.unv), as Salome, FreeCAD and others write them.
-#include "mesh/universal_file.hpp"
+#include "mesh/files/universal_file.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "mesh/vertex_sets.hpp"
+#include "mesh/surfaces/vertex_sets.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

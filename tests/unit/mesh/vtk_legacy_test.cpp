@@ -1,5 +1,5 @@
 // Legacy files of VTK (.vtk) of old versions and of 5.1, as VTK 9, ParaView and meshio write them.
-#include "mesh/vtk_legacy.hpp"
+#include "mesh/files/vtk_legacy.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

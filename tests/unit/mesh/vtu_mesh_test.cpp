@@ -1,5 +1,5 @@
 // Unstructured grids of VTK, as other programs write them.
-#include "mesh/vtu_mesh.hpp"
+#include "mesh/files/vtu_mesh.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "mesh/wall_layers.hpp"
+#include "mesh/making/wall_layers.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/face_rules.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "mesh/skin.hpp"
+#include "mesh/surfaces/face_rules.hpp"
+#include "mesh/surfaces/skin.hpp"
 #include "new_case/die_channels.hpp"
 
 namespace solidus {

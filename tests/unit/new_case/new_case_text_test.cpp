@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "build/body_input.hpp"
 #include "case/case_keys.hpp"
 #include "case/stage_input.hpp"
 #include "new_case/new_case_text.hpp"
+#include "setup/body_input.hpp"
 
 namespace solidus::model {
 namespace {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "results/answer_comparison.hpp"
+#include "results/answers/answer_comparison.hpp"
 
 namespace solidus::results {
 namespace {

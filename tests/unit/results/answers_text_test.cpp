@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "results/answers.hpp"
+#include "results/answers/answers.hpp"
 
 namespace {
 

@@ -18,11 +18,11 @@
 #include <string>
 #include <vector>
 
-#include "results/checkpoint_tables.hpp"
-#include "results/file_checksum.hpp"
-#include "results/hdf5_file.hpp"
-#include "results/output_error.hpp"
-#include "results/run_lock.hpp"
+#include "results/checkpoint/checkpoint_tables.hpp"
+#include "results/formats/file_checksum.hpp"
+#include "results/formats/hdf5_file.hpp"
+#include "results/output/output_error.hpp"
+#include "results/output/run_lock.hpp"
 #include "sample.hpp"
 #include "system/processes.hpp"
 

@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
-#include "results/checkpoint.hpp"
-#include "results/file_checksum.hpp"
-#include "results/hdf5_file.hpp"
-#include "results/output_error.hpp"
+#include "results/checkpoint/checkpoint.hpp"
+#include "results/formats/file_checksum.hpp"
+#include "results/formats/hdf5_file.hpp"
+#include "results/output/output_error.hpp"
 #include "sample.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // Whatever becomes of the process in which HDF5 reads is an error of the file.
-#include "results/hdf5_reader.hpp"
+#include "results/formats/hdf5_reader.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "../../sanitized.hpp"
-#include "results/hdf5_file.hpp"
-#include "results/output_error.hpp"
+#include "results/formats/hdf5_file.hpp"
+#include "results/output/output_error.hpp"
 #include "sample.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 /// MED files, read again with MED's own library, in MED's own numbering. Built where the library is.
-#include "results/med.hpp"
+#include "results/formats/med.hpp"
 
 #include <gtest/gtest.h>
 #include <med.h>
@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "mesh/distribute.hpp"
-#include "mesh/parametric_meshes.hpp"
-#include "results/field_output.hpp"
-#include "results/output_error.hpp"
+#include "mesh/making/parametric_meshes.hpp"
+#include "mesh/parts/distribute.hpp"
+#include "results/formats/field_output.hpp"
+#include "results/output/output_error.hpp"
 #include "sample.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"

@@ -5,12 +5,12 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "mesh/parametric_meshes.hpp"
+#include "mesh/making/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "results/csv.hpp"
-#include "results/field_output.hpp"
-#include "results/step_columns.hpp"
+#include "results/formats/field_output.hpp"
+#include "results/output/csv.hpp"
 #include "results/summary.hpp"
+#include "results/tables/step_columns.hpp"
 #include "sample.hpp"
 #include "system/processes.hpp"
 #include "vtu_reader.hpp"

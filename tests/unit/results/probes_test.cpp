@@ -1,4 +1,4 @@
-#include "results/probes.hpp"
+#include "results/tables/probes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <limits>
 #include <numbers>
 
-#include "mesh/parametric_meshes.hpp"
+#include "mesh/making/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "parallel/parallel.hpp"
-#include "results/output_error.hpp"
+#include "results/output/output_error.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::results {

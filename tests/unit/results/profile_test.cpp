@@ -1,8 +1,8 @@
-#include "results/profile_table.hpp"
+#include "results/tables/profile_table.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mesh/parametric_meshes.hpp"
+#include "mesh/making/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "sample.hpp"
 #include "system/processes.hpp"

@@ -1,6 +1,6 @@
 /// Stresses at nodes: a linear field is reproduced to round-off up to the boundary, on any shape; the hoop
 /// stress at the bore of a thick tube is one.
-#include "results/recovered_stress.hpp"
+#include "results/fields/recovered_stress.hpp"
 
 #include <gtest/gtest.h>
 #include <petscsys.h>
@@ -10,9 +10,9 @@
 #include <span>
 #include <string>
 
-#include "mesh/parametric_meshes.hpp"
+#include "mesh/making/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "results/heat_flux.hpp"
+#include "results/fields/heat_flux.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::results {

@@ -1,4 +1,4 @@
-#include "results/run_folder.hpp"
+#include "results/output/run_folder.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,14 +10,14 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "mesh/parametric_meshes.hpp"
+#include "mesh/making/parametric_meshes.hpp"
 #include "mesh/raw_mesh.hpp"
-#include "results/csv.hpp"
-#include "results/field_output.hpp"
-#include "results/hdf5_file.hpp"
-#include "results/output_error.hpp"
-#include "results/temperature_history.hpp"
-#include "results/vtkhdf.hpp"
+#include "results/formats/field_output.hpp"
+#include "results/formats/hdf5_file.hpp"
+#include "results/formats/temperature_history.hpp"
+#include "results/formats/vtkhdf.hpp"
+#include "results/output/csv.hpp"
+#include "results/output/output_error.hpp"
 #include "sample.hpp"
 #include "system/processes.hpp"
 #include "vtu_reader.hpp"

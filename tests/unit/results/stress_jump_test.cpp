@@ -1,12 +1,12 @@
 /// The jump of stress between elements, of stresses given by formula.
-#include "results/stress_jump.hpp"
+#include "results/answers/stress_jump.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "../criteria/bodies.hpp"
-#include "results/spots.hpp"
+#include "results/fields/spots.hpp"
 
 namespace solidus::results {
 namespace {

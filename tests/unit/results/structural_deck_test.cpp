@@ -1,5 +1,5 @@
 /// The input file for CalculiX and Abaqus: read back by our own reader, and its numbers one by one.
-#include "results/structural_deck.hpp"
+#include "results/formats/structural_deck.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 
 #include "../mesh/split_block.hpp"
 #include "mesh/quadrature.hpp"
-#include "results/deck_elements.hpp"
-#include "results/deck_supports.hpp"
+#include "results/formats/deck_elements.hpp"
+#include "results/formats/deck_supports.hpp"
 #include "sample.hpp"
 #include "system/processes.hpp"
 

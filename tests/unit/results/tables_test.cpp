@@ -5,13 +5,13 @@
 #include <map>
 #include <regex>
 
-#include "mesh/parametric_meshes.hpp"
-#include "results/csv.hpp"
-#include "results/json_document.hpp"
+#include "mesh/making/parametric_meshes.hpp"
+#include "results/formats/pvd.hpp"
 #include "results/load_balance.hpp"
-#include "results/pvd.hpp"
-#include "results/step_columns.hpp"
+#include "results/output/csv.hpp"
+#include "results/output/json_document.hpp"
 #include "results/summary.hpp"
+#include "results/tables/step_columns.hpp"
 #include "sample.hpp"
 #include "system/processes.hpp"
 #include "vtu_reader.hpp"

@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "results/vtu.hpp"
-#include "results/vtu_reader.hpp"
+#include "results/formats/vtu.hpp"
+#include "results/formats/vtu_reader.hpp"
 #include "sample.hpp"
 
 namespace solidus::results {

@@ -1,4 +1,4 @@
-#include "results/vtu.hpp"
+#include "results/formats/vtu.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <limits>
 #include <numeric>
 
-#include "results/output_error.hpp"
-#include "results/vtk_data.hpp"
+#include "results/formats/vtk_data.hpp"
+#include "results/output/output_error.hpp"
 #include "sample.hpp"
 #include "system/processes.hpp"
 #include "vtu_reader.hpp"

@@ -1,0 +1,206 @@
+// Findings on the data of what freezes: numbers that each alone could be those of some metal.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "check/findings.hpp"
+#include "material/laws/rate_law.hpp"
+#include "material/melt.hpp"
+#include "setup/body_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+void warn(const BodySpec& body, const std::string& what, const char* usual, Findings& findings) {
+  findings.push_back({false, body.where,
+                      fmt::format("body '{}', material '{}': {}", body.name, body.material, what), usual});
+}
+
+/// Richards' rule (J. W. Richards, 1897): metals gain about the gas constant in entropy, per mole, as they
+/// melt. Per volume, which needs no molar mass, L ρ/Θ_L is 0.43 for lead, 0.7 for magnesium, 1.1 to 1.2 for
+/// aluminium, iron and zinc, 1.65 for aluminium with 12 % silicon and 2.5 for silicon itself, whose latent
+/// heat no metal has [MJ/(m³ K)].
+void compare_entropy_of_melting(const BodySpec& body, const material::Material& m, Findings& findings) {
+  constexpr double k_silicon = 1.5e6;  // [J/kg]
+  const material::PhaseChange& freezing = *m.solidification();
+  const double k_least = 0.3e6, k_most = freezing.latent_heat > k_silicon ? 2.7e6 : 2.1e6;
+  const double entropy = freezing.latent_heat * m.density / freezing.fraction.liquidus();
+  if (entropy >= k_least && entropy <= k_most) return;
+  warn(body,
+       fmt::format("a latent heat of {:.4g} kJ/kg at {:.4g} kg/m3 and a liquidus of {:.4g} K: {:.3g} MJ/m3 "
+                   "for each kelvin of it",
+                   1e-3 * freezing.latent_heat, m.density, freezing.fraction.liquidus(), 1e-6 * entropy),
+       "metals have 0.4 to 1.7 MJ/m3/K; is the latent heat one of a kilogram, in kJ/kg?", findings);
+}
+
+/// Dulong and Petit's rule: a mole of any metal takes about 25 J/K, 7 to 15 cm³ of it. Per volume that is 1.5
+/// for lead, 1.8 for magnesium, 2.4 for aluminium, 3.5 for copper and iron, 4 for nickel [MJ/(m³ K)].
+void compare_heat_capacity(const BodySpec& body, const material::Material& m, Findings& findings) {
+  constexpr double k_cold = 293.15, k_least = 1e6, k_most = 6e6;  // [K], [J/(m³ K)]
+  const double capacity = m.density * m.specific_heat.value(k_cold);
+  if (capacity >= k_least && capacity <= k_most) return;
+  warn(body,
+       fmt::format("a specific heat of {:.4g} J/kg/K at {:.4g} kg/m3: {:.3g} MJ/m3/K at 20 degC",
+                   m.specific_heat.value(k_cold), m.density, 1e-6 * capacity),
+       "cold metals have 1.4 to 4 MJ/m3/K; is the specific heat one of a kilogram, in J and not in cal, and "
+       "the density that of this metal?",
+       findings);
+}
+
+/// Aluminium, magnesium and their alloys, lighter than titanium, conduct 50 to 240 W/(m K).
+void compare_conductivity_of_light_metal(const BodySpec& body, const material::Material& m,
+                                         Findings& findings) {
+  constexpr double k_light = 3500, k_least = 30;  // [kg/m³], [W/(m K)]
+  const double solid = m.conductivity.value(m.solidification()->fraction.solidus());
+  if (m.density > k_light || solid >= k_least || solid < 3) return;  // below 3: findings_material.cpp
+  warn(body, fmt::format("a conductivity of {:.3g} W/m/K at its solidus, at {:.4g} kg/m3", solid, m.density),
+       "aluminium and magnesium conduct 50 to 240 W/m/K", findings);
+}
+
+/// Grüneisen's rule: up to their melting point metals gain about 7 % of volume, so that the expansion times
+/// the melting point is near 0.02, 0.011 for tin.
+void compare_expansion(const BodySpec& body, const material::Material& m, Findings& findings) {
+  constexpr double k_least = 0.006;
+  const double liquidus = m.solidification()->fraction.liquidus(), most = m.expansion.max_value();
+  if (!(most > 1e-8) || most * liquidus >= k_least) return;  // below: findings_material.cpp, or none at all
+  warn(body, fmt::format("expansion of {:.3g} 1/K at most, with a liquidus of {:.4g} K", most, liquidus),
+       "metals expand by about 0.02 over their liquidus in K: 1.1e-5 (iron) to 3e-5 1/K (zinc)", findings);
+}
+
+/// Young's modulus of a cold metal over its liquidus is 0.027 (lead) to 0.16 (zinc) GPa/K.
+void compare_stiffness_with_liquidus(const BodySpec& body, const material::Material& m, Findings& findings) {
+  constexpr double k_cold = 293.15, k_least = 0.018e9, k_most = 0.3e9;  // [K], [Pa/K]
+  const double liquidus = m.solidification()->fraction.liquidus(), cold = m.young_modulus.value(k_cold);
+  if (cold < 1e9 || (cold >= k_least * liquidus && cold <= k_most * liquidus)) return;
+  warn(body,
+       fmt::format("a young_modulus of {:.3g} GPa at 20 degC, with a liquidus of {:.4g} K", 1e-9 * cold,
+                   liquidus),
+       "metals have 0.05 to 0.16 GPa for each kelvin of it: 45 (magnesium), 70 (aluminium), 210 GPa (steel)",
+       findings);
+}
+
+/// A change of volume that is next to none was perhaps meant as a percentage of a percentage.
+void compare_volume_change(const BodySpec& body, const material::Material& m, Findings& findings) {
+  constexpr double k_next_to_none = 0.002;
+  const double change = m.solidification()->volume_change;
+  if (change == 0 || std::abs(change) >= k_next_to_none) return;
+  warn(body, fmt::format("'{}' changes the volume by {:.2g} %", m.solidification()->name, 100 * change),
+       "metals shrink by 1 to 7 % as they freeze, volume_change = -0.07 to -0.01; zero: not at all",
+       findings);
+}
+
+/// Metal at its solidus has next to nothing of its strength when cold.
+void compare_softening(const BodySpec& body, const material::Material& m, Findings& findings) {
+  if (!m.flow) return;
+  constexpr double k_cold = 293.15, k_softened = 0.5;  // [K], [1]
+  const double cold = m.flow->flow_stress.value(k_cold),
+               hot = m.flow->flow_stress.value(m.solidification()->fraction.solidus());
+  if (hot <= k_softened * cold) return;
+  warn(body,
+       fmt::format("a flow_stress of {:.3g} MPa at 20 degC and of {:.3g} MPa at its solidus", 1e-6 * cold,
+                   1e-6 * hot),
+       "metals have a tenth of their strength left there, and less: a table of temperature", findings);
+}
+
+/// Metal at its solidus is softer than when cold: 0.02 (steel) to 0.65 (tin) of its stiffness is left.
+void compare_stiffness(const BodySpec& body, const material::Material& m, Findings& findings) {
+  constexpr double k_cold = 293.15, k_left = 0.9;  // [K], [1]
+  const double cold = m.young_modulus.value(k_cold),
+               hot = m.young_modulus.value(m.solidification()->fraction.solidus());
+  if (hot < k_left * cold || hot > 1.2 * cold) return;  // one that rises: findings_material.cpp
+  warn(body,
+       fmt::format("a young_modulus of {:.3g} GPa at 20 degC and of {:.3g} GPa at its solidus", 1e-9 * cold,
+                   1e-9 * hot),
+       "2 % (steel) to 65 % (tin) of it are left at the solidus: a table of temperature", findings);
+}
+
+/// Metal at its solidus flows by creep: what its rate adds is of the size of its flow stress. Where it is far
+/// from that, the viscosity is one of other units.
+void compare_creep(const BodySpec& body, const material::Material& m, Findings& findings) {
+  if (!m.flow || m.flow->rate_independent()) return;
+  constexpr double k_rate = 1e-3, k_least = 0.2, k_most = 8;  // [1/s], [1], [1]
+  const double solidus = m.solidification()->fraction.solidus(),
+               strength = m.flow->flow_stress.value(solidus);
+  const double stress = material::rate_law(m.flow->rate_dependence)
+                            .overstress(material::flow_properties_at(*m.flow, solidus), k_rate)
+                            .stress;
+  if (!(strength > 0) || (stress >= k_least * strength && stress <= k_most * strength)) return;
+  warn(body,
+       fmt::format("at its solidus a rate of 0.001 1/s adds {:.3g} MPa to a flow_stress of {:.3g} MPa",
+                   1e-6 * stress, 1e-6 * strength),
+       "half to four times the flow stress there; is the viscosity in its unit?", findings);
+}
+
+/// A melt as stiff as the solid does not flow, but for a viscosity with a source, which is that of a
+/// published case. The viscosity of molten metal itself has no effect on stress (material/melt.hpp).
+void compare_melt_viscosity(const BodySpec& body, const material::Material& m, double step,
+                            Findings& findings) {
+  if (m.chooses_viscosity() || m.liquid_model != material::LiquidModel::maxwell || !(step > 0)) return;
+  const double solidus = m.solidification()->fraction.solidus();
+  const double young = m.young_modulus.value(solidus), poisson = m.poisson_ratio.value(solidus);
+  const double shear = young / (1 + poisson), bulk = young / (3 * (1 - 2 * poisson));  // 2 G and k [Pa]
+  const double viscosity = m.liquid_viscosity.max_value(), melt = viscosity / step;
+  constexpr double k_nothing = 1e-3 * material::k_least_melt_share;
+  const char* usual = "no twice_shear_viscosity: the run chooses one by the weight of the melt and the step";
+  if (melt < k_nothing * bulk)
+    warn(body,
+         fmt::format(
+             "a twice_shear_viscosity of {:g} Pa s makes melt {:.1g} times as stiff in shear as under "
+             "pressure, in a step of {:g} s: it has no effect on stress and makes equations hard to solve",
+             viscosity, melt / bulk, step),
+         usual, findings);
+  const bool has_source = std::ranges::any_of(m.notes, [](const material::PropertyNote& note) {
+    return note.property == "twice_shear_viscosity" && !note.source.empty();
+  });
+  if (melt > shear && !has_source)
+    warn(body,
+         fmt::format(
+             "a twice_shear_viscosity of {:g} Pa s makes melt {:.2g} times as stiff as the solid in a step "
+             "of {:g} s: it does not flow",
+             viscosity, melt / shear, step),
+         usual, findings);
+}
+
+/// Data of the criteria.
+void compare_casting(const BodySpec& body, const material::Material& m, Findings& findings) {
+  constexpr double k_minute = 60, k_finest = 1e-6, k_coarsest = 1e-3;  // [s], [m], [m]
+  if (const auto arms = m.casting.secondary_arm_spacing(k_minute);
+      arms && (*arms < k_finest || *arms > k_coarsest))
+    warn(body, fmt::format("secondary arms are {:.3g} um apart where it freezes for a minute", 1e6 * *arms),
+         "20 to 200 um; arm_spacing is that after one second, 7 to 50 um", findings);
+  constexpr double k_thinnest = 2e-4, k_thickest = 3e-2;  // [Pa s]
+  if (const auto viscosity = m.casting.melt_viscosity;
+      viscosity && (*viscosity < k_thinnest || *viscosity > k_thickest))
+    warn(body, fmt::format("a melt_viscosity of {:.3g} mPa s", 1e3 * *viscosity),
+         "melts of metals have 0.5 to 10 mPa s", findings);
+  constexpr double k_first = 0.2;
+  if (const double coherency = m.casting.coherency_fraction; coherency < k_first)
+    warn(body, fmt::format("it carries load from {:.3g} % solid on", 100 * coherency),
+         "metal is coherent from 60 to 90 % solid on, coherency_fraction = 0.6 to 0.9", findings);
+}
+
+}  // namespace
+
+void find_in_alloys(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const material::Material& m = a.materials[b];
+    if (m.solidification() == nullptr) continue;
+    // Heat first, then the mechanical properties of bodies that deform.
+    if (spec.has_heat()) compare_entropy_of_melting(spec.bodies[b], m, findings);
+    if (spec.has_heat()) compare_heat_capacity(spec.bodies[b], m, findings);
+    if (spec.has_heat()) compare_conductivity_of_light_metal(spec.bodies[b], m, findings);
+    if (spec.has_heat()) compare_casting(spec.bodies[b], m, findings);
+    if (!spec.has_mechanics() || only_conducts(spec.bodies[b])) continue;
+    compare_softening(spec.bodies[b], m, findings);
+    compare_stiffness(spec.bodies[b], m, findings);
+    compare_expansion(spec.bodies[b], m, findings);
+    compare_stiffness_with_liquidus(spec.bodies[b], m, findings);
+    compare_volume_change(spec.bodies[b], m, findings);
+    compare_creep(spec.bodies[b], m, findings);
+    compare_melt_viscosity(spec.bodies[b], m, spec.time.step.value_or(0), findings);
+  }
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,39 @@
+// Findings on the coupling of deformation and heat.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "check/coupling_estimate.hpp"
+#include "check/findings.hpp"
+#include "coupling/scheme_names.hpp"
+#include "setup/scheme_input.hpp"
+
+namespace solidus::model {
+
+// A scheme that conducts heat before deformation has taken up its share is late by δ_K steps.
+void find_in_coupling(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_late = 0.03;  // of what changes evenly over the run
+  if (!spec.exchanges_heat() || !(m.effort.steps > 0)) return;
+  const std::vector<CouplingEstimate> estimates = coupling_estimates(spec, a.materials, a.mesh, a.start);
+  const double steps = heat_lag(spec, estimates, keeps_strain(spec, a.materials, a.start));
+  const double share = steps / m.effort.steps;
+  if (share < k_late) return;
+  const CouplingEstimate& strongest = *std::max_element(
+      estimates.begin(), estimates.end(),
+      [](const CouplingEstimate& l, const CouplingEstimate& r) { return l.decisive() < r.decisive(); });
+  findings.push_back(
+      {false, strongest.where,
+       fmt::format("deformation takes up {:.2g} times the heat that '{}' stores at rest, and the {} scheme "
+                   "conducts before it does: temperatures lag by {:.2g} steps, {:.0f} % of what changes "
+                   "evenly over {:.0f} steps",
+                   strongest.decisive(), strongest.body, spec.coupling.scheme->name(), steps, 100 * share,
+                   m.effort.steps),
+       fmt::format(
+           "coupling.scheme = {} does not lag; shorter steps lag less. In metals it is below 0.1 times: "
+           "are expansion and Poisson's ratio right?",
+           coupling::names_of_schemes([](const coupling::SchemeTraits& t) {
+             return t.mapping == mechanics::Mapping::simultaneous;
+           }))});
+}
+
+}  // namespace solidus::model

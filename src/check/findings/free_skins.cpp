@@ -1,0 +1,110 @@
+// Findings on the free skin of what is poured: where it lies as gravity acts, and what holds it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "check/findings.hpp"
+#include "mesh/body_faces.hpp"
+#include "mesh/surfaces/skin.hpp"
+#include "parallel/parallel.hpp"
+#include "setup/body_input.hpp"
+#include "setup/mechanics_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+bool in_contact(const CaseSpec& spec, const std::string& surface) {
+  return std::ranges::any_of(spec.contacts, [&](const ContactSpec& contact) {
+    const auto sides = contact.sides();
+    return std::ranges::find(sides, surface) != sides.end();
+  });
+}
+
+/// Surfaces on which something keeps a melt: contacts, supports, loads and held temperatures, as of an inlet.
+std::set<std::string> covered_surfaces(const CaseSpec& spec) {
+  std::set<std::string> groups;
+  for (const ContactSpec& contact : spec.contacts)
+    for (const std::string& side : contact.sides()) groups.insert(side);
+  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) groups.insert(c.group);
+  for (const ThermalConditionSpec& c : spec.thermal_conditions)
+    if (c.kind == ThermalConditionSpec::Kind::temperature) groups.insert(c.group);
+  return groups;
+}
+
+/// Area of the skin that faces along gravity or against it [m²], or [m] in a plane.
+struct Facing {
+  double all = 0, free = 0;
+};
+
+/// Melt stands in its mould with its free surface on top: one whose skin is closed above and open below has
+/// run out, or gravity points the wrong way. Collective.
+void melts_open_below(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_upright = 0.7, k_closed = 0.02, k_open = 0.25;  // of the normal; shares of the area
+  const std::array<double, 3> g = gravity(spec.analysis);
+  const double size = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  if (!(size > 0) || m.pours.empty() || spec.contacts.empty()) return;
+  const auto covered = mesh::body_face_keys(a.mesh, covered_surfaces(spec));
+  Facing up, down;
+  mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
+    if (!m.is_poured(static_cast<std::size_t>(face.body))) return;
+    std::vector<mesh::Point> corners;
+    for (const Index node : face.vertices()) corners.push_back(a.mesh.x[static_cast<std::size_t>(node)]);
+    const mesh::SkinFace skin = mesh::face_through(std::move(corners));
+    const double along = (skin.normal[0] * g[0] + skin.normal[1] * g[1] + skin.normal[2] * g[2]) / size;
+    if (std::abs(along) < k_upright) return;
+    Facing& facing = along > 0 ? down : up;
+    facing.all += skin.area;
+    if (same.size() == 1 && !covered.contains(face.key)) facing.free += skin.area;
+  });
+  for (double* sum : {&up.all, &up.free, &down.all, &down.free}) *sum = parallel::global_sum(*sum);
+  if (!(down.all > 0) || up.free > k_closed * up.all || down.free < k_open * down.all) return;
+  findings.push_back(
+      {false, spec.analysis.where,
+       fmt::format(
+           "the melt is open below, as gravity acts: {:.0f} % of its skin that faces down has neither "
+           "a contact nor a support, and all that faces up has one",
+           100 * down.free / down.all),
+       "is gravity_direction right? A melt has its free surface on top; what holds it up from below, as in "
+       "low-pressure casting, is a pressure on that skin"});
+}
+
+/// A support of all directions on a free surface of a casting keeps it from shrinking there.
+void held_free_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_little = 0.02;  // of the skin
+  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    const bool all =
+        c.kind == MechanicalConditionSpec::Kind::displacement &&
+        (spec.analysis.kind == AnalysisKind::solid ? c.ux && c.uy && c.uz : (c.ux || c.ur) && (c.uy || c.uz));
+    if (!all || !holds(c.stages, a.first_stage()) || in_contact(spec, c.group)) continue;
+    const SurfaceMeasures surface = measure_surface(a.mesh, c.group, spec.analysis.kind);
+    if (!m.is_poured(static_cast<std::size_t>(surface.body))) continue;
+    const auto body = static_cast<std::size_t>(surface.body);
+    if (only_conducts(spec.bodies[body]) || surface.area < k_little * m.bodies[body].skin) continue;
+    findings.push_back(
+        {false, c.where,
+         fmt::format(
+             "'{}' holds the surface '{}' of '{}', {:.0f} % of its skin, in all directions: melt does "
+             "not sink there, and metal cannot shrink",
+             c.name, c.group, spec.bodies[body].name, 100 * surface.area / m.bodies[body].skin),
+         "supports along one axis, on planes of symmetry, or on a few nodes; the mould holds a casting by "
+         "contact"});
+  }
+}
+
+}  // namespace
+
+void find_in_free_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  if (!spec.has_mechanics()) return;
+  melts_open_below(spec, a, m, findings);
+  held_free_skins(spec, a, m, findings);
+}
+
+}  // namespace solidus::model

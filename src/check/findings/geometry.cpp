@@ -1,0 +1,198 @@
+// Findings on bodies and their meshes: bodies that overlap or are glued together, and meshes that are too
+// coarse.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/roles.hpp"
+#include "check/findings.hpp"
+#include "input/units.hpp"
+#include "parallel/parallel.hpp"
+#include "setup/body_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// Bodies whose temperatures differ by less may share nodes with good reason [K].
+constexpr double k_same_temperature = 50;
+
+/// In quotes.
+std::string name_of(const CaseSpec& spec, int body) {
+  if (body == k_several_bodies) return "several bodies";
+  return body >= 0 ? "'" + spec.bodies[static_cast<std::size_t>(body)].name + "'" : "a tool";
+}
+
+/// Facets of two meshes on one curved skin overlap by a tenth of a face at most.
+void overlaps(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_of_face = 0.15;
+  for (std::size_t c = 0; c < m.contacts.size(); ++c) {
+    const ContactMeasures& contact = m.contacts[c];
+    const double depth = -contact.least_start;
+    if (contact.paired > 0 && depth > k_of_face * contact.face_size)
+      findings.push_back({false, spec.contacts[c].where,
+                          fmt::format("{} and {} of the contact '{}' overlap by up to {:.3g} mm at the start",
+                                      name_of(spec, contact.slave_body), name_of(spec, contact.master_body),
+                                      spec.contacts[c].name, 1e3 * depth),
+                          "surfaces that touch; do the two geometries have the same size, place and unit?"});
+  }
+}
+
+void far_apart(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  for (std::size_t c = 0; c < m.contacts.size(); ++c) {
+    const ContactMeasures& contact = m.contacts[c];
+    if (!(contact.paired > 0) || contact.slave_body < 0 || !spec.contacts[c].heat) continue;
+    const BodyMeasures& body = m.bodies[static_cast<std::size_t>(contact.slave_body)];
+    const double size = std::cbrt(body.volume);
+    if (contact.least_start > 2e-3 && contact.least_start > 0.02 * size)
+      findings.push_back(
+          {false, spec.contacts[c].where,
+           fmt::format("the surfaces '{}' and '{}' of the contact '{}' are {:.3g} mm apart or more",
+                       contact.slave, contact.master, spec.contacts[c].name, 1e3 * contact.least_start),
+           "surfaces that touch, or a gap below a millimetre; is it the right pair?"});
+  }
+}
+
+void same_body(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  for (std::size_t c = 0; c < m.contacts.size(); ++c)
+    if (m.contacts[c].slave_body >= 0 && m.contacts[c].slave_body == m.contacts[c].master_body)
+      findings.push_back({false, spec.contacts[c].where,
+                          fmt::format("both surfaces of the contact '{}' belong to the body {}",
+                                      spec.contacts[c].name, name_of(spec, m.contacts[c].slave_body)),
+                          "surfaces of two bodies, unless this one has a slit"});
+}
+
+void shared_nodes(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  // Surfaces of a contact that share nodes are one body there. Apart from contacts, bodies that start at
+  // different temperatures and share nodes are told, unless a contact has been told already.
+  for (std::size_t c = 0; c < m.contacts.size(); ++c)
+    if (m.contacts[c].shared_nodes > 0)
+      findings.push_back(
+          {false, spec.contacts[c].where,
+           fmt::format("the surfaces of the contact '{}' share {} nodes: there the bodies are one, no gap "
+                       "opens and heat passes without resistance",
+                       spec.contacts[c].name, m.contacts[c].shared_nodes),
+           "bodies with nodes of their own: no mesh.conforming, no common faces in the geometry"});
+  if (!spec.has_heat()) return;
+  for (std::size_t b = 0; b < m.bodies.size(); ++b)
+    for (std::size_t other = 0; other < b; ++other) {
+      const GlobalIndex n = m.bodies[b].shared_nodes[other];
+      if (n == 0 || std::abs(a.start[b].high - a.start[other].low) < k_same_temperature ||
+          std::abs(a.start[b].low - a.start[other].high) < k_same_temperature)
+        continue;
+      const bool told = std::any_of(m.contacts.begin(), m.contacts.end(),
+                                    [](const ContactMeasures& c) { return c.shared_nodes > 0; });
+      if (told) continue;
+      // Metals that are poured together may share nodes, and then want one temperature.
+      const bool one_metal =
+          a.materials[b].solidification() != nullptr && a.materials[other].solidification() != nullptr;
+      findings.push_back(
+          {false, spec.bodies[b].where,
+           fmt::format(
+               "the bodies '{}' and '{}', which start {:.0f} K apart, share {} nodes: no gap opens and "
+               "heat passes without resistance",
+               spec.bodies[other].name, spec.bodies[b].name, std::abs(a.start[b].high - a.start[other].high),
+               n),
+           one_metal ? "one temperature for what is poured together, as a riser with its casting"
+                     : "between casting and mould bodies with nodes of their own and a [[contact]]"});
+    }
+}
+
+void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  for (const Pour& pour : m.pours) {
+    if (!pour.no_estimate.empty()) continue;
+    const BodyMeasures& body = m.bodies[pour.body];
+    const std::string& name = spec.bodies[pour.body].name;
+    const double modulus = body.volume / pour.cooled_area;
+    const std::string usual = fmt::format(
+        "four elements through a wall{}: {}",
+        // Elements of second order know no pores, so that shrinkage strains them.
+        spec.has_mechanics() ? "" : ", or two of second order",
+        spec.mesh.sizes.empty() ? "mesh.element_size" : "smaller `size` and `smallest` of [[mesh.size]]");
+    if (pour.spanned > 0.5)
+      findings.push_back(
+          {false, spec.mesh.where,
+           fmt::format(
+               "{:.0f} % of the body '{}' are elements that reach from one cooled skin to another, of "
+               "{:.3g} to {:.3g} mm; twice its volume over its cooled skin is {:.3g} mm",
+               100 * pour.spanned, name, 1e3 * body.shortest_edge, 1e3 * body.longest_edge, 2e3 * modulus),
+           usual});
+    else if (body.mean_edge > 2 * std::max(pour.depth, modulus))
+      findings.push_back(
+          {false, spec.mesh.where,
+           fmt::format(
+               "the elements of the body '{}' have {:.3g} mm on average, but its deepest place is {:.3g} mm "
+               "below the cooled skin",
+               name, 1e3 * body.mean_edge, 1e3 * std::max(pour.depth, modulus)),
+           usual});
+    else if (body.elements == 1)
+      findings.push_back({false, spec.mesh.where, fmt::format("the body '{}' is one element", name), usual});
+  }
+}
+
+/// Elements whose edges differ so much that what crosses them and what runs along them cannot both be seen;
+/// castings so small that their unit is in doubt.
+void shapes_and_sizes(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  // Layers of sand taper beside edges of a casting; nothing bends there where a body conducts heat alone.
+  constexpr double k_flat = 150, k_flat_in_layers = 300, k_flat_in_casting = 50, k_small = 3e-3;
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+    const bool conducts = !spec.has_mechanics() || only_conducts(spec.bodies[b]);
+    const double most = m.is_poured(b) ? k_flat_in_casting : conducts ? k_flat_in_layers : k_flat;
+    if (m.bodies[b].flattest > most)
+      findings.push_back({false, spec.mesh.where,
+                          fmt::format("an element of the body '{}' is {:.0f} times as long as wide",
+                                      spec.bodies[b].name, m.bodies[b].flattest),
+                          "up to 10, in thin layers of a mould that conducts heat up to 200"});
+  }
+  for (const Pour& pour : m.pours) {
+    const BodyMeasures& body = m.bodies[pour.body];
+    double largest = 0;
+    for (std::size_t d = 0; d < 3; ++d) largest = std::max(largest, body.high[d] - body.low[d]);
+    if (largest < k_small)
+      findings.push_back(
+          {false, spec.mesh.where,
+           fmt::format("the casting '{}' is {:.3g} mm large", spec.bodies[pour.body].name, 1e3 * largest),
+           "is the unit of the mesh right?"});
+  }
+}
+
+/// The mould's first element against the depth that heat reaches until the casting is solid.
+void coarse_moulds(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  for (const Pour& pour : m.pours) {
+    if (!pour.freezing.time || !(pour.freezing.mould_reach > 0)) continue;
+    for (std::size_t c = 0; c < m.contacts.size(); ++c) {
+      const ContactMeasures& contact = m.contacts[c];
+      const auto body = static_cast<int>(pour.body);
+      const int other = contact.slave_body == body    ? contact.master_body
+                        : contact.master_body == body ? contact.slave_body
+                                                      : -1;
+      if (other < 0) continue;
+      const BodyMeasures& mould = m.bodies[static_cast<std::size_t>(other)];
+      if (mould.shortest_edge < 2 * pour.freezing.mould_reach) continue;
+      findings.push_back(
+          {false, spec.mesh.where,
+           fmt::format(
+               "the elements of the body '{}' have {:.3g} mm and more, but heat goes only {:.3g} mm deep "
+               "until '{}' is solid",
+               spec.bodies[static_cast<std::size_t>(other)].name, 1e3 * mould.shortest_edge,
+               1e3 * pour.freezing.mould_reach, spec.bodies[pour.body].name),
+           "smaller elements at the cavity, or [[mesh.layers]] on it"});
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+void find_in_geometry(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  overlaps(spec, m, findings);
+  far_apart(spec, m, findings);
+  same_body(spec, m, findings);
+  shared_nodes(spec, a, m, findings);
+  coarse_castings(spec, m, findings);
+  coarse_moulds(spec, m, findings);
+  shapes_and_sizes(spec, m, findings);
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,76 @@
+// Findings on cards of the library of interface laws that are for other bodies than those of the interface.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "case/interface_library.hpp"
+#include "case/roles.hpp"
+#include "check/findings.hpp"
+#include "contact/interface/heat_transfer.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// Conductances that differ by less than this factor are a choice among coatings, not another interface.
+constexpr double k_alike = 3;
+
+double closed_conductance(const contact::HeatTransferSpec& heat, double temperature) {
+  constexpr double k_atmosphere = 101325;  // pressure that holds melt on its wall [Pa]
+  return contact::HeatTransferLaw(contact::without_bodies(heat)).at(0, k_atmosphere, temperature).value;
+}
+
+/// Whether a side of the card is for a material or for a role of its own, not for whatever is a die or a
+/// mould.
+bool particular(const InterfaceSide& side) {
+  if (!side.materials.empty()) return true;
+  constexpr std::array k_any = {"casting", "riser", "die", "mould", "core"};
+  return !side.roles.empty() && std::none_of(side.roles.begin(), side.roles.end(), [&](const auto& role) {
+    return std::find(k_any.begin(), k_any.end(), role) != k_any.end();
+  });
+}
+
+}  // namespace
+
+void find_in_interface_laws(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+                            Findings& findings) {
+  // A law that a section names is compared with the one that the library would choose for these partners.
+  // Only a particular card counts as better, and only where the conductances differ by a factor.
+  const bool any = std::any_of(spec.contacts.begin(), spec.contacts.end(),
+                               [](const ContactSpec& contact) { return !contact.law.empty(); });
+  if (!spec.has_heat() || !any) return;
+  std::vector<InterfaceCard> cards = interface_cards();
+  for (std::size_t c = 0; c < spec.contacts.size() && c < m.contacts.size(); ++c) {
+    const ContactSpec& contact = spec.contacts[c];
+    const ContactMeasures& sides = m.contacts[c];
+    if (contact.law.empty() || sides.slave_body < 0 || sides.master_body < 0) continue;
+    const auto partner = [&](int b) {
+      const auto body = static_cast<std::size_t>(b);
+      return InterfacePartner{spec.bodies[body].material, role_of(spec.bodies[body], a.materials[body])};
+    };
+    const InterfacePartner one = partner(sides.slave_body), two = partner(sides.master_body);
+    const auto used = std::find_if(cards.begin(), cards.end(),
+                                   [&](const InterfaceCard& card) { return card.name == contact.law; });
+    const InterfaceCard* const best = best_card(cards, one, two);
+    if (used == cards.end() || best == nullptr || !(particular(best->one) || particular(best->other)))
+      continue;
+    // A card fits a pair if it would be chosen for it, by its partners, without its name.
+    InterfaceCard by_pair = *used;
+    by_pair.by_name_alone = false;
+    if (best_card({by_pair}, one, two) != nullptr) continue;
+    const double temperature = std::max(a.start[static_cast<std::size_t>(sides.slave_body)].high,
+                                        a.start[static_cast<std::size_t>(sides.master_body)].high);
+    const double h = closed_conductance(used->heat, temperature),
+                 usual = closed_conductance(best->heat, temperature);
+    if (h < k_alike * usual && usual < k_alike * h) continue;
+    findings.push_back({false, contact.where,
+                        fmt::format("the interface law '{}' ({}, {:.4g} W/m2/K) of '{}' is not for '{}' ({}) "
+                                    "and '{}' ({})",
+                                    used->name, used->title, h, contact.name, one.material, name(one.role),
+                                    two.material, name(two.role)),
+                        fmt::format("without `law` it is '{}', {:.4g} W/m2/K", best->name, usual)});
+  }
+}
+
+}  // namespace solidus::model

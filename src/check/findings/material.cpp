@@ -1,0 +1,266 @@
+// Findings on properties: factors of a thousand between units.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/roles.hpp"
+#include "check/findings.hpp"
+#include "material/laws/rate_law.hpp"
+#include "setup/body_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+struct Usual {
+  const char* property;
+  const char* unit;
+  double low, high;
+};
+
+/// Adds a warning that names body and material.
+void warn_of_material(const BodySpec& body, const std::string& what, const char* usual, Findings& findings) {
+  findings.push_back({false, body.where,
+                      fmt::format("body '{}', material '{}': {}", body.name, body.material, what), usual});
+}
+
+void compare(const BodySpec& body, const Usual& usual, double low, double high, Findings& findings) {
+  if (low >= usual.low && high <= usual.high) return;
+  findings.push_back({false, body.where,
+                      fmt::format("body '{}', material '{}': {} of {:g} {}", body.name, body.material,
+                                  usual.property, high > usual.high ? high : low, usual.unit),
+                      fmt::format("usual are {:g} to {:g} {}", usual.low, usual.high, usual.unit)});
+}
+
+/// Whether a point of the table is as many kelvins as the liquidus or solidus, but was read in degrees
+/// Celsius.
+bool has_shifted_point(const material::Property& property, const material::PhaseChange* freezing) {
+  if (freezing == nullptr) return false;
+  const auto x = property.table->x();
+  return std::any_of(x.begin(), x.end(), [&](double t) {
+    return std::abs(t - k_zero_celsius - freezing->fraction.liquidus()) < 0.6 ||
+           std::abs(t - k_zero_celsius - freezing->fraction.solidus()) < 0.6;
+  });
+}
+
+/// A table of temperature whose first point is a room's in K, or that would reach far below any casting's.
+void compare_argument(const BodySpec& body, const material::Property& property, double coldest,
+                      const material::PhaseChange* freezing, Findings& findings) {
+  if (property.table->constant()) return;
+  const double first = property.table->x().front(), last = property.table->x().back();
+  const double celsius = first - k_zero_celsius;
+  const auto near = [](double p, double q) { return std::abs(p - q) < 0.6; };
+  const bool room = near(celsius, 273) || near(celsius, 293) || near(celsius, 298);
+  const bool shifted = celsius > 270 && celsius < 330 && has_shifted_point(property, freezing);
+  if ((room || shifted) && coldest < first - 150)
+    findings.push_back(
+        {false, body.where,
+         fmt::format("body '{}', material '{}': the table of {} begins at {:.6g} degC, but the case "
+                     "goes down to {:.0f} degC",
+                     body.name, body.material, property.name, celsius, coldest - k_zero_celsius),
+         "are its temperatures in K? argument_unit = \"K\""});
+  if (first < 150 && last < 1800 && last > 300)
+    findings.push_back(
+        {false, body.where,
+         fmt::format("body '{}', material '{}': the table of {} runs from {:.6g} K to {:.6g} K", body.name,
+                     body.material, property.name, first, last),
+         "are its temperatures in degC? argument_unit = \"degC\""});
+}
+
+/// Elastic properties and expansion.
+void compare_solid(const BodySpec& body, const material::Material& m, Findings& findings) {
+  // A material as dense and conducting as metal counts as one, also where its card has no freezing.
+  const bool metal = m.solidification() != nullptr || (m.density > 5000 && m.conductivity.min_value() > 8);
+  if (const double stiffest = m.young_modulus.max_value(); metal && stiffest < 1e9)
+    findings.push_back({false, body.where,
+                        fmt::format("body '{}', material '{}': young_modulus of {:g} Pa at most", body.name,
+                                    body.material, stiffest),
+                        "cold metals have 10 to 400 GPa"});
+  compare(body, {"young_modulus", "Pa", 1e5, 2e12}, m.young_modulus.min_value(), m.young_modulus.max_value(),
+          findings);
+  compare(body, {"expansion", "1/K", -1e-5, 1.2e-4}, m.expansion.min_value(), m.expansion.max_value(),
+          findings);
+  const double largest = std::max(std::abs(m.expansion.min_value()), std::abs(m.expansion.max_value()));
+  constexpr double k_of_metals = 5e-5;  // zinc near its melting point
+  if (m.solidification() != nullptr && m.expansion.max_value() > k_of_metals &&
+      m.expansion.max_value() < 1.2e-4)
+    findings.push_back(
+        {false, body.where,
+         fmt::format("body '{}', material '{}': expansion of {:g} 1/K", body.name, body.material,
+                     m.expansion.max_value()),
+         "metals expand by 0.5e-5 to 4e-5 1/K; is it that of the volume, three times as large?"});
+  if (largest > 0 && largest < 1e-8)
+    findings.push_back(
+        {false, body.where,
+         fmt::format("body '{}', material '{}': expansion of {:g} 1/K", body.name, body.material, largest),
+         "usual are 5e-7 to 3e-5 1/K, or zero"});
+}
+
+/// Volume that no metal gains or loses as it freezes, a strength or stiffness that no metal has.
+void compare_strength(const BodySpec& body, const material::Material& m, Findings& findings) {
+  const auto say = [&](const std::string& what, const char* usual) {
+    findings.push_back({false, body.where,
+                        fmt::format("body '{}', material '{}': {}", body.name, body.material, what), usual});
+  };
+  for (const material::PhaseChange& change : m.phase_changes)
+    if (std::abs(change.volume_change) > 0.15)
+      say(fmt::format("'{}' changes the volume by {:.3g} %", change.name, 100 * change.volume_change),
+          "metals shrink by 1 to 7 % as they freeze (-0.07 to -0.01), bismuth and silicon expand by up to 10 "
+          "%");
+  if (m.flow && m.solidification() != nullptr && m.flow->flow_stress.max_value() < 1e6)
+    say(fmt::format("flow_stress of {:g} Pa at most", m.flow->flow_stress.max_value()),
+        "cold metals have 10 to 2000 MPa");
+  // Graphite and ceramics may stiffen.
+  const Table& young = m.young_modulus;
+  if (m.solidification() != nullptr && !young.constant() && young.y().back() > 1.2 * young.y().front())
+    say(fmt::format("young_modulus rises with temperature, from {:.3g} to {:.3g} GPa",
+                    1e-9 * young.y().front(), 1e-9 * young.y().back()),
+        "metals soften as they warm; are the columns of the table in their places?");
+}
+
+/// Ratios of the elastic and plastic properties that no metal has.
+void compare_ratios(const BodySpec& body, const material::Material& m, Findings& findings) {
+  if (const double least = m.poisson_ratio.min_value(); m.solidification() != nullptr && least < 0.12)
+    warn_of_material(body, fmt::format("poisson_ratio of {:g}", least), "metals have 0.2 to 0.45", findings);
+  for (const material::PhaseChange& change : m.phase_changes)
+    if (change.solidification && change.volume_change > 0.035)
+      warn_of_material(
+          body,
+          fmt::format("'{}' makes the volume larger by {:.3g} %", change.name, 100 * change.volume_change),
+          "metals shrink by 1 to 7 % as they freeze, volume_change = -0.07 to -0.01; grey iron and bismuth "
+          "expand by up to 3.3 %, silicon by 10 %",
+          findings);
+  if (!m.flow || m.flow->isotropic != material::IsotropicHardening::linear) return;
+  const double stiff = m.young_modulus.max_value(), hardening = m.flow->hardening[0].max_value();
+  if (hardening > 0.2 * stiff)
+    warn_of_material(body,
+                     fmt::format("hardening_modulus of {:.3g} GPa beside a young_modulus of {:.3g} GPa",
+                                 1e-9 * hardening, 1e-9 * stiff),
+                     "metals harden with 0.001 to 0.05 of their young_modulus", findings);
+}
+
+/// Compares the strength that viscosity adds at a casting's rates: other units are off by powers of ten.
+void compare_rate(const BodySpec& body, const material::Material& m, Findings& findings) {
+  if (!m.flow || m.flow->rate_independent()) return;
+  constexpr double k_rate = 1e-3, k_cold = 293.15;  // of castings [1/s], [K]
+  constexpr double k_least = 1e-5, k_most = 100;    // of the strength
+  const double strength = m.flow->flow_stress.max_value();
+  const double stress = material::rate_law(m.flow->rate_dependence)
+                            .overstress(material::flow_properties_at(*m.flow, k_cold), k_rate)
+                            .stress;
+  if (!(strength > 0) || (stress < k_most * strength && stress >= k_least * strength)) return;
+  warn_of_material(
+      body,
+      fmt::format("at 0.001 1/s its rate adds {:.3g} MPa to a flow_stress of {:.3g} MPa", 1e-6 * stress,
+                  1e-6 * strength),
+      "a tenth to ten times the flow stress; are the viscosity and the drag_stress in their units?",
+      findings);
+}
+
+/// A specific heat with a hump where the metal freezes holds the latent heat already.
+void compare_latent_heat(const BodySpec& body, const material::Material& m, Findings& findings) {
+  const material::PhaseFraction& fraction = m.solidification()->fraction;
+  constexpr double k_beside = 5, k_hump = 2.5;  // [K], [1]
+  const double low = fraction.solidus() - k_beside, high = fraction.liquidus() + k_beside;
+  const Table& c = m.specific_heat;
+  const double around = std::max(c.value(c.x().front()), c.value(high + 100));
+  double most = 0;
+  for (std::size_t i = 0; i < c.x().size(); ++i)
+    if (c.x()[i] > low && c.x()[i] < high) most = std::max(most, c.y()[i]);
+  if (most > k_hump * around)
+    warn_of_material(body,
+                     fmt::format("the specific heat rises to {:.4g} J/kg/K where it freezes, beside a latent "
+                                 "heat of {:.4g} kJ/kg: is it counted twice?",
+                                 most, 1e-3 * m.solidification()->latent_heat),
+                     "specific_heat without the latent heat, 500 to 1300 J/kg/K, on a line across the range",
+                     findings);
+}
+
+/// Heat as of freezing that no solid fraction belongs to: of a body that is no casting by its role, or of a
+/// card that does not say that it freezes.
+void compare_phase_changes(const BodySpec& body, const material::Material& m, Findings& findings) {
+  constexpr double k_much = 1.2e5;  // [J/kg]: above all that changes in the solid
+  for (const material::PhaseChange& change : m.phase_changes)
+    if (change.latent_heat > k_much && !change.solidification && body.role && !is_poured(*body.role))
+      findings.push_back(
+          {false, body.where,
+           fmt::format("the {} '{}' is of '{}', which melts from {:.0f} degC on and takes up {:.4g} kJ/kg",
+                       name(*body.role), body.name, body.material, change.fraction.solidus() - k_zero_celsius,
+                       1e-3 * change.latent_heat),
+           "materials of moulds, cores and chills have no phase change: a sand, 'steel_mould', 'iron_chill', "
+           "'copper_chill'"});
+    else if (change.latent_heat > k_much && !change.solidification)
+      warn_of_material(body,
+                       fmt::format("'{}' releases {:.4g} kJ/kg and is no solidification: nothing freezes",
+                                   change.name, 1e-3 * change.latent_heat),
+                       "solidification = true; changes in the solid release 1 to 90 kJ/kg", findings);
+}
+
+/// Metal conducts less as it melts, but not that much less.
+void compare_melt(const BodySpec& body, const material::Material& m, Findings& findings) {
+  constexpr double k_least = 0.2, k_beside = 1;  // [1], [K]
+  const material::PhaseFraction& fraction = m.solidification()->fraction;
+  const double solid = m.conductivity.value(fraction.solidus() - k_beside),
+               melt = m.conductivity.value(fraction.liquidus() + k_beside);
+  if (melt >= k_least * solid) return;
+  findings.push_back({false, body.where,
+                      fmt::format("body '{}', material '{}': conductivity of {:g} W/m/K in the melt, {:g} "
+                                  "W/m/K in the solid",
+                                  body.name, body.material, melt, solid),
+                      "melts conduct 0.4 to 1.5 times what the solid does at its solidus"});
+}
+
+/// The lowest temperature that starts, surroundings and prescribed ones name [K].
+double coldest(const CaseSpec& spec, const Assembly& a) {
+  double low = a.coldest_start();
+  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
+    using Kind = ThermalConditionSpec::Kind;
+    const bool ambient = c.kind == Kind::film || c.kind == Kind::radiation;
+    const Function& f = ambient ? c.ambient : c.temperature;
+    if ((ambient || c.kind == Kind::temperature) && f.place == nullptr)
+      low = std::min(low, f.table.min_value());
+  }
+  return low;
+}
+
+}  // namespace
+
+void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  const double low = coldest(spec, a);
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const material::Material& m = a.materials[b];
+    const bool metal = m.solidification() != nullptr;
+    for (const material::Property& property : m.properties())
+      if (spec.has_heat()) compare_argument(spec.bodies[b], property, low, m.solidification(), findings);
+    if (spec.has_mechanics() && m.mechanical() && !only_conducts(spec.bodies[b]))
+      compare_solid(spec.bodies[b], m, findings), compare_strength(spec.bodies[b], m, findings),
+          compare_ratios(spec.bodies[b], m, findings), compare_rate(spec.bodies[b], m, findings);
+    compare(spec.bodies[b], {"density", "kg/m3", metal ? 1000.0 : 10.0, 25000}, m.density, m.density,
+            findings);
+    if (!spec.has_heat()) continue;
+    // Melts are given a larger conductivity by some, for their flow.
+    const double solid = metal ? m.conductivity.value(m.solidification()->fraction.solidus()) : 0.0;
+    const bool as_melt = solid > 0 && solid <= 500;
+    compare(spec.bodies[b], {"conductivity", "W/m/K", metal ? 3 : 0.01, as_melt ? 1000.0 : 500.0},
+            m.conductivity.min_value(), m.conductivity.max_value(), findings);
+    compare(spec.bodies[b], {"specific heat", "J/kg/K", 80, 20000}, m.specific_heat.min_value(),
+            m.specific_heat.max_value(), findings);
+    compare_phase_changes(spec.bodies[b], m, findings);
+    if (metal) compare_melt(spec.bodies[b], m, findings);
+    if (metal) compare_latent_heat(spec.bodies[b], m, findings);
+    if (metal)
+      compare(spec.bodies[b], {"latent heat", "J/kg", 2e4, 2e6}, m.solidification()->latent_heat,
+              m.solidification()->latent_heat, findings);
+    if (metal)
+      if (const double range =
+              m.solidification()->fraction.liquidus() - m.solidification()->fraction.solidus();
+          range > 400)
+        findings.push_back({false, spec.bodies[b].where,
+                            fmt::format("body '{}', material '{}': it freezes over {:.0f} K",
+                                        spec.bodies[b].name, spec.bodies[b].material, range),
+                            "alloys freeze over 0 to 250 K; are solidus and liquidus right?"});
+  }
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,99 @@
+// Findings on the open skin of risers: where it lies as gravity acts, and what takes heat from it.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "check/findings.hpp"
+#include "mesh/body_faces.hpp"
+#include "mesh/surfaces/skin.hpp"
+#include "parallel/parallel.hpp"
+#include "setup/mechanics_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// The skin of a riser as gravity acts, areas in m², or lengths in m of a plane mesh.
+struct OpenSkin {
+  double all = 0;
+  double up = 0, beside = 0;  ///< with neither a contact nor a condition of mechanics
+  double bare_up = 0;         ///< upward, with neither a contact nor a condition of heat
+};
+
+std::set<std::string> contact_sides(const CaseSpec& spec) {
+  std::set<std::string> groups;
+  for (const ContactSpec& contact : spec.contacts)
+    for (const std::string& side : contact.sides()) groups.insert(side);
+  return groups;
+}
+
+/// [body], for risers that are poured. Collective.
+std::map<std::size_t, OpenSkin> open_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+                                           const std::array<double, 3>& up) {
+  constexpr double k_upright = 0.7, k_beside = 0.3;  // of the normal along `up`
+  std::map<std::size_t, OpenSkin> skins;
+  for (const Pour& pour : m.pours)
+    if (spec.bodies[pour.body].role == Role::riser) skins[pour.body] = {};
+  if (skins.empty()) return skins;
+  std::set<std::string> held = contact_sides(spec), cooled = held;
+  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) held.insert(c.group);
+  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
+    cooled.insert(c.group);
+    if (c.kind == ThermalConditionSpec::Kind::temperature) held.insert(c.group);  // as of an inlet
+  }
+  const auto held_faces = mesh::body_face_keys(a.mesh, held),
+             cooled_faces = mesh::body_face_keys(a.mesh, cooled);
+  mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
+    const auto found = skins.find(static_cast<std::size_t>(face.body));
+    if (found == skins.end()) return;
+    std::vector<mesh::Point> corners;
+    for (const Index node : face.vertices()) corners.push_back(a.mesh.x[static_cast<std::size_t>(node)]);
+    const mesh::SkinFace skin = mesh::face_through(std::move(corners));
+    const double along = skin.normal[0] * up[0] + skin.normal[1] * up[1] + skin.normal[2] * up[2];
+    OpenSkin& sum = found->second;
+    sum.all += skin.area;
+    if (same.size() > 1) return;
+    if (along > k_upright && !cooled_faces.contains(face.key)) sum.bare_up += skin.area;
+    if (held_faces.contains(face.key)) return;
+    if (along > k_upright) sum.up += skin.area;
+    if (std::abs(along) < k_beside) sum.beside += skin.area;
+  });
+  for (auto& [body, sum] : skins)
+    for (double* area : {&sum.all, &sum.up, &sum.beside, &sum.bare_up}) *area = parallel::global_sum(*area);
+  return skins;
+}
+
+}  // namespace
+
+void find_in_open_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_little = 0.02;  // of the skin
+  const std::array<double, 3> g = gravity(spec.analysis);
+  const double size = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  if (!spec.has_heat() || !(size > 0)) return;
+  for (const auto& [body, skin] : open_skins(spec, a, m, {-g[0] / size, -g[1] / size, -g[2] / size})) {
+    const BodySpec& riser = spec.bodies[body];
+    if (skin.bare_up > k_little * skin.all)
+      findings.push_back(
+          {false, riser.where,
+           fmt::format("{:.0f} % of the skin of the riser '{}' face up and have neither a thermal condition "
+                       "nor a contact: no heat leaves there",
+                       100 * skin.bare_up / skin.all, riser.name),
+           "10 to 20 W/m2/K and radiation on open metal, 1 to 3 W/m2/K under a cover"});
+    if (spec.has_mechanics() && skin.up < 0.1 * k_little * skin.all && skin.beside > k_little * skin.all)
+      findings.push_back(
+          {false, spec.analysis.where,
+           fmt::format("the riser '{}' is closed on top and open beside, as gravity acts: {:.0f} % of its "
+                       "skin there have neither a contact nor a support",
+                       riser.name, 100 * skin.beside / skin.all),
+           "is gravity_direction right? A riser is open on top, or its mould closes it all round"});
+  }
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,193 @@
+// Findings on bodies whose place, start or cooling does not fit what they are to the foundry.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "case/roles.hpp"
+#include "check/findings.hpp"
+#include "input/units.hpp"
+#include "setup/mechanics_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+using Kind = ThermalConditionSpec::Kind;
+
+double celsius(double kelvin) {
+  return units::to_display(kelvin, "K", "degC");
+}
+
+/// A chill takes heat up because it is cold and conducts.
+void chills(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_hot = 673.15;    // [K]
+  constexpr double k_conducts = 8.0;  // [W/m/K]: less than any metal, more than sand
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const BodySpec& body = spec.bodies[b];
+    if (m.is_poured(b) || role_of(body, a.materials[b]) != Role::chill) continue;
+    if (a.start[b].high > k_hot)
+      findings.push_back(
+          {false, body.where,
+           fmt::format("the chill '{}' starts at {:.0f} degC", body.name, celsius(a.start[b].high)),
+           "chills start at 20 to 200 degC"});
+    if (const double k = a.materials[b].conductivity.value(a.start[b].high); k < k_conducts)
+      findings.push_back(
+          {false, body.where,
+           fmt::format("the chill '{}' of '{}' conducts {:.3g} W/m/K", body.name, body.material, k),
+           "chills are of iron, copper or graphite: 30 to 400 W/m/K"});
+  }
+}
+
+/// A mould takes up what the metal gives off; insulation on the metal is a sleeve.
+void insulating_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_insulates = 450;  // √(kρc) [W √s/(m² K)]: less than plaster and loose sand, 570 and 600
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const BodySpec& body = spec.bodies[b];
+    if (body.role != Role::mould || m.is_poured(b)) continue;
+    const bool on_metal = std::ranges::any_of(m.contacts, [&](const ContactMeasures& c) {
+      const int self = static_cast<int>(b), other = c.slave_body == self ? c.master_body : c.slave_body;
+      return (c.slave_body == self || c.master_body == self) && other >= 0 &&
+             m.is_poured(static_cast<std::size_t>(other));
+    });
+    const material::Material& of = a.materials[b];
+    const double start = a.start[b].high;
+    const double takes_up =
+        std::sqrt(of.conductivity.value(start) * of.density * of.specific_heat.value(start));
+    if (!on_metal || takes_up >= k_insulates) continue;
+    findings.push_back(
+        {false, body.where,
+         fmt::format("the mould '{}' of '{}' takes up heat as insulation does: the root of k rho c is {:.0f} "
+                     "W s^(1/2)/(m2 K)",
+                     body.name, body.material, takes_up),
+         "moulds of plaster and sand have 500 to 1600, ceramic shells 1000 to 1500; the role of insulation "
+         "on metal is \"sleeve\""});
+  }
+}
+
+/// Where every mould lies within the casting's box, groups or roles are swapped. A core may.
+void swapped(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  const auto within = [&](std::size_t inner, std::size_t outer) {
+    bool inside = true;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(a.mesh.dimension); ++d)
+      inside = inside && m.bodies[inner].low[d] >= m.bodies[outer].low[d] &&
+               m.bodies[inner].high[d] <= m.bodies[outer].high[d];
+    return inside && m.bodies[inner].volume < m.bodies[outer].volume;
+  };
+  for (const Pour& pour : m.pours) {
+    std::size_t moulds = 0, inside = 0, last = 0;
+    for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+      const Role role = role_of(spec.bodies[b], a.materials[b]);
+      if (m.is_poured(b) || (role != Role::mould && role != Role::die)) continue;
+      ++moulds;
+      if (within(b, pour.body)) ++inside, last = b;
+    }
+    if (moulds > 0 && inside == moulds)
+      findings.push_back({false, spec.bodies[pour.body].where,
+                          fmt::format("the mould '{}' lies within the casting '{}'", spec.bodies[last].name,
+                                      spec.bodies[pour.body].name),
+                          "are their groups swapped? What lies within a casting is a core"});
+  }
+}
+
+/// Films that water makes, on sand and on risers.
+void strong_films(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_sand = 3, k_on_sand = 500, k_on_riser = 300;  // [W/m/K], [W/m²/K]
+  for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
+    const ThermalConditionSpec& c = spec.thermal_conditions[i];
+    if (c.kind != Kind::film || m.surfaces[i].body < 0 || !is_number(c.coefficient) || !is_number(c.factor))
+      continue;
+    const auto b = static_cast<std::size_t>(m.surfaces[i].body);
+    const double h = c.coefficient.table.value(0) * c.factor.table.value(0);
+    if (is_number(c.factor) && c.factor.table.value(0) == 0)
+      findings.push_back({false, c.where, fmt::format("the factor of '{}' is 0: it does nothing", c.name),
+                          "above 0, or without the condition"});
+    const std::string what =
+        fmt::format("the film '{}' has {:g} W/m2/K on '{}'", c.name, h, spec.bodies[b].name);
+    const bool poured = m.is_poured(b);
+    if (!poured && h > k_on_sand && a.materials[b].conductivity.value(a.start[b].low) < k_sand)
+      findings.push_back({false, c.where, what + ", which conducts as sand does",
+                          "sand stands in air: 5 to 50 W/m2/K; water cools metal"});
+    if (poured && h > k_on_riser && role_of(spec.bodies[b], a.materials[b]) == Role::riser)
+      findings.push_back({false, c.where, what + ", which is to freeze last",
+                          "risers stand in air, 5 to 50 W/m2/K, or under a cover"});
+  }
+}
+
+/// Finds films, radiation and held temperatures that keep a mould above the solidus of what is poured.
+void heated_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  if (m.pours.empty()) return;
+  double solidus = 0;
+  for (const Pour& pour : m.pours)
+    solidus = std::max(solidus, a.materials[pour.body].solidification()->fraction.solidus());
+  for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
+    const ThermalConditionSpec& c = spec.thermal_conditions[i];
+    const bool surrounded = c.kind == Kind::film || c.kind == Kind::radiation;
+    if ((!surrounded && c.kind != Kind::temperature) || !c.stages.empty() || m.surfaces[i].body < 0) continue;
+    const auto b = static_cast<std::size_t>(m.surfaces[i].body);
+    const Function& temperature = surrounded ? c.ambient : c.temperature;
+    if (m.is_poured(b) || !is_number(temperature)) continue;
+    const double level = temperature.table.value(0);
+    if (level > solidus && level < 1900)
+      findings.push_back(
+          {false, c.where,
+           fmt::format("'{}' {} '{}' at {:.0f} degC, above the solidus of what is poured, {:.0f} degC",
+                       c.name, surrounded ? "surrounds" : "holds", spec.bodies[b].name, celsius(level),
+                       celsius(solidus)),
+           "room temperature, or that of channels"});
+  }
+}
+
+/// Risers feed by their weight, and pressures are counted from that of the air.
+void weight(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  if (!spec.has_mechanics() || m.pours.empty()) return;
+  const std::array<double, 3> g = gravity(spec.analysis);
+  const bool weighs = std::any_of(g.begin(), g.end(), [](double v) { return v != 0; });
+  for (const Pour& pour : m.pours)
+    if (const BodySpec& body = spec.bodies[pour.body]; !weighs && body.role == Role::riser)
+      findings.push_back({false, body.where,
+                          fmt::format("the riser '{}' has no weight: gravity is 0", body.name),
+                          "gravity = \"9.81 m/s2\" in [analysis]"});
+  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    if (c.kind != MechanicalConditionSpec::Kind::pressure || !is_number(c.pressure)) continue;
+    if (const double p = c.pressure.table.value(0); p > 0.99e5 && p < 1.016e5)
+      findings.push_back(
+          {false, c.where,
+           fmt::format("'{}' presses with {:g} Pa, as the air does, which acts on all sides already", c.name,
+                       p),
+           "pressures above that of the air"});
+  }
+}
+
+void criteria(const CaseSpec& spec, Findings& findings) {
+  const CriteriaSpec& c = spec.criteria;
+  const auto warn = [&](const std::string& what, const char* usual) {
+    findings.push_back({false, c.where, what, usual});
+  };
+  if (!c.follow && !c.feeders.empty())
+    warn(fmt::format("the feeder '{}' has no effect: criteria.follow = false", c.feeders.front()),
+         "without criteria.follow, which is true then");
+  if (c.follow && c.feeding_limit < 0.3)
+    warn(fmt::format("criteria.feeding_limit = {:g}: melt that is {:.0f} % liquid feeds no more",
+                     c.feeding_limit, 100 * (1 - c.feeding_limit)),
+         "0.5 to 0.9, a fraction of solid");
+  if (c.follow && c.evaluation > 0.5)
+    warn(fmt::format("criteria.evaluation = {:g}: gradients are taken near the liquidus", c.evaluation),
+         "0 to 0.2, a share of the freezing range above the solidus");
+}
+
+}  // namespace
+
+void find_in_roles(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  if (!spec.has_heat()) return;
+  chills(spec, a, m, findings);
+  insulating_moulds(spec, a, m, findings);
+  swapped(spec, a, m, findings);
+  strong_films(spec, a, m, findings);
+  heated_moulds(spec, a, m, findings);
+  weight(spec, m, findings);
+  criteria(spec, findings);
+}
+
+}  // namespace solidus::model

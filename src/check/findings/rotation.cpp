@@ -1,0 +1,159 @@
+// Findings on bodies that supports keep from moving, but not from turning.
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "check/findings.hpp"
+#include "numbers/symmetric_eigen.hpp"
+#include "parallel/parallel.hpp"
+#include "setup/body_input.hpp"
+#include "setup/mechanics_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// An eigenvalue below this share of the largest one is that of a motion that no support holds.
+constexpr double k_nothing = 1e-9;
+
+/// Bodies that contacts and common nodes join count as one rigid body: the first body of each group, and
+/// whether something that does not move holds it, a tool or a body that only conducts heat.
+struct Groups {
+  std::vector<int> of_body;
+  std::vector<char> held;  ///< [first body]
+};
+
+Groups joined_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+  // Bodies that touch or share nodes move together, as long as they deform. A body that touches one that does
+  // not move is held by it.
+  Groups groups;
+  groups.of_body.resize(spec.bodies.size());
+  groups.held.assign(spec.bodies.size(), 0);
+  std::iota(groups.of_body.begin(), groups.of_body.end(), 0);
+  const auto moves = [&](int body) {
+    const BodySpec& of = spec.bodies[static_cast<std::size_t>(body)];
+    return !only_conducts(of) && holds(of.stages, a.first_stage());
+  };
+  std::vector<char> held(spec.bodies.size(), 0);
+  const auto join = [&](int one, int other) {
+    for (const auto& [body, partner] : {std::pair(one, other), std::pair(other, one)})
+      if (body >= 0 && (partner < 0 || !moves(partner))) held[static_cast<std::size_t>(body)] = 1;
+    if (one < 0 || other < 0 || !moves(one) || !moves(other)) return;
+    const int low = std::min(groups.of_body[static_cast<std::size_t>(one)],
+                             groups.of_body[static_cast<std::size_t>(other)]),
+              high = std::max(groups.of_body[static_cast<std::size_t>(one)],
+                              groups.of_body[static_cast<std::size_t>(other)]);
+    std::replace(groups.of_body.begin(), groups.of_body.end(), high, low);
+  };
+  // Contacts of the first stage join their bodies. A contact with several bodies on one side says too little,
+  // and then all count as held.
+  for (std::size_t c = 0; c < spec.contacts.size(); ++c)
+    if (holds(spec, spec.contacts[c], a.mesh, a.first_stage())) {
+      join(m.contacts[c].slave_body, m.contacts[c].master_body);
+      const bool several =
+          m.contacts[c].slave_body == k_several_bodies || m.contacts[c].master_body == k_several_bodies;
+      if (several) std::fill(held.begin(), held.end(), char{1});  // no finding is better than a wrong one
+    }
+  // Shared nodes join bodies, too. A group is held if one of its bodies is.
+  for (std::size_t b = 0; b < m.bodies.size(); ++b)
+    for (std::size_t other = 0; other < b; ++other)
+      if (m.bodies[b].shared_nodes[other] > 0) join(static_cast<int>(b), static_cast<int>(other));
+  for (std::size_t b = 0; b < held.size(); ++b)
+    if (held[b] != 0 || !moves(static_cast<int>(b)))
+      groups.held[static_cast<std::size_t>(groups.of_body[b])] = 1;
+  return groups;
+}
+
+/// The motions of a rigid body, translations and rotations about the origin of `mesh` scaled by `size`, that
+/// its supports hold: the sum of r rᵀ over the held components of nodes, r their part in each motion.
+/// Collective.
+class RigidMotions {
+ public:
+  RigidMotions(const mesh::Mesh& mesh, const mesh::Point& centre, double size)
+      : mesh_(mesh), centre_(centre[0], centre[1], centre[2]), size_(size), n_(mesh.dimension == 3 ? 6 : 3) {
+    form_.setZero(n_, n_);
+  }
+  void hold(Index node, int axis) {
+    const mesh::Point& x = mesh_.x[static_cast<std::size_t>(node)];
+    const Eigen::Vector3d arm = (Eigen::Vector3d(x[0], x[1], x[2]) - centre_) / size_;
+    const Eigen::Vector3d turn = arm.cross(Eigen::Vector3d::Unit(axis));
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(n_);
+    r[axis] = 1;
+    if (n_ == 6)
+      r.tail(3) = turn;
+    else
+      r[2] = turn.z();
+    form_ += r * r.transpose();
+  }
+  void sum() {
+    for (double& entry : form_.reshaped()) entry = parallel::global_sum(entry);
+  }
+  /// Whether all translations are held, and some rotation is not.
+  bool turns() const {
+    const Eigen::MatrixXd translations = form_.topLeftCorner(mesh_.dimension, mesh_.dimension);
+    return !is_loose(translations) && is_loose(form_);
+  }
+
+ private:
+  static bool is_loose(const Eigen::MatrixXd& form) {
+    const SymmetricEigen modes =
+        symmetric_eigen({form.data(), form.data() + form.size()}, static_cast<std::size_t>(form.rows()));
+    return modes.values.front() < k_nothing * modes.values.back() || !(modes.values.back() > 0);
+  }
+  const mesh::Mesh& mesh_;
+  Eigen::Vector3d centre_;
+  double size_;
+  int n_;
+  Eigen::MatrixXd form_;
+};
+
+}  // namespace
+
+void find_turning_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  // A group that nothing else holds turns if its supports hold no more than a point or a line. Inertia
+  // resists turning, and around an axis there is none.
+  if (!spec.has_mechanics() || spec.dynamics || spec.analysis.kind == AnalysisKind::axisymmetric) return;
+  const Groups groups = joined_bodies(spec, a, m);
+  for (std::size_t first = 0; first < spec.bodies.size(); ++first) {
+    if (groups.of_body[first] != static_cast<int>(first) || groups.held[first] != 0) continue;
+    const BodyMeasures& body = m.bodies[first];
+    mesh::Point centre{};
+    double size = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      centre[d] = 0.5 * (body.low[d] + body.high[d]);
+      size = std::max(size, body.high[d] - body.low[d]);
+    }
+    // The directions that are held at nodes of the group are summed up in the matrix of its rigid motions.
+    std::vector<char> of_group(a.mesh.x.size(), 0);
+    for (const mesh::ElementBlock& block : a.mesh.blocks)
+      if (groups.of_body[static_cast<std::size_t>(block.body)] == static_cast<int>(first))
+        for (const Index node : block.nodes) of_group[static_cast<std::size_t>(node)] = 1;
+    RigidMotions motions(a.mesh, centre, size);
+    for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+      const auto nodes = a.mesh.node_sets.find(c.group);
+      if (c.kind != MechanicalConditionSpec::Kind::displacement || nodes == a.mesh.node_sets.end() ||
+          !holds(c.stages, a.first_stage()))
+        continue;
+      for (const Index node : nodes->second) {
+        if (node >= a.mesh.n_owned_nodes || of_group[static_cast<std::size_t>(node)] == 0) continue;
+        if (c.ux) motions.hold(node, 0);
+        if (c.uy) motions.hold(node, 1);
+        if (c.uz && a.mesh.dimension == 3) motions.hold(node, 2);
+      }
+    }
+    motions.sum();
+    if (!motions.turns()) continue;
+    findings.push_back(
+        {false, spec.bodies[first].where,
+         fmt::format("nothing keeps '{}' from turning: its supports hold a point or a line of it",
+                     spec.bodies[first].name),
+         "supports on three planes (in the plane on two lines), or on nodes that do not lie on one line"});
+  }
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,166 @@
+// Findings on skins of castings that touch another body and are joined to it by nothing.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "check/findings.hpp"
+#include "mesh/body_faces.hpp"
+#include "mesh/surfaces/skin.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+using Key = std::array<GlobalIndex, 4>;
+
+/// Keys of the faces of this process to which the case gives a contact or a thermal condition.
+std::set<Key> faces_with_a_role(const CaseSpec& spec, const mesh::Mesh& mesh) {
+  std::set<std::string> groups;
+  for (const ContactSpec& contact : spec.contacts)
+    for (const std::string& side : contact.sides()) groups.insert(side);
+  for (const ThermalConditionSpec& condition : spec.thermal_conditions) groups.insert(condition.group);
+  return mesh::body_face_keys(mesh, groups);
+}
+
+mesh::SkinFace measured(const mesh::Mesh& mesh, const mesh::BodyFace& face) {
+  std::vector<mesh::Point> corners;
+  for (const Index node : face.vertices()) corners.push_back(mesh.x[static_cast<std::size_t>(node)]);
+  return mesh::face_through(std::move(corners));
+}
+
+using Skins = std::vector<std::vector<mesh::SkinFace>>;  ///< [body][face], of this process
+
+/// Returns the faces of the skins of castings that have no role and are no face of another body.
+Skins bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+  const std::set<Key> roles = faces_with_a_role(spec, a.mesh);
+  Skins skins(spec.bodies.size());
+  mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
+    const auto body = static_cast<std::size_t>(face.body);
+    if (same.size() == 1 && m.is_poured(body) && !roles.contains(face.key))
+      skins[body].push_back(measured(a.mesh, face));
+  });
+  return skins;
+}
+
+Skins all_skins(const CaseSpec& spec, const Assembly& a) {
+  Skins skins(spec.bodies.size());
+  mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace>) {
+    skins[static_cast<std::size_t>(face.body)].push_back(measured(a.mesh, face));
+  });
+  return skins;
+}
+
+/// Faces of all processes that come near a box. Collective.
+std::vector<mesh::SkinFace> gather_near(const std::vector<mesh::SkinFace>& faces, const mesh::Point& low,
+                                        const mesh::Point& high, double margin) {
+  std::vector<mesh::Point> mine;  // four a face, the last one repeated
+  for (const mesh::SkinFace& face : faces) {
+    bool near = true;
+    for (std::size_t d = 0; d < 3 && near; ++d) {
+      double least = face.corners[0][d], greatest = least;
+      for (const mesh::Point& x : face.corners)
+        least = std::min(least, x[d]), greatest = std::max(greatest, x[d]);
+      near = greatest > low[d] - margin && least < high[d] + margin;
+    }
+    for (std::size_t i = 0; near && i < 4; ++i)
+      mine.push_back(face.corners[std::min(i, face.corners.size() - 1)]);
+  }
+  const std::vector<mesh::Point> all = gather(mine);
+  std::vector<mesh::SkinFace> found;
+  for (std::size_t i = 0; i + 3 < all.size(); i += 4) {
+    std::vector<mesh::Point> corners(all.begin() + static_cast<std::ptrdiff_t>(i),
+                                     all.begin() + static_cast<std::ptrdiff_t>(i) + 4);
+    while (corners.size() > 2 && corners.back() == corners[corners.size() - 2]) corners.pop_back();
+    found.push_back(mesh::face_through(std::move(corners)));
+  }
+  return found;
+}
+
+/// The area of faces that lie on faces of another body: nearer than a tenth of their size. Collective.
+double area_on(const std::vector<mesh::SkinFace>& faces, const std::vector<mesh::SkinFace>& others,
+               double largest, int dimension) {
+  constexpr double k_near = 0.1;
+  if (others.empty()) return 0;
+  const mesh::SkinSearch search(others, k_near * largest);
+  double area = 0;
+  for (const mesh::SkinFace& face : faces) {
+    const double size = dimension == 3 ? std::sqrt(face.area) : face.area;
+    const auto found = search.facing(face.centre, face.normal);
+    if (found && found->distance < k_near * size) area += face.area;
+  }
+  return parallel::global_sum(area);
+}
+
+double total_area(const std::vector<mesh::SkinFace>& faces) {
+  double area = 0;
+  for (const mesh::SkinFace& face : faces) area += face.area;
+  return parallel::global_sum(area);
+}
+
+/// Whether a contact or a node joins a body to any other one; where none does, findings_interface.cpp says
+/// it.
+bool is_joined(const CaseMeasures& m, std::size_t body) {
+  return std::ranges::any_of(m.bodies[body].shared_nodes, [](GlobalIndex n) { return n > 0; }) ||
+         std::ranges::any_of(m.contacts, [&](const ContactMeasures& c) {
+           const auto b = static_cast<int>(body);
+           return c.slave_body == b || c.master_body == b || c.slave_body == k_several_bodies ||
+                  c.master_body == k_several_bodies;
+         });
+}
+
+}  // namespace
+
+void find_bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  // Bare faces of a poured body that lie on another body without contact or shared nodes pass no heat. Both
+  // skins are compared where they come near each other; the size of the largest face is the distance that
+  // counts.
+  constexpr double k_little = 0.05;          // of the skin of the smaller one
+  constexpr double k_same_temperature = 50;  // [K]: as in findings_interface.cpp
+  if (!spec.has_heat() || spec.bodies.size() < 2 || m.pours.empty()) return;
+  const Skins bare_faces = bare_skins(spec, a, m);
+  if (!parallel::any_process(
+          std::ranges::any_of(bare_faces, [](const auto& faces) { return !faces.empty(); })))
+    return;
+  const Skins skins = all_skins(spec, a);
+  for (const Pour& pour : m.pours) {
+    const std::size_t body = pour.body;
+    const std::vector<mesh::SkinFace>& bare = bare_faces[body];
+    double largest = 0;
+    for (const mesh::SkinFace& face : bare)
+      largest = std::max(largest, a.mesh.dimension == 3 ? std::sqrt(face.area) : face.area);
+    largest = parallel::global_max(largest);
+    if (!(largest > 0)) continue;
+    const double skin = total_area(skins[body]);
+    // Two poured bodies are told once, and only bodies that share a stage and start apart, or are joined
+    // somewhere else.
+    for (std::size_t other = 0; other < spec.bodies.size(); ++other) {
+      const bool both = m.is_poured(other);
+      const bool alike = std::abs(a.start[body].high - a.start[other].low) < k_same_temperature;
+      if (other == body || (both && other < body) ||
+          !share_a_stage(spec.bodies[body].stages, spec.bodies[other].stages) ||
+          (!alike && !is_joined(m, body)))
+        continue;
+      const double area =
+          area_on(bare, gather_near(skins[other], m.bodies[body].low, m.bodies[body].high, largest), largest,
+                  a.mesh.dimension);
+      if (area < k_little * std::min(skin, total_area(skins[other]))) continue;
+      findings.push_back(
+          {false, spec.bodies[body].where,
+           fmt::format("'{}' lies on '{}' with {:.0f} % of its skin where nothing joins them: no heat "
+                       "passes there{}",
+                       spec.bodies[body].name, spec.bodies[other].name, 100 * area / skin,
+                       both ? ", and one does not feed the other" : ""),
+           both ? "metal that is poured together shares nodes: mesh.conforming, or one geometry"
+                : "a [[contact]] for all faces that touch, as [[interface]] with bodies = \"all\" makes"});
+    }
+  }
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,250 @@
+// Findings on surfaces that have several conditions, of which one takes the other's place or works against
+// it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "check/findings.hpp"
+#include "input/units.hpp"
+#include "mesh/body_faces.hpp"
+#include "parallel/parallel.hpp"
+#include "setup/body_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+using Heat = ThermalConditionSpec::Kind;
+using Motion = MechanicalConditionSpec::Kind;
+
+bool lies_on(const ContactSpec& contact, const std::string& group) {
+  const auto sides = contact.sides();
+  return std::find(sides.begin(), sides.end(), group) != sides.end();
+}
+
+/// A surface in contact gives its heat to its partner. Films beside contacts: findings_interface.cpp.
+void heat_beside_contacts(const CaseSpec& spec, Findings& findings) {
+  for (const ThermalConditionSpec& c : spec.thermal_conditions)
+    for (const ContactSpec& contact : spec.contacts) {
+      if (!contact.heat || !lies_on(contact, c.group) || !share_a_stage(c.stages, contact.stages)) continue;
+      if (c.kind == Heat::temperature && is_number(c.temperature))
+        findings.push_back(
+            {false, c.where,
+             fmt::format(
+                 "'{}' holds the surface '{}' at {:.0f} degC, on which the contact '{}' acts: what lies "
+                 "behind it has no effect on the other body",
+                 c.name, c.group, units::to_display(c.temperature.table.value(0), "K", "degC"), contact.name),
+             "temperatures on outer surfaces alone, or channels"});
+      const bool radiates = c.kind == Heat::radiation && is_number(c.emissivity) && is_number(c.factor);
+      const bool flows = c.kind == Heat::flux && is_number(c.flux) && is_number(c.factor);
+      if (radiates || flows)
+        findings.push_back(
+            {false, c.where,
+             fmt::format("the {} '{}' lies on the surface '{}', through which heat passes by the "
+                         "contact '{}' too",
+                         radiates ? "radiation" : "flux", c.name, c.group, contact.name),
+             radiates ? "radiation to surroundings on outer surfaces alone; between the two "
+                        "surfaces: slave_emissivity and master_emissivity in [contact.heat]"
+                      : "fluxes on outer surfaces alone"});
+    }
+}
+
+/// A held temperature leaves nothing to another condition of its surface.
+void beside_held_temperatures(const CaseSpec& spec, Findings& findings) {
+  for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
+    const ThermalConditionSpec& held = spec.thermal_conditions[i];
+    if (held.kind != Heat::temperature) continue;
+    for (std::size_t k = 0; k < spec.thermal_conditions.size(); ++k) {
+      const ThermalConditionSpec& other = spec.thermal_conditions[k];
+      const bool twice = other.kind == Heat::temperature;
+      if (k == i || (twice && k > i) || other.in_volume() || other.group != held.group ||
+          !share_a_stage(held.stages, other.stages))
+        continue;
+      findings.push_back(
+          {false, held.where,
+           fmt::format("'{}' holds the temperature of '{}', on which '{}' {}", held.name, held.group,
+                       other.name, twice ? "holds another one" : "acts too, without effect"),
+           "one condition for a surface"});
+    }
+  }
+}
+
+/// Two films on one face add up, as one of a channel and one of the whole outside around it. One of less than
+/// a fifth of the other changes little. Films of one surface: findings_interface.cpp. Collective.
+void films_in_one_place(const CaseSpec& spec, const mesh::Mesh& mesh, Findings& findings) {
+  std::vector<const ThermalConditionSpec*> films;
+  for (const ThermalConditionSpec& c : spec.thermal_conditions)
+    if (c.kind == Heat::film && is_number(c.coefficient) && is_number(c.factor)) films.push_back(&c);
+  const auto strength = [](const ThermalConditionSpec& c) {
+    return c.coefficient.table.value(0) * c.factor.table.value(0);
+  };
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    const auto faces = mesh::body_face_keys(mesh, {films[i]->group});
+    const double all = parallel::global_sum(static_cast<double>(faces.size()));
+    for (std::size_t k = 0; k < i; ++k) {
+      const double one = strength(*films[i]), other = strength(*films[k]);
+      constexpr double k_little = 0.2;
+      if (films[i]->group == films[k]->group || !share_a_stage(films[i]->stages, films[k]->stages) ||
+          std::min(one, other) < k_little * std::max(one, other))
+        continue;
+      const auto others = mesh::body_face_keys(mesh, {films[k]->group});
+      const double shared = parallel::global_sum(static_cast<double>(
+          std::ranges::count_if(faces, [&](const auto& face) { return others.contains(face); })));
+      if (!(shared > 0)) continue;
+      findings.push_back(
+          {false, films[i]->where,
+           fmt::format("the films '{}' and '{}' both act on {:.0f} of the {:.0f} faces of '{}': they add up",
+                       films[k]->name, films[i]->name, shared, all, films[i]->group),
+           "one film for each face"});
+    }
+  }
+}
+
+/// A body all of whose nodes have their temperature prescribed.
+void held_bodies(const CaseSpec& spec, Findings& findings) {
+  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
+    if (c.kind != Heat::temperature || !is_number(c.temperature) || !c.stages.empty()) continue;
+    for (const BodySpec& body : spec.bodies)
+      if (body.mesh_group() == c.group)
+        findings.push_back(
+            {false, c.where,
+             fmt::format("'{}' holds all of '{}' at {:.0f} degC: it takes any heat and never warms", c.name,
+                         body.name, units::to_display(c.temperature.table.value(0), "K", "degC")),
+             "initial_temperature of the body, and a condition on its outer surface"});
+  }
+}
+
+/// Loads on surfaces in contact, and loads that pull.
+void pressures(const CaseSpec& spec, Findings& findings) {
+  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    if (c.kind != Motion::pressure || !is_number(c.pressure)) continue;
+    const double pressure = c.pressure.table.value(0);
+    if (pressure < 0)
+      findings.push_back(
+          {false, c.where,
+           fmt::format("the pressure '{}' of {:.4g} MPa pulls at '{}'", c.name, 1e-6 * pressure, c.group),
+           "a pressure is positive into the body"});
+    for (const ContactSpec& contact : spec.contacts)
+      if (lies_on(contact, c.group) && share_a_stage(c.stages, contact.stages))
+        findings.push_back(
+            {false, c.where,
+             fmt::format("the pressure '{}' acts on the surface '{}', which the contact '{}' holds", c.name,
+                         c.group, contact.name),
+             "loads on free surfaces: the pressure between two bodies is found by the contact"});
+  }
+}
+
+const std::optional<Function>& along(const MechanicalConditionSpec& c, std::size_t axis) {
+  const std::array<const std::optional<Function>*, 3> u{&c.ux, &c.uy, &c.uz};
+  return axis == 0 && c.ur ? c.ur : *u[axis];
+}
+
+/// Two motions of the same nodes along the same axis.
+void opposed_supports(const CaseSpec& spec, Findings& findings) {
+  for (std::size_t i = 0; i < spec.mechanical_conditions.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const MechanicalConditionSpec &one = spec.mechanical_conditions[k],
+                                    &two = spec.mechanical_conditions[i];
+      if (one.kind != Motion::displacement || two.kind != Motion::displacement || one.group != two.group ||
+          !share_a_stage(one.stages, two.stages))
+        continue;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::optional<Function>&u = along(one, axis), &v = along(two, axis);
+        if (!u || !v || !is_number(*u) || !is_number(*v) || u->table.value(0) == v->table.value(0)) continue;
+        findings.push_back(
+            {false, two.where,
+             fmt::format("'{}' and '{}' move '{}' along the same axis, by {:g} and {:g} mm", one.name,
+                         two.name, two.group, 1e3 * u->table.value(0), 1e3 * v->table.value(0)),
+             "one condition for a surface and an axis"});
+      }
+    }
+}
+
+/// Which ends of a body along an axis a group of nodes is, none where it has other nodes of it as well.
+/// Collective.
+struct Ends {
+  bool low = false, high = false;
+};
+
+Ends ends_of(const mesh::Mesh& mesh, const std::vector<Index>& group, const std::vector<char>& of_body,
+             const BodyMeasures& body, std::size_t axis) {
+  const double near = 1e-3 * (body.high[axis] - body.low[axis]);
+  Ends found;
+  bool elsewhere = false;
+  for (const Index node : group) {
+    const auto i = static_cast<std::size_t>(node);
+    if (of_body[i] == 0) continue;
+    const double x = mesh.x[i][axis];
+    if (x - body.low[axis] < near)
+      found.low = true;
+    else if (body.high[axis] - x < near)
+      found.high = true;
+    else
+      elsewhere = true;
+  }
+  if (parallel::any_process(elsewhere)) return {};
+  return {parallel::any_process(found.low), parallel::any_process(found.high)};
+}
+
+std::vector<char> nodes_of_body(const mesh::Mesh& mesh, std::size_t body) {
+  std::vector<char> of_body(mesh.x.size(), 0);
+  for (const mesh::ElementBlock& block : mesh.blocks)
+    if (block.body == static_cast<int>(body))
+      for (const Index node : block.nodes) of_body[static_cast<std::size_t>(node)] = 1;
+  return of_body;
+}
+
+/// Castings that supports hold at both ends of an axis cannot shrink along it. Collective.
+void clamped_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  for (const Pour& pour : m.pours) {
+    const BodySpec& body = spec.bodies[pour.body];
+    if (only_conducts(body)) continue;
+    const BodyMeasures& measures = m.bodies[pour.body];
+    const std::vector<char> of_body = nodes_of_body(a.mesh, pour.body);
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(a.mesh.dimension); ++axis) {
+      const bool round = spec.analysis.kind == AnalysisKind::axisymmetric && axis == 0;
+      const double extent = measures.high[axis] - measures.low[axis];
+      if (round || !(extent > 0)) continue;
+      std::string low, high;
+      for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+        const std::optional<Function>& u = along(c, axis);
+        const auto nodes = a.mesh.node_sets.find(c.group);
+        if (c.kind != Motion::displacement || !u || !is_number(*u) || nodes == a.mesh.node_sets.end() ||
+            !model::holds(c.stages, a.first_stage()))
+          continue;
+        const Ends ends = ends_of(a.mesh, nodes->second, of_body, measures, axis);
+        if (ends.low) low = c.name;
+        if (ends.high) high = c.name;
+      }
+      if (low.empty() || high.empty()) continue;
+      findings.push_back(
+          {false, body.where,
+           fmt::format(
+               "'{}' and '{}' hold '{}' at both of its ends along {}, {:.4g} mm apart: it cannot shrink", low,
+               high, body.name, std::string_view("xyz").substr(axis, 1), 1e3 * extent),
+           "a support at one end: metals shrink by 1 to 2.5 % until they are cold, or tear"});
+    }
+  }
+}
+
+}  // namespace
+
+void find_on_surfaces(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  if (spec.has_heat()) {
+    heat_beside_contacts(spec, findings);
+    beside_held_temperatures(spec, findings);
+    films_in_one_place(spec, a.mesh, findings);
+    held_bodies(spec, findings);
+  }
+  if (!spec.has_mechanics()) return;
+  pressures(spec, findings);
+  opposed_supports(spec, findings);
+  clamped_castings(spec, a, m, findings);
+}
+
+}  // namespace solidus::model

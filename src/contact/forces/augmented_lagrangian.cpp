@@ -1,0 +1,211 @@
+#include "contact/forces/augmented_lagrangian.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contact/points/point_law.hpp"
+#include "parallel/parallel.hpp"
+#include "system/processes.hpp"
+
+namespace solidus::contact {
+
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+std::vector<double> AugmentedLagrangian::nodal_penetration(const ContactState& now) const {
+  const mesh::Mesh& mesh = geometry_.mesh();
+  const ContactKinematics& kinematics = geometry_.kinematics();
+  // The mean over the closed points around each node, weighted as they would enter the least squares of a
+  // nodal field that is lumped to its diagonal.
+  std::vector<double> weight(mesh.x.size(), 0.0), mean(mesh.x.size(), 0.0);
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    const ContactPointState& point = now.points[at(p)];
+    if (point.status == PointStatus::open) continue;
+    const ContactKinematics::Particle particle = kinematics.particle(p);
+    for (std::size_t b = 0; b < particle.nodes.size(); ++b) {
+      const double w = particle.weight * particle.share[b] * particle.share[b];
+      weight[at(particle.nodes[b])] += w;
+      mean[at(particle.nodes[b])] += w * point.penetration;
+    }
+  }
+  for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = weight[i] > 0 ? mean[i] / weight[i] : 0.0;
+  parallel::GhostExchange(mesh).update(mean, 1);
+  return mean;
+}
+
+void AugmentedLagrangian::accelerate(const std::vector<double>& penetration) {
+  constexpr double k_longest = 30;
+  if (last_penetration_.size() != penetration.size()) {
+    step_factor_.assign(penetration.size(), 1.0);
+  } else {
+    for (std::size_t i = 0; i < penetration.size(); ++i) {
+      const double last = last_penetration_[i], fallen = last - penetration[i];
+      const double ratio = fallen != 0 ? last / fallen : 1.0;
+      step_factor_[i] = ratio > 0 ? std::clamp(step_factor_[i] * ratio, 1.0, k_longest) : 1.0;
+    }
+  }
+  last_penetration_ = penetration;
+}
+
+std::vector<double> AugmentedLagrangian::step_of_points(const ContactState& now, const ContactStep& step) {
+  // The plain step of each point adds penalty times penetration to its multiplier (Uzawa's rule), which never
+  // falls below what suction allows. Its convergence is linear; the secants of the steps before shorten the
+  // way.
+  constexpr double k_longest = 1e3;  // times the largest plain step
+  // Scalar products count each point once, on the process that counts it, and are sums over all processes.
+  const ContactKinematics& kinematics = geometry_.kinematics();
+  const Secants::Dot dot = [&](const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t p = 0; p < a.size(); ++p)
+      if (kinematics.particle(static_cast<Index>(p)).counted) sum += a[p] * b[p];
+    return parallel::global_sum(sum);
+  };
+  const auto largest_of = [](const std::vector<double>& values) {
+    double most = 0;
+    for (const double value : values) most = std::max(most, std::abs(value));
+    return parallel::global_max(most);
+  };
+  std::vector<double> plain;
+  // An open point keeps the least multiplier: its penetration says nothing of its pressure.
+  for (std::size_t p = 0; p < step.from.size(); ++p) {
+    const double least = least_multiplier(step.from[p]), multiplier = step.from[p].multiplier;
+    const bool open = now.points[p].status == PointStatus::open;
+    plain.push_back((open ? least : std::max(least, multiplier + law_.penalty * now.points[p].penetration)) -
+                    multiplier);
+  }
+  // The step by secants is shortened where it would go far beyond the largest plain step, and open points
+  // take the plain one.
+  secants_.look(plain, dot);
+  std::vector<double> by_secants = secants_.step(dot);
+  const double most = k_longest * largest_of(plain), length = largest_of(by_secants);
+  for (std::size_t p = 0; p < by_secants.size(); ++p) {
+    if (length > most) by_secants[p] *= most / length;
+    if (now.points[p].status == PointStatus::open) by_secants[p] = plain[p];
+  }
+  return by_secants;
+}
+
+void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, AugmentedBy by) {
+  if (!acts() || ended_) return;
+  if (may_end_) {
+    left_ = largest(now).penetration;
+    before_.clear();
+    for (const ContactPointState& from : step.from) before_.push_back({from.multiplier, from.traction});
+  }
+  const bool by_means = by == AugmentedBy::means;
+  std::vector<double> penetration;
+  if (by_means) {
+    penetration = nodal_penetration(now);
+    accelerate(penetration);
+  }
+  std::vector<double> step_of_point;
+  if (!by_means) step_of_point = step_of_points(now, step);
+  const ContactKinematics& kinematics = geometry_.kinematics();
+  // Sticking keeps the compliance of its penalty where nobody asked for multipliers, and where augmentations
+  // by means have not settled: points that are more than a face can follow would drive their tangential
+  // tractions to and fro from one augmentation to the next.
+  const bool tangential = !pressure_tolerance_ && by_means;
+  if (tangential && step.start_traction.empty())
+    for (const ContactPointState& from : step.from) step.start_traction.push_back(from.traction);
+  if (!by_means && !step.start_traction.empty())
+    for (std::size_t p = 0; p < step.from.size(); ++p) step.from[p].traction = step.start_traction[p];
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    ContactPointState& from = step.from[at(p)];
+    if (!by_means) {
+      const double before = from.multiplier;
+      from.multiplier = std::max(least_multiplier(from), before + step_of_point[at(p)]);
+      step_of_point[at(p)] = from.multiplier - before;
+      continue;
+    }
+    double grown = 0;
+    const ContactKinematics::Particle particle = kinematics.particle(p);
+    for (std::size_t b = 0; b < particle.nodes.size(); ++b)
+      grown += particle.share[b] * step_factor_[at(particle.nodes[b])] * penetration[at(particle.nodes[b])];
+    if (now.points[at(p)].status == PointStatus::open)
+      from.multiplier = least_multiplier(from);
+    else
+      from.multiplier = std::max(least_multiplier(from), from.multiplier + law_.penalty * grown);
+    if (tangential) from.traction = now.points[at(p)].traction;
+  }
+  if (by_means) return;
+  // The first augmentation by points takes friction back to its start as well, which no secant tells.
+  if (std::exchange(by_points_, true))
+    secants_.took(std::move(step_of_point));
+  else
+    secants_.clear();
+}
+
+void AugmentedLagrangian::take_back(ContactStep& step) {
+  if (!acts()) return;
+  for (std::size_t p = 0; p < before_.size(); ++p) {
+    step.from[p].multiplier = before_[p].multiplier;
+    step.from[p].traction = before_[p].traction;
+  }
+  ended_ = true;
+}
+
+AugmentedLagrangian::Largest AugmentedLagrangian::largest(const ContactState& now) const {
+  Largest found;
+  for (const double g : nodal_penetration(now)) found.penetration = std::max(found.penetration, std::abs(g));
+  for (const ContactPointState& point : now.points) found.pressure = std::max(found.pressure, point.pressure);
+  found.penetration = parallel::global_max(found.penetration);
+  found.pressure = parallel::global_max(found.pressure);
+  return found;
+}
+
+double AugmentedLagrangian::excess(const ContactState& now) const {
+  if (!acts()) return 0;
+  const Largest found = largest(now);
+  if (!pressure_tolerance_) return found.penetration / allowed_;
+  const double allowed = *pressure_tolerance_ * found.pressure / law_.penalty;
+  return allowed > 0 ? found.penetration / allowed : 0;
+}
+
+double AugmentedLagrangian::pressure_error(const ContactState& now) const {
+  if (!acts()) return 0;
+  double force = 0, area = 0;
+  const ContactKinematics& kinematics = geometry_.kinematics();
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    const ContactKinematics::Particle particle = kinematics.particle(p);
+    const double pressure = now.points[at(p)].pressure;
+    if (!particle.counted || !(pressure > 0)) continue;
+    force += particle.weight * pressure;
+    area += particle.weight;
+  }
+  force = parallel::global_sum(force);
+  area = parallel::global_sum(area);
+  return force > 0 ? largest(now).penetration * stiffness_ * area / force : 0;
+}
+
+std::string AugmentedLagrangian::worst_penetration(const ContactState& now) const {
+  const mesh::Mesh& mesh = geometry_.mesh();
+  const std::vector<double> penetration = nodal_penetration(now);
+  double worst = -1;
+  std::size_t node = 0;
+  // The largest of the own nodes first; the process that has the largest of all writes the text, which the
+  // others receive.
+  for (std::size_t i = 0; i < penetration.size(); ++i) {
+    if (std::abs(penetration[i]) <= worst) continue;
+    worst = std::abs(penetration[i]);
+    node = i;
+  }
+  const int owner = processes::find_largest(worst).rank;
+  std::string text;
+  if (owner == processes::rank() && !penetration.empty()) {
+    const mesh::Point& x = mesh.x[node];
+    text = fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) m: penetration {:.3g} m", mesh.input_node[node],
+                       x[0], x[1], x[2], penetration[node]);
+  }
+  processes::broadcast(text, owner);
+  return text;
+}
+
+}  // namespace solidus::contact

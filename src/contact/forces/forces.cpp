@@ -1,0 +1,96 @@
+#include "contact/forces/forces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/points/penalty.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::contact {
+
+namespace {
+
+PointLaw law_of(const ContactParameters& spec, double penalty) {
+  PointLaw law;
+  law.normal = {spec.normal, penalty};
+  if (spec.normal == NormalKind::penalty) law.stiffening = std::max(spec.solid_penalty / penalty, 1.0);
+  if (!spec.friction) return law;
+  const FrictionParameters& friction = *spec.friction;
+  law.friction.emplace(friction,
+                       friction.tangential_penalty.value_or(friction.tangential_penalty_factor * penalty),
+                       spec.interface_heat_capacity);
+  law.friction_stiffens = !friction.tangential_penalty;
+  law.wear = spec.wear;
+  return law;
+}
+
+}  // namespace
+
+ContactForces::ContactForces(const ContactGeometry& geometry, const ContactParameters& spec,
+                             const PairSurfaces& surfaces, std::span<const double> body_modulus,
+                             const ContactStep& step)
+    : name_(spec.name),
+      step_(step),
+      law_(law_of(spec, penalty_of(geometry.mesh(), spec, surfaces, body_modulus))),
+      symmetric_(spec.friction ? spec.friction->symmetric : geometry.kinematics().symmetric()),
+      multipliers_(geometry, law_.normal, spec.penetration_tolerance * geometry.face_size(),
+                   geometry.face_size(), spec.pressure_tolerance,
+                   stiffness_of(geometry.mesh(), surfaces, body_modulus)),
+      term_(spec.name, geometry, law_, step, spec.stabilisation, spec.friction && spec.friction->symmetric) {
+  term_.follow_weights(!symmetric_);
+}
+
+void ContactForces::activate(bool on) {
+  active_ = on;
+  term_.activate(on);
+}
+
+void ContactForces::begin(bool isentropic, double share, bool goes_on) {
+  multipliers_.begin(goes_on);
+  term_.begin();
+  law_.isentropic = isentropic;
+  law_.share = share;
+}
+
+PointForces ContactForces::at(const PointMotion& motion, Index point) const {
+  if (!active_) return {};
+  return law_.forces(motion, step_.from[static_cast<std::size_t>(point)], step_.coupled.around(motion),
+                     step_.iterate_of(point));
+}
+
+void ContactForces::augment(const ContactState& now, ContactStep& step, AugmentedBy by) {
+  term_.restart();
+  if (active_) multipliers_.augment(now, step, by);
+}
+
+void ContactForces::take_back_turn(ContactStep& step) {
+  term_.restart();
+  multipliers_.take_back(step);
+}
+
+double ContactForces::excess(const ContactState& now) const {
+  return active_ ? multipliers_.excess(now) : 0.0;
+}
+
+double ContactForces::pressure_error(const ContactState& now) const {
+  return active_ ? multipliers_.pressure_error(now) : 0.0;
+}
+
+GlobalIndex ContactForces::changes() const {
+  return std::llround(parallel::global_sum(static_cast<double>(term_.changes())));
+}
+
+std::string ContactForces::failure_text() const {
+  const FrictionStatus failure = term_.failure();
+  if (parallel::any_process(failure != FrictionStatus::converged)) {
+    const double worst = parallel::global_max(static_cast<double>(failure));
+    return fmt::format("contact '{}': {}", name_, reason(static_cast<FrictionStatus>(std::lround(worst))));
+  }
+  const GlobalIndex n = changes();
+  if (n == 0) return {};
+  return fmt::format("contact '{}': {} points still change between open, sticking and slipping", name_, n);
+}
+
+}  // namespace solidus::contact

@@ -1,0 +1,106 @@
+/// Contact forces as a term of the mechanical phase; an internal part of ContactPair.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/forces/step.hpp"
+#include "contact/points/geometry.hpp"
+#include "contact/points/integration.hpp"
+#include "contact/points/point_law.hpp"
+#include "contact/points/slot_cache.hpp"
+#include "linear/contribution.hpp"
+#include "linear/coupled_matrix.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::contact {
+
+/// r_b = Σ_p w B_b (t_N n + F T) of the displacement it is called with, from the step's start, and the exact
+/// derivative away from g_N = 0 and the edge of the slip cone:
+///
+///   K_bc = Σ_p w B_b { n ⊗ t_N' ∂g_N/∂x_c + F [ ∂T/∂T^trial (∂T̄_n/∂x_c + ε_T ∂ΔG/∂x_c) + ∂T/∂t_N ⊗ t_N'
+///   ∂g_N/∂x_c ] }
+///          + geometric terms of the kinematics
+///
+/// T̄_n: T_n as the kinematics carry it. With `symmetric` ∂T/∂t_N is left out, and of the rest the symmetric
+/// part is taken; the symmetric part of the whole would be indefinite wherever points slip.
+///
+/// The tangent holds a share of the penalty at every point (ContactParameters::stabilisation). Against a
+/// melt, with next to no stiffness, that share is much, and Newton's iteration creeps: from its ninth tangent
+/// on the share falls. Where too little is held, rounding moves a body that nothing else holds: hold() lets
+/// the tangents of an iteration hold more.
+///
+/// Where the friction law finds no state the residual is not a number: Newton's method shortens its step.
+class MechanicsTerm : public linear::Contribution {
+ public:
+  /// Keeps references.
+  /// @param name  of the pair, for the log: with level debug every residual leaves a line
+  MechanicsTerm(std::string name, const ContactGeometry& geometry, const PointLaw& law,
+                const ContactStep& step, double stabilisation, bool symmetric);
+  /// A step begins, with the stabilisation as it is given.
+  void begin() { hold(1); }
+  /// Another Newton iteration follows.
+  void restart() { n_tangents_ = 0; }
+  /// Another Newton iteration follows, whose tangents hold so many times the stabilisation; so do those after
+  /// it, until the next begin().
+  void hold(double times) {
+    hold_ = times;
+    restart();
+  }
+  /// Whether the tangent holds how a point's weight falls where it slides beyond the rim of its master, which
+  /// makes it unsymmetric. Else it does not, and iterations with such points converge linearly.
+  void follow_weights(bool on) { follows_weights_ = on; }
+  /// Off: no term at all.
+  void activate(bool on) { active_ = on; }
+
+  bool graph_may_change() const override { return graph_.may_change(); }
+  bool graph_outdated() const override {
+    return active_ ? graph_.outdated(version_) : graph_.renewed(version_);
+  }
+  void add_to_graph(linear::NodeGraph& graph) const override;
+  void bind(const linear::BlockMatrix& matrix) override;
+  void add_residual(std::span<const double> x, std::span<double> r) override;
+  void add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) override;
+  /// Adds ∂r/∂Θ at the displacement of the last call, where friction follows the bodies' temperatures.
+  void add_temperature_tangent(linear::CoupledMatrix& matrix);
+
+  /// Number of points that changed between open, sticking and slipping from the last but one residual to the
+  /// last.
+  Index changes() const { return changes_; }
+  /// The first failure of the friction law at the last residual.
+  FrictionStatus failure() const { return failure_; }
+  std::size_t bytes() const { return slots_.bytes() + status_.capacity(); }
+
+ private:
+  struct Run;
+  struct Count;
+  void log(const Count& count) const;
+  template <int dim>
+  void add_tangents(linear::BlockMatrix& matrix);
+  template <int dim>
+  void add_point(const PointMotion& motion, Index point, Run& run);
+  template <int dim>
+  void flush(Run& run, linear::BlockMatrix& matrix);
+
+  std::string name_;
+  Index n_owned_;
+  int components_;
+  const ContactGeometry& geometry_;
+  const ContactKinematics& kinematics_;
+  ContactGraph& graph_;
+  const PointLaw& law_;
+  const ContactStep& step_;
+  double stabilisation_, stabilisation_share_ = 1, hold_ = 1;
+  bool symmetric_;
+  bool follows_weights_ = false;
+  bool active_ = true;
+  mutable int version_ = 0;  ///< of the graph it has
+  SlotCache slots_, coupled_slots_;
+  const linear::BlockMatrix* coupled_ = nullptr;  ///< that coupled_slots_ know
+  std::vector<PointStatus> status_;               ///< at the last residual
+  Index changes_ = 0;
+  int n_tangents_ = 0;  ///< of this iteration
+  FrictionStatus failure_ = FrictionStatus::converged;
+};
+
+}  // namespace solidus::contact

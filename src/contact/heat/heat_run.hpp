@@ -1,0 +1,28 @@
+/// Consecutive points of the heat term that share their nodes, and the sum of their matrices; an internal
+/// header of HeatTerm.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "contact/heat/heat_term.hpp"
+
+namespace solidus::contact {
+
+struct HeatTerm::Run {
+  Index first = -1;
+  std::vector<Index> nodes;
+  std::vector<double> values;
+
+  bool holds(std::span<const Index> other) const {
+    return first >= 0 && std::equal(other.begin(), other.end(), nodes.begin(), nodes.end());
+  }
+  void start(Index point, std::span<const Index> of, std::size_t n_values) {
+    first = point;
+    nodes.assign(of.begin(), of.end());
+    values.assign(n_values, 0.0);
+  }
+};
+
+}  // namespace solidus::contact

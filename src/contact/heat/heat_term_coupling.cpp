@@ -1,0 +1,154 @@
+/// Derivatives of the heat through contact with respect to the displacement.
+#include <algorithm>
+
+#include "contact/heat/heat_run.hpp"
+#include "contact/heat/heat_term.hpp"
+#include "contact/points/positive_shares.hpp"
+
+namespace solidus::contact {
+
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+double cube(double t) {
+  return t * t * t;
+}
+
+double fourth(double t) {
+  return cube(t) * t;
+}
+
+}  // namespace
+
+void HeatTerm::add_gap_slope(const AtPoint& s, std::span<const double> temperature,
+                             std::span<double> heat) const {
+  const HeatPoint& point = points_[at(s.point)];
+  const double w = partners_.weight[at(s.point)];
+  const Conductance h = conductance(s.point, 0.5 * (s.slave + s.master));
+  const double slope = w * (h.by_pressure * point.pressure_slope + h.by_penetration);
+  // By the penetration, which is minus the gap.
+  if (s.radiation > 0) add_exchange(s, temperature, 0, -w * radiation_[at(s.point)].by_gap, heat);
+  if (slope != 0) {
+    add_exchange(s, temperature, slope, 0, heat);
+    if (s.has_temperature) {
+      const std::array<double, 2> flux = flux_by_conductance(s);
+      add_sides(s, {slope * flux[0], slope * flux[1]}, heat);
+    }
+  }
+  if (!point.joint) return;
+  const double source = -w * point.joint->source_by_pressure * point.pressure_slope;
+  add_sides(s, {s.interface.by_side[0] * source, s.interface.by_side[1] * source}, heat);
+}
+
+// B of the master is in Θ_m = −Σ B_b Θ_b, and says which node takes the heat.
+void HeatTerm::add_share_slope(const AtPoint& s, std::span<const double> temperature, std::size_t b,
+                               std::span<double> heat) const {
+  const double w = partners_.weight[at(s.point)], t = temperature[at(s.nodes[b])];
+  const double across = w * (s.h.value * t + s.radiation * fourth(t));
+  for (std::size_t a = 0; a < (s.nodal ? s.n_slave : s.nodes.size()); ++a) heat[a] += s.b[a] * across;
+  // The derivative of the heat that the node itself gives off.
+  heat[b] += s.nodal
+                 ? w * (s.h.value * (s.slave - t) + s.radiation * (s.slave_fourth - fourth(t)))
+                 : w * (s.h.value * (s.slave - s.master) + s.radiation * (s.slave_fourth - s.master_fourth));
+  std::array<double, 2> by_mean{};
+  if (s.has_temperature) {
+    const double conducted = s.h.value * (s.slave - s.master);
+    heat[b] -= w * (s.interface.flux[1] + conducted);
+    const auto& slope = s.interface.flux_slope;
+    add_sides(s, {-w * t * (slope[0][1] + s.h.value), -w * t * (slope[1][1] - s.h.value)}, heat);
+    by_mean = flux_by_conductance(s);
+  }
+  if (s.h.by_temperature == 0) return;
+  const double by_share = -0.5 * t * w * s.h.by_temperature;
+  add_exchange(s, temperature, by_share, 0, heat);
+  add_sides(s, {by_share * by_mean[0], by_share * by_mean[1]}, heat);
+}
+
+void HeatTerm::add_share_slopes(const AtPoint& s, std::span<const double> temperature,
+                                std::span<double> heat) const {
+  const std::size_t n = s.nodes.size(), n_master = n - s.n_slave;
+  if (!limited(s.point)) {
+    for (std::size_t b = s.n_slave; b < n; ++b) add_share_slope(s, temperature, b, heat.subspan(b * n, n));
+    return;
+  }
+  // Where positive shares are in use they change with the place through the plain ones: the chain rule.
+  std::vector<double> shares(n_master), positive(n_master), slope(n_master * n_master, 0.0), of_positive(n);
+  for (std::size_t b = 0; b < n_master; ++b) shares[b] = -partners_.share_of(s.point)[s.n_slave + b];
+  positive_shares(dimension_, shares, positive, slope);
+  for (std::size_t c = 0; c < n_master; ++c) {
+    of_positive.assign(n, 0.0);
+    add_share_slope(s, temperature, s.n_slave + c, of_positive);
+    for (std::size_t b = 0; b < n_master; ++b)
+      for (std::size_t a = 0; a < n; ++a)
+        heat[(s.n_slave + b) * n + a] += slope[c * n_master + b] * of_positive[a];
+  }
+}
+
+void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index point)>& rates_of,
+                                        std::span<const double> temperature, linear::CoupledMatrix& matrix) {
+  if (!active_) return;
+  if (displacement_ != &matrix.displacement()) {
+    displacement_ = &matrix.displacement();
+    displacement_slots_.bind(*displacement_, n_owned_, partners_.n_points());
+  }
+  // Each point adds ∂r_a by what moves with the displacement (gap, weight, trial traction, place on the
+  // master) times the rate of that at every node. Points with the same nodes are summed in one run of blocks,
+  // which is then added to the matrix.
+  const auto components = static_cast<std::size_t>(matrix.components());
+  std::vector<double> per_gap, per_trial, per_share, per_weight;  // ∂r_a
+  Run run;
+  for (Index p = 0; p < partners_.n_points(); ++p) {
+    if (partners_.partnered[at(p)] == 0) continue;
+    const HeatRates rates = rates_of(p);
+    if (rates.penetration.empty()) continue;
+    const AtPoint s = see(p, temperature);
+    const std::size_t n = s.nodes.size();
+    if (!run.holds(s.nodes)) run.start(p, s.nodes, n * n * components);
+    std::fill(run.values.begin(), run.values.end(), 0.0);
+    const auto add = [&](std::span<const double> heat, const auto& rate_of) {
+      for (std::size_t row = 0; row < n; ++row)
+        for (std::size_t b = 0; b < n; ++b)
+          for (std::size_t c = 0; c < components; ++c)
+            run.values[(row * n + b) * components + c] += heat[row] * rate_of(b)[c];
+    };
+    per_gap.assign(n, 0.0);
+    add_gap_slope(s, temperature, per_gap);
+    add(per_gap, [&](std::size_t b) -> const Point& { return rates.penetration[b]; });
+    if (!rates.weight.empty()) {
+      per_weight.assign(n, 0.0);
+      add_point_heat(s, temperature, 1.0, per_weight);
+      add(per_weight, [&](std::size_t b) -> const Point& { return rates.weight[b]; });
+    }
+    if (const auto& joint = points_[at(p)].joint; joint && !rates.trial.empty()) {
+      per_trial.assign(n, 0.0);
+      const double source = -partners_.weight[at(p)] * joint->source_by_trial;
+      add_sides(s, {s.interface.by_side[0] * source, s.interface.by_side[1] * source}, per_trial);
+      add(per_trial, [&](std::size_t b) -> const Point& { return rates.trial[b]; });
+    }
+    const auto moves_of = [&](std::size_t a) { return rates.share.subspan(a * n, n); };
+    const auto at_rest = [&](std::size_t a) {
+      const auto moves = moves_of(a);
+      return std::all_of(moves.begin(), moves.end(), [](const Point& v) { return v == Point{}; });
+    };
+    bool moved = false;
+    for (std::size_t a = s.n_slave; a < n && !moved; ++a) moved = !at_rest(a);
+    if (moved) {
+      per_share.assign(n * n, 0.0);
+      add_share_slopes(s, temperature, per_share);
+    }
+    for (std::size_t a = s.n_slave; a < n && moved; ++a)
+      if (!at_rest(a))
+        add(std::span(per_share).subspan(a * n, n),
+            [&](std::size_t b) -> const Point& { return moves_of(a)[b]; });
+    const auto slots = displacement_slots_.slots(run.first, run.nodes);
+    for (std::size_t e = 0; e < n * n; ++e) {
+      double* const to = matrix.heat_by_displacement(slots[e]);
+      for (std::size_t c = 0; c < components; ++c) to[c] += run.values[e * components + c];
+    }
+  }
+}
+
+}  // namespace solidus::contact

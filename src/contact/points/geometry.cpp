@@ -1,0 +1,217 @@
+#include "contact/points/geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "contact/laws/contact_law.hpp"
+#include "contact/points/fixed_kinematics.hpp"
+#include "contact/points/penalty.hpp"
+#include "contact/points/segment_kinematics.hpp"
+#include "contact/points/sliding_kinematics.hpp"
+#include "contact/surfaces/master_mesh.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::contact {
+
+namespace {
+
+constexpr double k_rounding = 1e-6;  ///< of coordinates, of the mean size of the slave's faces
+constexpr double k_mostly = 0.5;     ///< of a point is a fit (FacetGap::fits)
+constexpr double k_scatter = 0.25;   ///< of the heights of facets, which follow from those around them
+
+std::size_t index_of(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+ContactPoints find_points(const mesh::Mesh& mesh, AnalysisKind kind, const ContactParameters& spec,
+                          double reach, const ContactSurface& slave, const ContactSurface& master) {
+  IntegrationOptions options;
+  options.rule = spec.integration;
+  options.gauss_degree = spec.gauss_degree;
+  options.search_distance = reach;
+  ContactPoints points = integrate(mesh, kind, slave, master, options);
+  if (points.paired_measure <= 0)
+    throw InputError(spec.where,
+                     fmt::format("contact '{}': no part of surface '{}' faces surface '{}' within {:.3g} m",
+                                 spec.name, spec.slave, spec.master, options.search_distance),
+                     "two surfaces that look at each other; or a larger search distance");
+  return points;
+}
+
+bool has_linear_faces(const ContactSurface& surface) {
+  for (Index face = 0; face < surface.n_faces(); ++face)
+    if (mesh::order(surface.shape(face)) > 1) return false;
+  return true;
+}
+
+/// A surface that folds on itself is no pair: a point would find its own face as its partner.
+void require_apart(const mesh::Mesh& mesh, const ContactParameters& spec, const ContactSurface& slave,
+                   const ContactSurface& master) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(spec.where, fmt::format("contact '{}': {}", spec.name, what),
+                     "two surfaces that have no node in common: contact of a surface with itself is not "
+                     "computed, and bodies that touch have nodes of their own ([[interface]] splits them)");
+  };
+  if (spec.slave == spec.master)
+    refuse(fmt::format("slave and master are the same surface '{}'", spec.slave));
+  const std::vector<Index>&of_slave = slave.all_nodes(), &of_master = master.all_nodes();
+  std::vector<Index> both;
+  std::set_intersection(of_slave.begin(), of_slave.end(), of_master.begin(), of_master.end(),
+                        std::back_inserter(both));
+  const double shared = parallel::global_sum(static_cast<double>(
+      std::ranges::count_if(both, [&](Index node) { return node < mesh.n_owned_nodes; })));
+  if (shared > 0)
+    refuse(fmt::format("the surfaces '{}' and '{}' share {:.0f} node{}", spec.slave, spec.master, shared,
+                       shared > 1 ? "s" : ""));
+}
+
+std::vector<Index> owned_nodes(const mesh::Mesh& mesh, const PairSurfaces& surfaces) {
+  std::vector<Index> nodes = surfaces.slave.all_nodes();
+  if (surfaces.master)
+    nodes.insert(nodes.end(), surfaces.master->all_nodes().begin(), surfaces.master->all_nodes().end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::erase_if(nodes, [&](Index node) { return node >= mesh.n_owned_nodes; });
+  return nodes;
+}
+
+}  // namespace
+
+PairSurfaces::PairSurfaces(const mesh::Mesh& mesh, const ContactParameters& spec) : slave(mesh, spec.slave) {
+  if (spec.rigid_master) return;
+  master.emplace(mesh, spec.master);
+  require_apart(mesh, spec, slave, *master);
+}
+
+bool PairSurfaces::linear() const {
+  return has_linear_faces(slave) && (!master || has_linear_faces(*master));
+}
+
+ContactParameters with_roles(const mesh::Mesh& mesh, ContactParameters spec,
+                             std::span<const double> body_modulus) {
+  if (!spec.choose_roles) return spec;
+  // The slave is the side with smaller faces or, when they are alike, the softer side. Whatever is told of a
+  // side changes with the roles.
+  constexpr double k_alike = 0.05;  // sizes of faces
+  const ContactSurface first(mesh, spec.slave), second(mesh, spec.master);
+  const double ratio = first.mean_face_size() / second.mean_face_size();
+  bool swap = ratio > 1 + k_alike;
+  if (std::abs(ratio - 1) <= k_alike && body_modulus.size() == mesh.bodies.size())
+    swap = local_stiffness(mesh, first, body_modulus) >
+           (1 + k_alike) * local_stiffness(mesh, second, body_modulus);
+  if (!swap) return spec;
+  std::swap(spec.slave, spec.master);
+  if (!spec.heat) return spec;
+  if (spec.heat->slave_resistance) spec.heat->slave_resistance = 1 - *spec.heat->slave_resistance;
+  if (spec.heat->contact_law != nullptr)
+    if (std::shared_ptr<const ContactLaw> law = spec.heat->contact_law->swapped())
+      spec.heat->contact_law = law;
+  return spec;
+}
+
+ContactGeometry::ContactGeometry(const mesh::Mesh& mesh, AnalysisKind kind, const ContactParameters& spec,
+                                 const PairSurfaces& surfaces)
+    : mesh_(mesh),
+      components_(displacement_components(kind)),
+      face_size_(surfaces.slave.mean_face_size()),
+      touching_(spec.touching.value_or(k_rounding * face_size_)),
+      facets_close_(!spec.touching && spec.formulation == Formulation::small_sliding),
+      surface_nodes_(owned_nodes(mesh, surfaces)) {
+  make_kinematics(kind, spec, surfaces);
+  configuration_ = std::make_unique<CurrentConfiguration>(*kinematics_);
+  graph_ = std::make_unique<ContactGraph>(*kinematics_);
+  if (!facets_close_) return;
+  double bound = 0;
+  for (Index p = 0; p < n_points(); ++p)
+    if (const FacetGap facets = kinematics_->facets(p); facets.fits > k_mostly)
+      bound = std::max(bound, facets.bound);
+  touching_ += 2 * bound;
+}
+
+double ContactGeometry::initial_offset(Index point, double penetration) const {
+  if (!facets_close_) return std::abs(penetration) <= touching_ ? -penetration : 0.0;
+  const FacetGap facets = kinematics_->facets(point);
+  const double scatter = facets.fits > k_mostly ? k_scatter * facets.bound : 0;
+  const double height = facets.fits > k_mostly ? facets.height : 0;
+  return std::abs(penetration + height) <= k_rounding * face_size_ + scatter ? -penetration : height;
+}
+
+void ContactGeometry::make_kinematics(AnalysisKind kind, const ContactParameters& spec,
+                                      const PairSurfaces& surfaces) {
+  const bool slides = spec.formulation == Formulation::large_sliding;
+  if (!surfaces.master && !slides)
+    throw InputError(spec.where, fmt::format("contact '{}': a rigid surface with small sliding", spec.name),
+                     "formulation = \"large_sliding\"");
+  if (slides && spec.integration == IntegrationRule::mortar)
+    throw InputError(
+        spec.where, fmt::format("contact '{}': integration = \"mortar\" with large sliding", spec.name),
+        "formulation = \"small_sliding\", or integration = \"segments\", \"gauss\" or \"nodal\"");
+  const ContactSurface& slave = surfaces.slave;
+  const double reach = spec.search_distance.value_or(0.1 * slave.extent());
+  if (!slides) {
+    kinematics_ = std::make_unique<FixedKinematics>(
+        find_points(mesh_, kind, spec, reach, slave, *surfaces.master), components_);
+    return;
+  }
+  const bool cut = spec.integration == IntegrationRule::segments;
+  std::unique_ptr<Master> met;
+  if (surfaces.master)
+    met = std::make_unique<MeshMaster>(
+        components_, *surfaces.master,
+        MeshMasterOptions{
+            .search_distance = reach, .smoothing = spec.smoothing, .rim = cut ? k_rim : k_fading_rim});
+  else
+    met = std::make_unique<AnalyticMaster>(components_, *spec.rigid_master, reach);
+  // A rigid surface has no faces to cut at.
+  if (cut && surfaces.master) {
+    kinematics_ =
+        std::make_unique<SegmentKinematics>(mesh_, kind, slave, *surfaces.master, std::move(met), reach);
+    return;
+  }
+  const bool nodal = spec.integration == IntegrationRule::nodal;
+  kinematics_ = std::make_unique<SlidingKinematics>(
+      mesh_, kind, slave, std::move(met),
+      SlidingOptions{.rule = nodal ? IntegrationRule::nodal : IntegrationRule::gauss,
+                     .gauss_degree = spec.gauss_degree});
+}
+
+std::vector<double> ContactGeometry::no_displacement() const {
+  return std::vector<double>(mesh_.x.size() * static_cast<std::size_t>(components_), 0.0);
+}
+
+std::vector<SurfaceCurvature> ContactGeometry::curvatures(AnalysisKind kind,
+                                                          const ContactSurface& slave) const {
+  const std::vector<SurfaceCurvature> of_face =
+      surface_curvatures(slave, kind, MeshMasterOptions{}.feature_angle);
+  if (std::ranges::all_of(of_face, [](const auto& c) { return c.first == 0 && c.second == 0; })) return {};
+  std::vector<SurfaceCurvature> of_point(index_of(n_points()));
+  for (Index p = 0; p < n_points(); ++p)
+    of_point[index_of(p)] =
+        of_face[static_cast<std::size_t>(kinematics_->particle(p).number / k_points_of_a_face)];
+  return of_point;
+}
+
+std::vector<SurfaceCurvature> ContactGeometry::master_curvatures(AnalysisKind kind,
+                                                                 const PairSurfaces& surfaces) const {
+  if (!surfaces.master) return {};
+  const std::vector<SurfaceCurvature> of_face =
+      surface_curvatures(*surfaces.master, kind, MeshMasterOptions{}.feature_angle);
+  if (std::ranges::all_of(of_face, [](const auto& c) { return c.first == 0 && c.second == 0; })) return {};
+  std::vector<SurfaceCurvature> at_node(mesh_.x.size());
+  std::vector<double> faces(mesh_.x.size(), 0.0);
+  // At a node the mean of the curvatures of its faces.
+  for (Index f = 0; f < surfaces.master->n_faces(); ++f)
+    for (const Index node : surfaces.master->nodes(f)) {
+      at_node[index_of(node)].first += of_face[index_of(f)].first;
+      at_node[index_of(node)].second += of_face[index_of(f)].second;
+      faces[index_of(node)] += 1;
+    }
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (faces[i] > 0) at_node[i] = {at_node[i].first / faces[i], at_node[i].second / faces[i]};
+  return at_node;
+}
+
+}  // namespace solidus::contact

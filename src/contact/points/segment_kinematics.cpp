@@ -1,0 +1,303 @@
+#include "contact/points/segment_kinematics.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "contact/points/point_list.hpp"
+#include "contact/surfaces/face_cells.hpp"
+
+namespace solidus::contact {
+
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+// A cell of which less than this share is covered has no partner: rounding at the master's end.
+constexpr double k_least_covered = 1e-9;
+
+}  // namespace
+
+SegmentKinematics::SegmentKinematics(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,
+                                     const ContactSurface& master, std::unique_ptr<Master> met,
+                                     double search_distance)
+    : kind_(kind),
+      components_(static_cast<std::size_t>(displacement_components(kind))),
+      slave_(slave),
+      master_(master),
+      reach_(search_distance),
+      degree_(degree_of_pieces(master)),
+      places_(mesh, kind, slave, std::move(met), {.graph_rings = 1, .meets_several = true}),
+      n_owned_(mesh.n_owned_nodes) {
+  add_cells();
+  place(std::vector<double>(mesh.x.size() * components_, 0.0));
+  // The share of the slave's area that faces the master.
+  double whole = 0, covered = 0;
+  for (std::size_t c = 0; c < face_.size(); ++c) {
+    whole += whole_[c];
+    covered += covered_[c];
+  }
+  coverage_ = covered / whole;
+}
+
+/// Shape functions are integrated, not their products: a degree that does so exactly on affine faces, with
+/// the circumference, and closely on others, whose functions are rational in the plane.
+int SegmentKinematics::degree_of_pieces(const ContactSurface& master) const {
+  int degree = kind_ == AnalysisKind::axisymmetric ? 2 : 1;
+  for (const ContactSurface* surface : {&slave_, &master})
+    for (Index f = 0; f < surface->n_faces(); ++f) {
+      const Face face = surface->reference_face(f);
+      degree =
+          std::max(degree, product_degree(face, face) / 2 + (kind_ == AnalysisKind::axisymmetric ? 1 : 0));
+    }
+  return degree;
+}
+
+void SegmentKinematics::add_cells() {
+  std::array<double, k_max_face_nodes> shape{};
+  for (Index f = 0; f < slave_.n_faces(); ++f) {
+    const Face face = slave_.reference_face(f);
+    first_cell_.push_back(n_points());
+    Index number = 0;
+    // A cell is where one value of pressure lives: its area, its centre and the mean of the shape functions
+    // on it.
+    for (const std::vector<Point>& cell : face_cells(face.shape)) {
+      face_.push_back(f);
+      number_.push_back(number++);
+      double& whole = whole_.emplace_back(0.0);
+      Point& position = position_.emplace_back();
+      auto& mean = shape_.emplace_back();
+      for (const SlaveRulePoint& q : cell_rule(face, kind_, cell, 6)) {
+        mesh::basis_values(face.shape, q.xi, shape);
+        whole += q.weight;
+        position = contact::add_scaled(position, q.weight, face.at(q.xi));
+        for (std::size_t a = 0; a < at(face.n_nodes); ++a) mean[a] += q.weight * shape[a];
+      }
+      position = scale(1 / whole, position);
+      for (double& value : mean) value /= whole;
+    }
+  }
+  first_cell_.push_back(n_points());
+  covered_.assign(face_.size(), 0.0);
+}
+
+SegmentKinematics::Particle SegmentKinematics::particle(Index point) const {
+  const std::size_t c = at(point);
+  const auto nodes = slave_.nodes(face_[c]);
+  const bool counted = nodes[0] < n_owned_;
+  const bool met = covered_[c] > 0;
+  return {.number = face_[c] * k_points_of_a_face + number_[c],
+          .counted = counted,
+          .position = position_[c],
+          .area = whole_[c],
+          .weight = met ? covered_[c] : whole_[c],
+          .nodes = nodes,
+          .share = std::span(shape_[c]).first(nodes.size())};
+}
+
+void SegmentKinematics::cut(Index slave_face, const Face& now, const FaceSearch& master) {
+  const Face reference = slave_.reference_face(slave_face);
+  const std::vector<Index> candidates = faces_within(now, master, reach_);
+  std::vector<PairedPoint> pieces;
+  (now.dimension() == 1 ? cut_line : cut_face)(
+      now, master, candidates, {.search_distance = reach_, .cells = true, .degree = degree_}, pieces);
+  const auto cell = [&](const PairedPoint& p) { return cell_of(now.shape, p.slave_xi); };
+  // Pieces in order of their cells, with weights of the undeformed slave.
+  std::ranges::stable_sort(pieces, {}, cell);
+  std::size_t next = 0;
+  for (const Index last = first_cell_[at(slave_face) + 1]; static_cast<Index>(first_place_.size()) <= last;) {
+    const std::size_t number = at(number_[first_place_.size() - 1]);
+    for (; next < pieces.size() && cell(pieces[next]) == number; ++next) {
+      const PairedPoint& p = pieces[next];
+      const double area = p.measure * reference.jacobian(p.slave_xi) / now.jacobian(p.slave_xi);
+      found_.push_back({.face = slave_face,
+                        .xi = p.slave_xi,
+                        .weight = area * circumference(kind_, reference.at(p.slave_xi)),
+                        .hint = p.master_face});
+    }
+    first_place_.push_back(static_cast<Index>(found_.size()));
+  }
+}
+
+void SegmentKinematics::place(std::span<const double> displacement, Points) {
+  const int components = static_cast<int>(components_);
+  std::vector<Face> faces;
+  for (Index f = 0; f < master_.n_faces(); ++f)
+    faces.push_back(master_.current_face(f, displacement, components));
+  const FaceSearch master(std::move(faces));
+  found_.clear();
+  first_place_.assign(1, 0);
+  for (Index f = 0; f < slave_.n_faces(); ++f)
+    cut(f, slave_.current_face(f, displacement, components), master);
+  places_.set_places(found_);
+  // All of them: a mean needs every place of its cell.
+  places_.place(displacement, Points::all);
+  for (std::size_t c = 0; c < face_.size(); ++c) {
+    covered_[c] = 0;
+    for (Index s = first_place_[c]; s < first_place_[c + 1]; ++s)
+      if (places_.partner(s).face >= 0) covered_[c] += places_.particle(s).weight;
+    if (covered_[c] < k_least_covered * whole_[c]) covered_[c] = 0;
+  }
+}
+
+FacetGap SegmentKinematics::facets(Index point) const {
+  FacetGap mean;
+  if (covered_[at(point)] == 0) return mean;
+  for (Index s = first_place_[at(point)]; s < first_place_[at(point) + 1]; ++s) {
+    if (places_.partner(s).face < 0) continue;
+    const FacetGap here = places_.facets(s);
+    const double alpha = places_.particle(s).weight / covered_[at(point)];
+    mean.height += alpha * here.height;
+    mean.bound += alpha * here.bound;
+    mean.fits += alpha * here.fits;
+  }
+  return mean;
+}
+
+bool SegmentKinematics::concerns(Index point) const {
+  for (Index s = first_place_[at(point)]; s < first_place_[at(point) + 1]; ++s)
+    if (places_.concerns(s)) return true;
+  return false;
+}
+
+void SegmentKinematics::number_nodes(const PointMotion& place) const {
+  where_.clear();
+  for (const Index node : place.nodes) {
+    where_.push_back(at(static_cast<Index>(std::ranges::find(nodes_, node) - nodes_.begin())));
+    if (where_.back() < nodes_.size()) continue;
+    nodes_.push_back(node);
+    share_.push_back(0);
+    normal_share_.emplace_back();
+    push_share_.emplace_back();
+    penetration_rate_.emplace_back();
+    way_rate_.emplace_back();
+    turn_rate_.emplace_back();
+  }
+}
+
+template <class Visit>
+void SegmentKinematics::for_each_place(Index point, Asked asked, Visit visit) const {
+  for (Index s = first_place_[at(point)]; s < first_place_[at(point) + 1]; ++s) {
+    if (places_.partner(s).face < 0) continue;
+    const PointMotion place = places_.motion(s, {}, asked);
+    number_nodes(place);
+    visit(s, place);
+  }
+}
+
+PointMotion SegmentKinematics::motion(Index point, const ContactPointState& old, Asked asked) const {
+  // A cell has the means over its places, each of which faces one master face. Without any covered part it
+  // has no partner.
+  const std::size_t c = at(point);
+  PointMotion m;
+  m.weight = particle(point).weight;
+  if (covered_[c] == 0) return m;
+  m.covered = std::min(covered_[c] / whole_[c], 1.0);
+  nodes_.clear();
+  share_.clear();
+  for (auto* points : {&normal_share_, &penetration_rate_}) points->clear();
+  for (auto* tensors : {&push_share_, &way_rate_, &turn_rate_}) tensors->clear();
+  Point normal{}, way = position_[c];
+  // The weight of a place over that of the cell is its share α in gap, normal, push and slip; its nodes are
+  // collected in one list for the cell.
+  for_each_place(point, asked, [&](Index s, const PointMotion& place) {
+    const double alpha = place.weight / m.weight;
+    m.n_slave = place.n_slave;
+    m.penetration += alpha * place.penetration;
+    normal = contact::add_scaled(normal, alpha, place.normal);
+    m.master_normal = contact::add_scaled(m.master_normal, alpha, place.master_normal);
+    contact::add_scaled(m.push, alpha, place.push);
+    way = contact::add_scaled(way, alpha, subtract(places_.reference_place(), places_.particle(s).position));
+    // Normal and push shares of a node are means of their own, because places of one cell may have several
+    // normals.
+    for (std::size_t b = 0; b < place.nodes.size(); ++b) {
+      const double share = alpha * place.share[b];
+      share_[where_[b]] += share;
+      normal_share_[where_[b]] = contact::add_scaled(normal_share_[where_[b]], share, place.normal);
+      contact::add_scaled(push_share_[where_[b]], share, place.push);
+    }
+    if (asked == Asked::rates) add_rates(s, alpha, place);
+  });
+  // The mean normal is made a unit vector; the anchor lies on the master along it where the cell is open.
+  m.partnered = true;
+  m.nodes = nodes_;
+  m.share = share_;
+  m.normal_share = normal_share_;
+  m.push_share = push_share_;
+  m.normal = scale(1 / norm(normal), normal);
+  m.master_normal = scale(1 / norm(m.master_normal), m.master_normal);
+  m.anchor = contact::add_scaled(way, std::max(-m.penetration, 0.0), m.master_normal);
+  if (asked == Asked::rates) m.penetration_rate = penetration_rate_;
+  // The slip follows from the mean way and the state before.
+  find_slip(old, way, asked, m);
+  return m;
+}
+
+void SegmentKinematics::add_rates(Index place, double share, const PointMotion& of) const {
+  const SlidingKinematics::ReferenceRates reference = places_.reference_rates(place);
+  for (std::size_t b = 0; b < of.nodes.size(); ++b) {
+    const std::size_t node = where_[b];
+    penetration_rate_[node] = contact::add_scaled(penetration_rate_[node], share, of.penetration_rate[b]);
+    contact::add_scaled(way_rate_[node], share, reference.place[b]);
+    contact::add_scaled(turn_rate_[node], share, reference.normal[b]);
+  }
+}
+
+// ΔG = P (W − W_n) with W the mean way and P = 1 − ν ⊗ ν of the mean normal; T_n is carried to its plane.
+void SegmentKinematics::find_slip(const ContactPointState& old, const Point& way, Asked asked,
+                                  PointMotion& m) const {
+  const Point& nu = m.master_normal;
+  const Point gone = old.anchored ? subtract(way, old.anchor) : Point{};
+  const double along = dot(nu, gone);
+  const bool carries = old.anchored && norm(old.traction) > 0;
+  m.slip = contact::add_scaled(gone, -along, nu);
+  if (carries) m.carried = rotate(old.master_normal, nu, old.traction);
+  if (asked == Asked::motion) return;
+  const Tensor turn = carries ? rotation_rates(old.master_normal, nu, old.traction).by_to : Tensor{};
+  slip_rate_.assign(nodes_.size(), Tensor{});
+  carried_rate_.assign(nodes_.size(), Tensor{});
+  for (std::size_t b = 0; b < nodes_.size() && old.anchored; ++b) {
+    Tensor& slip = slip_rate_[b];
+    slip = way_rate_[b];
+    add_outer(slip, -1, nu, transposed_times(way_rate_[b], nu));
+    add_outer(slip, -1, nu, transposed_times(turn_rate_[b], gone));
+    contact::add_scaled(slip, -along, turn_rate_[b]);
+    if (carries) carried_rate_[b] = times(turn, turn_rate_[b]);
+  }
+  m.slip_rate = slip_rate_;
+  if (carries) m.carried_rate = carried_rate_;
+}
+
+void SegmentKinematics::add_geometric_tangent(Index point, double pressure, const Point& traction,
+                                              std::span<Tensor> k) const {
+  const std::size_t n = nodes_.size();
+  assert(k.size() == n * n);
+  std::vector<Tensor> part;
+  for_each_place(point, Asked::rates, [&](Index s, const PointMotion& place) {
+    const std::size_t m = place.nodes.size();
+    part.assign(m * m, Tensor{});
+    places_.add_geometric_tangent(s, pressure, traction, part);
+    for (std::size_t b = 0; b < m; ++b)
+      for (std::size_t c = 0; c < m; ++c)
+        contact::add_scaled(k[where_[b] * n + where_[c]], 1, part[b * m + c]);
+  });
+}
+
+void SegmentKinematics::add_share_rates(Index point, std::span<Point> rates) const {
+  const std::size_t n = nodes_.size();
+  assert(rates.size() == n * n);
+  std::vector<Point> part;
+  for_each_place(point, Asked::rates, [&](Index s, const PointMotion& place) {
+    const std::size_t m = place.nodes.size();
+    part.assign(m * m, Point{});
+    places_.add_share_rates(s, part);
+    for (std::size_t a = 0; a < m; ++a)
+      for (std::size_t b = 0; b < m; ++b) {
+        Point& rate = rates[where_[a] * n + where_[b]];
+        rate = contact::add_scaled(rate, place.weight / covered_[at(point)], part[a * m + b]);
+      }
+  });
+}
+
+}  // namespace solidus::contact

@@ -1,0 +1,138 @@
+#include "heat/iteration/enthalpy_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "parallel/parallel.hpp"
+#include "system/profile.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+constexpr double k_round_off = 2e-15;  ///< of heat contents and of conductance × temperature
+constexpr double k_plateau_stiffness =
+    1e13;  ///< times the diagonal: δΘ = 0 to rounding, without a change of structure
+
+constexpr int k_plain = 6;                ///< iterations before plateaus are tilted
+constexpr double k_tilt = 1.0;            ///< temperature difference over a tilted plateau [K]
+constexpr double k_tilted_enough = 1e-2;  ///< residual over the heat moved at which the tilt goes
+constexpr int k_tilted_at_most = 8;       ///< iterations with one tilt
+constexpr double k_less_tilt = 0.3, k_least_tilt = 2e-3;  ///< its fall, and where it ends [K]
+
+}  // namespace
+
+EnthalpyNewton::EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
+                               const parallel::GhostExchange& ghosts, double tolerance)
+    : system_(system), storage_(storage), ghosts_(ghosts), tolerance_(tolerance) {
+  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
+  for (auto* v : {&r_, &b_, &step_h_, &inverse_}) v->resize(n);
+  per_latent_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double latent = storage_.latent_capacity(static_cast<Index>(i));
+    per_latent_[i] = latent > 0 ? 1.0 / latent : 0.0;
+  }
+  has_plateaus_ = parallel::any_process(storage.has_plateaus());
+}
+
+void EnthalpyNewton::evaluate(std::span<const double> temperature) {
+  const profile::Part part("residual");
+  double moved = system_.residual(temperature, r_), norm = 0, contents = 0;
+  const std::vector<char>& fixed = system_.fixed();
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    const double stored = (heat_[i] - old_heat_[i]) / dt_;
+    r_[i] += stored;
+    moved += std::abs(stored);
+    contents += std::abs(heat_[i]) / dt_;
+    (fixed[i] ? moved : norm) += std::abs(r_[i]);
+  }
+  norm_ = parallel::global_sum(norm);
+  moved_ = 0.5 * parallel::global_sum(moved);  // what enters somewhere is stored or leaves somewhere else
+  round_off_ = k_round_off * (parallel::global_sum(contents) + conductance_);
+}
+
+double EnthalpyNewton::temperature_of(std::size_t i, double heat) const {
+  const double t = storage_.temperature(static_cast<Index>(i), heat);
+  return tilt_ > 0 ? t + tilt(i) * (heat - old_heat_[i]) : t;
+}
+
+/// Sets or removes the tilt of the plateaus, and updates all that depends on it.
+void EnthalpyNewton::set_tilt(double tilt, std::span<double> temperature) {
+  tilt_ = tilt;
+  for (std::size_t i = 0; i < r_.size(); ++i)
+    if (!system_.fixed()[i]) temperature[i] = temperature_of(i, heat_[i]);
+  ghosts_.update(temperature, 1);
+  evaluate(temperature);
+}
+
+bool EnthalpyNewton::converged() const {
+  if (tilt_ > 0) return false;
+  return norm_ <= tolerance_ * moved_ || norm_ <= round_off_;
+}
+
+/// J + D; nodes on a plateau are held.
+void EnthalpyNewton::assemble(std::span<const double> temperature) {
+  const profile::Part part("assembly");
+  system_.assemble(temperature);
+  double conductance = 0;
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    const auto node = static_cast<Index>(i);
+    double& diagonal = *system_.matrix().diagonal_block(node);
+    conductance += std::abs(diagonal * temperature[i]);
+    inverse_[i] = storage_.slope(node, heat_[i]) + tilt(i);
+    const bool held = inverse_[i] == 0.0;
+    const double capacity = held ? storage_.capacity(node, temperature[i]) : 1.0 / inverse_[i];
+    if (held)
+      diagonal = k_plateau_stiffness * (std::abs(diagonal) + capacity / dt_);
+    else
+      diagonal += capacity / dt_;
+    // A held node has no equation here: its residual must not set the scale of the linear solver.
+    b_[i] = held || system_.fixed()[i] ? 0.0 : -r_[i];
+  }
+  conductance_ = parallel::global_sum(conductance);
+}
+
+void EnthalpyNewton::hold(std::span<double> step_t) const {
+  for (std::size_t i = 0; i < step_t.size(); ++i)
+    if (inverse_[i] == 0.0 || system_.fixed()[i]) step_t[i] = 0.0;
+}
+
+void EnthalpyNewton::enthalpy_step(std::span<const double> step_t, std::span<const double> further) {
+  system_.matrix().multiply(step_t, step_h_);
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    const double change = step_h_[i] + (further.empty() ? 0.0 : further[i]);
+    if (system_.fixed()[i])
+      step_h_[i] = 0;
+    else
+      step_h_[i] = inverse_[i] == 0.0 ? -dt_ * (r_[i] + change) : step_t[i] / inverse_[i];
+  }
+}
+
+void EnthalpyNewton::move(std::span<const double> start, double alpha, std::span<double> temperature) {
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    if (system_.fixed()[i]) continue;
+    heat_[i] = start[i] + alpha * step_h_[i];
+    temperature[i] = temperature_of(i, heat_[i]);
+  }
+}
+
+void EnthalpyNewton::adapt_tilt(int iteration, std::span<double> temperature) {
+  if (has_plateaus_ && iteration == k_plain) {
+    set_tilt(k_tilt, temperature);
+    tilted_ = 0;
+  } else if (tilt_ > 0 && (norm_ <= k_tilted_enough * moved_ || ++tilted_ == k_tilted_at_most)) {
+    set_tilt(tilt_ > k_least_tilt ? k_less_tilt * tilt_ : 0.0, temperature);
+    tilted_ = 0;
+  }
+}
+
+void EnthalpyNewton::begin(std::span<const double> old_heat, double dt, std::span<double> heat) {
+  old_heat_ = old_heat;
+  heat_ = heat;
+  dt_ = dt;
+  conductance_ = 0;
+  tilt_ = 0;
+  tilted_ = 0;
+}
+
+}  // namespace solidus::heat

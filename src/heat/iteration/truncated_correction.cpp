@@ -1,0 +1,207 @@
+/// The linear systems of the truncated Newton method: with the slopes of tangents, and with those of chords.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "heat/iteration/truncated_newton.hpp"
+#include "parallel/parallel.hpp"
+#include "system/profile.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+constexpr double k_plateau_stiffness =
+    1e13;                          ///< times the diagonal: δ = 0 to rounding, without a change of structure
+constexpr int k_chord_rounds = 8;  ///< linear solves for one such step
+constexpr double k_chord_change = 0.1;    ///< change of the heats by a round, over the heats, that ends them
+constexpr double k_chord_forcing = 0.01;  ///< of these linear solves, where the step is not worth less
+constexpr double k_chord_differs = 1.5;  ///< a chord that is not so much steeper than the tangent is not used
+constexpr double k_kink = 10;  ///< slope of a chord over the tangent's from which on a node stops the others
+constexpr double k_chord_holds = 1e8;  ///< times the diagonal: no chord is steeper
+constexpr int k_refinements = 8;       ///< directions at most
+constexpr double k_refined = 1e-2;  ///< residual of the linear system, over its right-hand side, that will do
+constexpr double k_refining = 0.1;  ///< of the systems that find their directions
+
+}  // namespace
+
+/// (D + A) δ = −F, δ in step_ with its ghosts and A δ in product_.
+/// @param chords  D of each node in place of the tangent's where it is not zero; infinite: the node is held.
+///                Empty: none
+linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const float> chords) {
+  linear::BlockMatrix& a = system_.matrix();
+  const NodalPotential& potential = system_.potential();
+  const auto n = r_.size();
+  std::vector<char> held(n);
+  const bool alone = n == step_.size();  // diagonal_ is that of A then
+  std::vector<double> of_a(alone ? 0 : n);
+  {
+    const profile::Part part("assembly");
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto node = static_cast<Index>(i);
+      double& diagonal = *a.diagonal_block(node);
+      if (!alone) of_a[i] = diagonal;
+      double stiffness = chords.empty() ? 0.0 : static_cast<double>(chords[i]);
+      if (stiffness == 0) stiffness = curve_slope_[i] == 0.0 ? HUGE_VAL : 1.0 / (dt_ * curve_slope_[i]);
+      held[i] = std::isinf(stiffness) || system_.fixed()[i] ? 1 : 0;
+      if (std::isinf(stiffness))
+        diagonal =
+            k_plateau_stiffness * (std::abs(diagonal) + storage_.capacity(node, temperature_[i]) /
+                                                            (dt_ * potential.slope(node, temperature_[i])));
+      else
+        diagonal += stiffness;
+      // A held node has no equation here: its residual must not set the scale of the linear solver.
+      product_[i] = held[i] ? 0.0 : -r_[i];
+    }
+  }
+  system_.release_work();
+  linear::LinearReport report = solver_.solve(a, product_, std::span(step_).first(n), forcing);
+  for (std::size_t i = 0; i < n; ++i)
+    if (held[i]) step_[i] = 0;
+  ghosts_.update(step_, 1);
+  const bool unsymmetric = parallel::any_process(!system_.unsymmetric_part().empty());
+  if (report.converged && unsymmetric) report.iterations += refine(held, forcing);
+  for (std::size_t i = 0; i < n; ++i)
+    *a.diagonal_block(static_cast<Index>(i)) = alone ? diagonal_[i] : of_a[i];
+  if (!report.converged) return report;
+  multiply_exactly(step_, product_, {});
+  return report;
+}
+
+/// product = (D + A + what A lacks of the derivative) step, without the rows that are held.
+void TruncatedNewton::multiply_exactly(std::span<double> step, std::span<double> product,
+                                       std::span<const char> held) {
+  system_.matrix().multiply(step, product);
+  for (const HeatSystem::Entry& e : system_.unsymmetric_part())
+    product[static_cast<std::size_t>(e.row)] += e.value * step[static_cast<std::size_t>(e.column)];
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (held[i]) product[i] = 0;
+}
+
+/// Improves step_, which solves the symmetric system with the right-hand side in product_, to a solution of
+/// that with the derivative itself, by generalised conjugate residuals (S. C. Eisenstat, H. C. Elman and M.
+/// H. Schultz, SIAM J. Numer. Anal. 20 (1983) 345): each direction solves the symmetric system for the
+/// residual that is left. Returns the linear iterations.
+int TruncatedNewton::refine(std::span<const char> held, double forcing) {
+  const std::size_t n = r_.size();
+  const auto dot = [n](std::span<const double> a, std::span<const double> b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i];
+    return parallel::global_sum(sum);
+  };
+  const auto add = [](double factor, const std::vector<double>& x, std::span<double> y) {
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] += factor * x[i];
+  };
+  std::vector<double> left(n);
+  multiply_exactly(step_, left, held);
+  for (std::size_t i = 0; i < n; ++i) left[i] = product_[i] - left[i];
+  const double target = std::max(forcing, k_refined) * std::sqrt(dot(product_, product_));
+  struct Direction {
+    std::vector<double> step, product;  ///< the products are orthonormal
+  };
+  std::vector<Direction> directions;
+  int iterations = 0;
+  for (int k = 0; k < k_refinements && std::sqrt(dot(left, left)) > target; ++k) {
+    Direction d{std::vector<double>(step_.size()), std::vector<double>(n)};
+    const linear::LinearReport report = solver_.solve_again(left, std::span(d.step).first(n), k_refining);
+    iterations += report.iterations;
+    if (!report.converged) break;
+    for (std::size_t i = 0; i < n; ++i)
+      if (held[i]) d.step[i] = 0;
+    ghosts_.update(d.step, 1);
+    multiply_exactly(d.step, d.product, held);
+    for (const Direction& before : directions) {
+      const double along = dot(before.product, d.product);
+      add(-along, before.step, d.step);
+      add(-along, before.product, d.product);
+    }
+    const double length = std::sqrt(dot(d.product, d.product));
+    if (!(length > 0)) break;
+    for (auto* v : {&d.step, &d.product})
+      for (double& value : *v) value /= length;
+    const double share = dot(left, d.product);
+    add(share, d.step, step_);
+    add(-share, d.product, left);
+    directions.push_back(std::move(d));
+  }
+  return iterations;
+}
+
+/// The slopes D = ΔH/(Δt δ) of the chords of the nodes' curves over the steps of now, where the tangents are
+/// less steep or there are none; zero elsewhere.
+void TruncatedNewton::find_chords(std::span<float> chords) const {
+  const NodalPotential& potential = system_.potential();
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    chords[i] = 0;
+    if (system_.fixed()[i] || step_[i] == 0) continue;
+    const auto node = static_cast<Index>(i);
+    const double slope = storage_.point(node, heat_[i]).slope, c = potential.slope(node, temperature_[i]);
+    const double v = potential.value(node, temperature_[i]) + step_[i];
+    const double t = potential.temperature(node, v, temperature_[i]);
+    const double end = step_[i] < 0 ? storage_.upper(node, t) : storage_.lower(node, t);
+    const double chord = (end - heat_[i]) / (dt_ * step_[i]);
+    if (slope > 0 && chord <= k_chord_differs / (dt_ * slope * c)) continue;
+    const double usual = diagonal_[i] + storage_.capacity(node, temperature_[i]) / (dt_ * c);
+    // A step within rounding of the plateau's temperature has a chord of either sign. So steep a chord holds
+    // the node but lets a later round see which way it wants to go.
+    chords[i] =
+        static_cast<float>(chord > 0 ? std::min(chord, k_chord_holds * usual) : k_chord_holds * usual);
+  }
+}
+
+/// Solves (D + A) δ = −F with D the slope of the chord of each node's curve over δ itself, by repetition. It
+/// begins without plateaus: their nodes have the capacity of their temperature.
+linear::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
+  const NodalPotential& potential = system_.potential();
+  std::vector<float> chords(r_.size()), before(r_.size());
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    const auto node = static_cast<Index>(i);
+    if (storage_.point(node, heat_[i]).slope == 0)
+      chords[i] = static_cast<float>(storage_.capacity(node, temperature_[i]) /
+                                     (dt_ * potential.slope(node, temperature_[i])));
+  }
+  linear::LinearReport report;
+  int iterations = 0;
+  for (int round = 0; round < k_chord_rounds; ++round) {
+    if (round > 0) find_chords(chords);
+    std::transform(step_.begin(), step_.begin() + static_cast<std::ptrdiff_t>(before.size()), before.begin(),
+                   [](double step) { return static_cast<float>(step); });
+    report = correct(std::max(forcing, k_chord_forcing), chords);
+    report.iterations = iterations += report.iterations;
+    if (!report.converged || round == 0) {
+      if (!report.converged) break;
+      continue;
+    }
+    double change = 0, all = 0;
+    for (std::size_t i = 0; i < r_.size(); ++i) {
+      const auto node = static_cast<Index>(i);
+      const double slope = storage_.point(node, heat_[i]).slope;
+      const double d = chords[i] > 0 && std::isfinite(chords[i]) ? static_cast<double>(chords[i])
+                       : slope > 0                               ? 1.0 / (dt_ * slope)
+                                                                 : 0.0;
+      change += d * std::abs(step_[i] - static_cast<double>(before[i]));
+      all += d * std::abs(step_[i]);
+    }
+    if (parallel::global_sum(change) <= k_chord_change * parallel::global_sum(all)) break;
+  }
+  return report;
+}
+
+/// The tangents' step once more, where the line search cut it short, with those nodes held that pass a
+/// plateau or a bend within the first part of the step. A node that has come close to the end of a plateau
+/// and is driven on to it would stop all others there; what it lacks is left to the sweeps.
+linear::LinearReport TruncatedNewton::correct_beside_kinks(double forcing) {
+  std::vector<float> chords(r_.size());
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    if (step_[i] == 0 || curve_slope_[i] == 0) continue;
+    const double part = k_stuck_step * step_[i];
+    const StorageCurve::AtPotential at =
+        curves_.at_potential(static_cast<Index>(i), potential_[i] + part, temperature_[i]);
+    const double end = step_[i] < 0 ? at.upper : at.lower;
+    if ((end - heat_[i]) / part > k_kink / curve_slope_[i]) chords[i] = HUGE_VALF;
+  }
+  return correct(forcing, chords);
+}
+
+}  // namespace solidus::heat

@@ -1,0 +1,202 @@
+#include "heat/iteration/truncated_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "heat/storage/plateau_watch.hpp"
+#include "parallel/parallel.hpp"
+#include "system/profile.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+constexpr double k_round_off = 2e-15;    ///< of heat contents and of conductance × temperature
+constexpr double k_limit_change = 1e-2;  ///< of flows by new limits, over the heat moved, that stays out
+constexpr int k_revisions = 1;           ///< of limits by flows
+constexpr int k_holds = 20;              ///< and by temperatures out of range
+constexpr int k_idle = 4;  ///< such revisions that find no further nodes: what the tolerance has left goes
+constexpr double k_nearly = 1e-2;      ///< residual over the heat moved where the solution is nearly known
+constexpr double k_strictest = 1e-4;   ///< forcing term there, whatever the tolerance
+constexpr double k_chord_worth = 0.5;  ///< share of the residual left up to which chords are used again
+constexpr double k_loosest = 0.1;      ///< forcing term of the inexact linear solves
+
+}  // namespace
+
+TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
+                                 HeatSolver& solver, const parallel::GhostExchange& ghosts,
+                                 TruncatedNewtonOptions options, std::vector<char> relaxed)
+    : mesh_(mesh),
+      system_(system),
+      storage_(storage),
+      curves_(storage, system),
+      solver_(solver),
+      ghosts_(ghosts),
+      options_(options),
+      relaxed_(std::move(relaxed)) {}
+
+void TruncatedNewton::allocate() {
+  r_.resize(static_cast<std::size_t>(mesh_.n_owned_nodes));
+  for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_}) v->resize(r_.size());
+  step_.resize(mesh_.x.size());
+}
+
+void TruncatedNewton::release() {
+  for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_, &step_}) std::vector<double>().swap(*v);
+  solver_.release();
+  system_.release_work();
+}
+
+void TruncatedNewton::evaluate() {
+  const profile::Part part("residual");
+  double moved = system_.residual(temperature_, r_), norm = 0, contents = 0;
+  const std::vector<char>& fixed = system_.fixed();
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    const double stored = (heat_[i] - old_heat_[i]) / dt_;
+    r_[i] += stored;
+    moved += std::abs(stored);
+    contents += std::abs(heat_[i]) / dt_;
+    (fixed[i] ? moved : norm) += std::abs(r_[i]);
+  }
+  norm_ = parallel::global_sum(norm);
+  moved_ = 0.5 * parallel::global_sum(moved);  // what enters somewhere is stored or leaves somewhere else
+  round_off_ = k_round_off * (parallel::global_sum(contents) + conductance_);
+}
+
+/// A at the temperatures of now.
+void TruncatedNewton::assemble() {
+  const profile::Part part("assembly");
+  const NodalPotential& potential = system_.potential();
+  std::vector<double> slope(mesh_.x.size(), 1.0);  // c = dv/dΘ
+  if (!potential.identity()) {
+    for (std::size_t i = 0; i < r_.size(); ++i)
+      slope[i] = potential.slope(static_cast<Index>(i), temperature_[i]);
+    ghosts_.update(slope, 1);
+  }
+  system_.assemble_symmetric(temperature_, slope);
+  linear::BlockMatrix& a = system_.matrix();
+  double conductance = 0;
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    diagonal_[i] = *a.diagonal_block(static_cast<Index>(i));
+    conductance += std::abs(diagonal_[i] * slope[i] * temperature_[i]);
+  }
+  conductance_ = parallel::global_sum(conductance);
+  if (r_.size() == mesh_.x.size()) return;
+  const std::span<const std::int64_t> start = a.row_start();
+  const std::span<const Index> columns = a.columns();
+  const double* values = a.block(0);
+  for (std::size_t i = 0; i < r_.size(); ++i)
+    for (std::int64_t s = start[i]; s < start[i + 1]; ++s)
+      if (columns[static_cast<std::size_t>(s)] >= mesh_.n_owned_nodes) diagonal_[i] += std::abs(values[s]);
+}
+
+/// Looks at the limits of conduction at the temperatures reached. Returns whether the iteration has to go on
+/// with others: when flows change too much, and then when temperatures are out of range.
+bool TruncatedNewton::revise_limits(const ConductionBounds& bounds) {
+  if (!bounds.kept && revisions_ < k_revisions &&
+      system_.find_limits(temperature_, k_limit_change * moved_)) {
+    ++revisions_;
+    return true;
+  }
+  if (revisions_ >= k_revisions + k_holds) return false;
+  using Held = ConductionLimiter::Held;
+  const Held held =
+      system_.hold_nodes(temperature_, system_.closed_range(bounds.range, bounds.start, temperature_));
+  if (held == Held::none || (held == Held::as_before && ++idle_ > k_idle)) return false;
+  revisions_ = std::max(revisions_, k_revisions) + 1;
+  system_.find_limits(temperature_);
+  return true;
+}
+
+/// The tolerance of the next linear system. Near the solution the sweeps take nearly all that tangents have
+/// left at the front, so that what the linear solver leaves would cost one more iteration: there it goes on
+/// to what ends the iteration.
+double TruncatedNewton::forcing_term(linear::Forcing& forcing) const {
+  const double goal = options_.tolerance * moved_ / norm_, usual = forcing.next(norm_, goal);
+  return norm_ <= k_nearly * moved_ ? std::min(usual, std::max(goal, k_strictest)) : usual;
+}
+
+linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, double dt,
+                                            std::span<double> temperature, std::span<double> heat,
+                                            const ConductionBounds& bounds, int newton_steps) {
+  old_heat_ = old_heat;
+  heat_ = heat;
+  temperature_ = temperature;
+  dt_ = dt;
+  rate_ = 1.0 / dt;
+  conductance_ = 0;
+  revisions_ = idle_ = 0;
+  linear_ = true;
+  looked_up_ = false;
+  allocate();
+  PlateauWatch watch(mesh_, storage_, system_.matrix(), ghosts_);
+  watch.passed_in_depth(heat_, temperature_);
+  bool by_chords = false;
+  double norm_before = 0;
+  const int most = newton_steps > 0 ? newton_steps : options_.max_iterations;
+  linear::Forcing forcing(true, k_loosest);
+  linear::NewtonReport report;
+  bool revised = false, looked_ahead = false;
+  evaluate();
+  while (true) {
+    report.residuals.push_back(moved_ > 0 ? norm_ / moved_ : norm_);
+    if (std::isfinite(norm_) && (!converged() || revised)) relax_nodes(revised);
+    revised = false;
+    if (!std::isfinite(norm_)) {
+      report.reason = "the residual is not a number";
+      break;
+    }
+    if (converged()) {
+      report.residuals.back() = moved_ > 0 ? norm_ / moved_ : norm_;
+      report.converged = true;
+      if (newton_steps > 0 || !revise_limits(bounds)) break;
+      report.converged = false;
+      revised = true;
+      evaluate();
+      continue;
+    }
+    // Limits that are found again where the solution is nearly known need hardly be looked at again at its
+    // end.
+    if (!looked_ahead && newton_steps == 0 && norm_ <= k_nearly * moved_) {
+      looked_ahead = true;
+      revised = revise_limits(bounds);
+      if (revised) {
+        evaluate();
+        continue;
+      }
+    }
+    if (report.iterations == most) {
+      evaluate();
+      report.out_of_iterations = true;
+      report.reason = "no convergence in " + std::to_string(most) + " iterations";
+      break;
+    }
+    ++report.iterations;
+    if (norm_ > std::max(options_.tolerance, options_.effort_tolerance) * moved_) ++report.effort;
+    const double to = forcing_term(forcing);
+    const bool in_depth = watch.passed_in_depth(heat_, temperature_);
+    const bool may_use_chords =
+        storage_.has_plateaus() && !(by_chords && norm_ > k_chord_worth * norm_before);
+    norm_before = norm_;
+    by_chords = may_use_chords && in_depth;
+    linear::LinearReport linear = by_chords ? correct_by_chords(to) : correct(to);
+    report.linear_iterations += linear.iterations;
+    solver_.release();  // sweeps have copies of their own
+    if (linear.converged && !search(by_chords ? 0 : may_use_chords ? k_short_step : k_stuck_step)) {
+      by_chords = may_use_chords;
+      linear = by_chords ? correct_by_chords(to) : correct_beside_kinks(to);
+      solver_.release();
+      report.linear_iterations += linear.iterations;
+      if (linear.converged) search(0);
+    }
+    if (!linear.converged) {
+      report.reason = "linear solver: " + linear.reason;
+      break;
+    }
+  }
+  ghosts_.update(heat, 1);
+  release();
+  return report;
+}
+
+}  // namespace solidus::heat

@@ -1,0 +1,320 @@
+#include "heat/loads/placed_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "parallel/parallel.hpp"
+#include "system/common_failure.hpp"
+#include "system/log.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+constexpr double k_resolved = 0.01, k_unresolved = 0.05;  ///< |S/I − 1|
+constexpr double k_overlap = 0.6;
+constexpr double k_uncertain = 0.01;
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// α: the share of the values at points.
+double share_of_points(double by_points, double integral) {
+  if (integral == by_points) return 1;
+  if (!(by_points > 0) || !(integral > 0)) return 0;
+  const double off = std::abs(by_points / integral - 1);
+  return std::clamp((k_unresolved - off) / (k_unresolved - k_resolved), 0.0, 1.0);
+}
+
+bool same(const LoadWindow& a, const LoadWindow& b) {
+  const auto same_part = [](const LoadWindow::Part& p, const LoadWindow::Part& q) {
+    return p.begin == q.begin && p.end == q.end && p.weight == q.weight;
+  };
+  return a.time == b.time && a.n_parts == b.n_parts && same_part(a.parts[0], b.parts[0]) &&
+         same_part(a.parts[1], b.parts[1]);
+}
+
+/// A distribution that does not change in time is computed once.
+bool splits(const LoadLaw& law) {
+  if (law.kind != LoadLaw::Kind::power || law.steady()) return false;
+  return std::ranges::all_of(law.functions, [](const PlaceFunction& f) { return f.uniform() || f.steady(); });
+}
+
+}  // namespace
+
+PlacedLoad::PlacedLoad(const mesh::Mesh& mesh, AnalysisKind kind, std::string name, LoadLaw law,
+                       std::vector<CellIntegrals::Cells> cells, std::vector<Point> points,
+                       std::vector<Share> shares)
+    : mesh_(mesh),
+      name_(std::move(name)),
+      law_(std::move(law)),
+      cells_(mesh, kind, std::move(cells)),
+      points_(std::move(points)),
+      shares_(std::move(shares)) {
+  // A power that is a product of a distribution and a factor without place is split, so that the distribution
+  // is integrated once.
+  if (splits(law_)) {
+    scale_ = LoadLaw{LoadLaw::Kind::power, {}};
+    std::erase_if(law_.functions, [&](const PlaceFunction& f) {
+      if (f.uniform()) scale_->functions.push_back(f);
+      return f.uniform();
+    });
+  }
+  // Points that lie on no node are evaluated one by one.
+  for (const Point& p : points_)
+    if (p.node < 0) x_.push_back(p.x);
+  heat_.resize(at(mesh.n_owned_nodes));
+  kept_.resize(law_.functions.size());
+  // The extent of the load's cells is known to every process.
+  for (std::size_t i = 0; i < 3; ++i) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const Position& x : cells_.points()) low = std::min(low, x[i]), high = std::max(high, x[i]);
+    low_[i] = parallel::global_min(low);
+    high_[i] = parallel::global_max(high);
+  }
+}
+
+bool PlacedLoad::moves() const {
+  return std::ranges::any_of(law_.functions,
+                             [](const PlaceFunction& f) { return !f.uniform() && !f.steady(); });
+}
+
+void PlacedLoad::average(const LoadLaw& law, std::span<const TimePoint> times, std::span<const Position> x,
+                         bool fixed, std::span<LoadValues> values) const {
+  // Functions that do not depend on time are evaluated once. For points that do not move their values are
+  // kept for all later steps.
+  const std::size_t n = law.functions.size();
+  std::vector<std::vector<double>> now(n);
+  for (std::size_t f = 0; f < n; ++f) {
+    const PlaceFunction& function = law.functions[f];
+    if (!function.steady()) continue;
+    std::vector<double>& kept = kept_[f];
+    if (fixed && !function.uniform() && !kept.empty()) {
+      now[f] = kept;
+      continue;
+    }
+    now[f].resize(x.size());
+    function.values(x, times.front().time, now[f]);
+    if (fixed && !function.uniform()) kept = now[f];
+  }
+  // The mean over the step is a weighted sum over the times of its quadrature. Functions of time are
+  // evaluated at each of them, and the law makes heat, or film coefficient and surroundings, of their values.
+  std::array<double, 3> of_functions{};
+  std::fill(values.begin(), values.end(), LoadValues{});
+  for (const TimePoint& time : times) {
+    for (std::size_t f = 0; f < n; ++f) {
+      if (law.functions[f].steady()) continue;
+      now[f].resize(x.size());
+      law.functions[f].values(x, time.time, now[f]);
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      for (std::size_t f = 0; f < n; ++f) of_functions[f] = now[f][i];
+      const LoadValues v = law.values(std::span(of_functions).first(n));
+      for (std::size_t k = 0; k < v.size(); ++k) values[i][k] += time.weight * v[k];
+    }
+  }
+}
+
+CellIntegrals::Breaks PlacedLoad::breaks(const LoadLaw& law, std::span<const TimePoint> times) const {
+  CellIntegrals::Breaks breaks;
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::vector<double> now;
+    for (const TimePoint& time : times) {
+      now.clear();
+      for (const PlaceFunction& f : law.functions) f.add_breaks(i, low_[i], high_[i], time.time, now);
+      std::sort(now.begin(), now.end());
+      for (std::size_t k = 1; k < now.size(); ++k)
+        if (now[k] > now[k - 1]) breaks.apart[i] = std::min(breaks.apart[i], now[k] - now[k - 1]);
+      breaks.at[i].insert(breaks.at[i].end(), now.begin(), now.end());
+    }
+    std::sort(breaks.at[i].begin(), breaks.at[i].end());
+    breaks.at[i].erase(std::unique(breaks.at[i].begin(), breaks.at[i].end()), breaks.at[i].end());
+  }
+  return breaks;
+}
+
+CellIntegrals::Result PlacedLoad::integrate(const LoadLaw& law, std::span<const TimePoint> times,
+                                            bool with_samples) const {
+  return cells_.integrate([&](std::span<const Position> x, bool fixed,
+                              std::span<LoadValues> values) { average(law, times, x, fixed, values); },
+                          breaks(law, times), with_samples);
+}
+
+void PlacedLoad::set(const LoadWindow& window) {
+  // The same window as before needs nothing. Otherwise the distribution is integrated unless it is steady.
+  if (window_ && same(*window_, window)) return;
+  if (!window_ || !(scale_ || law_.steady())) {
+    // A load that moves is integrated in as many parts of the step as it takes to overlap with itself.
+    constexpr int k_points = 2, k_most_parts = 64;
+    int parts = 1;
+    if (moves() && window.n_parts > 0) {
+      const double begin = window.parts[0].begin, end = window.parts[at(window.n_parts - 1)].end;
+      parts =
+          static_cast<int>(std::min<double>(k_most_parts, std::ceil((end - begin) / lasting(begin, end))));
+      parts = std::max(parts, 1);
+    }
+    // Cells give the integrals, points the values there; the kind of the load says how both become nodal
+    // heat.
+    const std::vector<TimePoint> times = time_points(window, law_.pointers(), k_points, parts);
+    const CellIntegrals::Result integrals = integrate(law_, times, false);
+    std::vector<LoadValues> apart(x_.size()), at_points(points_.size());
+    if (parallel::any_process(!x_.empty())) run_collectively([&] { average(law_, times, x_, false, apart); });
+    for (std::size_t p = 0, i = 0; p < points_.size(); ++p)
+      at_points[p] =
+          points_[p].node >= 0 ? integrals.of_points[at(cells_.point_of_node(points_[p].node))] : apart[i++];
+    if (law_.kind == LoadLaw::Kind::power)
+      set_power(integrals, at_points);
+    else
+      set_exchange(integrals, at_points);
+    if (scale_) steady_heat_ = heat_;
+  }
+  window_ = window;
+  // A factor of time multiplies the distribution by its mean over the step.
+  if (!scale_) return;
+  const LoadValues mean = mean_load(window, *scale_);
+  for (std::size_t i = 0; i < heat_.size(); ++i) heat_[i] = (mean[0] - mean[1]) * steady_heat_[i];
+}
+
+void PlacedLoad::set_power(const CellIntegrals::Result& integrals, std::span<const LoadValues> at_points) {
+  // Nodal heat is a mean of two forms, with the same total: values at the points, or integrals with the
+  // nodes' weights where points would miss the total. Heating and cooling are treated apart.
+  std::fill(heat_.begin(), heat_.end(), 0.0);
+  double least = 1;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double sign = k == 0 ? 1 : -1;
+    double sum = 0;
+    for (const Share& share : shares_) sum += share.weight * at_points[at(share.point)][k];
+    const double by_points = parallel::global_sum(sum), integral = integrals.total[k];
+    const double alpha = share_of_points(by_points, integral);
+    least = std::min(least, alpha);
+    if (alpha > 0 && by_points != 0)
+      for (const Share& share : shares_)
+        heat_[at(share.node)] +=
+            sign * alpha * (integral / by_points) * share.weight * at_points[at(share.point)][k];
+    if (alpha < 1)
+      for (std::size_t i = 0; i < heat_.size(); ++i)
+        heat_[i] += sign * (1 - alpha) * integrals.of_nodes[i][k];
+  }
+  check(integrals, least);
+}
+
+void PlacedLoad::set_exchange(const CellIntegrals::Result& integrals, std::span<const LoadValues> at_points) {
+  // The drive is counted from the coldest ambient temperature: in kelvin the rest would hide what varies.
+  double coldest = HUGE_VAL;
+  LoadValues sum{};
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    for (std::size_t k = 0; k < 2; ++k) sum[k] += points_[p].weight * at_points[p][k];
+    if (at_points[p][0] > 0) coldest = std::min(coldest, at_points[p][1] / at_points[p][0]);
+  }
+  coldest = parallel::global_min(coldest);
+  if (!std::isfinite(coldest)) coldest = 0;
+  const LoadValues by_points{parallel::global_sum(sum[0]), parallel::global_sum(sum[1])};
+  // An ambient temperature that is the same everywhere leaves rounding.
+  constexpr double k_rounding = 1e-9;
+  const double excess = integrals.total[1] - coldest * integrals.total[0];
+  const double alpha = std::min(share_of_points(by_points[0], integrals.total[0]),
+                                excess > k_rounding * integrals.total[1]
+                                    ? share_of_points(by_points[1] - coldest * by_points[0], excess)
+                                    : 1.0);
+  const double scale = by_points[0] > 0 ? integrals.total[0] / by_points[0] : 1;
+  means_.assign(points_.size(), {});
+  std::vector<double> around;  // means around nodes, ghosts too
+  if (alpha < 1) {
+    around.resize(2 * mesh_.x.size());
+    for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i)
+      for (std::size_t k = 0; k < 2; ++k)
+        if (cells_.of_nodes()[i] > 0) around[2 * i + k] = integrals.of_nodes[i][k] / cells_.of_nodes()[i];
+    parallel::GhostExchange(mesh_).update(around, 2);
+  }
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    for (std::size_t k = 0; k < 2; ++k) {
+      means_[p][k] = alpha * scale * at_points[p][k];
+      if (alpha == 1) continue;
+      const Point& point = points_[p];
+      means_[p][k] += (1 - alpha) *
+                      (point.node >= 0 ? around[2 * at(point.node) + k]
+                                       : integrals.of_cells[at(point.cell)][k] / cells_.of_cell(point.cell));
+    }
+  check(integrals, alpha);
+}
+
+void PlacedLoad::check(const CellIntegrals::Result& integrals, double by_points) {
+  if (by_points == 0 && !std::exchange(told_coarse_, true))
+    logging::info(
+        "'{}' is smaller than the elements that it acts on: its power is its integral, but temperatures "
+        "around it "
+        "are means over elements, which a finer mesh would resolve",
+        name_);
+  if (integrals.uncertain > k_uncertain && !std::exchange(told_uncertain_, true))
+    logging::warn("the integral of '{}' over the elements may be wrong by {:.2g} %", name_,
+                  100 * integrals.uncertain);
+}
+
+double PlacedLoad::lasting(double from, double to) const {
+  // The result is how long the load takes until it overlaps with itself only by k_overlap: how far it travels
+  // over its own size. A load that does not move lasts for ever.
+  if (!moves()) return HUGE_VAL;
+  // Only the distribution counts, so a power that varies evenly is set to one. Of a flux the value itself is
+  // compared, of a film its coefficient.
+  LoadLaw law = law_;  // its distribution, whatever its power is
+  for (PlaceFunction& f : law.functions)
+    if (f.uniform() && law.kind == LoadLaw::Kind::power) f = 1.0;
+  const std::size_t k = law.kind == LoadLaw::Kind::power ? 0 : 1;
+  const auto size = [&](const LoadValues& v) { return k == 0 ? v[0] + v[1] : v[1]; };
+  // The shape at the start of the step is the reference. A load that does not act yet is followed backward
+  // from the end of the step.
+  double start = from, direction = 1;
+  const auto at_time = [&](double time) { return std::array{TimePoint{time, 1}}; };
+  CellIntegrals::Result shape = integrate(law, at_time(from), true);
+  if (!(size(shape.total) > 0)) {  // it comes later
+    start = to, direction = -1;
+    shape = integrate(law, at_time(to), true);
+    if (!(size(shape.total) > 0)) return HUGE_VAL;
+  }
+  // Where the total changes with time, the shape then is scaled to the same total before it is compared.
+  const bool same_power =
+      std::ranges::all_of(law.functions, [](const PlaceFunction& f) { return f.steady() || f.only_moves(); });
+  std::vector<Position> x;
+  for (const CellIntegrals::Sample& s : shape.samples) x.push_back(s.x);
+  std::vector<LoadValues> values(x.size());
+  // The overlap is the integral of the smaller of both distributions over that of the reference, at the
+  // points where the reference was integrated.
+  const auto overlap = [&](double after) {
+    const auto time = at_time(start + direction * after);
+    double of_power = 1;
+    if (!same_power) {
+      const double then = size(integrate(law, time, false).total);
+      if (!(then > 0)) return 0.0;
+      of_power = size(shape.total) / then;
+    }
+    run_collectively([&] { average(law, time, x, false, values); });
+    double common = 0, all = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const CellIntegrals::Sample& s = shape.samples[i];
+      common += s.weight * std::min(size(s.value), of_power * size(values[i]));
+      all += s.weight * size(s.value);
+    }
+    all = parallel::global_sum(all);
+    return all > 0 ? parallel::global_sum(common) / all : 1.0;
+  };
+  // The time of the overlap sought is found by halving the step until the overlap is large enough, and then
+  // between the last two times.
+  constexpr int k_halvings = 16, k_between = 3;
+  double longest = to - from;
+  if (overlap(longest) >= k_overlap) return HUGE_VAL;
+  for (int i = 0; i < k_halvings && overlap(longest) < k_overlap; ++i) longest *= 0.5;
+  double low = longest, high = 2 * longest;
+  for (int i = 0; i < k_between; ++i) {
+    const double middle = 0.5 * (low + high);
+    (overlap(middle) < k_overlap ? high : low) = middle;
+  }
+  return low;
+}
+
+std::size_t PlacedLoad::bytes() const {
+  return cells_.bytes() + points_.capacity() * sizeof(Point) + shares_.capacity() * sizeof(Share);
+}
+
+}  // namespace solidus::heat

@@ -1,0 +1,401 @@
+#include "heat/loads/surface_heat.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "mesh/block_geometry.hpp"
+#include "numbers/types.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+/// ∫ Π N_a dA over a face, of the nodes in the list.
+double integral(const mesh::FaceGeometry& g, Index face, std::initializer_list<int> nodes) {
+  double sum = 0;
+  for (int q = 0; q < g.n_points; ++q) {
+    double part = g.weight[static_cast<std::size_t>(face * g.n_points + q)];
+    for (const int a : nodes) part *= g.values[static_cast<std::size_t>(q * g.n_nodes + a)];
+    sum += part;
+  }
+  return sum;
+}
+
+}  // namespace
+
+SurfaceLaw::SurfaceLaw(const Flux& flux) : law_{LoadLaw::Kind::power, {flux.factor, flux.value}} {}
+
+SurfaceLaw::SurfaceLaw(const Film& film) : law_{LoadLaw::Kind::film, {film.factor, film.ambient}} {
+  if (film.coefficient.of_temperature)
+    of_temperature_ = film.coefficient.table.table();
+  else
+    law_.functions.insert(law_.functions.begin() + 1, film.coefficient.table);
+}
+
+SurfaceLaw::SurfaceLaw(const Radiation& radiation)
+    : law_{LoadLaw::Kind::radiation, {radiation.factor, radiation.ambient}} {
+  if (radiation.emissivity.of_temperature)
+    of_temperature_ = radiation.emissivity.table.table();
+  else
+    law_.functions.insert(law_.functions.begin() + 1, radiation.emissivity.table);
+}
+
+SurfaceLaw::Now SurfaceLaw::now(const LoadValues& mean, double otherwise) const {
+  if (law_.kind == LoadLaw::Kind::power) return {1, mean[0] - mean[1]};
+  return {mean[0], law_.ambient(mean, otherwise)};
+}
+
+/// The mean over the window; of an exchange in a step of backward Euler that of LoadWindow::to_end.
+LoadValues SurfaceLaw::mean_over(const LoadWindow& window) const {
+  const LoadValues mean = mean_load(window, law_);
+  if (!window.to_end || !exchanges()) return mean;
+  constexpr double k_inside = 1e-9;  // of the step: a formula may jump at its ends, where steps end
+  const LoadWindow::Part& step = window.parts[0];
+  const double inside = k_inside * (step.end - step.begin);
+  const LoadValues begin = law_.values_at(step.begin + inside), end = law_.values_at(step.end - inside);
+  LoadValues corrected = mean;
+  for (std::size_t k = 0; k < mean.size(); ++k) corrected[k] += 0.5 * (end[k] - begin[k]);
+  // Where the coefficient jumps within the step there is no straight line.
+  const bool jumps = corrected[0] < 0.5 * std::min(begin[0], end[0]) ||
+                     corrected[0] > 1.5 * std::max({begin[0], end[0], 0.0});
+  return jumps ? mean : corrected;
+}
+
+void SurfaceLaw::set_window(const LoadWindow& window) {
+  const PlaceFunction& driver = law_.functions.back();
+  if (!placed()) {
+    const double at_end = driver.value(window.time);
+    Now& everywhere = now_.emplace_back(now(mean_over(window), at_end));
+    // Without rounding where it is the same all the time.
+    if (exchanges() && (window.n_parts == 0 || driver.steady())) everywhere.driver = at_end;
+    now_.erase(now_.begin(), now_.end() - 1);
+    return;
+  }
+  constexpr int k_points = 2;
+  std::vector<LoadValues> means(points_.size());
+  std::vector<std::vector<double>> values(law_.functions.size(), std::vector<double>(points_.size()));
+  std::array<double, 3> of_functions{};
+  for (const TimePoint& time : time_points(window, law_.pointers(), k_points)) {
+    for (std::size_t f = 0; f < values.size(); ++f) law_.functions[f].values(points_, time.time, values[f]);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      for (std::size_t f = 0; f < values.size(); ++f) of_functions[f] = values[f][i];
+      const LoadValues v = law_.values(std::span(of_functions).first(values.size()));
+      for (std::size_t k = 0; k < v.size(); ++k) means[i][k] += time.weight * v[k];
+    }
+  }
+  set_values(means);
+}
+
+void SurfaceLaw::set_values(std::span<const LoadValues> means) {
+  // Where nothing is exchanged the ambient temperature counts for nothing but the range of temperatures.
+  double otherwise = 0;
+  for (const LoadValues& mean : means) otherwise = std::max(otherwise, law_.ambient(mean, 0));
+  now_.resize(means.size());
+  for (std::size_t i = 0; i < means.size(); ++i) now_[i] = now(means[i], otherwise);
+}
+
+SurfaceFlux SurfaceLaw::at(double temperature, std::size_t point) const {
+  const Now& n = now_[placed() ? point : 0];
+  if (!exchanges()) return {n.driver, 0.0};
+  const bool varies = of_temperature_.has_value();
+  const double c = varies ? n.coefficient * of_temperature_->value(temperature) : n.coefficient;
+  const double c_slope = varies ? n.coefficient * of_temperature_->derivative(temperature) : 0.0;
+  double drive = 0, drive_slope = 0;
+  if (law_.kind == LoadLaw::Kind::film) {
+    drive = n.driver - temperature;
+    drive_slope = -1.0;
+  } else {
+    // Θ|Θ|³ instead of Θ⁴: the same above absolute zero, and rising everywhere an iterate may stray.
+    const double cube = k_stefan_boltzmann * std::abs(temperature * temperature * temperature);
+    const double ambient = n.driver * n.driver;
+    drive = k_stefan_boltzmann * ambient * ambient - cube * temperature;
+    drive_slope = -4.0 * cube;
+  }
+  const double slope = c * drive_slope + c_slope * drive;
+  return {c * drive, slope <= 0 ? slope : c * drive_slope};
+}
+
+std::optional<TemperatureRange> SurfaceLaw::ambient() const {
+  if (!exchanges()) return std::nullopt;
+  TemperatureRange range;
+  for (const Now& n : now_) {
+    range.lowest = std::min(range.lowest, n.driver);
+    range.highest = std::max(range.highest, n.driver);
+  }
+  return range;
+}
+
+double SurfaceHeat::Patch::temperature(std::span<const double> t, Index face, int point) const {
+  const Index* of_face = nodes.data() + static_cast<std::ptrdiff_t>(face) * n_nodes;
+  const double* n = values.data() + static_cast<std::ptrdiff_t>(point) * n_nodes;
+  double sum = 0;
+  for (int a = 0; a < n_nodes; ++a) sum += n[a] * t[static_cast<std::size_t>(of_face[a])];
+  return sum;
+}
+
+SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface,
+                         std::string name, SurfaceLaw law, bool closed)
+    : name_(std::move(name)), law_(std::move(law)) {
+  std::vector<double> lumped(static_cast<std::size_t>(mesh.n_owned_nodes), 0.0);  // ∫ N_i dA
+  std::vector<double> positive(lumped.size(), 0.0);
+  for (const mesh::ElementBlock& faces : surface.faces) {
+    const int order = mesh::order(faces.shape);
+    // Exact for N_a N_b times the radius on straight faces.
+    const mesh::FaceGeometry g(mesh, faces, kind, mesh::gauss_rule(faces.shape, 2 * order + 1));
+    if (closed) {
+      for (Index face = 0; face < g.n_faces; ++face) {
+        double area = 0, squares = 0;
+        for (int a = 0; a < g.n_nodes; ++a) {
+          area += integral(g, face, {a});
+          squares += integral(g, face, {a, a});
+        }
+        for (int a = 0; a < g.n_nodes; ++a) {
+          const Index node = faces.element(face)[a];
+          if (node >= mesh.n_owned_nodes) continue;
+          lumped[static_cast<std::size_t>(node)] += integral(g, face, {a});
+          positive[static_cast<std::size_t>(node)] += area / squares * integral(g, face, {a, a});
+        }
+      }
+      if (order == 2 && mesh.dimension == 3 && law_.exchanges()) add_corners(faces, g);
+      continue;
+    }
+    patches_.push_back({.n_nodes = g.n_nodes,
+                        .n_points = g.n_points,
+                        .n_faces = g.n_faces,
+                        .n_counted = g.n_counted,
+                        .nodes = faces.nodes,
+                        .values = g.values,
+                        .weight = g.weight,
+                        .slots = {}});
+  }
+  for (std::size_t i = 0; i < positive.size(); ++i) {
+    if (positive[i] == 0.0) continue;
+    supplied_nodes_.push_back(static_cast<Index>(i));
+    supply_weight_.push_back(positive[i]);
+  }
+  Patch nodes;
+  nodes.values = {1.0};
+  for (std::size_t i = 0; i < lumped.size(); ++i) {
+    if (lumped[i] == 0.0) continue;
+    nodes.nodes.push_back(static_cast<Index>(i));
+    nodes.weight.push_back(lumped[i]);
+  }
+  nodes.n_faces = nodes.n_counted = static_cast<Index>(nodes.nodes.size());
+  patches_.push_back(std::move(nodes));
+  if (law_.placed()) place_points(mesh, kind, surface, closed);
+}
+
+void SurfaceHeat::place_points(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface,
+                               bool closed) {
+  std::vector<PlacedLoad::Point> points;
+  std::vector<PlacedLoad::Share> shares;
+  Index first_cell = 0;
+  for (Patch& patch : patches_) {
+    patch.first_point = points.size();
+    for (Index face = 0; face < patch.n_faces; ++face)
+      for (int q = 0; q < patch.n_points; ++q) {
+        const auto number = static_cast<Index>(points.size());
+        const double weight = patch.weight[patch.number(face, q)];
+        PlacedLoad::Point& point = points.emplace_back();
+        if (closed)
+          point.node = patch.nodes[static_cast<std::size_t>(face)];
+        else
+          point.cell = first_cell + face;
+        if (face < patch.n_counted) point.weight = weight;
+        for (int a = 0; a < patch.n_nodes; ++a) {
+          const Index node = patch.nodes[static_cast<std::size_t>(face * patch.n_nodes + a)];
+          const double n = patch.values[static_cast<std::size_t>(q * patch.n_nodes + a)];
+          for (std::size_t i = 0; i < 3; ++i) point.x[i] += n * mesh.x[static_cast<std::size_t>(node)][i];
+          if (node < mesh.n_owned_nodes && !law_.exchanges()) shares.push_back({node, number, n * weight});
+        }
+      }
+    if (!closed) first_cell += patch.n_faces;
+  }
+  // The nodes at which the law is taken beside the points of integration.
+  point_of_node_.assign(mesh.x.size(), 0);
+  const auto place = [&](Index node) {
+    std::size_t& point = point_of_node_[static_cast<std::size_t>(node)];
+    if (point != 0) return;
+    point = points.size();
+    points.push_back({mesh.x[static_cast<std::size_t>(node)], node, -1, 0});
+  };
+  for (const Index node : supplied_nodes_) place(node);
+  for (const Pair& p : pairs_) {
+    place(p.i);
+    place(p.j);
+  }
+  for (const LimitedFlow& flow : flows_) place(flow.from);
+  std::vector<CellIntegrals::Cells> cells;
+  for (const mesh::ElementBlock& faces : surface.faces)
+    cells.push_back({faces.shape, faces.nodes, faces.n_counted});
+  load_ = std::make_unique<PlacedLoad>(mesh, kind, name_, law_.law(), std::move(cells), std::move(points),
+                                       std::move(shares));
+}
+
+void SurfaceHeat::set_window(const LoadWindow& window) {
+  if (!load_) return law_.set_window(window);
+  load_->set(window);
+  if (law_.exchanges()) law_.set_values(load_->means());
+}
+
+SurfaceFlux SurfaceHeat::at_node(std::span<const double> temperature, Index node) const {
+  const auto i = static_cast<std::size_t>(node);
+  return law_.at(temperature[i], point_of_node_.empty() ? 0 : point_of_node_[i]);
+}
+
+std::pair<double, double> SurfaceHeat::flux_range() const {
+  double least = 0, greatest = 0;
+  if (is_placed_flux()) {  // of which only the sign counts
+    for (const double heat : load_->heat())
+      least = std::min(least, heat), greatest = std::max(greatest, heat);
+    return {least, greatest};
+  }
+  for (const Patch& patch : patches_)
+    for (std::size_t point = 0; point < patch.weight.size(); ++point) {
+      const double q = law_.at(0.0, law_.placed() ? patch.first_point + point : 0).q;
+      least = std::min(least, q);
+      greatest = std::max(greatest, q);
+    }
+  return {least, greatest};
+}
+
+void SurfaceHeat::add_corners(const mesh::ElementBlock& faces, const mesh::FaceGeometry& g) {
+  // At the corners of quadratic quadrilaterals weights are negative: their part of the flow is an exchange
+  // with the middles beside them, which the limiter may cut.
+  const int corners = g.n_nodes / 2;
+  for (Index face = 0; face < g.n_faces; ++face) {
+    const Index* nodes = faces.element(face);
+    for (int a = 0; a < corners; ++a) {
+      const double weight = integral(g, face, {a});
+      if (weight >= 0) continue;
+      for (const int middle : {corners + a, corners + (a + corners - 1) % corners}) {
+        flows_.push_back({nodes[a], nodes[middle]});
+        flow_weight_.push_back(-0.5 * weight);
+      }
+      // Products of corner and middle that are negative are exchanges between pairs.
+      for (int middle = corners; middle < g.n_nodes; ++middle) {
+        const double product = integral(g, face, {a, middle});
+        if (product < 0) pairs_.push_back({nodes[a], nodes[middle], -product});
+      }
+    }
+  }
+}
+
+void SurfaceHeat::bind(const linear::BlockMatrix& matrix) {
+  for (Pair& p : pairs_) {
+    p.ij = matrix.slot(p.i, p.j);
+    p.ji = matrix.slot(p.j, p.i);
+    p.ii = matrix.slot(p.i, p.i);
+    p.jj = matrix.slot(p.j, p.j);
+  }
+  for (Patch& patch : patches_) patch.slots = matrix.clique_slots(patch.nodes, patch.n_nodes);
+}
+
+double SurfaceHeat::add_residual(std::span<const double> temperature, std::span<double> r,
+                                 double& moved) const {
+  // `counted` is the power that leaves or enters through counted faces, `moved` the sum of its magnitudes. A
+  // flux that varies from place to place has been integrated to nodal heats beforehand.
+  double counted = 0;
+  if (is_placed_flux()) {
+    const std::span<const double> heat = load_->heat();
+    for (std::size_t i = 0; i < heat.size(); ++i) {
+      counted += heat[i];
+      moved += std::abs(heat[i]);
+      r[i] -= heat[i];
+    }
+    return counted;
+  }
+  // Films, fluxes and radiation are integrated at the points of each patch (nodes under the closed rule,
+  // Gauss points else); heat into the body lowers the residual.
+  for (const Patch& patch : patches_)
+    for (Index face = 0; face < patch.n_faces; ++face)
+      for (int q = 0; q < patch.n_points; ++q) {
+        const std::size_t point = patch.number(face, q);
+        const double power = law_.at(patch.temperature(temperature, face, q), patch.first_point + point).q *
+                             patch.weight[point];
+        if (face < patch.n_counted) {
+          counted += power;
+          moved += std::abs(power);
+        }
+        for (int a = 0; a < patch.n_nodes; ++a)
+          r[static_cast<std::size_t>(patch.nodes[static_cast<std::size_t>(face * patch.n_nodes + a)])] -=
+              power * patch.values[static_cast<std::size_t>(q * patch.n_nodes + a)];
+      }
+  // Off-diagonal parts of films on quadratic faces exchange heat between two nodes of a face, and change no
+  // sum.
+  for (const Pair& p : pairs_) {
+    const auto i = static_cast<std::size_t>(p.i), j = static_cast<std::size_t>(p.j);
+    const double heat = p.weight * (at_node(temperature, p.i).q - at_node(temperature, p.j).q);  // into i
+    r[i] -= heat;
+    r[j] += heat;
+  }
+  // Of these exchanges the limiter has taken a share away: what is left out is taken back here.
+  for (std::size_t i = 0; i < flows_.size(); ++i) {
+    if (flows_[i].left == 0) continue;
+    const double heat = flows_[i].left * flow(temperature, i);
+    r[static_cast<std::size_t>(flows_[i].from)] -= heat;
+    r[static_cast<std::size_t>(flows_[i].to)] += heat;
+  }
+  return counted;
+}
+
+double SurfaceHeat::flow(std::span<const double> temperature, std::size_t i) const {
+  return flow_weight_[i] * at_node(temperature, flows_[i].from).q;
+}
+
+void SurfaceHeat::add_supply(std::span<const double> temperature, std::span<double> gain,
+                             std::span<double> loss) const {
+  if (is_placed_flux()) {
+    const std::span<const double> heat = load_->heat();
+    for (std::size_t i = 0; i < heat.size(); ++i) (heat[i] > 0 ? gain : loss)[i] += std::abs(heat[i]);
+    return;
+  }
+  for (std::size_t s = 0; s < supplied_nodes_.size(); ++s) {
+    const auto i = static_cast<std::size_t>(supplied_nodes_[s]);
+    const double heat = supply_weight_[s] * at_node(temperature, supplied_nodes_[s]).q;
+    (heat > 0 ? gain : loss)[i] += std::abs(heat);
+  }
+}
+
+void SurfaceHeat::update_flows(std::span<const double> temperature) {
+  for (std::size_t i = 0; i < flows_.size(); ++i) flows_[i].heat = flow(temperature, i);
+}
+
+bool SurfaceHeat::diagonal() const {
+  return pairs_.empty() && std::ranges::all_of(patches_, [](const Patch& p) { return p.n_nodes == 1; });
+}
+
+void SurfaceHeat::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const {
+  if (is_placed_flux()) return;
+  for (const Patch& patch : patches_) {
+    const linear::BlockMatrix::Slot* slot = patch.slots.data();
+    for (Index face = 0; face < patch.n_faces; ++face, slot += patch.n_nodes * patch.n_nodes)
+      for (int q = 0; q < patch.n_points; ++q) {
+        const std::size_t point = patch.number(face, q);
+        const double slope =
+            law_.at(patch.temperature(temperature, face, q), patch.first_point + point).slope *
+            patch.weight[point];
+        const double* n = patch.values.data() + static_cast<std::ptrdiff_t>(q) * patch.n_nodes;
+        for (int a = 0; a < patch.n_nodes; ++a)
+          for (int b = 0; b < patch.n_nodes; ++b)
+            *matrix.block(slot[a * patch.n_nodes + b]) -= slope * n[a] * n[b];
+      }
+  }
+  for (const Pair& p : pairs_) {
+    const double of_i = p.weight * at_node(temperature, p.i).slope,
+                 of_j = p.weight * at_node(temperature, p.j).slope;
+    *matrix.block(p.ii) -= of_i;
+    *matrix.block(p.jj) -= of_j;
+    *matrix.block(p.ij) += of_j;
+    *matrix.block(p.ji) += of_i;
+  }
+  // The corner's own part: the entries of the mid-edge nodes would not be symmetric.
+  for (std::size_t i = 0; i < flows_.size(); ++i) {
+    const Index from = flows_[i].from;
+    *matrix.block(matrix.slot(from, from)) -=
+        flows_[i].left * flow_weight_[i] * at_node(temperature, from).slope;
+  }
+}
+
+}  // namespace solidus::heat

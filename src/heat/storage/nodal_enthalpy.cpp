@@ -1,0 +1,293 @@
+#include "heat/storage/nodal_enthalpy.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "mesh/block_geometry.hpp"
+#include "mesh/block_part.hpp"
+
+namespace solidus::heat {
+
+NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
+                             const std::vector<material::Material>& materials)
+    : materials_(materials) {
+  for (const material::Material& m : materials_) {
+    curves_.push_back(m.enthalpy());
+    starts_.emplace_back();
+    for (const auto& piece : curves_.back().pieces()) {
+      starts_.back().push_back(piece.h0);
+      breaks_.push_back(piece.t0);
+      breaks_.push_back(piece.t1);
+    }
+  }
+  std::sort(breaks_.begin(), breaks_.end());
+  breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
+
+  // Nearly all nodes belong to one body: what others have of a node stands apart.
+  constexpr int k_none = -1;
+  const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
+  std::vector<int> body_of(n_owned, k_none);
+  std::vector<double> volume_of(n_owned, 0.0);
+  std::map<Index, std::vector<NodeShare>> further;
+  const auto volume_in = [&](Index node, int body) -> double& {
+    int& own = body_of[static_cast<std::size_t>(node)];
+    if (own == k_none) own = body;
+    if (own == body) return volume_of[static_cast<std::size_t>(node)];
+    std::vector<NodeShare>& list = further[node];
+    const auto found = std::ranges::find(list, body, &NodeShare::body);
+    return (found != list.end() ? *found : list.emplace_back(NodeShare{body, 0.0})).weight;
+  };
+  for (const mesh::ElementBlock& block : mesh.blocks)
+    mesh::for_parts(block, [&](const mesh::ElementBlock& part, Index) {
+      const PackVector<Lane> weights = mesh::nodal_weights(mesh, part, kind);
+      const Index n = mesh::node_count(part.shape);
+      for (Index e = 0; e < part.size(); ++e)
+        for (Index a = 0; a < n; ++a)
+          if (const Index node = part.element(e)[a]; node < mesh.n_owned_nodes)
+            volume_in(node, block.body) +=
+                weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
+    });
+  if (n_owned > 0 && further.empty() && std::ranges::count(body_of, body_of.front()) == std::ssize(body_of)) {
+    shares_ = NodeShares(body_of.front(), std::move(volume_of));
+    return;
+  }
+  std::size_t n_shares = n_owned;
+  for (const auto& [node, list] : further) n_shares += list.size();
+  shares_.reserve(n_shares);
+  auto more = further.begin();
+  for (std::size_t i = 0; i < n_owned; ++i) {
+    assert(body_of[i] != k_none && "every owned node belongs to an element");
+    shares_.add({body_of[i], volume_of[i]});
+    if (more != further.end() && static_cast<std::size_t>(more->first) == i) {
+      for (const NodeShare& share : more->second) shares_.add(share);
+      ++more;
+    }
+    shares_.end_node();
+  }
+}
+
+double NodalEnthalpy::held_by(const linear::ActiveSet& active, Index node, double heat,
+                              double temperature) const {
+  const NodeShares::List list = shares_[node];
+  if (std::all_of(list.begin(), list.end(), [&](const NodeShare& s) { return active.body(s.body); }))
+    return heat;
+  const double share = plateau_share(node, heat, temperature);
+  double held = 0;
+  for (const NodeShare s : list) {
+    if (!active.body(s.body)) continue;
+    const double low = curve(s).lower(temperature);
+    held += s.weight * (low + share * (curve(s).upper(temperature) - low));
+  }
+  return held;
+}
+
+void NodalEnthalpy::set_active(const linear::ActiveSet& active) {
+  if (!all_) all_ = shares_;
+  std::vector<char> kept;
+  for (std::size_t b = 0; b < materials_.size(); ++b) kept.push_back(active.body(static_cast<int>(b)));
+  filter(*all_, kept);
+}
+
+void NodalEnthalpy::keep_bodies(std::span<const char> kept) {
+  filter(shares_, kept);
+  all_.reset();
+}
+
+void NodalEnthalpy::filter(const NodeShares& from, std::span<const char> kept) {
+  NodeShares left;
+  for (Index node = 0; node < from.n_nodes(); ++node) {
+    for (const NodeShare share : from[node])
+      if (kept[static_cast<std::size_t>(share.body)] != 0) left.add(share);
+    left.end_node();
+  }
+  shares_ = std::move(left);
+}
+
+double NodalEnthalpy::lower(Index node, double temperature) const {
+  double h = 0;
+  for (const NodeShare s : shares_[node]) h += s.weight * curve(s).lower(temperature);
+  return h;
+}
+
+double NodalEnthalpy::upper(Index node, double temperature) const {
+  double h = 0;
+  for (const NodeShare s : shares_[node]) h += s.weight * curve(s).upper(temperature);
+  return h;
+}
+
+double NodalEnthalpy::capacity(Index node, double temperature) const {
+  double c = 0;
+  for (const NodeShare s : shares_[node]) c += s.weight * curve(s).capacity(temperature);
+  return c;
+}
+
+/// Nodes of several materials: the break below the heat by bisection, then the sum's own quadratic.
+double NodalEnthalpy::mixed_temperature(const NodeShares::List& shares, double heat, bool& plateau) const {
+  const auto sum = [&](auto f) {
+    double h = 0;
+    for (const NodeShare s : shares) h += s.weight * f(curve(s));
+    return h;
+  };
+  const auto lower_at = [&](double t) { return sum([t](const auto& c) { return c.lower(t); }); };
+  const auto upper_at = [&](double t) { return sum([t](const auto& c) { return c.upper(t); }); };
+  const auto capacity_at = [&](double t) { return sum([t](const auto& c) { return c.capacity(t); }); };
+  plateau = false;
+  const auto above =
+      std::partition_point(breaks_.begin(), breaks_.end(), [&](double t) { return lower_at(t) <= heat; });
+  if (above == breaks_.begin())
+    return breaks_.front() + (heat - lower_at(breaks_.front())) / capacity_at(breaks_.front() - 1.0);
+  const double t0 = *(above - 1), h = heat - upper_at(t0);
+  if (h <= 0) {
+    plateau = h < 0 && heat > lower_at(t0);
+    return t0;
+  }
+  const double c0 = capacity_at(t0);
+  if (above == breaks_.end()) return t0 + h / c0;
+  const double width = *above - t0, c1 = 2.0 * (capacity_at(t0 + 0.5 * width) - c0) / width;
+  return std::min(t0 + 2.0 * h / (c0 + std::sqrt(std::max(0.0, c0 * c0 + 2.0 * c1 * h))), *above);
+}
+
+double NodalEnthalpy::temperature(Index node, double heat) const {
+  const NodeShares::List list = shares_[node];
+  assert(!list.empty());
+  if (list.size() == 1) return curve(list[0]).temperature(heat / list[0].weight);
+  bool plateau = false;
+  return mixed_temperature(list, heat, plateau);
+}
+
+double NodalEnthalpy::slope(Index node, double heat) const {
+  const NodeShares::List list = shares_[node];
+  if (list.empty()) return 0.0;
+  if (list.size() == 1) return curve(list[0]).inverse_slope(heat / list[0].weight) / list[0].weight;
+  bool plateau = false;
+  const double temperature = mixed_temperature(list, heat, plateau);
+  return plateau ? 0.0 : 1.0 / capacity(node, temperature);
+}
+
+NodalEnthalpy::Point NodalEnthalpy::point(Index node, double heat) const {
+  const NodeShares::List list = shares_[node];
+  if (list.empty()) return {std::numeric_limits<double>::quiet_NaN(), 0.0};  // it stores nothing
+  if (list.size() != 1) {
+    bool plateau = false;
+    const double t = mixed_temperature(list, heat, plateau);
+    return {t, plateau ? 0.0 : 1.0 / capacity(node, t)};
+  }
+  const NodeShare share = list.front();
+  const std::vector<double>& starts = starts_[static_cast<std::size_t>(share.body)];
+  const double h = heat / share.weight;
+  const auto above =
+      static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), h) - starts.begin());
+  const std::size_t i = above == 0 ? 0 : above - 1;
+  const auto& piece = curve(share).pieces()[i];
+  const double from = h - piece.h0, width = piece.t1 - piece.t0;
+  if (from <= 0) return {piece.t0 + from / piece.c0, 1.0 / (piece.c0 * share.weight)};
+  const double in_piece = width * (piece.c0 + 0.5 * piece.c1 * width);
+  if (from >= in_piece) {
+    const double c = piece.c0 + piece.c1 * width;
+    if (i + 1 == starts.size()) return {piece.t1 + (from - in_piece) / c, 1.0 / (c * share.weight)};
+    // In a jump, or at the end of the piece but for rounding.
+    constexpr double k_rounding = 1e-9;
+    const double height = starts[i + 1] - piece.h0;
+    const bool jumps = height - in_piece > k_rounding * height && from > in_piece;
+    return {piece.t1, jumps ? 0.0 : 1.0 / (c * share.weight)};
+  }
+  const double root = std::sqrt(piece.c0 * piece.c0 + 2.0 * piece.c1 * from);
+  return {std::min(piece.t0 + 2.0 * from / (piece.c0 + root), piece.t1), 1.0 / (root * share.weight)};
+}
+
+/// Whether some curve of the node jumps at this very temperature.
+bool NodalEnthalpy::jumps_at(Index node, double temperature) const {
+  return std::ranges::any_of(shares_[node], [&](const NodeShare& s) {
+    return std::ranges::any_of(curve(s).jumps(), [&](const auto& j) { return j.temperature == temperature; });
+  });
+}
+
+double NodalEnthalpy::plateau_share(Index node, double heat, double temperature) const {
+  if (!jumps_at(node, temperature)) return 1.0;
+  const double low = lower(node, temperature), high = upper(node, temperature);
+  return high > low ? std::clamp((heat - low) / (high - low), 0.0, 1.0) : 1.0;
+}
+
+int NodalEnthalpy::branch(Index node, double heat, double temperature) const {
+  int branch = 0;
+  for (const NodeShare s : shares_[node])
+    for (const auto& jump : curve(s).jumps()) {
+      if (temperature < jump.temperature) continue;
+      const double share = temperature > jump.temperature ? 1.0 : plateau_share(node, heat, temperature);
+      branch += share == 1.0 ? 2 : share > 0 ? 1 : 0;
+    }
+  return branch;
+}
+
+double NodalEnthalpy::solid_fraction(Index node, double heat, double temperature) const {
+  double volume = 0, solid = 0;
+  for (const NodeShare s : shares_[node]) {
+    if (!can_melt(s.body)) continue;
+    volume += s.weight;
+    solid += solid_volume(node, s.body, heat, temperature);
+  }
+  return volume > 0 ? solid / volume : 1.0;
+}
+
+double NodalEnthalpy::volume(Index node, int body) const {
+  for (const NodeShare s : shares_[node])
+    if (s.body == body) return s.weight;
+  return 0.0;
+}
+
+double NodalEnthalpy::solid_volume(Index node, int body, double heat, double temperature) const {
+  const double all = volume(node, body);
+  const material::PhaseChange* change = materials_[static_cast<std::size_t>(body)].solidification();
+  if (!change || all == 0) return all;
+  const double below = change->fraction.below(temperature), above = change->fraction.above(temperature);
+  if (below == above) return all * below;
+  return all * (below - plateau_share(node, heat, temperature) * (below - above));
+}
+
+double NodalEnthalpy::latent(Index node, double heat, double temperature) const {
+  double latent = 0;
+  for (const NodeShare s : shares_[node]) {
+    const material::Material& m = materials_[static_cast<std::size_t>(s.body)];
+    for (const material::PhaseChange& change : m.phase_changes) {
+      const double below = change.fraction.below(temperature), above = change.fraction.above(temperature);
+      const double share = below == above ? 0.0 : plateau_share(node, heat, temperature);
+      latent += s.weight * m.density * change.latent_heat * (1.0 - below + share * (below - above));
+    }
+  }
+  return latent;
+}
+
+double NodalEnthalpy::entropy(Index node, double heat, double temperature) const {
+  const double share = plateau_share(node, heat, temperature);
+  double entropy = 0;
+  for (const NodeShare s : shares_[node]) {
+    const double low = curve(s).lower_entropy(temperature);
+    entropy += s.weight * (share > 0 ? low + share * (curve(s).upper_entropy(temperature) - low) : low);
+  }
+  return entropy;
+}
+
+bool NodalEnthalpy::has_plateaus() const {
+  return std::any_of(curves_.begin(), curves_.end(), [](const auto& c) { return !c.jumps().empty(); });
+}
+
+double NodalEnthalpy::latent_capacity(Index node) const {
+  double heat = 0;
+  for (const NodeShare s : shares_[node]) {
+    if (curve(s).jumps().empty()) continue;
+    const material::Material& m = materials_[static_cast<std::size_t>(s.body)];
+    for (const material::PhaseChange& change : m.phase_changes)
+      heat += s.weight * m.density * change.latent_heat;
+  }
+  return heat;
+}
+
+std::size_t NodalEnthalpy::bytes() const {
+  return shares_.bytes() + (all_ ? all_->bytes() : 0);
+}
+
+}  // namespace solidus::heat

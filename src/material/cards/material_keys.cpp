@@ -1,0 +1,281 @@
+/// The keys of a material file.
+#include <map>
+#include <string_view>
+
+#include "material/cards/external_keys.hpp"
+#include "material/cards/library.hpp"
+#include "material/laws/fraction_law.hpp"
+#include "material/laws/liquid_law.hpp"
+
+namespace solidus::material {
+namespace {
+
+Section<FractionData> fraction_keys() {
+  Section<FractionData> s("fraction", "The phase that is stable when cold, as a function of temperature.");
+  s.kinds("kind", &FractionData::law, fraction_laws()).initially("linear").doc("The form of the curve.");
+  s.place(&FractionData::where);
+  return s;
+}
+
+Section<PhaseChangeData> phase_change_keys() {
+  Section<PhaseChangeData> s("phase_change", "A phase change: solidification or a change in the solid.");
+  s.key("name", &PhaseChangeData::name).doc("For messages.");
+  s.key("solidification", &PhaseChangeData::solidification)
+      .initially(false)
+      .doc("Its fraction is the solid fraction; at most one phase change.");
+  s.quantity("latent_heat", &PhaseChangeData::latent_heat, "J/kg").at_least(0).doc("Released on cooling.");
+  s.key("volume_change", &PhaseChangeData::volume_change)
+      .initially(0.0)
+      .range(-0.5, 0.5)
+      .doc("Relative volume change on cooling through the whole change: negative shrinks, positive expands.");
+  s.key("graphite", &PhaseChangeData::graphite)
+      .initially(false)
+      .doc(
+          "It is the precipitation of graphite, whose volume_change is computed of [graphite] and is not "
+          "given.");
+  s.section("fraction", &PhaseChangeData::fraction, fraction_keys());
+  s.key("source", &PhaseChangeData::source).initially("").doc("Where the data come from.");
+  s.place(&PhaseChangeData::where);
+  return s;
+}
+
+Section<Casting> casting_keys() {
+  // The keys of [casting], in the order of the reference: strength of mush, hot tearing, moulds, arm spacing,
+  // and flow of melt.
+  Section<Casting> s("casting", "What the criteria of a casting need (docs/theory/criteria.md).");
+  s.key("coherency_fraction", &Casting::coherency_fraction)
+      .initially(0.75)
+      .range(0, 1)
+      .doc(
+          "Solid fraction from which the solid is a coherent network: strain before it is strain of the "
+          "melt, strain after it is strain of the casting, and from it to one the network takes part in the "
+          "contraction of its metal by a share that rises from zero to one.");
+  s.quantity("pore_tension", &Casting::pore_tension, "Pa")
+      .initially("100 Pa")
+      .positive()
+      .doc(
+          "Tension, counted from the pressure of the atmosphere, at which pores open in metal below the "
+          "coherency_fraction: a pool that nothing feeds shrinks into pores from then on (field "
+          "pore_fraction) and stays on its walls. Next to none by default, for films of oxide and gas open "
+          "at "
+          "once.");
+  s.key("brittle_range", &Casting::brittle_range)
+      .initially(Value::list({0.90, 0.99}))
+      .range(0, 1)
+      .doc("Solid fractions between which strain tears the metal open and no melt heals it.");
+  s.key("crack_strain", &Casting::crack_strain)
+      .range(1e-6, 10)
+      .doc(
+          "phi in the critical strain of the brittle range, phi/(rate^m width^n), rate in 1/s and width in K "
+          "(Won, Yeo, Seol and Oh 2000; 0.02821 of carbon steels). Without it there is no cracking_index.");
+  s.key("crack_rate_exponent", &Casting::crack_rate_exponent)
+      .initially(0.3131)
+      .range(0, 2)
+      .doc("m of the same law.");
+  s.key("crack_range_exponent", &Casting::crack_range_exponent)
+      .initially(0.8638)
+      .range(0, 2)
+      .doc("n of the same law.");
+  s.key("rigidity", &Casting::rigidity)
+      .initially(1.0)
+      .range(0, 1)
+      .doc(
+          "Of a mould: the share of the expansion of graphite that it holds, so that it feeds the casting; "
+          "to "
+          "the rest its wall gives way. feeding.mould_rigidity of a case goes before it.");
+  s.quantity("arm_spacing", &Casting::arm_spacing, "m")
+      .positive()
+      .doc(
+          "Secondary arm spacing after a local solidification time of one second: c in c (t_f/1 s)^n. "
+          "Without it there are no secondary_arm_spacing and dimensionless_niyama, and melt flows through "
+          "mush "
+          "as with 50 um.");
+  s.key("arm_spacing_exponent", &Casting::arm_spacing_exponent)
+      .initially(0.333)
+      .range(0, 1)
+      .doc("n of the same law.");
+  s.quantity("melt_viscosity", &Casting::melt_viscosity, "Pa s")
+      .positive()
+      .doc(
+          "Newtonian shear viscosity of the melt at the liquidus, for dimensionless_niyama and for the flow "
+          "of "
+          "melt that feeds mush (2 mPa s without it); not twice_shear_viscosity, which is a numerical "
+          "choice.");
+  s.quantity("critical_pressure_drop", &Casting::critical_pressure_drop, "Pa")
+      .initially("101325 Pa")
+      .positive()
+      .doc(
+          "The drop of the melt's pressure at which pores form: in dimensionless_niyama, and in mush "
+          "(pore_fraction).");
+  s.key("source", &Casting::source).initially("").doc("Where the data come from.");
+  return s;
+}
+
+Section<Gas> gas_keys() {
+  Section<Gas> s("gas", "Gas of two atoms in solution, for gas pores (docs/theory/gas.md).");
+  s.key("name", &Gas::name).doc("Which gas it is, for people: hydrogen, nitrogen.");
+  s.key("melt", &Gas::melt)
+      .range(-1e5, 1e5)
+      .doc(
+          "a and b [K] of the solubility in the melt at one atmosphere, log10(S) = a - b/T with S in cm3 at "
+          "standard state per 100 g of metal.");
+  s.key("solid", &Gas::solid).range(-1e5, 1e5).doc("The same of the solid.");
+  s.quantity("content", &Gas::content, "m3/kg")
+      .at_least(0)
+      .doc(
+          "What the melt usually holds when it is poured, volume of gas at standard state (0 degC, 101325 "
+          "Pa) "
+          "per mass; gas.content of a case goes before it.");
+  s.quantity("surface_tension", &Gas::surface_tension, "N/m")
+      .at_least(0)
+      .doc(
+          "Of the melt against the gas: a pore between dendrites has half of secondary_arm_spacing as its "
+          "radius and is held shut by twice the tension over the radius.");
+  s.key("source", &Gas::source).initially("").doc("Where the data come from.");
+  return s;
+}
+
+Section<Graphite> graphite_keys() {
+  Section<Graphite> s("graphite",
+                      "Carbon and silicon of an iron, and the graphite of them (docs/theory/graphite.md).");
+  s.key("carbon", &Graphite::carbon).range(2.1, 5).doc("In mass per cent.");
+  s.key("silicon", &Graphite::silicon).range(0, 6).doc("In mass per cent.");
+  s.choice("rule", &Graphite::rule,
+           {{"lever", Graphite::Rule::lever, "all carbon beyond what austenite of the eutectic holds"},
+            {"scheil", Graphite::Rule::scheil,
+             "that of the eutectic alone, of which less is left beside primary austenite that keeps its "
+             "carbon"}})
+      .initially("lever")
+      .doc("How much graphite there is when the last melt freezes.");
+  s.choice("form", &Graphite::form,
+           {{"flake", Graphite::Form::flake, "grey iron"},
+            {"compacted", Graphite::Form::compacted, "vermicular, compacted iron"},
+            {"nodular", Graphite::Form::nodular, "spheroidal graphite, ductile iron"}})
+      .doc(
+          "What it looks like. Flakes grow in touch with the melt, which they squeeze through the mush; "
+          "nodules grow within shells of austenite, which push the mould's wall: of their expansion a wall "
+          "that yields takes more (docs/theory/graphite.md).");
+  s.key("expansion", &Graphite::expansion)
+      .initially(0.032)
+      .range(0, 0.1)
+      .doc("Relative volume that one mass per cent of graphite adds as it precipitates.");
+  s.key("source", &Graphite::source).initially("").doc("Where the data come from.");
+  return s;
+}
+
+void liquid_keys(Section<MaterialData>& s) {
+  std::vector<Section<MaterialData>::Choice<LiquidModel>> models;
+  for (const LiquidLaw* law : liquid_laws())
+    models.push_back(
+        {std::string(law->name()), static_cast<LiquidModel>(models.size()), std::string(law->doc())});
+  s.choice("liquid_model", &MaterialData::liquid_model, models)
+      .initially("maxwell")
+      .doc("How what is not yet solid answers shear; f_S is the solid fraction.");
+  std::map<std::string_view, std::vector<std::string>> models_with;
+  for (const LiquidLaw* law : liquid_laws())
+    for (const LawParameter& parameter : law->parameters())
+      models_with[parameter.key].emplace_back(law->name());
+  for (const LiquidLaw* law : liquid_laws())
+    for (const LawParameter& parameter : law->parameters()) {
+      if (models_with.at(parameter.key).front() != law->name()) continue;  // declared by another one
+      Key& key = s.function(parameter.key, &MaterialData::liquid_numbers, parameter.unit);
+      key.range(parameter.least, parameter.greatest)
+          .when("liquid_model", models_with.at(parameter.key))
+          .doc(parameter.doc);
+      key.lower_open = parameter.above_least;
+      if (parameter.optional) key.required = false;
+    }
+}
+
+Section<MaterialData> material_keys() {
+  // The keys of a card on its first level: names, thermal properties, elastic ones, and the sections.
+  Section<MaterialData> s(
+      "", "A material: every property with unit, source and the temperatures for which it holds.");
+  s.key("title", &MaterialData::title).initially("").doc("What it is, in one line.");
+  s.key("designations", &MaterialData::designations)
+      .initially(Value::list())
+      .doc(
+          "Names of standards and of the trade by which one may look for the material: who writes one of "
+          "them "
+          "in a case is told its name in the library.");
+  s.key("like", &MaterialData::like)
+      .initially("")
+      .doc(
+          "Another material (a name in the library, or a file): every key that is not given here is taken "
+          "from it, in [plasticity] too.");
+  const std::vector<Argument> temperature{Argument::temperature};
+  s.function("density", &MaterialData::density, "kg/m3").positive().doc("Of the reference configuration.");
+  s.function("conductivity", &MaterialData::conductivity, "W/m/K")
+      .positive()
+      .of(temperature)
+      .doc("Thermal conductivity.");
+  s.function("specific_heat", &MaterialData::specific_heat, "J/kg/K")
+      .positive()
+      .of(temperature)
+      .doc(
+          "At constant pressure, as handbooks have it, or what specific_heat_at says; without the latent "
+          "heat of "
+          "the phase changes that are given below.");
+  s.choice(
+       "specific_heat_at", &MaterialData::specific_heat_at,
+       {{"constant_pressure", SpecificHeatAt::constant_pressure,
+         "free of stress, as calorimeters and handbooks have it: C_p"},
+        {"constant_strain", SpecificHeatAt::constant_strain,
+         "at zero strain: C_v of the monograph (2.49c), below C_p by 9 k alpha^2 T/rho, some 4 to 8 % of a "
+         "hot metal"}})
+      .initially("constant_pressure")
+      .doc("What specific_heat was measured at. Where only heat is computed it makes no difference.");
+  s.function("young_modulus", &MaterialData::young_modulus, "Pa")
+      .positive()
+      .of(temperature)
+      .doc("Young's modulus.");
+  s.function("poisson_ratio", &MaterialData::poisson_ratio, "1")
+      .range(-0.99, 0.4999)
+      .of(temperature)
+      .doc("Poisson's ratio.");
+  s.function("expansion", &MaterialData::expansion, "1/K")
+      .range(-1e-3, 1e-3)
+      .of(temperature)
+      .doc("Coefficient of linear thermal expansion, of the kind that expansion_as says.");
+  s.choice("expansion_as", &MaterialData::expansion_as,
+           {{"mean", ExpansionAs::mean,
+             "the secant: change of length from expansion_reference to the temperature over the difference "
+             "of the two, as handbooks and dilatometers have it"},
+            {"instantaneous", ExpansionAs::instantaneous,
+             "the tangent: change of length per kelvin at the temperature, as physical theory and some "
+             "codes have it; the program integrates it"}})
+      .initially("mean")
+      .doc("What the values of expansion are; of a number without a table both are the same.");
+  s.quantity("expansion_reference", &MaterialData::expansion_reference, "K")
+      .initially("20 degC")
+      .positive()
+      .doc("Where the length is taken as 1 in the measurement of the expansion.");
+  s.function("twice_shear_viscosity", &MaterialData::twice_shear_viscosity, "Pa s")
+      .positive()
+      .of(temperature)
+      .doc(
+          "Of the liquid: eta in s = eta * strain rate (s the stress deviator, tensor strain rate), which is "
+          "TWICE the Newtonian "
+          "shear viscosity. Left out, the program chooses it: the melt then has in every step a modulus that "
+          "is small against the metallostatic head and the strength of the shell, and says which. The real "
+          "1e-3 Pa s has no effect on stress.");
+  liquid_keys(s);
+  s.sections("phase_change", &MaterialData::phase_changes, phase_change_keys());
+  s.section("plasticity", &MaterialData::plasticity, flow_section());
+  s.section("external", &MaterialData::external, external_section());
+  s.section("casting", &MaterialData::casting, casting_keys());
+  s.section("gas", &MaterialData::gas, gas_keys());
+  s.section("graphite", &MaterialData::graphite, graphite_keys());
+  s.section("spread", &MaterialData::spread, material_spread_keys());
+  s.place(&MaterialData::where);
+  return s;
+}
+
+}  // namespace
+
+const Section<MaterialData>& material_section() {
+  static const Section<MaterialData> section = material_keys();
+  return section;
+}
+
+}  // namespace solidus::material

@@ -1,0 +1,86 @@
+/// The answers of a run for summary.json.
+#include "results/answers/answers.hpp"
+
+namespace solidus::results {
+
+namespace {
+
+/// The error of an answer, as members of what holds it.
+void add_error(Json& json, const std::optional<ErrorBand>& error, const std::string& unit) {
+  if (!error) return;
+  json.add("error[" + unit + "]", error->total())
+      .add("error_of_step[" + unit + "]", error->step)
+      .add("error_of_mesh[" + unit + "]", error->mesh)
+      .add("step_compared", error->step_compared)
+      .add("mesh_compared", error->mesh_compared);
+}
+
+Json value_json(const ValueAt& value, const std::string& unit) {
+  Json json;
+  json.add("value[" + unit + "]", value.value)
+      .add("at[m]", Json::Array(value.where.begin(), value.where.end()));
+  add_error(json, value.error, unit);
+  return json;
+}
+
+Json pores_json(const Pores& pores) {
+  Json json = value_json(pores.densest, "1");
+  json.add("volume[m3]", pores.volume).add("share_of_casting", pores.share);
+  add_error(json, pores.error, "1");
+  return json;
+}
+
+}  // namespace
+
+Json json(const Answers& a) {
+  // The answers as summary.json has them. What is not known is left out rather than written as null, and
+  // every value that has one carries its error and its place.
+  Json json;
+  Json castings;
+  for (const CastAnswer& cast : a.castings) {
+    Json of_body;
+    of_body.add("riser", cast.cast.feeds).add("gating", cast.cast.gates).add("there", cast.there);
+    if (cast.there) of_body.add("solid_fraction", cast.solid_fraction).add("mass[kg]", cast.mass);
+    if (cast.least_niyama) of_body.add("least_niyama", value_json(*cast.least_niyama, "K^0.5 s^0.5/m"));
+    if (cast.pores) of_body.add("pores", pores_json(*cast.pores));
+    if (cast.froze) of_body.add("last_melt_froze", value_json(*cast.froze, "s"));
+    if (cast.hottest) of_body.add("hottest_melt", value_json(*cast.hottest, "K"));
+    castings.add(cast.cast.name, std::move(of_body));
+  }
+  json.add("time[s]", a.time).add("castings", std::move(castings));
+  if (a.pools) {
+    Json pools;
+    pools.add("number", a.pools->number);
+    if (a.pools->number > 0) {
+      pools.add("largest[m3]", a.pools->largest)
+          .add("at[m]", Json::Array(a.pools->where.begin(), a.pools->where.end()));
+      if (a.pools->frozen) pools.add("frozen[s]", *a.pools->frozen);
+    }
+    json.add("pools_cut_off", std::move(pools));
+  }
+  if (const std::optional<double> share = poured_share_of_parts(a)) json.add("yield", *share);
+  if (a.pores) json.add("pores", pores_json(*a.pores));
+  Json gaps;
+  for (const GapAnswer& gap : a.gaps) gaps.add(gap.contact, value_json(gap.gap, "m"));
+  json.add("largest_gaps", std::move(gaps));
+  Json overlaps;
+  for (const GapAnswer& overlap : a.overlaps) overlaps.add(overlap.contact, value_json(overlap.gap, "m"));
+  json.add("deepest_overlaps", std::move(overlaps));
+  if (a.distortion) json.add("largest_distortion", value_json(*a.distortion, "m"));
+  if (a.stress) json.add("largest_von_mises", value_json(*a.stress, "Pa").add("body", a.stressed_body));
+  Json of_criteria;
+  for (const auto& [name, error] : a.criteria_errors) {
+    Json of_one;
+    add_error(of_one, error, "SI");
+    of_criteria.add(name, std::move(of_one));
+  }
+  if (!a.criteria_errors.empty()) json.add("errors_of_criteria", std::move(of_criteria));
+  if (!a.shots.empty()) json.add("shots", results::json(a.shots));
+  if (a.step_error)
+    json.add("largest_step_error",
+             Json().add("temperature[K]", (*a.step_error)[0]).add("time[s]", (*a.step_error)[1]));
+  if (a.energy_defect) json.add("relative_energy_defect", *a.energy_defect);
+  return json;
+}
+
+}  // namespace solidus::results

@@ -1,0 +1,159 @@
+#include "results/answers/shot_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "criteria/quantities.hpp"
+#include "numbers/types.hpp"
+#include "parallel/parallel.hpp"
+#include "results/answers/answers.hpp"
+
+namespace solidus::results {
+
+namespace {
+
+constexpr double k_not_solid = -1;
+
+std::vector<CsvColumn> shot_columns() {
+  return {{"time", "s"},
+          {"shot", "1"},
+          {"poured_at", "s"},
+          {"time_to_solidify", "s"},
+          {"die_at_start_mean", "degC"},
+          {"die_at_start_min", "degC"},
+          {"die_at_start_max", "degC"},
+          {"die_at_end_mean", "degC"},
+          {"die_at_end_min", "degC"},
+          {"die_at_end_max", "degC"},
+          {"largest_change", "K"},
+          {"heat_poured", "J"},
+          {"heat_ejected", "J"},
+          {"heat_corrected", "J"},
+          {"periodic", "1"}};
+}
+
+std::vector<double> numbers_of(const ShotRow& row) {
+  const coupling::ShotRecord& s = row.shot;
+  const auto celsius = [](double kelvin) { return kelvin - k_zero_celsius; };
+  return {s.end,
+          static_cast<double>(s.number),
+          s.poured,
+          row.time_to_solidify.value_or(k_not_solid),
+          celsius(s.at_pour.mean),
+          celsius(s.at_pour.lowest),
+          celsius(s.at_pour.highest),
+          celsius(s.at_end.mean),
+          celsius(s.at_end.lowest),
+          celsius(s.at_end.highest),
+          s.change,
+          s.heat.poured,
+          s.heat.ejected,
+          s.heat.corrected,
+          s.periodic ? 1.0 : 0.0};
+}
+
+ShotRow row_of(const std::vector<double>& n) {
+  const auto kelvin = [](double celsius) { return celsius + k_zero_celsius; };
+  ShotRow row;
+  row.shot = {static_cast<int>(n[1]),
+              n[2],
+              n[0],
+              {kelvin(n[4]), kelvin(n[5]), kelvin(n[6])},
+              {kelvin(n[7]), kelvin(n[8]), kelvin(n[9])},
+              n[10],
+              {n[11], n[12], n[13]},
+              n[14] != 0};
+  if (n[3] >= 0) row.time_to_solidify = n[3];
+  return row;
+}
+
+CsvTable make_table(const std::filesystem::path& path, std::optional<double> from) {
+  return from ? CsvTable(path, shot_columns(), *from) : CsvTable(path, shot_columns());
+}
+
+Json temperature_json(const coupling::DieTemperature& die) {
+  Json json;
+  json.add("mean[K]", die.mean).add("lowest[K]", die.lowest).add("highest[K]", die.highest);
+  return json;
+}
+
+}  // namespace
+
+std::optional<double> time_to_solidify(const mesh::Mesh& mesh, const FieldSet& fields,
+                                       const std::vector<CastBody>& castings) {
+  const Field* field = fields.find(criteria::fields::k_solidified_at.name);
+  if (field == nullptr || castings.empty()) return {};
+  std::vector<double> storage;
+  const std::span<const double> solidified = field->read(storage);
+  double last = 0;
+  bool liquid = false;
+  // The latest node of the castings; while one is liquid there is no time.
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (std::none_of(castings.begin(), castings.end(),
+                     [&](const CastBody& cast) { return cast.body == block.body; }))
+      continue;
+    for (const Index node : block.nodes) {
+      if (node >= mesh.n_owned_nodes) continue;
+      const double at = solidified[static_cast<std::size_t>(node)];
+      liquid = liquid || at < 0;
+      last = std::max(last, at);
+    }
+  }
+  last = parallel::global_max(last);
+  return parallel::any_process(liquid) ? std::nullopt : std::optional(last);
+}
+
+ShotTable::ShotTable(const std::filesystem::path& path, std::optional<double> from)
+    : table_(make_table(path, from)) {
+  if (!from) return;
+  std::ifstream file(path, std::ios::binary);
+  std::string line, cell;
+  std::getline(file, line);  // the header
+  while (std::getline(file, line)) {
+    std::vector<double> numbers;
+    for (std::istringstream cells(line); std::getline(cells, cell, ',');)
+      numbers.push_back(std::strtod(cell.c_str(), nullptr));
+    if (numbers.size() == table_.columns().size()) rows_.push_back(row_of(numbers));
+  }
+}
+
+void ShotTable::add(const coupling::ShotRecord& record, std::optional<double> time_to_solidify) {
+  rows_.push_back({record, time_to_solidify});
+  table_.add(numbers_of(rows_.back()));
+}
+
+std::string shot_text(const ShotRow& row) {
+  const coupling::ShotRecord& s = row.shot;
+  return fmt::format(
+      "shot {}: {}; the die had {:.4g} degC in the mean, {:.4g} degC at its hottest place when it began, and "
+      "changed by {:.3g} K at most",
+      s.number,
+      row.time_to_solidify ? fmt::format("solid {:.4g} s after pouring", *row.time_to_solidify)
+                           : std::string("not solid when it left"),
+      s.at_pour.mean - k_zero_celsius, s.at_pour.highest - k_zero_celsius, s.change);
+}
+
+Json json(const std::vector<ShotRow>& rows) {
+  Json::Array all;
+  for (const ShotRow& row : rows) {
+    const coupling::ShotRecord& s = row.shot;
+    Json json;
+    json.add("shot", s.number).add("poured_at[s]", s.poured).add("end[s]", s.end);
+    if (row.time_to_solidify) json.add("time_to_solidify[s]", *row.time_to_solidify);
+    json.add("die_at_start", temperature_json(s.at_pour))
+        .add("die_at_end", temperature_json(s.at_end))
+        .add("largest_change[K]", s.change)
+        .add("heat_poured[J]", s.heat.poured)
+        .add("heat_ejected[J]", s.heat.ejected)
+        .add("heat_corrected[J]", s.heat.corrected)
+        .add("periodic", s.periodic);
+    all.push_back(std::move(json));
+  }
+  return Json(std::move(all));
+}
+
+}  // namespace solidus::results

@@ -1,0 +1,429 @@
+#include "results/checkpoint/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <system_error>
+#include <type_traits>
+#include <unordered_map>
+#include <utility>
+
+#include "mechanics/padding.hpp"
+#include "parallel/parallel.hpp"
+#include "results/checkpoint/checkpoint_contacts.hpp"
+#include "results/checkpoint/checkpoint_criteria.hpp"
+#include "results/checkpoint/checkpoint_tables.hpp"
+#include "results/output/output_error.hpp"
+#include "system/log.hpp"
+#include "system/processes.hpp"
+
+namespace solidus::results {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Characters that stand for a pair in State::steady_gaps.
+constexpr char k_steady = 's', k_unsteady = '-';
+constexpr char k_creeps = 'c', k_no_creep = '-';
+constexpr const char* k_format = "Solidus checkpoint 28";
+constexpr const char* k_known = "known";
+/// Above absolute zero, and no hotter than a case may ask for [K].
+constexpr AllowedValues k_temperatures{std::numeric_limits<double>::min(), 1e6};
+/// The time at which a body is lit is infinite until it burns [s].
+constexpr AllowedValues k_times_of_ignition{0, std::numeric_limits<double>::infinity()};
+
+std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
+  return fmt::format("history/block_{}_{}", b, mesh::name(mesh.blocks[b].shape));
+}
+
+// Everything that is neither field nor text, in a fixed order: written and read by the same list.
+template <class C, class Visit>
+void each_number(C& c, const Visit& visit) {
+  auto& k = c.continuation;
+  auto& o = k.options;
+  auto& e = c.energy;
+  auto& l = c.stability;
+  const auto all = [&visit](auto&... n) { (visit(n), ...); };
+  all(c.state.time, k.steps, c.rejected, c.shortened, c.state.mechanics.dt_before, k.stage.number,
+      k.stage.time);
+  all(k.control.size, k.control.refused, k.control.refused_ratio, k.control.before_refusal,
+      k.control.failures, k.rates.changed);
+  all(o.step, o.adaptive, o.min_step, o.max_step, o.growth, o.cut, o.easy_iterations);
+  all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.stress, o.limits.solid_fraction,
+      o.limits.inertia);
+  all(e.stored_heat, e.structural, e.contact, e.kinetic, e.friction, e.frictional_heat, e.numerical, e.work,
+      e.heat_in, e.entropy_in, e.heat_exchanged, e.viscous_dissipation, e.plastic_dissipation, e.plastic_work,
+      e.inelastic_entropy, e.internal_at_start);
+  all(l.mechanical, l.thermal, l.entropy, l.frictional_entropy);
+  auto& s = k.shots;
+  all(c.state.shot, c.state.poured, s.shots, s.change, s.lowest, s.highest);
+  all(s.at_pour.mean, s.at_pour.lowest, s.at_pour.highest);
+  for (auto* heat : {&s.heat, &k.pending, &e.bodies})
+    all(heat->poured, heat->ejected, heat->corrected, heat->energy);
+}
+
+std::vector<double> numbers_of(const auto& c) {
+  std::vector<double> numbers;
+  each_number(c, [&](const auto& n) { numbers.push_back(static_cast<double>(n)); });
+  return numbers;
+}
+
+// Takes them from the file, which must hold as many. Counts are whole and fit; the temperatures of a die that
+// is not there are infinite.
+void set_numbers(TableReader& in, Checkpoint& c) {
+  const std::vector<double> numbers = in.numbers("numbers", numbers_of(c).size());
+  const coupling::DieTemperature& die = c.continuation.shots.at_pour;
+  std::size_t i = 0;
+  each_number(c, [&](auto& n) {
+    using Number = std::decay_t<decltype(n)>;
+    const double value = numbers[i];
+    const void* place = &n;
+    bool fits =
+        std::isfinite(value) || (!std::isnan(value) && (place == &die.lowest || place == &die.highest));
+    if constexpr (!std::is_same_v<Number, double>) {
+      const double most = std::is_same_v<Number, bool> ? 1 : std::numeric_limits<int>::max();
+      fits = value >= 0 && value <= most && value == std::floor(value);
+    }
+    if (!fits) in.refuse(fmt::format("its 'numbers' have {} in row {}", value, i));
+    n = static_cast<Number>(value);
+    ++i;
+  });
+  if (c.state.time < 0) in.refuse(fmt::format("its time is {} s", c.state.time));
+}
+
+// History of the elements this process counts, [element][point][component].
+std::vector<double> pack_history(const mesh::ElementBlock& block, const mechanics::BlockHistory& history) {
+  const auto per_element = static_cast<std::size_t>(history.n_points * history.n_components);
+  std::vector<double> packed(static_cast<std::size_t>(block.n_counted) * per_element);
+  for (std::size_t e = 0; e < static_cast<std::size_t>(block.n_counted); ++e)
+    for (std::size_t k = 0; k < per_element; ++k)
+      packed[e * per_element + k] =
+          history.values[(e / k_lanes) * per_element + k][static_cast<int>(e % k_lanes)];
+  return packed;
+}
+
+using Places = std::unordered_map<std::int64_t, std::size_t>;
+
+template <class Numbers>
+Places places_of(const Numbers& numbers) {
+  Places places;
+  places.reserve(numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) places.emplace(numbers[i], i);
+  return places;
+}
+
+/// Rows that were taken, each of them once.
+class Taken {
+ public:
+  explicit Taken(std::size_t n) : of_(n, 0) {}
+  void add(std::size_t row) { n_ += std::exchange(of_[row], char{1}) == 0 ? 1 : 0; }
+  bool all() const { return n_ == of_.size(); }
+
+ private:
+  std::vector<char> of_;
+  std::size_t n_ = 0;
+};
+
+// Fills a nodal field from a table by the nodes' numbers. Every node this process holds gets its value.
+void take_nodes(TableReader& in, const std::string& name, const Places& places, std::vector<double>& field,
+                const AllowedValues& allowed = {}) {
+  if (!parallel::any_process(!field.empty())) return;
+  const std::size_t width = field.size() / std::max<std::size_t>(places.size(), 1);
+  Taken taken(places.size());
+  in.each("node", name, allowed, [&](std::int64_t number, std::span<const double> row) {
+    const auto place = places.find(number);
+    if (place == places.end() || row.size() != width) return;
+    std::copy(row.begin(), row.end(), field.begin() + static_cast<std::ptrdiff_t>(place->second * width));
+    taken.add(place->second);
+  });
+  in.require(taken.all(), name);
+}
+
+void take_history(TableReader& in, const std::string& name, const std::string& values,
+                  const mesh::ElementBlock& block, mechanics::BlockHistory& history) {
+  const auto per_element = static_cast<std::size_t>(history.n_points * history.n_components);
+  if (per_element == 0) return;
+  // Rows are found by the element's number, so that another division into processes can go on.
+  const Places places = places_of(block.input_element);
+  Taken taken(places.size());
+  in.each(name + "/element", values, {}, [&](std::int64_t number, std::span<const double> row) {
+    const auto place = places.find(number);
+    if (place == places.end() || row.size() != per_element) return;
+    const std::size_t e = place->second;
+    for (std::size_t k = 0; k < per_element; ++k)
+      history.values[(e / k_lanes) * per_element + k].set(static_cast<int>(e % k_lanes), row[k]);
+    taken.add(e);
+  });
+  in.require(taken.all(), values);
+  const std::size_t n = places.size();
+  // Lanes beyond the last element repeat it, so that their arithmetic is that of an element.
+  if (n == 0) return;
+  const std::size_t last = (n - 1) / k_lanes;
+  for (std::size_t k = 0; k < per_element; ++k)
+    mechanics::repeat_last_element(history.values[last * per_element + k], static_cast<Index>(last),
+                                   static_cast<Index>(n));
+}
+
+/// Room for the rates of the plastic strain of a block with this history.
+mechanics::BlockHistory creep_layout(const mechanics::BlockHistory& history) {
+  constexpr int k_tensor = 6;
+  mechanics::BlockHistory rates{k_tensor, history.n_points, {}};
+  const auto width = static_cast<std::size_t>(history.n_components);
+  rates.values.assign(width > 0 ? history.values.size() / width * k_tensor : 0, Lane(0.0));
+  return rates;
+}
+
+std::string shot_table(std::size_t iterate, const char* field) {
+  return fmt::format("shot_{}_{}", iterate, field);
+}
+
+/// Start of the present shot and the ends of the last ones.
+void take_shots(TableReader& in, const Places& nodes, const coupling::State& state,
+                coupling::ShotHistory& shots) {
+  if (in.text("shots") != k_known) return;
+  shots.start.resize(state.heat.temperature.size());
+  take_nodes(in, "shot_start", nodes, shots.start, k_temperatures);
+  constexpr unsigned long k_most = 1000;
+  const std::string count = in.text("shot_iterates");
+  const unsigned long n = std::strtoul(count.c_str(), nullptr, 10);
+  if (n > k_most) in.refuse(fmt::format("its 'shot_iterates' are '{}'", count));
+  shots.iterates.resize(n);
+  for (std::size_t j = 0; j < shots.iterates.size(); ++j) {
+    coupling::ShotIterate& iterate = shots.iterates[j];
+    iterate.change.resize(state.heat.temperature.size());
+    iterate.heat.resize(state.heat.temperature.size());
+    iterate.displacement.resize(state.mechanics.displacement.size());
+    take_nodes(in, shot_table(j, "change"), nodes, iterate.change);
+    take_nodes(in, shot_table(j, "heat"), nodes, iterate.heat);
+    take_nodes(in, shot_table(j, "displacement"), nodes, iterate.displacement);
+  }
+}
+
+void compare(const fs::path& path, TableReader& in, const Fingerprint& fingerprint) {
+  for (const auto& [name, here] : fingerprint) {
+    const std::string there = in.text("case/" + name);
+    if (there == here) continue;
+    throw InputError({path.string(), 0, 0},
+                     fmt::format("this checkpoint is of another case: its {} is '{}', that of this case '{}'",
+                                 name, there, here),
+                     "run without --restart to begin anew, or choose another folder with -o");
+  }
+}
+
+Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerprint& fingerprint,
+                     const coupling::State& layout) {
+  TableReader in(path);
+  if (in.text("format") != k_format)
+    throw OutputError(path.string(), "is no checkpoint that this version of Solidus can read");
+  compare(path, in, fingerprint);
+  Checkpoint c;
+  c.state = layout;
+  set_numbers(in, c);
+  c.continuation.control.reason = in.text("reason");
+  c.continuation.stage.name = in.text("stage");
+  const Places nodes = places_of(mesh.input_node);
+  take_nodes(in, "temperature", nodes, c.state.heat.temperature, k_temperatures);
+  take_nodes(in, "enthalpy", nodes, c.state.heat.enthalpy);
+  take_nodes(in, "lit", nodes, c.state.burning.lit, k_times_of_ignition);
+  take_nodes(in, "released", nodes, c.state.burning.released);
+  take_nodes(in, "displacement", nodes, c.state.mechanics.displacement);
+  take_nodes(in, "pressure", nodes, c.state.mechanics.pressure);
+  take_nodes(in, "mechanical_solid_fraction", nodes, c.state.mechanics.solid_fraction);
+  take_nodes(in, "velocity", nodes, c.state.mechanics.velocity);
+  take_nodes(in, "acceleration", nodes, c.state.mechanics.acceleration);
+  take_nodes(in, "net_force", nodes, c.state.mechanics.net_force);
+  take_nodes(in, "load", nodes, c.state.mechanics.load);
+  if (c.continuation.stage.number > 0) {
+    c.continuation.stage.displacement.resize(c.state.mechanics.displacement.size());
+    take_nodes(in, "stage_displacement", nodes, c.continuation.stage.displacement);
+  }
+  if (in.text("rates") == k_known) {
+    coupling::Rates& rates = c.continuation.rates;
+    const bool flows = in.text("flows") == k_known;
+    (flows ? rates.heat_flow : rates.temperature).resize(c.state.heat.temperature.size());
+    rates.displacement.resize(c.state.mechanics.displacement.size());
+    take_nodes(in, flows ? "heat_flow" : "temperature_rate", nodes,
+               flows ? rates.heat_flow : rates.temperature);
+    take_nodes(in, "displacement_rate", nodes, rates.displacement);
+    if (in.text("rates_of_melt") == k_known) {
+      rates.coherency.resize(mesh.x.size());
+      take_nodes(in, "coherency", nodes, rates.coherency);
+    }
+  }
+  if (in.text("first_guess") == k_known) {
+    c.state.displacement_rate.resize(c.state.mechanics.displacement.size());
+    take_nodes(in, "rate_of_last_step", nodes, c.state.displacement_rate);
+    c.state.pressure_rate.resize(c.state.mechanics.pressure.size());
+    take_nodes(in, "pressure_rate_of_last_step", nodes, c.state.pressure_rate);
+  }
+  const std::string steady = in.text("steady_gaps");
+  if (!steady.empty() && steady.size() != c.state.contacts.size())
+    in.refuse(fmt::format("its 'steady_gaps' are of {} contacts, the case has {}", steady.size(),
+                          c.state.contacts.size()));
+  c.state.steady_gaps.assign(steady.begin(), steady.end());
+  for (char& of_pair : c.state.steady_gaps) of_pair = of_pair == k_steady;
+  take_shots(in, nodes, c.state, c.continuation.shots);
+  mechanics::MechanicalState& mechanics = c.state.mechanics;
+  const std::string creep = in.text("rates_of_creep");
+  if (!creep.empty() && creep.size() != mechanics.history.size())
+    in.refuse(fmt::format("its 'rates_of_creep' are of {} blocks, the mesh has {}", creep.size(),
+                          mechanics.history.size()));
+  c.continuation.rates.creep.resize(creep.size());
+  // A run that went on with backward Euler left no history before the last: the next step is one too.
+  if (mechanics.before.empty()) mechanics.dt_before = 0;
+  for (std::size_t b = 0; b < mechanics.history.size(); ++b) {
+    const std::string name = block_name(mesh, b);
+    take_history(in, name, name + "/values", mesh.blocks[b], mechanics.history[b]);
+    if (mechanics.dt_before > 0)
+      take_history(in, name, name + "/before", mesh.blocks[b], mechanics.before[b]);
+    if (b < creep.size() && creep[b] == k_creeps)
+      take_history(in, name, name + "/creep_rate", mesh.blocks[b],
+                   c.continuation.rates.creep[b] = creep_layout(mechanics.history[b]));
+    if (!mechanics.stress.empty())
+      take_history(in, name, name + "/stress", mesh.blocks[b], mechanics.stress[b]);
+  }
+  take_contacts(in, c.state.contacts);
+  take_criteria(in, mesh, c.state.criteria);
+  return c;
+}
+
+}  // namespace
+
+std::pair<bool, bool> CheckpointFolder::there() const {
+  std::error_code error;
+  int found[2] = {fs::exists(latest(), error) ? 1 : 0, fs::exists(previous(), error) ? 1 : 0};
+  processes::broadcast(found);
+  return {found[0] != 0, found[1] != 0};
+}
+
+void CheckpointFolder::require() const {
+  const auto [has_latest, has_previous] = there();
+  if (!has_latest && !has_previous)
+    throw InputError({root_.string(), 0, 0}, "there is no checkpoint to continue from",
+                     "run without --restart first; -o names the folder of the run to continue");
+}
+
+void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerprint,
+                             const CheckpointView& c) const {
+  // A checkpoint is written beside the one that is there, and takes its place by a rename when it is whole: a
+  // run that is killed meanwhile keeps the old one.
+  const fs::path part = latest().string() + ".part";
+  on_first_process([&] {
+    std::error_code error;
+    fs::create_directories(root_, error);
+    if (error) throw OutputError(root_.string(), "cannot make this folder: " + error.message());
+  });
+  TableWriter out(part);
+  // First what the case was made of, by which a restart knows whether it continues the same case, and the
+  // numbers of the step control.
+  out.text("format", k_format);
+  for (const auto& [name, text] : fingerprint) out.text("case/" + name, text);
+  out.text("reason", c.continuation.control.reason);
+  out.text("stage", c.continuation.stage.name);
+  out.numbers("numbers", numbers_of(c));
+
+  // Nodes are written as rows of owned nodes with their numbers in the input, so that any number of processes
+  // can read them.
+  const auto owned = static_cast<std::size_t>(mesh.n_owned_nodes);
+  out.rows<std::int64_t>("node", 1, mesh.input_node.part(0, owned));
+  const auto nodal = [&](const char* name, const std::vector<double>& field) {
+    const std::size_t width = mesh.x.empty() ? 0 : field.size() / mesh.x.size();
+    out.rows<double>(name, static_cast<int>(width), std::span(field).first(owned * width));
+  };
+  nodal("temperature", c.state.heat.temperature);
+  nodal("enthalpy", c.state.heat.enthalpy);
+  nodal("lit", c.state.burning.lit);
+  nodal("released", c.state.burning.released);
+  nodal("displacement", c.state.mechanics.displacement);
+  nodal("pressure", c.state.mechanics.pressure);
+  nodal("mechanical_solid_fraction", c.state.mechanics.solid_fraction);
+  nodal("velocity", c.state.mechanics.velocity);
+  nodal("acceleration", c.state.mechanics.acceleration);
+  nodal("net_force", c.state.mechanics.net_force);
+  nodal("load", c.state.mechanics.load);
+  if (c.continuation.stage.number > 0) nodal("stage_displacement", c.continuation.stage.displacement);
+  out.text("first_guess", parallel::any_process(!c.state.displacement_rate.empty()) ? k_known : "unknown");
+  nodal("rate_of_last_step", c.state.displacement_rate);
+  nodal("pressure_rate_of_last_step", c.state.pressure_rate);
+  std::string steady;
+  for (const char of_pair : c.state.steady_gaps) steady += of_pair != 0 ? k_steady : k_unsteady;
+  out.text("steady_gaps", steady);
+  // Rates of the last step predict the next one. Whether a table exists is decided by all processes together,
+  // since some may have no row of it.
+  const coupling::Rates& rates = c.continuation.rates;
+  out.text("rates", rates.known() ? k_known : "unknown");
+  if (rates.known()) {
+    const bool flows = parallel::any_process(!rates.heat_flow.empty());
+    out.text("flows", flows ? k_known : "unknown");
+    nodal(flows ? "heat_flow" : "temperature_rate", flows ? rates.heat_flow : rates.temperature);
+    nodal("displacement_rate", rates.displacement);
+    const bool melts = parallel::any_process(!rates.coherency.empty());
+    out.text("rates_of_melt", melts ? k_known : "unknown");
+    if (melts) nodal("coherency", rates.coherency);
+  }
+  std::string creep;  // the same on every process, also on one without an element of a block
+  for (const mechanics::BlockHistory& of_block : rates.creep)
+    creep += parallel::any_process(!of_block.values.empty()) ? k_creeps : k_no_creep;
+  out.text("rates_of_creep", creep);
+  // Shots keep the start of the present one and the iterates of Anderson's method.
+  const coupling::ShotHistory& shots = c.continuation.shots;
+  out.text("shots", parallel::any_process(!shots.start.empty()) ? k_known : "unknown");
+  out.text("shot_iterates", std::to_string(shots.iterates.size()));
+  nodal("shot_start", shots.start);
+  for (std::size_t j = 0; j < shots.iterates.size(); ++j) {
+    nodal(shot_table(j, "change").c_str(), shots.iterates[j].change);
+    nodal(shot_table(j, "heat").c_str(), shots.iterates[j].heat);
+    nodal(shot_table(j, "displacement").c_str(), shots.iterates[j].displacement);
+  }
+  // Histories of elements go block by block, for counted elements alone.
+  for (std::size_t b = 0; b < c.state.mechanics.history.size(); ++b) {
+    const mesh::ElementBlock& block = mesh.blocks[b];
+    const mechanics::BlockHistory& history = c.state.mechanics.history[b];
+    const std::string name = block_name(mesh, b);
+    out.rows<std::int64_t>(name + "/element", 1,
+                           block.input_element.part(0, static_cast<std::size_t>(block.n_counted)));
+    const int width = history.n_points * history.n_components;
+    out.rows<double>(name + "/values", width, pack_history(block, history));
+    if (c.state.mechanics.dt_before > 0)
+      out.rows<double>(name + "/before", width, pack_history(block, c.state.mechanics.before[b]));
+    if (b < creep.size() && creep[b] == k_creeps)
+      out.rows<double>(name + "/creep_rate", rates.creep[b].n_points * rates.creep[b].n_components,
+                       pack_history(block, rates.creep[b]));
+    if (!c.state.mechanics.stress.empty()) {
+      const mechanics::BlockHistory& stress = c.state.mechanics.stress[b];
+      out.rows<double>(name + "/stress", stress.n_points * stress.n_components, pack_history(block, stress));
+    }
+  }
+  write_contacts(out, c.state.contacts);
+  write_criteria(out, mesh, c.state.criteria);
+  // The renames are done by one process, after all have written.
+  out.finish([&] {
+    std::error_code error;
+    if (fs::exists(latest(), error)) fs::rename(latest(), previous(), error);
+    fs::rename(part, latest(), error);
+    if (error) throw OutputError(latest().string(), "cannot write: " + error.message());
+  });
+}
+
+Checkpoint CheckpointFolder::read(const mesh::Mesh& mesh, const Fingerprint& fingerprint,
+                                  const coupling::State& layout) const {
+  require();
+  const auto [has_latest, has_previous] = there();
+  if (!has_latest) {
+    logging::warn("{} is missing; continuing from {}", latest().string(), previous().string());
+    return read_file(previous(), mesh, fingerprint, layout);
+  }
+  try {
+    return read_file(latest(), mesh, fingerprint, layout);
+  } catch (const OutputError& damaged) {
+    if (!has_previous) throw;
+    logging::warn("{}; continuing from {}", damaged.what(), previous().string());
+  }
+  return read_file(previous(), mesh, fingerprint, layout);
+}
+
+}  // namespace solidus::results

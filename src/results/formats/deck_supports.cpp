@@ -1,0 +1,183 @@
+#include "results/formats/deck_supports.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numeric>
+
+namespace solidus::results {
+
+namespace {
+
+constexpr std::size_t k_most_modes = 6;
+/// Displacement of a degree of freedom in each rigid motion; rotations are about the centre, over the size of
+/// the part.
+using Row = std::array<double, k_most_modes>;
+
+double dot(const Row& a, const Row& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+/// Motions that are held, as an orthonormal basis.
+class Held {
+ public:
+  /// Returns the part of a row that is orthogonal to the motions held already.
+  Row rest(Row row) const {
+    for (int turn = 0; turn < 2; ++turn)  // a second time for rounding
+      for (const Row& held : basis_) {
+        const double part = dot(held, row);
+        for (std::size_t i = 0; i < k_most_modes; ++i) row[i] -= part * held[i];
+      }
+    return row;
+  }
+  /// False where the row, of length one or so, adds nothing.
+  bool add(const Row& row) {
+    constexpr double k_nothing = 1e-6;
+    Row rest = this->rest(row);
+    const double length = std::sqrt(dot(rest, rest));
+    if (!(length > k_nothing)) return false;
+    for (double& value : rest) value /= length;
+    basis_.push_back(rest);
+    return true;
+  }
+  std::size_t size() const { return basis_.size(); }
+
+ private:
+  std::vector<Row> basis_;
+};
+
+/// For each node the least node of its connected part; −1 where nothing is.
+std::vector<Index> connected_parts(const mesh::Mesh& mesh, const linear::ActiveSet& active) {
+  std::vector<Index> part(mesh.x.size(), -1);
+  const auto root = [&part](Index node) {
+    while (part[static_cast<std::size_t>(node)] != node) node = part[static_cast<std::size_t>(node)];
+    return node;
+  };
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (!active.body(block.body)) continue;
+    const int n = mesh::node_count(block.shape);
+    for (Index e = 0; e < block.size(); ++e)
+      for (int a = 0; a < n; ++a) {
+        const Index node = block.element(e)[a];
+        if (part[static_cast<std::size_t>(node)] < 0) part[static_cast<std::size_t>(node)] = node;
+        const Index mine = root(node), first = root(block.element(e)[0]);
+        part[static_cast<std::size_t>(std::max(mine, first))] = std::min(mine, first);
+        part[static_cast<std::size_t>(node)] = std::min(mine, first);
+      }
+  }
+  for (std::size_t i = 0; i < part.size(); ++i)
+    if (part[i] >= 0) part[i] = root(static_cast<Index>(i));
+  return part;
+}
+
+/// A connected part: its nodes, and its centre and size, about and over which it turns.
+struct Part {
+  std::vector<Index> nodes;
+  mesh::Point centre{};
+  double size = 0;
+};
+
+class Motions {
+ public:
+  Motions(const mesh::Mesh& mesh, AnalysisKind kind, const Part& part)
+      : mesh_(mesh), kind_(kind), part_(part) {}
+
+  std::size_t count() const {
+    return kind_ == AnalysisKind::solid ? 6 : kind_ == AnalysisKind::plane_strain ? 3 : 1;
+  }
+  Row row(Index node, std::size_t component) const {
+    Row row{};
+    mesh::Point r = mesh_.x[static_cast<std::size_t>(node)];
+    for (std::size_t i = 0; i < 3; ++i) r[i] = (r[i] - part_.centre[i]) / part_.size;
+    switch (kind_) {
+      case AnalysisKind::axisymmetric:
+        row[0] = component == 1 ? 1 : 0;
+        break;
+      case AnalysisKind::plane_strain:
+        row[component] = 1;
+        row[2] = component == 0 ? -r[1] : r[0];
+        break;
+      case AnalysisKind::solid:
+        row[component] = 1;
+        // e_i × r of the rotations about the three axes.
+        row[3] = component == 1 ? -r[2] : component == 2 ? r[1] : 0;
+        row[4] = component == 0 ? r[2] : component == 2 ? -r[0] : 0;
+        row[5] = component == 0 ? -r[1] : component == 1 ? r[0] : 0;
+        break;
+    }
+    return row;
+  }
+
+ private:
+  const mesh::Mesh& mesh_;
+  AnalysisKind kind_;
+  const Part& part_;
+};
+
+std::map<Index, Part> parts_of(const mesh::Mesh& mesh, const std::vector<Index>& part_of) {
+  std::map<Index, Part> parts;
+  for (std::size_t i = 0; i < part_of.size(); ++i)
+    if (part_of[i] >= 0) parts[part_of[i]].nodes.push_back(static_cast<Index>(i));
+  for (auto& [first, part] : parts) {
+    for (const Index node : part.nodes)
+      for (std::size_t i = 0; i < 3; ++i)
+        part.centre[i] += mesh.x[static_cast<std::size_t>(node)][i] / static_cast<double>(part.nodes.size());
+    for (const Index node : part.nodes) {
+      const mesh::Point& x = mesh.x[static_cast<std::size_t>(node)];
+      part.size = std::max(part.size,
+                           std::hypot(x[0] - part.centre[0], x[1] - part.centre[1], x[2] - part.centre[2]));
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<Index> missing_supports(const mesh::Mesh& mesh, const linear::ActiveSet& active,
+                                    AnalysisKind kind, std::span<const char> fixed,
+                                    std::span<const std::vector<Index>> constraints) {
+  const auto components = static_cast<std::size_t>(displacement_components(kind));
+  const std::vector<Index> part_of = connected_parts(mesh, active);
+  std::vector<Index> supports;
+  for (const auto& [first, part] : parts_of(mesh, part_of)) {
+    const Motions motions(mesh, kind, part);
+    Held held;
+    for (const Index node : part.nodes)
+      for (std::size_t k = 0; k < components && held.size() < motions.count(); ++k)
+        if (fixed[static_cast<std::size_t>(node) * components + k] != 0) held.add(motions.row(node, k));
+    // Where degrees of freedom move as one, their differences are held; those of other parts hold nothing
+    // here.
+    for (const std::vector<Index>& group : constraints) {
+      const auto n = static_cast<Index>(components);
+      if (part_of[static_cast<std::size_t>(group[0] / n)] != first) continue;
+      const Row leader = motions.row(group[0] / n, static_cast<std::size_t>(group[0] % n));
+      for (const Index entry : group) {
+        if (part_of[static_cast<std::size_t>(entry / n)] != first) continue;
+        Row row = motions.row(entry / n, static_cast<std::size_t>(entry % n));
+        for (std::size_t i = 0; i < k_most_modes; ++i) row[i] -= leader[i];
+        if (held.size() < motions.count()) held.add(row);
+      }
+    }
+    while (held.size() < motions.count()) {
+      double most = 0;
+      Row best{};
+      Index entry = -1;
+      for (const Index node : part.nodes)
+        for (std::size_t k = 0; k < components; ++k) {
+          const Row row = motions.row(node, k), rest = held.rest(row);
+          if (const double length = dot(rest, rest); length > most * (1 + 1e-9)) {
+            most = length;
+            best = row;
+            entry = node * static_cast<Index>(components) + static_cast<Index>(k);
+          }
+        }
+      if (entry < 0 || !held.add(best)) break;  // a part of one point or line
+      supports.push_back(entry);
+    }
+  }
+  return supports;
+}
+
+}  // namespace solidus::results

@@ -1,0 +1,52 @@
+#include "results/output/quantity_json.hpp"
+
+#include "quantities/names.hpp"
+#include "quantities/shown_units.hpp"
+
+namespace solidus::results {
+
+namespace {
+
+Json unit_json(const quantities::ShownUnit& shown) {
+  Json json;
+  json.add("unit", std::string(shown.unit))
+      .add("text", std::string(shown.text))
+      .add("factor", shown.factor)
+      .add("offset", shown.offset);
+  return json;
+}
+
+}  // namespace
+
+Json json(const quantities::Quantity& q) {
+  using quantities::name;
+  Json json;
+  const auto text = [&](const char* key, std::string_view value) {
+    if (!value.empty()) json.add(key, std::string(value));
+  };
+  text("name", q.name);
+  text("unit", q.unit);
+  text("root_unit", q.root_unit);
+  text("label", q.label);
+  text("group", name(q.group));
+  text("rank", name(q.rank));
+  text("place", name(q.place));
+  if (q.no_value) json.add("no_value", *q.no_value);
+  text("written", name(q.written));
+  text("worst", name(q.worst));
+  text("headline", q.headline);
+  text("answer", q.answer);
+  if (q.threshold) json.add("threshold", *q.threshold);
+  text("colours", name(q.colours));
+  json.add("compared", q.compared).add("pictured", q.pictured).add("shown", unit_json(q.shown()));
+  return json;
+}
+
+Json shown_units_json() {
+  Json json;
+  for (const quantities::UnitRow& row : quantities::shown_units())
+    json.add(std::string(row.si), unit_json(row.shown));
+  return json;
+}
+
+}  // namespace solidus::results

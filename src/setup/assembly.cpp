@@ -1,0 +1,310 @@
+#include "setup/assembly.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "case/case_materials.hpp"
+#include "mechanics/new_bodies.hpp"
+#include "parallel/parallel.hpp"
+#include "setup/admissible.hpp"
+#include "setup/bare_melt.hpp"
+#include "setup/body_input.hpp"
+#include "setup/contact_input.hpp"
+#include "setup/criteria_input.hpp"
+#include "setup/heat_input.hpp"
+#include "setup/mechanics_input.hpp"
+#include "setup/scheme_input.hpp"
+#include "setup/skin_measures.hpp"
+#include "system/log.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// Temperatures at which nodes are free of thermal strain, and which they have in mechanics alone: every body
+/// at its temperature. A node of several bodies takes that of one that deforms, of these the hottest: the
+/// casting's.
+std::vector<double> nodal_temperature(const CaseSpec& spec, const InitialTemperatures& start,
+                                      const mesh::Mesh& mesh) {
+  using Rank = std::pair<bool, double>;
+  std::vector<Rank> best(mesh.x.size(), {false, -1.0});
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    const bool deforms = !only_conducts(spec.bodies[static_cast<std::size_t>(block.body)]);
+    for (const Index i : block.nodes) {
+      Rank& here = best[static_cast<std::size_t>(i)];
+      here = std::max(here, Rank(deforms, start.temperature(i, block.body)));
+    }
+  }
+  std::vector<double> temperature(mesh.x.size());
+  for (std::size_t i = 0; i < best.size(); ++i) temperature[i] = best[i].second;  // ghosts may have no body
+  parallel::GhostExchange(mesh).update(temperature, 1);  // an owner sees every body at its node
+  return temperature;
+}
+
+/// Checks that the two surfaces of a contact are not one. Collective.
+void check_separate(const mesh::Mesh& mesh, const contact::ContactParameters& pair) {
+  const GlobalIndex shared = shared_nodes(mesh, pair.slave, pair.master);
+  if (shared > 0 && shared == shared_nodes(mesh, pair.slave, pair.slave))
+    throw InputError(pair.where,
+                     fmt::format("the surfaces '{}' and '{}' of the contact '{}' share all their nodes: the "
+                                 "bodies are one there, and no gap can open",
+                                 pair.slave, pair.master, pair.name),
+                     "bodies with nodes of their own: no mesh.conforming, no common faces in the geometry");
+}
+
+/// Warns of slave surfaces that contacts cover in part; several may share one. Surfaces that the program has
+/// found are made of all faces that another body covers in part, at whose rim a part has no partner.
+void check_coverage(const CaseSpec& spec, const Assembly& a) {
+  constexpr double k_given = 0.98, k_found = 0.5;
+  for (std::size_t c = 0; c < a.contacts.size(); ++c) {
+    const auto& pair = a.contacts[c];
+    double covered = 0;
+    bool slides = false;
+    for (const auto& other : a.contacts) {
+      if (other->spec().slave != pair->spec().slave) continue;
+      covered += other->geometry().kinematics().coverage();
+      slides = slides || other->spec().formulation == contact::Formulation::large_sliding;
+    }
+    if (!slides && covered < (spec.contacts[c].surfaces.empty() ? k_given : k_found))
+      logging::warn("contact '{}': only {:.1f} % of the slave surface '{}' faces the master",
+                    pair->spec().name, 100 * pair->geometry().kinematics().coverage(), pair->spec().slave);
+  }
+}
+
+void build_contacts(const CaseSpec& spec, Assembly& a) {
+  std::vector<double> moduli = contact_moduli(a.materials);
+  for (std::size_t b = 0; b < moduli.size(); ++b)
+    if (only_conducts(spec.bodies[b])) moduli[b] = 0;  // its stiffness makes no penalty
+  const std::vector<double> sections = sections_of(spec, a.mesh);
+  // Each pair gets what follows from mesh and materials before it is built: walls, leaving gap, penalty,
+  // conductivity, direction of the normal.
+  for (contact::ContactParameters& pair : contact_specs(spec)) {
+    check_separate(a.mesh, pair);
+    set_walls(spec, a.mesh, pair);
+    set_leaving_gap(spec, a.mesh, a.materials, sections, pair);
+    set_solid_penalty(a.mesh, a.materials, pair);
+    set_mean_conductivity(a.mesh, a.materials, pair);
+    choose_normal(spec, a.materials, pair);
+    a.contacts.push_back(
+        std::make_unique<contact::ContactPair>(a.mesh, spec.analysis.kind, std::move(pair), moduli));
+    a.phases.contacts.push_back(a.contacts.back().get());
+  }
+  check_coverage(spec, a);
+}
+
+void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_temperature, Assembly& a) {
+  std::vector<linear::Contribution*> contributions;
+  mechanics::MechanicsOptions options = mechanics_options(spec);
+  for (const auto& pair : a.contacts) {
+    contributions.push_back(&pair->mechanics());
+    options.symmetric = options.symmetric && pair->forces().symmetric();
+    a.initial.contacts.push_back(pair->history().initial());
+  }
+  // The matrix of the simultaneous scheme is unsymmetric anyway.
+  if (options.mapping == mechanics::Mapping::simultaneous &&
+      std::ranges::any_of(a.contacts, [](const auto& pair) { return pair->slides(); }))
+    options.symmetric = false;
+  for (const auto& pair : a.contacts) pair->follow_weights(!options.symmetric);
+  mechanics::MechanicalConditions conditions = mechanical_conditions(spec, a.first_stage());
+  conditions.absent_bodies =
+      absent_from_mechanics(spec, nullptr);  // others leave when the first stage begins
+  a.mechanics = std::make_unique<mechanics::MechanicalPhase>(a.mesh, spec.analysis.kind, a.materials,
+                                                             initial_temperature, std::move(conditions),
+                                                             std::move(options), contributions);
+  a.phases.mechanics = a.mechanics.get();
+  a.coherency = std::make_unique<coupling::Coherency>(a.mesh, a.materials, a.mechanics->active());
+  if (!a.coherency->melts()) return;
+  a.phases.coherency = a.coherency.get();
+  std::vector<std::string> in_contact;
+  for (const auto& pair : a.contacts)
+    for (const std::string& surface : {pair->spec().slave, pair->spec().master})
+      if (surface != pair->spec().master || !pair->spec().rigid_master) in_contact.push_back(surface);
+  a.skin = std::make_unique<coupling::SkinShare>(a.mesh, spec.analysis.kind, in_contact, *a.coherency);
+  if (a.skin->any()) a.phases.skin = a.skin.get();
+}
+
+void build_heat(const CaseSpec& spec, const InitialTemperatures& start, Assembly& a) {
+  // Contacts and the deforming structure add heat; the matrix is symmetric only if that of every contact is.
+  std::vector<linear::Contribution*> contributions;
+  for (const auto& pair : a.contacts)
+    if (pair->heat() != nullptr) contributions.push_back(pair->heat());
+  if (a.structural) contributions.push_back(a.structural.get());
+  heat::HeatOptions options = heat_options(spec);
+  for (const auto& pair : a.contacts) options.symmetric = options.symmetric && pair->symmetric_heat();
+  heat::ThermalConditions conditions = thermal_conditions(spec, a.first_stage());
+  conditions.absent_bodies.clear();  // they leave when the first stage begins
+  a.heat = std::make_unique<heat::ThermalPhase>(a.mesh, spec.analysis.kind, a.materials, conditions, options,
+                                                contributions);
+  a.phases.heat = a.heat.get();
+  a.initial.heat = a.heat->initial_state_of([&](Index node, int body) { return start.enthalpy(node, body); });
+  const bool burns = std::ranges::any_of(spec.thermal_conditions, [](const ThermalConditionSpec& c) {
+    return c.kind == ThermalConditionSpec::Kind::exothermic;
+  });
+  if (burns) a.initial.burning = heat::unlit(a.mesh.x.size());
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
+  return text;
+}
+
+/// Reports which bodies leave and come when a stage begins, with how much heat, and the conditions that end
+/// with them. What comes later than the first stage does not leave when that begins.
+void announce_bodies(const CaseSpec& spec, const StageRun& stage, const StageRun* before,
+                     const coupling::BodyHeat& heat, const std::vector<std::string>& idle) {
+  if (before == nullptr) return;
+  std::vector<std::string> leaving, coming;
+  for (const BodySpec& body : spec.bodies) {
+    const bool there = holds(body.stages, &stage), was = holds(body.stages, before);
+    if (was && !there) leaving.push_back(body.name);
+    if (there && !was) coming.push_back(body.name);
+  }
+  const auto sentence = [&](const std::vector<std::string>& bodies, const char* one, const char* several,
+                            double joule) {
+    return fmt::format("{} {}{}", listed(bodies), bodies.size() == 1 ? one : several,
+                       spec.has_heat() ? fmt::format(" with {:.6g} J, counted from 20 degC", joule) : "");
+  };
+  std::string text;
+  if (!leaving.empty()) text = sentence(leaving, "leaves", "leave", heat.ejected);
+  if (!coming.empty())
+    text += (text.empty() ? "" : "; ") + sentence(coming, "comes new", "come new", heat.poured);
+  if (text.empty()) return;
+  logging::info("stage '{}' at t = {:g} s: {}{}", stage.stage->name, stage.start, text,
+                idle.empty() || leaving.empty() ? "" : "; without a body: " + listed(idle));
+}
+
+/// Bodies that come are as drawn: without displacement, stress and history, in contact as at the start of a
+/// run.
+void renew_contacts(const CaseSpec& spec, const std::vector<char>& fresh, coupling::State& state,
+                    Assembly& a) {
+  if (state.contacts.empty()) return;
+  std::vector<std::string> groups;  // absent in the sense of an active set: their faces are reversed
+  for (std::size_t b = 0; b < fresh.size(); ++b)
+    if (fresh[b] != 0) groups.push_back(spec.bodies[b].mesh_group());
+  const linear::ActiveSet others(a.mesh, groups);
+  const auto is_new = [&](const std::string& surface) {
+    const auto group = a.mesh.surfaces.find(surface);
+    bool any = false;
+    if (group != a.mesh.surfaces.end())
+      for (const mesh::ElementBlock& faces : group->second.faces)
+        any = any || (faces.size() > 0 && others.reversed(faces));
+    return parallel::any_process(any);
+  };
+  for (std::size_t i = 0; i < a.contacts.size(); ++i) {
+    const contact::ContactParameters& pair = a.contacts[i]->spec();
+    const bool slave = is_new(pair.slave), master = is_new(pair.master);
+    if (slave || master)
+      state.contacts[i] = a.contacts[i]->renewed_state(state.contacts[i], slave, master,
+                                                       state.mechanics.displacement, state.time);
+  }
+}
+
+}  // namespace
+
+double Assembly::coldest_start() const {
+  double low = start.front().low;
+  for (const InitialTemperatureRange& range : start) low = std::min(low, range.low);
+  return low;
+}
+
+coupling::BodyHeat apply(const CaseSpec& spec, std::size_t number, const std::vector<double>& displacement,
+                         coupling::State* begins, Assembly& a) {
+  const StageRun& stage = a.stages[number];
+  if (begins != nullptr) check_no_bare_melt(spec, a, number, *begins);
+  const std::vector<std::string> idle = without_body(spec, a.mesh, &stage);
+  const std::vector<char> fresh = new_bodies(spec, a.stages, number);
+  const bool comes =
+      begins != nullptr && std::any_of(fresh.begin(), fresh.end(), [](char f) { return f != 0; });
+  for (std::size_t i = 0; i < a.contacts.size(); ++i)
+    a.contacts[i]->activate(holds(spec, spec.contacts[i], a.mesh, &stage));
+  if (comes && !begins->burning.lit.empty())
+    heat::renew(mechanics::nodes_of_bodies(a.mesh, fresh), begins->burning);
+  if (a.mechanics) {
+    if (comes) mechanics::renew_nodes(a.mesh, fresh, begins->mechanics);
+    a.mechanics->set_conditions(mechanical_conditions(spec, &stage),
+                                begins != nullptr ? begins->mechanics.displacement : displacement);
+    if (a.structural)
+      mechanics::spread_heat_as_stored(*a.mechanics, spec.heat.integration == heat::HeatIntegration::closed);
+    if (comes) {
+      mechanics::renew_history(*a.mechanics, fresh, begins->mechanics);
+      renew_contacts(spec, fresh, *begins, a);
+    }
+  }
+  heat::CarriedHeat carried;
+  if (a.heat) {
+    // If a run continues at the end of a stage, the heat of the bodies that left before it has been removed
+    // already.
+    if (begins != nullptr && number > 0) a.heat->set_conditions(thermal_conditions(spec, &stage - 1));
+    const InitialTemperatures& initial = *a.initial_temperatures;
+    carried =
+        a.heat->set_conditions(thermal_conditions(spec, &stage), begins != nullptr ? &begins->heat : nullptr,
+                               [&](Index node, int body) { return initial.enthalpy(node, body); });
+  }
+  const coupling::BodyHeat heat{.poured = carried.along, .ejected = carried.away};
+  if (begins != nullptr) announce_bodies(spec, stage, number > 0 ? &stage - 1 : nullptr, heat, idle);
+  return heat;
+}
+
+namespace {
+
+/// The conditions and contacts that find no body to act on in any stage: a body may come after the first one.
+/// Throws InputError as without_body() does. Collective.
+std::vector<std::string> idle_throughout(const CaseSpec& spec, const Assembly& a) {
+  std::map<std::string, const std::vector<std::string>*> stages_of;
+  for (const ThermalConditionSpec& c : spec.thermal_conditions) stages_of[c.name] = &c.stages;
+  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) stages_of[c.name] = &c.stages;
+  for (const ContactSpec& c : spec.contacts) stages_of[c.name] = &c.stages;
+  std::vector<std::string> idle = without_body(spec, a.mesh, a.first_stage());
+  for (const StageRun& stage : a.stages) {
+    if (stage.cycle > 1) continue;
+    const std::vector<std::string> here = without_body(spec, a.mesh, &stage);
+    std::erase_if(idle, [&](const std::string& name) {
+      return holds(*stages_of.at(name), &stage) && std::find(here.begin(), here.end(), name) == here.end();
+    });
+  }
+  return idle;
+}
+
+}  // namespace
+
+void build(const CaseSpec& spec, Assembly& a) {
+  // The parts of a run are made in the order in which they need each other: stages, initial temperatures,
+  // contacts, mechanics, structural heat, heat, criteria.
+  a.stages = stage_runs(spec);
+  if (const auto idle = idle_throughout(spec, a); !idle.empty())
+    logging::warn("these act on bodies that only conduct heat, and do nothing: {}", listed(idle));
+  check_new_bodies(spec, a.stages, a.mesh);
+  a.initial_temperatures = std::make_unique<InitialTemperatures>(spec, a.materials, a.mesh);
+  const InitialTemperatures& start = *a.initial_temperatures;
+  a.start = start.ranges();
+  std::vector<double> highest;
+  for (const InitialTemperatureRange& range : a.start) highest.push_back(range.high);
+  check_melts(spec, a.materials, highest);
+  build_contacts(spec, a);
+  // Mechanics is given the initial temperatures even if heat is not solved for.
+  if (spec.has_mechanics()) {
+    a.phases.temperature = nodal_temperature(spec, start, a.mesh);
+    build_mechanics(spec, a.phases.temperature, a);
+    if (spec.exchanges_heat()) {
+      a.structural = std::make_unique<mechanics::StructuralHeat>(
+          *a.mechanics, structural_form(spec), spec.heat.integration == heat::HeatIntegration::closed);
+      a.phases.structural = a.structural.get();
+    }
+    a.initial.mechanics = a.mechanics->initial_state();  // with what structural heat keeps at the points
+  }
+  if (spec.has_heat()) build_heat(spec, start, a);
+  // The range of temperatures that a coupled run may reach is checked against the coldest start.
+  if (spec.coupled())
+    a.phases.ambient_temperature = admissibility(spec, a.coldest_start()).ambient_temperature;
+  a.criteria = make_criteria(spec, a.mesh, a.materials, a.start, a.phases);
+  if (a.criteria == nullptr) return;
+  a.phases.criteria = a.criteria.get();
+  a.initial.criteria = a.criteria->initial({a.initial.time, a.initial.heat, a.initial.mechanics});
+}
+
+}  // namespace solidus::model

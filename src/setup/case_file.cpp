@@ -1,0 +1,85 @@
+#include "setup/case_file.hpp"
+
+#include <fmt/format.h>
+
+#include "case/case_keys.hpp"
+#include "case/overrides.hpp"
+#include "case/physics_switch.hpp"
+#include "case/roles.hpp"
+#include "case/stage_input.hpp"
+#include "input/keys.hpp"
+#include "setup/case_layers.hpp"
+#include "system/log.hpp"
+#include "system/version.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A material given as a file rather than by its name in the library.
+bool names_a_file(const std::string& material) {
+  return material.ends_with(".toml") || material.find('/') != std::string::npos;
+}
+
+void resolve(Value& path) {
+  const SourceLocation where = path.where;
+  path = Value(resolved_path(path));
+  path.where = where;
+}
+
+/// Files of quantities that vary from place to place: { file = "points.csv" }.
+void resolve_places(Value& section) {
+  if (!section.is_table()) return;
+  for (auto& entry : section.entries())
+    if (entry.value.is_table())
+      if (Value* file = entry.value.find("file"); file && file->is_text()) resolve(*file);
+}
+
+void resolve_paths(Value& document) {
+  if (Value* mesh = document.find("mesh"); mesh && mesh->is_table())
+    if (Value* file = mesh->find("file"); file && file->is_text()) resolve(*file);
+  if (Value* conditions = document.find("thermal_condition"); conditions && conditions->is_list())
+    for (Value& condition : conditions->items()) resolve_places(condition);
+  Value* bodies = document.find("body");
+  if (!bodies || !bodies->is_list()) return;
+  for (Value& body : bodies->items()) {
+    resolve_places(body);
+    Value* material = body.find("material");
+    if (material && material->is_text() && names_a_file(material->text())) resolve(*material);
+  }
+}
+
+}  // namespace
+
+std::string Case::toml() const {
+  return fmt::format("# Solidus {}, from {}{}\n{}", program_version(),
+                     fs::absolute(file).lexically_normal().string(), variant.empty() ? "" : ":" + variant,
+                     to_toml(document));
+}
+
+Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+               std::optional<Physics> physics) {
+  Case result;
+  const CaseName name = case_named(path);
+  // Layers of files, then the command line, which has the last word; only the complete document is read and
+  // checked.
+  result.file = name.file;
+  result.variant = name.variant;
+  Value document = load_layers(name);
+  for (const std::string& assignment : overrides) apply_override(document, assignment);
+  if (physics)
+    if (const std::string left_out = switch_physics(document, *physics); !left_out.empty())
+      logging::info("heat alone, without {}", left_out);
+  resolve_paths(document);
+  result.document = case_keys().info().completed(document, "");
+  case_keys().assign(result.spec, result.document);
+  resolve_stages(result.spec);
+  check_case(result.spec);
+  vary_conditions(result.spec);
+  decide_physics(result.spec);
+  return result;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,41 @@
+#include "setup/cast_bodies.hpp"
+
+#include <algorithm>
+
+#include "case/roles.hpp"
+
+namespace solidus::model {
+
+std::vector<results::CastBody> cast_bodies(const CaseSpec& spec,
+                                           const std::vector<material::Material>& materials,
+                                           const std::vector<InitialTemperatureRange>& start) {
+  std::vector<results::CastBody> cast;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const material::PhaseChange* freezing = materials[b].solidification();
+    if (freezing == nullptr || start[b].high <= freezing->fraction.solidus()) continue;
+    const BodySpec& body = spec.bodies[b];
+    const Role role = role_of(body, materials[b]);
+    if (!is_poured(role)) continue;
+    const std::vector<std::string>& feeders = spec.criteria.feeders;
+    // Names tell only where the case does not.
+    const bool named = feeders.empty() && role_in_name(body.name) == Role::riser;
+    const bool feeds = role == Role::riser || named ||
+                       std::find(feeders.begin(), feeders.end(), body.mesh_group()) != feeders.end();
+    const bool gates = role == Role::gating || (!body.role && role_in_name(body.name) == Role::gating);
+    cast.push_back({static_cast<int>(b), spec.bodies[b].name, feeds, gates && !feeds});
+  }
+  return cast;
+}
+
+std::vector<char> followed_bodies(const CaseSpec& spec, const std::vector<material::Material>& materials,
+                                  const std::vector<InitialTemperatureRange>& start) {
+  std::vector<char> followed(spec.bodies.size(), 0);
+  for (const results::CastBody& cast : cast_bodies(spec, materials, start))
+    followed[static_cast<std::size_t>(cast.body)] = 1;
+  if (std::find(followed.begin(), followed.end(), 1) == followed.end())
+    for (std::size_t b = 0; b < materials.size(); ++b)
+      followed[b] = materials[b].solidification() != nullptr ? 1 : 0;
+  return followed;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,98 @@
+#include "setup/criteria_input.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "criteria/criteria.hpp"
+#include "criteria/criterion_kind.hpp"
+#include "setup/cast_bodies.hpp"
+#include "setup/mechanics_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// The direction against gravity, also where its magnitude is zero, as it is with heat alone.
+std::array<double, 3> upward(const AnalysisSpec& analysis) {
+  AnalysisSpec unit = analysis;
+  unit.gravity = 1;
+  std::array<double, 3> up = gravity(unit);
+  for (double& component : up) component = -component;
+  return up;
+}
+
+/// That of the case, else of the mould that gives way most.
+double mould_rigidity(const CaseSpec& spec, const std::vector<material::Material>& materials) {
+  if (spec.feeding.mould_rigidity) return *spec.feeding.mould_rigidity;
+  double least = 1;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+    if (spec.bodies[b].role == Role::mould) least = std::min(least, materials[b].casting.rigidity);
+  return least;
+}
+
+criteria::FeedingOptions feeding_options(const CaseSpec& spec, const mesh::Mesh& mesh,
+                                         const std::vector<material::Material>& materials,
+                                         const std::vector<InitialTemperatureRange>& start) {
+  criteria::FeedingOptions options{.bodies = followed_bodies(spec, materials, start),
+                                   .risers = std::vector<char>(spec.bodies.size(), 0),
+                                   .up = upward(spec.analysis),
+                                   .vented = spec.feeding.vented,
+                                   .covered = spec.feeding.covered,
+                                   .mould_rigidity = mould_rigidity(spec, materials),
+                                   .gas = {.follow = spec.gas.follow,
+                                           .content = spec.gas.content,
+                                           .ambient_pressure = spec.gas.ambient_pressure}};
+  // A surface that feeds is an open one.
+  if (options.vented.empty())
+    for (const std::string& feeder : spec.criteria.feeders)
+      if (mesh.surfaces.contains(feeder)) options.vented.push_back(feeder);
+  for (const results::CastBody& cast : cast_bodies(spec, materials, start))
+    if (cast.feeds) options.risers[static_cast<std::size_t>(cast.body)] = 1;
+  for (const ContactSpec& contact : spec.contacts)
+    for (const std::string& side : contact.sides()) options.touched.insert(side);
+  for (const ThermalConditionSpec& condition : spec.thermal_conditions)
+    options.cooled.insert(condition.group);
+  return options;
+}
+
+}  // namespace
+
+std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const mesh::Mesh& mesh,
+                                                  const std::vector<material::Material>& materials,
+                                                  const std::vector<InitialTemperatureRange>& start,
+                                                  const coupling::Phases& phases) {
+  // Criteria follow transient runs in which something melts. Each kind of criterion decides by itself whether
+  // the run has what it needs.
+  const bool melts = std::any_of(materials.begin(), materials.end(),
+                                 [](const material::Material& m) { return m.solidification() != nullptr; });
+  if (!spec.criteria.follow || !melts || spec.time.steady) return nullptr;
+  const criteria::CriterionContext context{
+      .mesh = mesh,
+      .kind = spec.analysis.kind,
+      .materials = materials,
+      .heat = phases.heat,
+      .mechanics = phases.mechanics != nullptr,
+      .temperature = phases.heat != nullptr ? std::vector<double>{} : phases.temperature,
+      .followed = followed_bodies(spec, materials, start),
+      .evaluation = spec.criteria.evaluation,
+      .feeding_limit = spec.criteria.feeding_limit,
+      .feeders = spec.criteria.feeders,
+      .feeding = spec.feeding.follow,
+      .feeding_options = feeding_options(spec, mesh, materials, start)};
+  auto all = std::make_unique<criteria::Criteria>(phases.heat);
+  // A mistake in a criterion's options is told with the place of the section that it belongs to.
+  for (const auto& kind : criteria::criterion_kinds()) {
+    try {
+      if (std::unique_ptr<criteria::Criterion> criterion = kind->make(context))
+        all->add(std::move(criterion));
+    } catch (const InputError& error) {
+      const bool of_feeding = std::string_view(error.what()).starts_with("feeding.");
+      throw InputError(of_feeding ? spec.feeding.where : spec.criteria.where, error.what(),
+                       "groups of the mesh: `solidus mesh-info` lists them");
+    }
+  }
+  return all;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,21 @@
+/// Builds the criteria of a run from the case.
+#pragma once
+
+#include <memory>
+
+#include "case/case_spec.hpp"
+#include "coupling/phases.hpp"
+#include "setup/initial_temperature.hpp"
+
+namespace solidus::model {
+
+/// Creates the criteria of a case; null: none, because nothing can freeze or the case says so. Collective.
+/// @param start      temperatures, [body]: what is poured is followed (cast_bodies.hpp)
+/// @param phases     without criteria yet; it, mesh and materials outlive the criteria
+/// Throws InputError for a feeder that is no group of the mesh.
+std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const mesh::Mesh& mesh,
+                                                  const std::vector<material::Material>& materials,
+                                                  const std::vector<InitialTemperatureRange>& start,
+                                                  const coupling::Phases& phases);
+
+}  // namespace solidus::model

@@ -1,0 +1,138 @@
+#include "setup/event_input.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "input/place_spec.hpp"
+#include "input/point_table.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// Tolerances of corners(), as shares of the range of the table, and of its largest value: a temperature in
+/// kelvin that varies by a tenth of a per cent is constant. Loads are averaged over steps, so that bends that
+/// are left out cost no heat; motions and temperatures that are prescribed count by their values at the ends.
+constexpr double k_of_loads = 0.01, k_of_motions = 1e-4, k_of_values = 1e-3;
+/// Formulas are compared at so many times a step.
+constexpr double k_times_a_step = 8;
+
+class EventList {
+ public:
+  EventList(const StageRun* stage, double from, double to, double step)
+      : stage_(stage), from_(from), to_(to), spacing_(step / k_times_a_step) {}
+
+  /// @param at_ends  its values at the ends of steps count, rather than its mean over them
+  void add(const Function& f, TimeOrigin clock, bool at_ends, std::optional<double> of_values = {}) {
+    const double start = clock == TimeOrigin::stage && stage_ != nullptr ? stage_->start : 0;
+    const double from = from_ - start, to = to_ - start;
+    if (f.place != nullptr) return add(*f.place, from, to, start, at_ends);
+    if (f.of != Argument::time || f.table.constant()) return;
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    const auto see = [&](double y) {
+      low = std::min(low, y);
+      high = std::max(high, y);
+    };
+    see(f.table.value(from));
+    see(f.table.value(to));
+    const auto x = f.table.x(), y = f.table.y();
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (x[i] > from && x[i] < to) see(y[i]);
+    const double tolerance =
+        std::max((at_ends ? k_of_motions : k_of_loads) * (high - low),
+                 of_values.value_or(at_ends ? 0 : k_of_loads) * std::max(std::abs(low), std::abs(high)));
+    for (const double time : corners(f.table, from, to, tolerance))
+      events.push_back({start + time, at_ends, false});
+  }
+
+  std::vector<TimeEvent> events;
+
+ private:
+  void add(const PlaceSpec& place, double from, double to, double start, bool at_ends) {
+    if (place.kind == PlaceSpec::Kind::points) {
+      const std::vector<double> times =
+          PointTable(place.file, place.column, place.key_unit, place.where).times();
+      const auto inside = std::ranges::count_if(times, [&](double t) { return t > from && t < to; });
+      if (inside > k_most_events) return;
+      for (const double time : times)
+        if (time > from && time < to) events.push_back({start + time, at_ends, false});
+      return;
+    }
+    if (place.kind != PlaceSpec::Kind::formula || !place.formula->uses(k_variable_t)) return;
+    if (alone(*place.formula)) return add(*place.formula, from, to, start, at_ends);
+    for (const auto& comparison : place.formula->comparisons())
+      if (comparison->uses(k_variable_t) && alone(*comparison)) add(*comparison, from, to, start, at_ends);
+  }
+  /// Whether time is all that a formula depends on.
+  static bool alone(const Formula& formula) {
+    for (std::size_t v = 0; v < k_variable_t; ++v)
+      if (formula.uses(v)) return false;
+    return true;
+  }
+  void add(const Formula& formula, double from, double to, double start, bool at_ends) {
+    const auto value = [&](double time) {
+      std::array<double, k_variable_t + 1> variables{};
+      variables[k_variable_t] = time;
+      return formula.value(variables);
+    };
+    for (TimeEvent event : breaks(value, from, to, spacing_)) {
+      event.time += start;
+      event.at_ends = at_ends;
+      events.push_back(event);
+    }
+  }
+
+  const StageRun* stage_;
+  double from_, to_, spacing_;
+};
+
+}  // namespace
+
+std::vector<TimeEvent> time_events(const CaseSpec& spec, const StageRun* stage, double from, double to,
+                                   double step) {
+  // Times at which a condition jumps or bends, so that steps land on them. Conditions that do not hold in the
+  // stage, and functions of temperature, give none.
+  EventList list(stage, from, to, step);
+  if (spec.has_heat())
+    for (const ThermalConditionSpec& c : spec.thermal_conditions) {
+      if (!holds(c.stages, stage)) continue;
+      using Kind = ThermalConditionSpec::Kind;
+      // A sleeve ignites by temperature, at no time that is known beforehand.
+      if (c.kind == Kind::exothermic) continue;
+      if (c.kind == Kind::temperature) {
+        list.add(c.temperature, c.clock, true, k_of_values);
+        continue;
+      }
+      // What bends counts less than what jumps: the last arguments say which of the two a quantity can do.
+      const bool film = c.kind == Kind::film, radiates = c.kind == Kind::radiation;
+      if (c.kind == Kind::flux) list.add(c.flux, c.clock, false);
+      if (c.kind == Kind::source) list.add(c.power, c.clock, false);
+      if (film && c.coefficient.of != Argument::temperature) list.add(c.coefficient, c.clock, false);
+      if (radiates && c.emissivity.of != Argument::temperature) list.add(c.emissivity, c.clock, false);
+      if (film || radiates) list.add(c.ambient, c.clock, false, k_of_values);
+      list.add(c.factor, c.clock, false);
+    }
+  // Mechanical conditions and tools follow in the same way.
+  if (spec.has_mechanics()) {
+    for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+      if (!holds(c.stages, stage)) continue;
+      using Kind = MechanicalConditionSpec::Kind;
+      if (c.kind == Kind::pressure) list.add(c.pressure, c.clock, true);
+      if (c.kind == Kind::traction)
+        for (const Function& f : c.traction) list.add(f, c.clock, true);
+      if (c.kind == Kind::displacement)
+        for (const auto* u : {&c.ux, &c.uy, &c.uz, &c.ur})
+          if (*u) list.add(**u, c.clock, true);
+    }
+    for (const RigidSurfaceSpec& s : spec.rigid_surfaces) {
+      for (const auto* motion : {&s.ux, &s.uy, &s.uz, &s.rotation})
+        if (*motion) list.add(**motion, TimeOrigin::run, true);
+      if (s.temperature) list.add(*s.temperature, TimeOrigin::run, true, k_of_values);
+    }
+  }
+  return std::move(list.events);
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,78 @@
+#include "setup/heat_input.hpp"
+
+#include "setup/body_input.hpp"
+#include "setup/place_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+heat::Coefficient coefficient(const Function& f, TimeOrigin clock, const StageRun* stage, AnalysisKind kind) {
+  if (f.of == Argument::temperature) return {f.table, true};
+  return {place_function(f, clock, stage, kind), false};
+}
+
+}  // namespace
+
+heat::ThermalConditions thermal_conditions(const CaseSpec& spec, const StageRun* stage) {
+  using Kind = ThermalConditionSpec::Kind;
+  // Each condition that holds in this stage becomes one of the solver's. Values are functions of place and
+  // time on the clock that the condition names.
+  heat::ThermalConditions conditions;
+  conditions.absent_bodies = gone_bodies(spec, stage);
+  for (const auto& c : spec.thermal_conditions) {
+    if (!holds(c.stages, stage)) continue;
+    const AnalysisKind kind = spec.analysis.kind;
+    const auto placed = [&](const Function& f) { return place_function(f, c.clock, stage, kind); };
+    switch (c.kind) {
+      case Kind::temperature:
+        conditions.temperatures.push_back({c.name, c.group, placed(c.temperature)});
+        break;
+      case Kind::flux:
+        conditions.fluxes.push_back({c.name, c.group, placed(c.flux), placed(c.factor)});
+        break;
+      case Kind::film:
+        conditions.films.push_back({c.name, c.group, coefficient(c.coefficient, c.clock, stage, kind),
+                                    placed(c.ambient), placed(c.factor)});
+        break;
+      case Kind::radiation:
+        conditions.radiations.push_back({c.name, c.group, coefficient(c.emissivity, c.clock, stage, kind),
+                                         placed(c.ambient), placed(c.factor)});
+        break;
+      case Kind::source:
+        conditions.sources.push_back({c.name, c.group, placed(c.power), placed(c.factor)});
+        break;
+      case Kind::exothermic:
+        conditions.exothermics.push_back({c.name, c.group, c.heat, c.ignition, c.duration});
+        break;
+    }
+  }
+  return conditions;
+}
+
+std::string against_two_stages(const CaseSpec& spec) {
+  using Heating = CouplingSpec::StructuralHeatForm;
+  if (!spec.coupled()) return {};
+  const CouplingSpec& c = spec.coupling;
+  if (!c.scheme->traits().leaves_stepping) return "the scheme has an integration of its own";
+  if (c.structural_heating != Heating::energy && c.structural_heating != Heating::none)
+    return "this form of structural heat is of first order";
+  return {};
+}
+
+heat::HeatOptions heat_options(const CaseSpec& spec) {
+  heat::HeatOptions options = spec.heat;
+  options.alone = !spec.simultaneous();
+  if (!options.stepping)
+    options.stepping = !spec.dynamics && against_two_stages(spec).empty()
+                           ? heat::ThermalStepping::sdirk2
+                           : heat::ThermalStepping::backward_euler;
+  if (!spec.coupled()) return options;
+  if (spec.coupling.as_printed)
+    options.sensible = spec.coupling.structural_heating == CouplingSpec::StructuralHeatForm::temperature
+                           ? heat::SensibleForm::temperature
+                           : heat::SensibleForm::entropy;
+  return options;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,234 @@
+#include "setup/mesh_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "mesh/files/file_unit.hpp"
+#include "mesh/making/casting_geometry.hpp"
+#include "mesh/making/parametric_meshes.hpp"
+#include "mesh/making/wall_layers.hpp"
+#include "mesh/message.hpp"
+#include "mesh/parts/distribute.hpp"
+#include "results/output/output_error.hpp"
+#include "setup/interfaces.hpp"
+#include "setup/mesh_checks.hpp"
+#include "setup/mesh_soundness.hpp"
+#include "setup/node_set_surfaces.hpp"
+#include "system/errors.hpp"
+#include "system/log.hpp"
+#include "system/processes.hpp"
+#include "system/profile.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+mesh::Shape shape_named(const std::string& wanted) {
+  using mesh::Shape;
+  for (const Shape shape : {Shape::tri3, Shape::tri6, Shape::quad4, Shape::quad8, Shape::tet4, Shape::tet10,
+                            Shape::hex8, Shape::hex20})
+    if (mesh::name(shape) == wanted) return shape;
+  throw std::logic_error("the declaration of mesh.element allows an unknown element");
+}
+
+mesh::RawMesh built_in_shape(const MeshSpec& m) {
+  const mesh::Shape shape = shape_named(m.element);
+  if (m.block) return mesh::make_block({m.block->size, m.block->origin, m.block->divisions}, shape);
+  if (m.two_blocks) {
+    const TwoBlocksSpec& t = *m.two_blocks;
+    return mesh::make_two_blocks({t.lower, t.upper, t.lower_divisions, t.upper_divisions, t.gap}, shape);
+  }
+  const CylinderInMouldSpec& c = *m.cylinder_in_mould;
+  return mesh::make_cylinder_in_mould({c.radius, c.height, c.mould_wall, c.mould_bottom, c.mould_height,
+                                       c.element_size, c.mould_element_size, c.interface_ratio},
+                                      shape);
+}
+
+mesh::GeometryChoice geometry_choice(const MeshSpec& m) {
+  mesh::GeometryChoice choice;
+  choice.conforming = m.conforming;
+  for (const MeshGroupSpec& g : m.groups) {
+    if (g.by_rule()) continue;
+    mesh::GeometryGroup& group = choice.groups.emplace_back();
+    group.name = g.name;
+    group.bodies = g.kind == MeshGroupSpec::Kind::body;
+    group.numbers = g.numbers;
+    group.label = g.label;
+    if (g.lowest.empty()) continue;
+    group.box.emplace();
+    std::copy_n(g.lowest.begin(), 3, (*group.box)[0].begin());
+    std::copy_n(g.highest.begin(), 3, (*group.box)[1].begin());
+  }
+  return choice;
+}
+
+mesh::CastingGeometry casting_geometry(const MeshSpec& m) {
+  mesh::CastingGeometry geometry;
+  for (const MeshSizeSpec& s : m.sizes) {
+    if (s.smallest && *s.smallest > s.size)
+      throw InputError(s.where,
+                       fmt::format("'smallest' is {:g} m, larger than 'size', {:g} m", *s.smallest, s.size),
+                       "a smallest size of at most the largest one");
+    geometry.sizes.push_back({s.body, s.size, s.smallest.value_or(s.size / 4), s.across, s.growth});
+  }
+  if (m.mould) {
+    mesh::MouldBlock& mould = geometry.mould.emplace();
+    mould.name = m.mould->name;
+    mould.core = m.mould->core;
+    for (std::size_t i = 0; i < 6; ++i)
+      mould.walls[i] = m.mould->walls.size() == 6 ? m.mould->walls[i] : m.mould->walls[0];
+  }
+  if (m.riser) {
+    const std::vector<double>& foot = m.riser->foot;
+    geometry.riser = {m.riser->name, {foot[0], foot[1], foot[2]}, m.riser->diameter, m.riser->height};
+  }
+  if (m.symmetry) geometry.symmetry = {m.symmetry->axis[0] - 'x', m.symmetry->at};
+  if (m.way > 0) geometry.only_way = m.way - 1;
+  return geometry;
+}
+
+/// Sections of one body with as many layers of equal growth are made together, so that layers of neighbours
+/// meet.
+void add_layers(const std::vector<MeshLayersSpec>& sections, const std::string& source, mesh::RawMesh& mesh) {
+  std::vector<char> done(sections.size(), 0);
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    if (done[i] != 0 || sections[i].number == 0) continue;
+    std::vector<mesh::WallLayers> together;
+    for (std::size_t k = i; k < sections.size(); ++k) {
+      const MeshLayersSpec& l = sections[k];
+      if (l.body != sections[i].body || l.number != sections[i].number || l.growth != sections[i].growth)
+        continue;
+      done[k] = 1;
+      together.push_back({l.surface, l.body, l.number, l.growth, l.first});
+    }
+    const std::vector<mesh::WallLayerReport> reports = mesh::add_wall_layers(mesh, together, source);
+    for (std::size_t k = 0; k < reports.size(); ++k) {
+      const mesh::WallLayerReport& report = reports[k];
+      const std::string &body = together[k].body, &surface = together[k].surface;
+      logging::info("layers of '{}' on '{}': {} of {:.3g} mm, the first {:.3g} mm; in the mean {:.3g} mm",
+                    body, surface, together[k].number, 1e3 * report.whole, 1e3 * report.first,
+                    1e3 * report.mean);
+      constexpr double k_little = 0.35;  // deep layers are thinner at corners and between bodies
+      if (report.mean < k_little * report.whole)
+        logging::warn(
+            "layers of '{}' on '{}' have room for {:.2g} of {:.2g} mm in the mean; {} of {} vertices have "
+            "none",
+            body, surface, 1e3 * report.mean, 1e3 * report.whole, report.n_bare,
+            report.n_bare + report.n_columns);
+    }
+  }
+}
+
+/// The mesh of a case on process 0, and the contacts that its interfaces make.
+mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) {
+  const MeshSpec& m = spec.mesh;
+  const std::string name = m.file ? *m.file : *m.shape;
+  mesh::RawMesh result;
+  if (m.file) {
+    mesh::MeshSource source{*m.file, mesh::metres_of_unit(*m.file, m.unit, "m", m.where),
+                            m.element_size.value_or(0), m.order};
+    for (const MeshConstantSpec& constant : m.constants) source.constants[constant.name] = constant.value;
+    source.geometry = geometry_choice(m);
+    source.trust_script = m.trust_script;
+    result = m.sizes.empty() && !m.mould && !m.riser && !m.symmetry
+                 ? mesh::read_mesh(source)
+                 : mesh::mesh_casting(source, casting_geometry(m));
+  } else {
+    try {
+      result = built_in_shape(m);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(m.where, "the shape '" + *m.shape + "': " + error.what());
+    }
+  }
+  if (!spec.interfaces.empty() || std::ranges::any_of(m.groups, &MeshGroupSpec::by_rule)) {
+    check_bodies_of(spec, result);
+    add_rule_groups(spec, result, name);
+    found = find_interfaces(spec, result, name);
+    add_contacts(found, spec);
+  }
+  if (result.dimension == spec.dimension()) {  // else check_groups says so
+    check_bodies_of(spec, result);
+    make_surfaces_of_node_sets(spec, result);
+  }
+  check_groups(spec, result);
+  if (m.file) make_sound(spec, result);
+  add_layers(m.layers, name, result);
+  mesh::validate_and_orient(result, name);
+  return result;
+}
+
+/// Distributes the interfaces that process 0 has found to all processes.
+std::vector<FoundInterface> everywhere(const std::vector<FoundInterface>& found) {
+  mesh::Packer packer;
+  packer.put_size(found.size());
+  for (const FoundInterface& f : found) {
+    packer.put(std::vector<GlobalIndex>{static_cast<GlobalIndex>(f.section), f.a, f.b});
+    packer.put(f.surface_a);
+    packer.put(f.surface_b);
+    packer.put(std::vector<double>{f.distance});
+  }
+  std::vector<char> buffer = std::move(packer).buffer();
+  processes::broadcast(buffer);
+  mesh::Unpacker unpacker(buffer);
+  std::vector<FoundInterface> all(unpacker.size());
+  for (FoundInterface& f : all) {
+    const auto numbers = unpacker.vector<GlobalIndex>();
+    f.section = static_cast<std::size_t>(numbers[0]);
+    f.a = static_cast<int>(numbers[1]);
+    f.b = static_cast<int>(numbers[2]);
+    f.surface_a = unpacker.string();
+    f.surface_b = unpacker.string();
+    f.distance = unpacker.vector<double>()[0];
+  }
+  return all;
+}
+
+}  // namespace
+
+mesh::RawMesh raw_mesh(CaseSpec spec) {
+  std::vector<FoundInterface> found;
+  return make_raw_mesh(spec, found);
+}
+
+void require_sound_mesh(const CaseSpec& spec) {
+  results::on_first_process([&] {
+    if (spec.mesh.unsound) throw InputError(*spec.mesh.unsound);
+  });
+}
+
+mesh::Mesh load_mesh(CaseSpec& spec) {
+  mesh::RawMesh raw;
+  if (!spec.interfaces.empty()) {
+    const profile::Part part("reading and meshing");
+    std::vector<FoundInterface> found;
+    results::on_first_process([&] {
+      CaseSpec own = spec;
+      raw = make_raw_mesh(own, found);
+    });
+    add_contacts(everywhere(found), spec);
+  } else {
+    const profile::Part part("reading and meshing");
+    results::on_first_process([&] { raw = raw_mesh(spec); });
+  }
+  vary_contacts(spec);
+  const profile::Part part("partition");
+  std::vector<std::string> bodies, replicated;
+  std::vector<mesh::BodyWork> work;
+  for (const BodySpec& body : spec.bodies) {
+    bodies.push_back(body.mesh_group());
+    work.push_back(body.physics == BodySpec::ActivePhysics::heat ? mesh::BodyWork::heat
+                                                                 : mesh::BodyWork::all);
+  }
+  for (const ContactSpec& contact : spec.contacts)
+    for (const std::string& surface : contact.sides())
+      if (spec.rigid_surface(surface) == nullptr) replicated.push_back(surface);
+  spec.mesh.unsound = raw.unsound;
+  return mesh::distribute(std::move(raw), bodies, replicated, work);
+}
+
+}  // namespace solidus::model

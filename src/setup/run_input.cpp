@@ -1,0 +1,90 @@
+#include "setup/run_input.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "coupling/all_fields.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// @param probe  ProbeSpec or ProfileColumnSpec
+template <class S>
+results::Sampled sampled(const CaseSpec& spec, const S& probe) {
+  results::Sampled result;
+  result.column = {probe.name, probe.unit};
+  result.field = probe.field;
+  result.where = probe.where;
+  try {
+    result.component = results::component_index(
+        probe.component, coupling::field_of(probe.field).components(spec.analysis.kind), spec.analysis.kind);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(probe.where,
+                     fmt::format("probe '{}' of the field '{}': {}", probe.name, probe.field, error.what()));
+  }
+  return result;
+}
+
+results::Statistic statistic(ProbeSpec::Kind kind) {
+  switch (kind) {
+    case ProbeSpec::Kind::minimum:
+      return results::Statistic::minimum;
+    case ProbeSpec::Kind::maximum:
+      return results::Statistic::maximum;
+    case ProbeSpec::Kind::integral:
+      return results::Statistic::integral;
+    default:
+      return results::Statistic::mean;
+  }
+}
+
+results::PointProbe point_probe(const CaseSpec& spec, const ProbeSpec& probe) {
+  results::PointProbe result{sampled(spec, probe)};
+  for (std::size_t i = 0; i < probe.point.size(); ++i) result.at[i] = probe.point[i];
+  if (probe.body)
+    for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+      if (spec.bodies[b].name == *probe.body) result.body = static_cast<int>(b);
+  return result;
+}
+
+}  // namespace
+
+std::vector<results::Probe> probes(const CaseSpec& spec) {
+  std::vector<results::Probe> result;
+  for (const ProbeSpec& probe : spec.probes) {
+    switch (probe.kind) {
+      case ProbeSpec::Kind::point:
+        result.emplace_back(point_probe(spec, probe));
+        break;
+      case ProbeSpec::Kind::mean:
+      case ProbeSpec::Kind::minimum:
+      case ProbeSpec::Kind::maximum:
+      case ProbeSpec::Kind::integral:
+        result.emplace_back(results::GroupProbe{sampled(spec, probe), probe.group, statistic(probe.kind)});
+        break;
+      case ProbeSpec::Kind::difference:
+        result.emplace_back(results::LinearProbe{
+            {probe.name, probe.unit}, {{1.0, probe.of[0]}, {-1.0, probe.of[1]}}, probe.where});
+        break;
+      case ProbeSpec::Kind::global:
+        result.emplace_back(
+            results::GlobalProbe{{probe.name, probe.unit}, probe.global, probe.factor, probe.where});
+        break;
+    }
+  }
+  return result;
+}
+
+std::vector<results::Profile> profiles(const CaseSpec& spec) {
+  std::vector<results::Profile> result;
+  for (const ProfileSpec& profile : spec.profiles) {
+    result.push_back({profile.name, profile.group, profile.length_unit, {}, profile.where});
+    for (const ProfileColumnSpec& column : profile.columns)
+      result.back().columns.push_back(sampled(spec, column));
+  }
+  return result;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,150 @@
+#include "setup/time_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "case/stage_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+void refuse(const TimeSpec& t, bool given, const char* key, const char* needs, const char* allowed) {
+  if (given) throw InputError(t.where, fmt::format("'{}' means nothing {}", key, needs), allowed);
+}
+
+void check_limits(const TimeSpec& t, const CaseSpec& spec) {
+  // Keys of [time] that mean nothing with others are refused instead of ignored, each with what it would
+  // need.
+  using coupling::ErrorControl;
+  const bool errors = t.temperature_error || t.displacement_error || t.stress_error;
+  const char* error_key = t.temperature_error    ? "temperature_error"
+                          : t.displacement_error ? "displacement_error"
+                                                 : "stress_error";
+  if (!t.adaptive) {
+    const char* needs = "without adaptive = true";
+    refuse(t, t.max_step.has_value(), "max_step", needs, "adaptive = true, or no max_step");
+    refuse(t, t.error_control != ErrorControl::predictor, "error_control", needs, "adaptive = true");
+    refuse(t, errors, error_key, needs, "adaptive = true");
+    refuse(t, t.solid_fraction_change.has_value(), "solid_fraction_change", needs, "adaptive = true");
+    refuse(t, t.skin_change.has_value(), "skin_change", needs, "adaptive = true");
+  }
+  refuse(t, errors && t.error_control == ErrorControl::none, error_key, "with error_control = \"none\"",
+         "error_control = \"predictor\" or \"doubling\"");
+  refuse(t, t.skin_change && t.error_control == ErrorControl::none, "skin_change",
+         "with error_control = \"none\"", "error_control = \"predictor\" or \"doubling\"");
+  if (!spec.has_heat()) {
+    refuse(t, t.temperature_error.has_value(), "temperature_error", "in an analysis without heat",
+           "displacement_error");
+    refuse(t, t.solid_fraction_change.has_value(), "solid_fraction_change", "in an analysis without heat",
+           "displacement_error");
+    refuse(t, t.skin_change.has_value(), "skin_change", "in an analysis without heat", "displacement_error");
+  }
+  refuse(t, !spec.has_mechanics() && t.displacement_error, "displacement_error",
+         "in an analysis without mechanics", "temperature_error");
+  refuse(t, !spec.has_mechanics() && t.stress_error, "stress_error", "in an analysis without mechanics",
+         "temperature_error");
+  refuse(t, !spec.has_mechanics() && t.skin_change, "skin_change", "in an analysis without mechanics",
+         "temperature_error");
+}
+
+void check_until(const TimeSpec& t, const CaseSpec& spec) {
+  if (t.until != TimeSpec::Until::solid) return;
+  refuse(t, t.steady, "until = \"solid\"", "in a steady analysis", "no 'until'");
+  refuse(t, !spec.stages.empty(), "until = \"solid\"",
+         "in a run with stages, whose durations say when it ends", "no 'until'");
+  refuse(t, !spec.has_heat(), "until = \"solid\"", "in an analysis without heat", "no 'until'");
+}
+
+void check_number_of_steps(const TimeSpec& t, double steps) {
+  if (steps > 1e8)
+    throw InputError(t.where, fmt::format("{:.3g} steps would be needed", steps), "at most 1e8");
+}
+
+coupling::StepOptions step_options(const TimeSpec& t, double step) {
+  coupling::StepOptions options;
+  options.step = step;
+  options.adaptive = t.adaptive;
+  options.min_step = t.min_step.value_or(0);
+  options.max_step = t.max_step.value_or(0);
+  options.growth = t.growth;
+  options.cut = t.cut;
+  options.easy_iterations = t.easy_iterations;
+  options.limits.control = t.error_control;
+  options.limits.temperature = t.temperature_error.value_or(1.0);
+  options.limits.stress = t.stress_error.value_or(0.005);
+  options.limits.solid_fraction = t.solid_fraction_change.value_or(0.1);
+  options.limits.skin = t.skin_change.value_or(coupling::StepLimits{}.skin);
+  return options;
+}
+
+coupling::Stage stage(const TimeSpec& t, const StageRun& run) {
+  coupling::StepOptions step = step_options(t, first_step(*run.stage, t));
+  if (run.stage->min_step) step.min_step = *run.stage->min_step;
+  if (run.stage->max_step) step.max_step = *run.stage->max_step;
+  return {.name = run.stage->name,
+          .of_case = run.number,
+          .cycle = run.cycle,
+          .end = run.end,
+          .step = step,
+          .shot = run.shot,
+          .begins_shot = run.begins_shot,
+          .ends_shot = run.ends_shot,
+          .pours = run.pours};
+}
+
+}  // namespace
+
+void check_time(const CaseSpec& spec) {
+  const TimeSpec& t = spec.time;
+  check_until(t, spec);
+  if (t.steady) return;
+  // Stages bring durations and steps of their own; a case without them needs an end and a step.
+  if (!spec.stages.empty()) {  // steps and durations are checked with the stages
+    check_limits(t, spec);
+    double steps = 0;
+    for (const StageRun& run : stage_runs(spec)) steps += run.stage->duration / first_step(*run.stage, t);
+    return check_number_of_steps(t, steps);
+  }
+  if (!t.end || !t.step)
+    throw InputError(t.where, fmt::format("the key '{}' is missing in [time]", t.end ? "step" : "end"),
+                     "end and step, or [[stage]] sections, or steady = true");
+  if (*t.step > *t.end) throw InputError(t.where, "the time step is longer than the whole time");
+  if (t.min_step && *t.min_step > *t.step) throw InputError(t.where, "'min_step' is above 'step'");
+  if (t.max_step && *t.max_step < *t.step) throw InputError(t.where, "'max_step' is below 'step'");
+  check_limits(t, spec);
+  check_number_of_steps(t, *t.end / *t.step);
+}
+
+double displacement_error(const TimeSpec& t, std::span<const double> sections) {
+  // A casting shrinks by 1e-2: across a wall, of four sections, by a hundred times this.
+  constexpr double k_share_of_section = 3e-4;
+  double thinnest = std::numeric_limits<double>::max();  // of heat alone
+  for (const double section : sections)
+    if (section > 0) thinnest = std::min(thinnest, section);
+  return t.displacement_error.value_or(k_share_of_section * thinnest);
+}
+
+coupling::TimeOptions time_options(const CaseSpec& spec) {
+  const TimeSpec& t = spec.time;
+  coupling::TimeOptions options;
+  options.end = *t.end;
+  options.until_solid = t.until == TimeSpec::Until::solid;
+  if (spec.stages.empty()) options.step = step_options(t, *t.step);
+  for (const StageRun& run : stage_runs(spec)) options.stages.push_back(stage(t, run));
+  options.output_at_stage_ends = spec.output.stage_ends;
+  options.output_times = spec.output.times;
+  options.checkpoint_every = spec.output.checkpoint_every.value_or(0);
+  // Multiples of the period up to the end; rounding must not lose the last one.
+  if (spec.output.every) {
+    const double every = *spec.output.every;
+    const auto n = static_cast<long>(std::floor(options.end / every * (1 + 1e-12)));
+    for (long i = 1; i <= n; ++i) options.output_times.push_back(static_cast<double>(i) * every);
+  }
+  return options;
+}
+
+}  // namespace solidus::model
