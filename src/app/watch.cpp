@@ -83,6 +83,8 @@ Watch::Watch(fs::path folder)
     : folder_(std::move(folder)),
       since_(fs::file_time_type::clock::now() - std::chrono::seconds(1)),
       token_(random_token()) {
+  // A free port of this machine alone; the address holds a random token, which other users of the machine do
+  // not know.
   socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in here{};
   here.sin_family = AF_INET;

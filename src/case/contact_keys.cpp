@@ -139,7 +139,8 @@ Section<ContactSpec> contact_keys() {
        "normal", &C::normal,
        {{"automatic", Normal::automatic,
          "penalty; with [dynamics] energy_conserving; in a case in which nothing melts, unless it gives a "
-         "penalty, augmented_lagrangian until a turn changes pressures by less than 1 % of the largest, with "
+         "penalty, augmented_lagrangian until an augmentation changes pressures by less than 1 % of the "
+         "largest, with "
          "friction or large sliding by less than 5 %"},
         {"penalty", Normal::penalty, "pressure = penalty x penetration (3.43)"},
         {"augmented_lagrangian", Normal::augmented_lagrangian,

@@ -102,6 +102,7 @@ std::vector<fs::path> interface_folders() {
 
 std::vector<InterfaceCard> interface_cards() {
   std::map<std::string, InterfaceCard> cards;
+  // The first folder with a card of that name has it, so that the user's go before the program's.
   for (const fs::path& folder : interface_folders())
     for (const auto& entry : fs::directory_iterator(folder)) {
       if (entry.path().extension() != ".toml") continue;
@@ -121,6 +122,7 @@ const InterfaceCard* best_card(const std::vector<InterfaceCard>& cards, const In
                                const InterfacePartner& b) {
   const InterfaceCard* best = nullptr;
   int most = -1;
+  // The card that fits both bodies most closely, in either order.
   for (const InterfaceCard& card : cards) {
     if (card.by_name_alone) continue;
     for (const bool swapped : {false, true}) {

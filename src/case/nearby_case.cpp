@@ -59,6 +59,8 @@ NearbyCase longer_steps(const CaseSpec& spec, double displacement_error) {
   }
   // Steps that must meet outputs are no longer than the time between them.
   if (t.end) made.overrides.push_back(fmt::format("output.every={} s", *t.end));
+  // Adaptive steps get larger errors, as much as twice the step makes of them; fixed steps become twice as
+  // long.
   if (t.adaptive && t.error_control != coupling::ErrorControl::none) {
     constexpr double k_default_largest = 10;  // times the first step (coupling::StepOptions::largest)
     if (t.max_step || t.step)
@@ -97,6 +99,7 @@ NearbyCase longer_steps(const CaseSpec& spec, double displacement_error) {
 
 NearbyCase coarser_mesh(const CaseSpec& spec) {
   const MeshSpec& mesh = spec.mesh;
+  // In three dimensions elements are many, so that they are made coarser by less.
   const double factor = spec.analysis.kind == AnalysisKind::solid ? 1.5 : 2.0;
   NearbyCase made;
   coarsen_shape(made, mesh, factor);

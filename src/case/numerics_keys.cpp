@@ -147,7 +147,7 @@ Section<MechanicsSpec> mechanics_keys() {
 
 /// Keys of [coupling]: scheme, order of the phases, structural heat, and what of a step is solved again.
 Section<CouplingSpec> coupling_keys() {
-  Section<CouplingSpec> s("coupling", "How the two phases take turns.");
+  Section<CouplingSpec> s("coupling", "How the two phases are solved together.");
   s.place(&CouplingSpec::where);
   s.kinds("scheme", &CouplingSpec::scheme, coupling::schemes())
       .initially(std::string(coupling::default_scheme()->name()))

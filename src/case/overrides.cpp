@@ -57,6 +57,7 @@ Value& pick(Value& list, const std::string& part, const std::string& path, const
 }  // namespace
 
 void lay_over(Value& base, const Value& over) {
+  // Sections merge key by key and lists of sections by name; anything else is replaced.
   for (const auto& [key, where, value] : over.entries()) {
     Value* old = base.find(key);
     if (old && is_section(*old) && is_section(value))

@@ -70,6 +70,7 @@ void check_periodic(const CaseSpec& spec, const CycleSpec& cycle) {
                        "periodic = \"1 K\", say, or no search");
     return;
   }
+  // Only temperatures are searched for, at the end of the run, and of bodies that stay through the cycle.
   if (!spec.has_heat())
     throw InputError(
         cycle.where,
@@ -213,6 +214,7 @@ void resolve_stages(CaseSpec& spec) {
                        "[[stage]] sections, which the cycle names");
     return;
   }
+  // Stages and the end of [time] exclude one another.
   if (spec.time.steady)
     throw InputError(spec.stages.front().where, "a steady analysis has no stages", "steady = false");
   if (spec.time.end)

@@ -242,6 +242,7 @@ void vary_conditions(CaseSpec& spec) {
   check_names(spec.spread.bodies, spec.bodies, "body", spec.spread.where);
   check_names(spec.spread.conditions, spec.thermal_conditions, "thermal condition", spec.spread.where);
   check_spreads(spec.spread);
+  // Then bodies, conditions and, where the mesh has made them, contacts change by what [vary] says.
   announce(spec.vary);
   for (BodySpec& body : spec.bodies)
     if (const auto by = spec.vary.bodies.find(body.name);

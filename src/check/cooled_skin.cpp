@@ -53,6 +53,7 @@ std::vector<CooledSkin> conditions_on(std::size_t body, const Surroundings& in) 
   const CaseMeasures& m = in.m;
   std::vector<CooledSkin> skins;
   const heat::ThermalConditions conditions = thermal_conditions(spec, in.stage);
+  // The measures of a surface are those of the condition that names it.
   const auto add = [&](const std::string& group, const auto& law) {
     for (std::size_t c = 0; c < spec.thermal_conditions.size(); ++c)
       if (spec.thermal_conditions[c].group == group && m.surfaces[c].area > 0 &&
@@ -74,6 +75,7 @@ std::vector<CooledSkin> conditions_on(std::size_t body, const Surroundings& in) 
   for (const heat::Film& c : conditions.films) add(c.surface, by_law(c));
   for (const heat::Radiation& c : conditions.radiations) add(c.surface, by_law(c));
   for (const heat::Flux& c : conditions.fluxes) add(c.surface, by_law(c));
+  // A prescribed temperature is a film without resistance.
   for (const heat::PrescribedTemperature& c : conditions.temperatures)
     if (c.value.uniform())
       add(c.node_set, [&](const SurfaceMeasures&) {

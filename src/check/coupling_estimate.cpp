@@ -19,6 +19,7 @@ namespace {
 InitialTemperatureRange temperatures(const CaseSpec& spec,
                                      const std::vector<InitialTemperatureRange>& start) {
   InitialTemperatureRange r = start.front();
+  // The range that initial and boundary temperatures span.
   const auto add = [&r](double low, double high) { r = {std::min(r.low, low), std::max(r.high, high)}; };
   for (const InitialTemperatureRange& body : start) add(body.low, body.high);
   const auto add_table = [&](const Function& f) {

@@ -32,6 +32,8 @@ struct Cell {
 class Line {
  public:
   explicit Line(const FreezingProblem& problem) : problem_(problem), metal_(problem.metal->enthalpy()) {
+    // Between a plate and a ball by how round the casting is; cells from its skin inwards and into each mould
+    // and neighbour.
     exponent_ =
         std::clamp(problem.depth / problem.modulus, 1.0, std::clamp(problem.roundness, k_bar, k_ball));
     radius_ = std::max(problem.depth, problem.modulus);
@@ -241,6 +243,7 @@ struct Drops {
 };
 
 Drops drops(const Line& line, const FreezingProblem& problem) {
+  // The drops of temperature in the metal, across the interface and in the mould that takes the most heat.
   Drops d;
   d.metal = line.centre() - line.skin();
   if (problem.moulds.empty()) {

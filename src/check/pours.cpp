@@ -169,13 +169,13 @@ void estimate_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
     return;
   }
   // Skin that loses less than a hundredth of the heat of the rest does not count in V/A.
-  constexpr double k_little = 0.03;
+  constexpr double k_least_share_of_cooling = 0.03;
   std::vector<mesh::Point> cloud;
   std::vector<char> on_skin(a.mesh.x.size(), 0);
   std::vector<double> facing(m.bodies.size(), 0.0);  // area toward each other body
   for (const CooledSkin& skin : skins) {
     if (skin.other) facing[*skin.other] += skin.area;
-    if (skin.cooling < k_little * most) continue;
+    if (skin.cooling < k_least_share_of_cooling * most) continue;
     pour.cooled_area += skin.area;
     pour.conductance += skin.area * skin.cooling;
     if (skin.surface.empty()) {
@@ -211,7 +211,7 @@ void estimate_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
   pour.conductance /= pour.cooled_area * drop;
   estimated.skins = std::move(skins);
   pour.freezing = estimate_freezing(problem);
-  by_thickest_place(around, deepest.places, k_little * most, estimated);
+  by_thickest_place(around, deepest.places, k_least_share_of_cooling * most, estimated);
   pour.alone_time = pour.freezing.time;
   if (pour.freezing.gave_up)
     pour.no_estimate = "it comes to no end: the conductance jumps where the gap opens";
@@ -246,7 +246,7 @@ void exchange_heat(const CaseMeasures& m, const Assembly& a, std::vector<Estimat
     if (!together.time) continue;
     *together.time *= by_time[i]->of_thickest;
     for (double& neighbour : together.neighbours) neighbour *= by_time[i]->of_thickest;
-    // The estimate together with a slower neighbour, made in an earlier turn, is a lower bound.
+    // The estimate together with a slower neighbour, made in an earlier pass, is a lower bound.
     const double before = *slow.freezing.time, least = before > *slow.alone_time ? before : 0.0;
     slow.freezing = together;
     slow.freezing.time = std::max(least, *together.time);
@@ -262,6 +262,8 @@ std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasu
   std::vector<std::size_t> bodies;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     if (comes_in_molten(a, b)) bodies.push_back(b);
+  // In order of pouring: a casting that is solid when the next one comes in takes heat from it as a mould
+  // does.
   std::ranges::stable_sort(bodies, {}, [&](std::size_t b) { return time_of_pour(spec, a, b); });
   for (const std::size_t b : bodies) {
     EstimatedPour estimated;

@@ -117,6 +117,7 @@ class Collector {
   void add_material(std::size_t b) {
     const BodySpec& body = spec_.bodies[b];
     const std::string name = std::filesystem::path(body.material).stem().string();
+    // Spreads of the case go before those of the card, and these before what is usual for the property.
     const material::MaterialSpreads card =
         material::find_spreads(body.material, material_folders(), body.where);
     const auto own = spec_.spread.bodies.find(body.name);
@@ -130,6 +131,8 @@ class Collector {
         spreads.emplace(row.key,
                         known(own == spec_.spread.bodies.end() ? std::nullopt : own->second.*row.spread,
                               card.*row.spread, row.usual));
+    // Density and heat capacity enter heat only as their product; where the mass matters to nothing else they
+    // are one parameter.
     const bool one_capacity = join_capacity(spreads, use);
     for (const material::VariedProperty& row : material::varied_properties()) {
       const auto at = spreads.find(row.key);

@@ -175,6 +175,7 @@ std::vector<HeatGap> ContactPair::heat_gaps_ahead(std::span<const double> displa
   std::vector<HeatGap> gaps = heat_gaps();
   if (gaps.empty() || !active_) return gaps;
   const ContactKinematics& kinematics = geometry_->at(time, displacement);
+  // Only open points may change: the gap at the displacements that are to come.
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     HeatGap& gap = gaps[at(p)];
     if (!gap.partnered || !(gap.penetration < 0)) continue;

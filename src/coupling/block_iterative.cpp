@@ -60,9 +60,9 @@ struct BlockIterative::Iterate {
   std::vector<double> temperature, before;
   mechanics::StepDeformation deformation;  ///< of the last mechanical pass
   bool solved = false;                     ///< both passes reached the tolerances of their phases
-  bool at_rest = false;  ///< the last mechanical pass set out in balance, within tolerance or rounding
-  double damping = 1;    ///< of relaxation
-  int turns = 0;         ///< of the augmented Lagrangian, in all mechanical passes
+  bool at_rest = false;   ///< the last mechanical pass set out in balance, within tolerance or rounding
+  double damping = 1;     ///< of relaxation
+  int augmentations = 0;  ///< of the Lagrangian, in all mechanical passes
   StepEffort& effort;
 };
 
@@ -99,6 +99,7 @@ void BlockIterative::forget() {
 StepEffort BlockIterative::advance(const State& old, State& trial, double time, double dt) {
   const ContactWork contact(phases_);
   StepEffort effort;
+  // One iteration with one Newton step in each phase; if that fails the full iteration follows.
   if (options_.loop == IterationOptions::Loop::single) {
     try {
       solve(old, trial, {.time = time, .dt = dt, .newton_steps = 1}, contact, effort);
@@ -113,6 +114,8 @@ StepEffort BlockIterative::advance(const State& old, State& trial, double time, 
 
 void BlockIterative::solve(const State& old, State& trial, const Attempt& attempt, ContactWork contact,
                            StepEffort& effort) {
+  // The iteration starts from the committed state. Once the phases agree, their work is booked with the share
+  // of the integrator.
   Iterate it{.attempt = attempt,
              .now = old,
              .phases = {phases_, old.heat},
@@ -129,6 +132,7 @@ void BlockIterative::solve(const State& old, State& trial, const Attempt& attemp
   }
   book_excess_work(phases_, it.deformation, effort.energy);
   book_interface(effort.energy, phases_.structural != nullptr);
+  // The results become the trial state; nothing of the committed one has changed.
   trial.heat = std::move(it.now.heat);
   trial.mechanics = std::move(it.now.mechanics);
   trial.contacts = std::move(it.now.contacts);
@@ -155,22 +159,26 @@ void BlockIterative::iterate_until_agreement(const State& old, Iterate& it) {
 }
 
 bool BlockIterative::mechanical(const State& old, Iterate& it, int newton_steps) const {
+  // The mechanical pass holds the fractions of the iterate. Late iterations hold open points more firmly,
+  // because the whole steps before did not come to rest.
   mechanics::MechanicalPass pass{
       .time = it.attempt.time, .dt = it.attempt.dt, .temperature = old.heat.temperature};
   it.phases.hold(pass);
   pass.newton_steps = newton_steps;
   if (it.number > static_cast<int>(k_whole_steps)) pass.contact_hold = k_firm_hold;
+  // From the second iteration on it starts from the deformation before, at the temperatures that heat has
+  // found.
   if (it.number > 1) {
     pass.iterate_temperature = it.temperature;
     pass.iterate = &it.now.mechanics;
   }
   const std::vector<contact::ContactState> before = it.number > 1 ? it.now.contacts : old.contacts;
-  const int turns = it.turns;
+  const int earlier = it.augmentations;
   it.deformation.clear();  // its storage serves again
   mechanics::MechanicalReport report =
-      mechanical_pass(phases_, old, it.now, pass, it.effort, before, &it.turns);
+      mechanical_pass(phases_, old, it.now, pass, it.effort, before, &it.augmentations);
   it.deformation = std::move(report.deformation);
-  it.at_rest = it.turns == turns + 1 && report.newton.began_balanced;
+  it.at_rest = it.augmentations == earlier + 1 && report.newton.began_balanced;
   return report.newton.converged;
 }
 
@@ -245,6 +253,7 @@ void BlockIterative::damp(Iterate& it) const {
 }
 
 void BlockIterative::require_progress(const Iterate& it) const {
+  // What can no longer converge ends the iteration at once.
   const std::vector<double>& now = it.now.heat.temperature;
   const bool cold = std::any_of(now.begin(), now.end(), [](double t) { return !(t > 0); });
   if (parallel::any_process(cold)) diverged(it, "a temperature fell below 0 K");

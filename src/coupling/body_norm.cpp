@@ -25,6 +25,7 @@ struct Moments {
 
   void add(double w, const Point& x, const Point& u) {
     weight += w;
+    // Moments of displacement and place, from which the best rigid motion follows.
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
       square += w * u[i] * u[i];
@@ -89,6 +90,7 @@ BodyNorm::BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind)
       n_bodies_(mesh.bodies.size()),
       n_nodes_(mesh.x.size()) {
   const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
+  // The volume that belongs to each node of each body, as shares of the body; and its centre.
   std::vector<std::vector<double>> weight(n_bodies_, std::vector<double>(n_owned, 0.0));
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const PackVector<Lane> nodal = mesh::nodal_weights(mesh, block, kind);
@@ -117,6 +119,7 @@ BodyNorm::BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind)
 
 double BodyNorm::operator()(std::span<const double> values, std::span<const char> counts) const {
   const std::size_t width = n_nodes_ > 0 ? values.size() / n_nodes_ : 0;
+  // Mean squares over each body by volume; the largest of all bodies is the norm.
   std::vector<double> square(n_bodies_, 0.0);
   for (const Share& share : shares_) {
     if (!counts.empty() && counts[static_cast<std::size_t>(share.node)] == 0) continue;
@@ -141,6 +144,7 @@ double BodyNorm::largest(const std::vector<double>& squares) const {
 double BodyNorm::of_distortion(std::span<const double> displacement, std::span<const char> counts) const {
   const auto width = static_cast<std::size_t>(displacement_components(kind_));
   std::vector<Moments> moments(n_bodies_);
+  // Places count from the centre of the body, which keeps the moments well conditioned.
   for (const Share& share : shares_) {
     const auto node = static_cast<std::size_t>(share.node), body = static_cast<std::size_t>(share.body);
     if (displacement.empty() || (!counts.empty() && counts[node] == 0)) continue;

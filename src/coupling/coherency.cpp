@@ -18,6 +18,7 @@ std::size_t at_index(Index i) {
 Coherency::Coherency(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                      const linear::ActiveSet& active)
     : mesh_(mesh), materials_(materials), material_(mesh.x.size(), nullptr) {
+  // The material of each node is that of the first body there that can melt.
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const material::Material& material = materials[at_index(block.body)];
     if (!active.body(block.body) || material.solidification() == nullptr) continue;

@@ -15,18 +15,18 @@ namespace solidus::coupling {
 
 namespace {
 
-// Multipliers follow the means around nodes first. After k_enough_augmentations turns, where points at the
-// edge of contact open and close from turn to turn, penetrations may be k_tolerable times as large as
+// Multipliers follow the means around nodes first. After k_augmentations_by_means of them, where points at
+// the edge of contact open and close from one to the next, penetrations may be k_tolerable times as large as
 // allowed, with a warning; else multipliers follow the points from there on. The passes of a step that is
-// iterated set out from the multipliers of the one before, and share these turns.
-constexpr int k_enough_augmentations = 60;
+// iterated set out from the multipliers of the one before, and share this count.
+constexpr int k_augmentations_by_means = 60;
 constexpr double k_tolerable = 10;
-// After so many turns a step stands as it is, with a warning that says how far it is off, unless the default
-// penalty alone would leave less.
+// After so many augmentations a step stands as it is, with a warning that says how far it is off, unless the
+// default penalty alone would leave less.
 constexpr int k_most_augmentations = 200;
-// Turns that nobody asked for (ContactSpec::pressure_tolerance) end here: what is left is less than the
+// Augmentations by default (ContactSpec::pressure_tolerance) end here: what is left is less than the
 // penalty alone would leave.
-constexpr int k_enough_by_default = 12;
+constexpr int k_most_augmentations_by_default = 12;
 
 const contact::ContactState& state_of(const std::vector<contact::ContactState>& contacts, std::size_t i) {
   static const contact::ContactState k_unmoved;
@@ -50,7 +50,7 @@ void advance_history(const contact::ContactPointState& from, const contact::Cont
     start.temperature = from.temperature * std::pow(to.temperature / from.temperature, carried);
 }
 
-/// The number among 1, 2, 5, 10, 20, 50, 100 that is not below a share in per cent: a warning that is said
+/// The number among 1, 2, 5, 10, 20, 50, 100 that is not below a share in per cent: a warning that is given
 /// once for each.
 int rounded_up(double share) {
   constexpr int k_steps[] = {1, 2, 5, 10, 20, 50};
@@ -61,16 +61,16 @@ int rounded_up(double share) {
 
 void warn_of_early_end(const contact::ContactPair& pair) {
   logging::warn(
-      "contact '{}': in some steps, shorter ones too, the turns of the augmented Lagrangian do not settle; "
+      "contact '{}': in some steps, shorter ones too, the augmentations of the Lagrangian do not converge; "
       "they end at their last equilibrium, with penetrations above penetration_tolerance "
-      "(turns_that_did_not_settle in summary.json); normal = \"penalty\" needs no turns",
+      "(turns_that_did_not_settle in summary.json); normal = \"penalty\" needs none",
       pair.spec().name);
 }
 
-[[noreturn]] void reject_turns(const contact::ContactPair& pair, int turns, double excess) {
-  throw StepRejected(fmt::format("contact '{}': {} turns of the augmented Lagrangian leave penetrations "
+[[noreturn]] void reject_augmentations(const contact::ContactPair& pair, int augmentations, double excess) {
+  throw StepRejected(fmt::format("contact '{}': {} augmentations of the Lagrangian leave penetrations "
                                  "{:.3g} times as large as allowed",
-                                 pair.spec().name, turns, excess),
+                                 pair.spec().name, augmentations, excess),
                      pair.forces().worst_penetration(pair.state()), Failure::multipliers);
 }
 
@@ -78,7 +78,7 @@ bool numbers_everywhere(std::span<const double> values) {
   return !parallel::any_process(!std::ranges::all_of(values, [](double v) { return std::isfinite(v); }));
 }
 
-/// Ends the turns early where all pairs allow it; then true.
+/// Ends the augmentations early where all pairs allow it; then true.
 bool end_early(const Phases& phases) {
   for (const contact::ContactPair* pair : phases.contacts)
     if (pair->forces().multiplies() && !pair->forces().multipliers().may_end_at(pair->state())) return false;
@@ -92,14 +92,14 @@ bool end_early(const Phases& phases) {
 
 /// Takes the multipliers as they are and says so; throws StepRejected where pressures may be farther off than
 /// with the default penalty alone.
-void end_turns(const contact::ContactPair& pair, int turns, double excess) {
+void end_augmentations(const contact::ContactPair& pair, int augmentations, double excess) {
   constexpr double k_of_default_penalty = 0.1;
   const double share = pair.pressure_error();
-  if (share > k_of_default_penalty) reject_turns(pair, turns, excess);
+  if (share > k_of_default_penalty) reject_augmentations(pair, augmentations, excess);
   logging::warn(
-      "contact '{}': in some steps {} turns of the augmented Lagrangian do not settle; its multipliers are "
+      "contact '{}': in some steps {} augmentations of the Lagrangian do not converge; its multipliers are "
       "taken as they are there, off by up to {} % of the mean contact pressure; normal = \"penalty\" or a "
-      "larger penetration_tolerance costs fewer turns",
+      "larger penetration_tolerance costs fewer of them",
       pair.spec().name, k_most_augmentations, rounded_up(share));
 }
 
@@ -110,6 +110,8 @@ void begin_contacts(const Phases& phases, const std::vector<contact::ContactStat
                     std::span<const double> coherency, const std::vector<contact::ContactState>& iterate,
                     bool further) {
   const profile::Part part("contact");
+  // A pass tells its pairs what they need to know of the step: time, displacement and temperature at its
+  // start, how solid the skins are, what the mapping holds, and the share of the forces in the balance.
   contact::ContactPass of_contact{
       .time = pass.time,
       .dt = pass.dt,
@@ -145,6 +147,7 @@ bool interfaces_begin(const Phases& phases, const State& state) {
 }
 
 void find_interface_temperatures(const Phases& phases, const State& state, double time) {
+  // A step of no length finds the temperature that balances the fluxes of both sides.
   const std::vector<double> coherency = coherency_of(phases, state.heat);
   for (std::size_t i = 0; i < phases.contacts.size(); ++i) {
     contact::ContactPair& pair = *phases.contacts[i];
@@ -180,6 +183,8 @@ std::vector<contact::ContactState> second_start(const Phases& phases,
                                                 const std::vector<contact::ContactState>& old,
                                                 const std::vector<contact::ContactState>& stage,
                                                 double carried) {
+  // Everything that integrates in time is carried on from t_n through the first stage. A pair without a state
+  // at t_n starts from its initial one.
   std::vector<contact::ContactState> start = stage;
   for (std::size_t i = 0; i < stage.size(); ++i) {
     const bool moved = !state_of(old, i).points.empty();
@@ -188,6 +193,7 @@ std::vector<contact::ContactState> second_start(const Phases& phases,
     const contact::ContactState& begun = moved ? old[i] : initial;
     for (std::size_t p = 0; p < stage[i].points.size(); ++p)
       advance_history(begun.points[p], stage[i].points[p], carried, start[i].points[p]);
+    // Worn volume and dissipation of the master are carried in the same way.
     for (std::size_t a = 0; a < stage[i].master.size(); ++a)
       for (auto field : {&contact::WornNode::volume, &contact::WornNode::dissipation}) {
         const double from = begun.master[a].*field;
@@ -197,17 +203,19 @@ std::vector<contact::ContactState> second_start(const Phases& phases,
   return start;
 }
 
-bool penetrations_small(const Phases& phases, int turn, int earlier) {
+bool penetrations_small(const Phases& phases, int augmentation, int earlier) {
+  // The pair whose penetration is farthest above its bound; those that ended early only have to keep theirs.
   double excess = 0;
   const contact::ContactPair* worst = nullptr;
   for (const contact::ContactPair* pair : phases.contacts) {
     const contact::AugmentedLagrangian& multipliers = pair->forces().multipliers();
     if (multipliers.ended_early()) {
-      // A further pass of a step whose turns have ended: the same bound holds for it.
-      if (!multipliers.holds_bound(pair->state())) reject_turns(*pair, turn + earlier, pair->excess());
+      // A further pass of a step whose augmentations have ended: the same bound holds for it.
+      if (!multipliers.holds_bound(pair->state()))
+        reject_augmentations(*pair, augmentation + earlier, pair->excess());
       continue;
     }
-    if (pair->spec().pressure_tolerance && turn >= k_enough_by_default) continue;
+    if (pair->spec().pressure_tolerance && augmentation >= k_most_augmentations_by_default) continue;
     if (const double of_pair = pair->excess(); of_pair > excess) {
       excess = of_pair;
       worst = pair;
@@ -215,21 +223,23 @@ bool penetrations_small(const Phases& phases, int turn, int earlier) {
   }
   if (excess <= 1) return true;
   logging::debug(
-      "contact '{}': turn {} of the augmented Lagrangian leaves penetrations {:.3g} times as large as "
+      "contact '{}': augmentation {} of the Lagrangian leaves penetrations {:.3g} times as large as "
       "allowed",
-      worst->spec().name, turn + earlier, excess);
-  const bool enough = turn + earlier >= k_enough_augmentations;
+      worst->spec().name, augmentation + earlier, excess);
+  // After many augmentations points may alternate for good: what is nearly small enough is accepted, else
+  // pairs end early, at last the step fails.
+  const bool enough = augmentation + earlier >= k_augmentations_by_means;
   if (enough && excess <= k_tolerable) {
     logging::warn(
-        "contact '{}': in some steps points open and close from one turn of the augmented Lagrangian to the "
+        "contact '{}': in some steps points open and close from one augmentation of the Lagrangian to the "
         "next, and penetrations stay above penetration_tolerance, by less than {:g} times; normal = "
-        "\"penalty\" or a larger tolerance costs fewer turns",
+        "\"penalty\" or a larger tolerance costs fewer of them",
         worst->spec().name, k_tolerable);
     return true;
   }
   if (enough && end_early(phases)) return true;
-  if (turn + earlier >= k_most_augmentations) {
-    end_turns(*worst, turn + earlier, excess);
+  if (augmentation + earlier >= k_most_augmentations) {
+    end_augmentations(*worst, augmentation + earlier, excess);
     return true;
   }
   const contact::AugmentedBy by = enough ? contact::AugmentedBy::points : contact::AugmentedBy::means;
@@ -237,7 +247,8 @@ bool penetrations_small(const Phases& phases, int turn, int earlier) {
   return false;
 }
 
-bool take_back_turn(const Phases& phases) {
+bool restore_multipliers(const Phases& phases) {
+  // Only if all pairs can go back to their multipliers before the last augmentation.
   bool any = false;
   for (const contact::ContactPair* pair : phases.contacts) {
     if (!pair->forces().multiplies()) continue;
@@ -254,6 +265,7 @@ bool take_back_turn(const Phases& phases) {
 }
 
 void add_contacts(const Phases& phases, StepRejected& rejected) {
+  // What contact says of its failure, and its state at the displacements that failed, for the diagnosis.
   std::string failure;
   for (const contact::ContactPair* pair : phases.contacts)
     if (failure.empty()) failure = pair->forces().failure_text();

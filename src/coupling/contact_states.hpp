@@ -45,13 +45,13 @@ std::vector<contact::ContactState> second_start(const Phases& phases,
 
 /// After equilibrium: true when the penetrations that are left are as small as the augmented Lagrangian wants
 /// them; else the multipliers follow the pressures and the phase must be solved again. Throws StepRejected
-/// after too many turns. Collective.
-/// @param turn     of this pass
-/// @param earlier  turns that passes before this one have taken in the same step
-bool penetrations_small(const Phases& phases, int turn, int earlier = 0);
-/// After a turn whose equilibrium was not found: true when the turns of the step end at the equilibrium
-/// before it, which is to be solved for once more; else the step is to be rejected. Collective.
-bool take_back_turn(const Phases& phases);
+/// after too many augmentations. Collective.
+/// @param augmentation  of this pass, from one on
+/// @param earlier       augmentations that passes before this one have taken in the same step
+bool penetrations_small(const Phases& phases, int augmentation, int earlier = 0);
+/// After an augmentation whose equilibrium was not found: true when the augmentations of the step end at the
+/// equilibrium before it, which is to be solved for once more; else the step is to be rejected. Collective.
+bool restore_multipliers(const Phases& phases);
 /// Enters in an error, before it is thrown again, the failure_text() of the pairs and, where equilibrium was
 /// not found, their points at its last iterate; the pairs are left there. Collective.
 void add_contacts(const Phases& phases, StepRejected& rejected);

@@ -96,6 +96,8 @@ void CoupledSaddleSolver::make_solver(bool direct) {
 
 void CoupledSaddleSolver::set_up() {
   const profile::Part part("solver set-up");
+  // Either a factorisation of the whole matrix, or the Schur complement and, when stiffness has grown, a new
+  // hierarchy.
   if (direct_) {
     Mat assembled = copy_.copy(mesh_, matrix_, *unknowns_, weights_.force, weights_.heat);
     factorised_->set(pressure_.orthogonal() ? operator_->matrix() : assembled, assembled);

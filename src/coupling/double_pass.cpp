@@ -15,10 +15,10 @@ namespace solidus::coupling {
 
 namespace {
 
-/// Turns of an isothermal pass: at most, and the share of the first change of temperature that may be left,
-/// which is an error of the step's error. A change that does not fall to the second share in all turns says
-/// that the coupling is too strong.
-constexpr int k_turns = 12;
+/// Iterations of an isothermal pass: at most, and the share of the first change of temperature that may be
+/// left, which is an error of the step's error. A change that does not fall to the second share in all of
+/// them says that the coupling is too strong.
+constexpr int k_most_iterations = 12;
 constexpr double k_settled = 1e-4, k_falls = 0.1;
 
 }  // namespace
@@ -65,31 +65,36 @@ StepEffort DoublePass::advance(const State& old, State& trial, double time, doub
 
 void DoublePass::mechanical_half(const State& start, State& end, mechanics::MechanicalPass& pass,
                                  const Answer& answer, Half& half, StepEffort& effort) const {
-  int turns = 0;
-  half.report = mechanical_pass(phases_, start, end, pass, effort, {}, &turns);
+  // The first pass holds temperature or entropy as the scheme says. Passes that hold the temperature repeat
+  // until it is the one that their own deformation leads to.
+  int augmentations = 0;
+  half.report = mechanical_pass(phases_, start, end, pass, effort, {}, &augmentations);
   if (!repeats()) return;
   std::vector<double> held(pass.iterate_temperature.begin(), pass.iterate_temperature.end());
   if (held.empty()) held.assign(pass.temperature.begin(), pass.temperature.end());
   half.held = std::move(held);
   double first = 0, change = 0;
-  for (int turn = 1; turn <= k_turns; ++turn) {
+  // Each iteration asks which temperature the deformation leads to, and repeats the pass with it. The change
+  // has to fall by a factor in all; otherwise the coupling is too strong for such passes.
+  for (int iteration = 1; iteration <= k_most_iterations; ++iteration) {
     State led;
     answer(half.report.deformation, led);
     change = largest_difference(led.heat.temperature, half.held);
-    if (turn == 1) first = change;
+    if (iteration == 1) first = change;
     if (!(change > k_settled * first)) return;
     half.held = std::move(led.heat.temperature);
     pass.iterate_temperature = half.held;
     pass.iterate = &end.mechanics;
     const std::vector<contact::ContactState> contacts = end.contacts;
     half.report.deformation.clear();  // its storage serves again
-    half.report = mechanical_pass(phases_, start, end, pass, effort, contacts, &turns);
+    half.report = mechanical_pass(phases_, start, end, pass, effort, contacts, &augmentations);
   }
   if (change <= k_falls * first) return;
-  throw StepRejected(fmt::format("coupling: isothermal passes do not settle: the change of temperature went "
-                                 "from {:.3g} K to {:.3g} K in {} turns",
-                                 first, change, k_turns),
-                     "the coupling is too strong for passes that hold the temperature", Failure::divergence);
+  throw StepRejected(
+      fmt::format("coupling: isothermal passes do not converge: the change of temperature went "
+                  "from {:.3g} K to {:.3g} K in {} iterations",
+                  first, change, k_most_iterations),
+      "the coupling is too strong for passes that hold the temperature", Failure::divergence);
 }
 
 void DoublePass::thermal_half(const State& start, State& end, mechanics::StepDeformation& deformation,

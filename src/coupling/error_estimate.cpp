@@ -96,6 +96,7 @@ double ErrorEstimate::stress_predictor(const State& old, const State& now, doubl
 
 LocalError ErrorEstimate::doubling(const State& old, const State& whole, const State& halves,
                                    const Rates& rates, double dt, const heat::StageFlows& flows) const {
+  // Heat, displacement, stress of creep and skin, each by its own measure of the difference.
   double in_heat = norm_(difference(whole.heat.temperature, halves.heat.temperature));
   if (measures(flows))
     in_heat = std::max(in_heat, lasting(norm_.mean(phases_->heat->change_in_kelvin(whole.heat, halves.heat)),
@@ -113,6 +114,7 @@ LocalError ErrorEstimate::doubling(const State& old, const State& whole, const S
 
 Rates ErrorEstimate::rates_of(const State& old, const State& now, double dt,
                               const heat::StageFlows& flows) const {
+  // Heat flow is smoother than temperature where metal freezes, so that it is preferred.
   Rates rates;
   if (measures(flows))
     rates.heat_flow = phases_->heat->flow_at_end(flows);

@@ -78,6 +78,7 @@ void require_continued(const Phases& phases, const State& old, const State& tria
                width = highest - lowest;
   const double allowed = k_overshoot * width + k_slack;
   const std::vector<double>& now = trial.heat.temperature;
+  // How far each own node lies beyond the range, less what deformation explains of it.
   const auto look = [&](const std::vector<double>* deformation) {
     heat::WorstNode worst;
     for (Index i = 0; i < phase.mesh().n_owned_nodes; ++i) {
@@ -87,6 +88,7 @@ void require_continued(const Phases& phases, const State& old, const State& tria
     }
     return worst;
   };
+  // The heat of deformation is computed only when something lies outside.
   if (!(parallel::global_max(look(nullptr).size) > 0)) return;
   const std::vector<double> deformation = by_deformation(phases, trial, dt, highest);
   const heat::WorstNode worst = look(&deformation);

@@ -36,6 +36,7 @@ double energy_of_contacts(const Phases& phases, const State& state) {
 bool has_internal_energy(const Phases& phases, bool bodies_come) {
   if (phases.heat == nullptr || phases.structural == nullptr) return false;
   const mechanics::MechanicalPhase& mechanics = *phases.mechanics;
+  // Heat capacities at constant strain give an energy only if the material keeps its lines.
   for (std::size_t body = 0; body < mechanics.mesh().bodies.size(); ++body) {
     const auto number = static_cast<int>(body);
     const material::Material& material = mechanics.material(number);

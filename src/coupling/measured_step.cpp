@@ -45,6 +45,8 @@ MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double ti
 }
 
 MeasuredStep::Taken MeasuredStep::told(const State& old, State& trial, double time, double dt) {
+  // The first step has no rates to predict from: its error is that against two half steps, which leave the
+  // phases as they were.
   const bool first = !rates_.known();
   State halves = old;
   bool halved = false;
@@ -60,6 +62,7 @@ MeasuredStep::Taken MeasuredStep::told(const State& old, State& trial, double ti
     }
     scheme_.synchronise(old);
   }
+  // Then the step itself. Later steps are compared with what the rates of the one before predict.
   Taken taken{scheme_.advance(old, trial, time, dt), {}};
   const heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
   if (!first) {
@@ -72,12 +75,14 @@ MeasuredStep::Taken MeasuredStep::told(const State& old, State& trial, double ti
     taken.error.displacement *= 2;
     taken.error.stress *= 2;
   }
+  // The rates and changes of this step are kept until it is accepted.
   next_rates_ = estimate_->rates_of(old, trial, dt, flows);
   next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);
   return taken;
 }
 
 MeasuredStep::Taken MeasuredStep::doubled(const State& old, State& trial, double time, double dt) {
+  // The whole step first, whose contact must be forgotten; then both halves, which are kept.
   State whole = old;
   scheme_.advance(old, whole, time, dt);
   scheme_.synchronise(old);  // contact stands where the whole step left it

@@ -25,19 +25,20 @@ void add(const linear::NewtonReport& newton, int hardest, double seconds, PhaseE
   effort.seconds += seconds;
 }
 
-/// Turns of thermal phase and return mapping: at most, and the share of the step's largest change of
-/// temperature that the last one may bring, the tolerance of the nodal heat balance.
-constexpr int k_flow_turns = 12;
+/// Iterations between thermal phase and return mapping: at most, and the share of the step's largest change
+/// of temperature that the last one may bring, the tolerance of the nodal heat balance.
+constexpr int k_most_flow_iterations = 12;
 constexpr double k_flow_settled = heat::k_nodal_tolerance;
 
 }  // namespace
 
 mechanics::MechanicalReport mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
                                             const mechanics::MechanicalPass& pass, StepEffort& effort,
-                                            const std::vector<contact::ContactState>& contacts, int* turns) {
+                                            const std::vector<contact::ContactState>& contacts,
+                                            int* augmentations) {
   const profile::Part part("mechanics");
   const double start = processes::wall_time();
-  const int earlier = turns != nullptr ? *turns : 0;
+  const int earlier = augmentations != nullptr ? *augmentations : 0;
   const std::vector<double> coherency =
       phases.contacts.empty() ? std::vector<double>{} : coherency_of(phases, old.mechanics, pass);
   begin_contacts(phases, old.contacts, old.mechanics, pass, coherency, contacts, earlier > 0);
@@ -45,21 +46,22 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
     for (contact::ContactPair* pair : phases.contacts) pair->stabilise(pass.contact_hold);
   if (phases.structural != nullptr) phases.structural->release();
   mechanics::MechanicalReport report;
-  mechanics::MechanicalPass turn = pass;
+  mechanics::MechanicalPass augmented = pass;
   mechanics::MechanicalState next;
   // Most of a state is its history: the storage of the one that is overwritten serves again.
   if (pass.iterate != &trial.mechanics && &old.mechanics != &trial.mechanics) {
     next.history = std::move(trial.mechanics.history);
     next.elements = std::move(trial.mechanics.elements);
   }
-  for (int n_turns = 1;; ++n_turns) {
-    if (turns != nullptr) *turns = earlier + n_turns;
+  for (int augmentation = 1;; ++augmentation) {
+    if (augmentations != nullptr) *augmentations = earlier + augmentation;
     report.deformation.clear();  // its storage serves again
     try {
-      report = phases.mechanics->solve(old.mechanics, next, turn);
+      report = phases.mechanics->solve(old.mechanics, next, augmented);
       add(report.newton, report.newton.effort, 0, effort.mechanics);
     } catch (StepRejected& rejected) {
-      if (n_turns > 1 && take_back_turn(phases)) continue;  // `turn.start` is the equilibrium before
+      if (augmentation > 1 && restore_multipliers(phases))
+        continue;  // `augmented.start` is the equilibrium before
       add_contacts(phases, rejected);
       throw;
     }
@@ -69,9 +71,9 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
     }
     // Penetrations of an iterate that is not in equilibrium say nothing of the multipliers; those of one that
     // is are brought down in equilibrium too.
-    if (!report.newton.converged || penetrations_small(phases, n_turns, earlier)) break;
-    turn.start = next.displacement;
-    turn.newton_steps = 0;
+    if (!report.newton.converged || penetrations_small(phases, augmentation, earlier)) break;
+    augmented.start = next.displacement;
+    augmented.newton_steps = 0;
   }
   trial.mechanics = std::move(next);
   trial.contacts = contact_states(phases);
@@ -109,12 +111,15 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial,
                   StepEffort& effort) {
   const profile::Part part("heat");
   const double start = processes::wall_time();
+  // Contacts rest where there is no mechanics; else they are as the mechanical phase left them.
   if (phases.mechanics == nullptr) rest_contacts(phases, old, pass.time, pass.dt);
   for (contact::ContactPair* pair : phases.contacts) pair->begin_heat(pass.dt, pass.adiabatic);
   if (phases.structural != nullptr) phases.structural->set_deformation(deformation);
   if (pass.iterate == nullptr && &trial != &old) trial.heat = {};  // its memory serves the step
   heat::ThermalReport report = phases.heat->solve(old.heat, trial.heat, pass);
 
+  // The energies of the step: heat stored, supplied and exchanged, and the structural energy at the new
+  // temperatures.
   effort.energy.stored_heat = report.balance.stored;
   effort.energy.heat_in = 0;
   effort.energy.entropy_in = report.balance.entropy_in;
@@ -128,6 +133,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial,
   }
   effort.energy.interface = {};
   commit_contact_heat(phases, trial.heat.temperature, report.balance.contributions, effort.energy);
+  // Contacts that have a temperature of their own are part of the new state.
   const auto remembers = [](const contact::ContactPair* pair) { return pair->has_temperature(); };
   if (phases.mechanics != nullptr || std::ranges::any_of(phases.contacts, remembers))
     trial.contacts = contact_states(phases);
@@ -140,17 +146,21 @@ bool thermal_pass_with_flow(const Phases& phases, const State& old, State& trial
                             mechanics::StepDeformation& deformation, heat::ThermalPass heat,
                             const mechanics::MechanicalState& started, const mechanics::MechanicalPass& pass,
                             StepEffort& effort) {
+  // Heat and return mapping are solved in alternation, because the flow at the new temperatures changes the
+  // heat. Without flow the first solution stands.
   bool converged = thermal_pass(phases, old, trial, deformation, heat, effort);
   double change = 0;
-  for (int turn = 1; turn <= k_flow_turns; ++turn) {
+  for (int iteration = 1; iteration <= k_most_flow_iterations; ++iteration) {
     const std::vector<double> led = trial.heat.temperature;
     const mechanics::FlowChange flow =
         phases.mechanics->restart_flow(started, pass, led, trial.mechanics, deformation);
-    if (turn == 1 && !flow.flows) return converged;
+    if (iteration == 1 && !flow.flows) return converged;
     heat.iterate = &trial.heat;
     converged = thermal_pass(phases, old, trial, deformation, heat, effort);
     change = largest_difference(trial.heat.temperature, led);
     if (change > k_flow_settled * largest_difference(trial.heat.temperature, old.heat.temperature)) continue;
+    // Once the temperatures hardly change, the flow that was found replaces that of the mechanical phase in
+    // the energies.
     effort.energy.viscous_dissipation += flow.work.dissipation - flow.work.plastic_dissipation;
     effort.energy.plastic_dissipation += flow.work.plastic_dissipation;
     effort.energy.plastic_work += flow.work.plastic_work;
@@ -159,10 +169,11 @@ bool thermal_pass_with_flow(const Phases& phases, const State& old, State& trial
     effort.largest_dissipation = std::max(effort.largest_dissipation, flow.work.largest_dissipation);
     return converged;
   }
-  throw StepRejected(fmt::format("coupling: return mapping and heat of the thermal phase do not settle: the "
-                                 "temperatures still change by {:.3g} K after {} turns",
-                                 change, k_flow_turns),
-                     "flow whose heat depends strongly on the temperature", Failure::coupling);
+  throw StepRejected(
+      fmt::format("coupling: return mapping and heat of the thermal phase do not converge: the "
+                  "temperatures still change by {:.3g} K after {} iterations",
+                  change, k_most_flow_iterations),
+      "flow whose heat depends strongly on the temperature", Failure::coupling);
 }
 
 }  // namespace solidus::coupling

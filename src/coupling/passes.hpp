@@ -23,12 +23,12 @@ struct MechanicalStart {
 /// the report of the phase: Newton's iteration may miss its tolerance only where the pass limits its steps.
 /// @param pass      its iterate may be `trial`
 /// @param contacts  states of the pairs after the pass before, of a scheme that iterates within the step
-/// @param turns     of the augmented Lagrangian in the passes of this step so far; updated. Null: this is the
+/// @param augmentations  of the Lagrangian in the passes of this step so far; updated. Null: this is the
 ///                  only pass
 mechanics::MechanicalReport mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
                                             const mechanics::MechanicalPass& pass, StepEffort& effort,
                                             const std::vector<contact::ContactState>& contacts = {},
-                                            int* turns = nullptr);
+                                            int* augmentations = nullptr);
 /// Enters the work and the support forces of a solved mechanical phase in the report of the step.
 void book_work(const mechanics::MechanicalReport& report, StepEffort& effort);
 
@@ -48,8 +48,8 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial,
 
 /// thermal_pass() with the return mapping that the monograph prints for the thermal phase (4.45, 4.49, 4.54):
 /// the flow of solid metal at Θ_{n+1} from the internal variables at t_n, at the strain of the mechanical
-/// phase. The two are solved in turns until the temperatures stay; what the one does to the other is about
-/// 1e-3, so that two or three turns do. Throws StepRejected where they do not.
+/// phase. The two are solved in alternation until the temperatures stay; what the one does to the other is
+/// about 1e-3, so that two or three iterations do. Throws StepRejected where they do not.
 /// @param deformation  that of the mechanical pass; replaced
 /// @param started      the mechanical state that the pass started from
 /// @param pass         that pass

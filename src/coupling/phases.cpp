@@ -12,8 +12,8 @@ namespace {
 /// @param active  null: of all nodes
 void range_of_owned(const std::vector<double>& temperature, Index n_owned, const linear::ActiveSet* active,
                     StepEffort& effort) {
-  constexpr double k_far = std::numeric_limits<double>::max();  // of a process that owns nothing
-  double low = k_far, high = -k_far;
+  constexpr double k_unbounded = std::numeric_limits<double>::max();  // of a process that owns nothing
+  double low = k_unbounded, high = -k_unbounded;
   for (Index i = 0; i < n_owned; ++i) {
     if (active != nullptr && !active->node(i)) continue;
     low = std::min(low, temperature[static_cast<std::size_t>(i)]);
@@ -42,6 +42,8 @@ std::vector<double> coherency_of(const Phases& phases, const mechanics::Mechanic
 }
 
 void summarise(const Phases& phases, const State& state, StepEffort& effort) {
+  // The range of temperatures and the solid part are those of heat, or of the given temperatures without
+  // heat.
   if (phases.heat != nullptr) {
     range_of_owned(state.heat.temperature, phases.heat->mesh().n_owned_nodes, &phases.heat->active(), effort);
     effort.solid_fraction = phases.heat->mean_solid_fraction(state.heat);
@@ -49,6 +51,7 @@ void summarise(const Phases& phases, const State& state, StepEffort& effort) {
     range_of_owned(phases.temperature, phases.mechanics->mesh().n_owned_nodes, nullptr, effort);
   }
   effort.contacts.clear();
+  // Each contact tells its sums at the end of the step.
   for (const contact::ContactPair* pair : phases.contacts) {
     const contact::ContactSums sums = contact::sums(pair->view(), state.heat.temperature);
     effort.contacts.push_back({.closed_points = static_cast<int>(sums.closed_points),

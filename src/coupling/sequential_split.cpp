@@ -5,9 +5,9 @@
 
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
+#include "coupling/gap_iteration_watch.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
-#include "coupling/turn_watch.hpp"
 #include "system/errors.hpp"
 #include "system/profile.hpp"
 
@@ -29,7 +29,7 @@ std::vector<double> rate(const std::vector<double>& from, const std::vector<doub
 }
 
 /// Times that heat and equilibrium of a step are solved at most until the gaps agree.
-constexpr int k_gap_turns = 4;
+constexpr int k_most_gap_iterations = 4;
 
 contact::GapHeat sum(const std::vector<contact::GapHeat>& pairs) {
   contact::GapHeat all;
@@ -40,7 +40,7 @@ contact::GapHeat sum(const std::vector<contact::GapHeat>& pairs) {
   return all;
 }
 
-/// Adds the effort of a turn that was repeated; how hard the phase is, the harder turn says.
+/// Adds the effort of an iteration that was repeated; how hard the phase is, the harder one says.
 void add_effort(const PhaseEffort& before, PhaseEffort& effort) {
   effort.iterations += before.iterations;
   effort.linear_iterations += before.linear_iterations;
@@ -84,6 +84,7 @@ std::optional<StepEffort> SequentialSplit::advance_unless(const State& old, Stat
 StepEffort SequentialSplit::mechanics_first(const State& old, State& trial, double time, double dt) {
   StepEffort effort;
   mechanics::StepDeformation deformation;
+  // Mechanics at the old temperatures, then heat with the deformation found.
   if (phases_.mechanics != nullptr)
     deformation = mechanical_phase(old, old, trial, time, dt, extrapolated(old, dt), effort);
   if (phases_.heat != nullptr)
@@ -97,23 +98,23 @@ StepEffort SequentialSplit::mechanics_first(const State& old, State& trial, doub
 
 std::optional<StepEffort> SequentialSplit::heat_first(const State& old, State& trial, double time, double dt,
                                                       const HeatJudge& stop) {
-  int turns = 0;
+  int iterations = 0;
   try {
-    return conducted_first(old, trial, time, dt, stop, k_gap_turns, turns);
+    return conducted_first(old, trial, time, dt, stop, k_most_gap_iterations, iterations);
   } catch (const StepRejected&) {
-    if (turns < 2) throw;
+    if (iterations < 2) throw;
   }
   // The step itself went through, with the gaps of its start; only its repetition did not.
   restore_contacts(phases_, old);
-  return conducted_first(old, trial, time, dt, {}, 1, turns);
+  return conducted_first(old, trial, time, dt, {}, 1, iterations);
 }
 
-/// @param most   turns
-/// @param turns  those that were begun
+/// @param most        iterations
+/// @param iterations  those that were begun
 std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, State& trial, double time,
                                                            double dt, const HeatJudge& stop, int most,
-                                                           int& turns) {
-  turns = 1;
+                                                           int& iterations) {
+  iterations = 1;
   State warm;
   const Gaps start = gaps();
   const Gaps expected = expected_gaps(old, time, dt, start);
@@ -126,17 +127,17 @@ std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, Sta
   StepEffort deformed;
   mechanics::StepDeformation deformation =
       mechanical_phase(old, warm, trial, time, dt, extrapolated(old, dt), deformed, &lead);
-  TurnWatch watch;
+  GapIterationWatch watch;
   while (true) {
     Gaps right = middle(start, gaps());
     trial.steady_gaps = steady_gaps(start, expected, right, warm);
     deformed.gap_heat = gap_heat(used, right, warm);
     const contact::GapHeat all = sum(deformed.gap_heat);
-    if (!misplaces_much(all, dt, effort) || turns == most) break;
-    const TurnWatch::Finding finding = watch.after(all.misplaced / all.passed);
-    if (finding == TurnWatch::Finding::stuck) break;
-    if (finding == TurnWatch::Finding::round) right = middle(used, right);
-    ++turns;
+    if (!misplaces_much(all, dt, effort) || iterations == most) break;
+    const GapIterationWatch::Finding finding = watch.after(all.misplaced / all.passed);
+    if (finding == GapIterationWatch::Finding::stuck) break;
+    if (finding == GapIterationWatch::Finding::between) right = middle(used, right);
+    ++iterations;
     const PhaseEffort heat = effort.heat, mechanics = deformed.mechanics;
     restore_contacts(phases_, old);
     deformation.clear();  // its storage serves again
@@ -146,7 +147,7 @@ std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, Sta
     deformation = mechanical_phase(old, warm, trial, time, dt, before, deformed, &lead);
     add_effort(heat, effort.heat);
     add_effort(mechanics, deformed.mechanics);
-    deformed.coupling_iterations = turns;
+    deformed.coupling_iterations = iterations;
     used = std::move(right);
   }
   const contact::InterfaceSums conducted = effort.energy.interface;
@@ -209,10 +210,13 @@ bool SequentialSplit::misplaces_much(const contact::GapHeat& all, double dt,
 
 StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double time, double dt,
                                          const Gaps& through, bool again, mechanics::StructuralLead& lead) {
+  // Heat is conducted while the bodies rest where they were at t_n, through the gaps that the caller has
+  // chosen.
   StepEffort effort;
   if (phases_.structural != nullptr) phases_.structural->release();
   const mechanics::StepDeformation held = phases_.mechanics->held_deformation(
       old.mechanics, old.heat.temperature, plateau_share(phases_, old.heat), true);
+  // A state that does not know its interface temperatures yet finds them first.
   if (interfaces_begin(phases_, old)) find_interface_temperatures(phases_, old, time - dt);
   for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
   for (std::size_t i = 0; i < through.size(); ++i) phases_.contacts[i]->conduct_through(through[i]);
@@ -220,6 +224,7 @@ StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double t
       phases_, old, warm, held,
       {.time = time, .dt = dt, .iterate = again ? &warm.heat : nullptr, .stepping = phases_.heat->stepping()},
       effort);
+  // The energy that expansion is expected to take is moved ahead, so that mechanics begins with it.
   lead = mechanics::expected_expansion(held, warm.heat.temperature);
   book_interface(effort.energy, phases_.structural != nullptr);
   effort.stability = stability_audit(phases_, old, warm, held, effort);
@@ -229,6 +234,7 @@ StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double t
 void SequentialSplit::thermal_phase(const State& old, const State& warm, State& trial,
                                     mechanics::StepDeformation& deformation, const heat::ThermalPass& pass,
                                     StepEffort& effort, const mechanics::StructuralLead* lead) {
+  // With flow at the new temperature the return mapping is done again within the thermal phase.
   if (options_.flow == ThermalFlow::kept || phases_.mechanics == nullptr) {
     thermal_pass(phases_, warm, trial, deformation, pass, effort);
     return;

@@ -1,5 +1,5 @@
-/// The base of the isothermal and the isentropic split, which solve the two phases in turn, each once a step.
-/// mechanics::Mapping decides whether the mechanical phase holds temperature or entropy.
+/// The base of the isothermal and the isentropic split, which solve the two phases one after the other, each
+/// once a step. mechanics::Mapping decides whether the mechanical phase holds temperature or entropy.
 ///
 ///   mechanics_first  (4.31–4.54)  equilibrium at t_{n+1} from Θ_n; gaps and conductances; then heat at the
 ///                                 configuration and the internal variables found. Displacements and stresses
@@ -12,8 +12,8 @@
 /// With heat first the gaps of a step are known when its heat has passed. Where their change within the step
 /// has misplaced more than a given share of what the interfaces passed, heat and equilibrium are solved again
 /// from t_n, heat through the mean of the gaps at both ends of the step, until they agree; where that goes
-/// round between two states, through gaps between the two (turn_watch.hpp). Any conductance that is not
-/// negative dissipates, so that the statements of stability and of the first law stay as they are.
+/// round between two states, through gaps between the two (gap_iteration_watch.hpp). Any conductance that is
+/// not negative dissipates, so that the statements of stability and of the first law stay as they are.
 ///
 /// Both are products of the same two dissipative operators (docs/theory/coupling_stability.md, section 3).
 #pragma once
@@ -52,7 +52,7 @@ class SequentialSplit : public CouplingScheme {
   std::optional<StepEffort> heat_first(const State& old, State& trial, double time, double dt,
                                        const HeatJudge& stop);
   std::optional<StepEffort> conducted_first(const State& old, State& trial, double time, double dt,
-                                            const HeatJudge& stop, int most, int& turns);
+                                            const HeatJudge& stop, int most, int& iterations);
   /// Gaps that heat passes through, [contact][point].
   using Gaps = std::vector<std::vector<contact::HeatGap>>;
   Gaps gaps() const;

@@ -35,6 +35,7 @@ ShotMap::ShotMap(const heat::ThermalPhase& heat, const std::vector<char>& stays,
 DieTemperature ShotMap::die_temperature(const State& state) const {
   DieTemperature die{0, HUGE_VAL, -HUGE_VAL};
   double sum = 0, volume = 0;
+  // Only nodes that stay from shot to shot, by their volume.
   for (std::size_t i = 0; i < static_cast<std::size_t>(heat_.mesh().n_owned_nodes); ++i) {
     if (!stays(i)) continue;
     const double t = state.heat.temperature[i];
@@ -128,6 +129,7 @@ double ShotMap::combine(State& state, const ShotHistory& history) const {
   const heat::NodalEnthalpy& storage = heat_.storage();
   const bool by_heat = !state.heat.enthalpy.empty();
   const auto n_owned = static_cast<std::size_t>(heat_.mesh().n_owned_nodes);
+  // The combination is taken in enthalpy, where there is one, so that latent heat counts.
   const auto combined = [&](const std::vector<double> ShotIterate::*field, std::size_t i) {
     double sum = 0;
     for (std::size_t j = 0; j < alpha.size(); ++j) sum += alpha[j] * (history.iterates[j].*field)[i];
@@ -138,6 +140,7 @@ double ShotMap::combine(State& state, const ShotHistory& history) const {
     const double moved = now + share * (combined(&ShotIterate::heat, i) - now);
     return by_heat ? storage.temperature(static_cast<Index>(i), moved) : moved;
   };
+  // The move is as long as no node goes farther than allowed or above the highest temperature of the shot.
   double share = 1;
   const double farthest = k_farthest * (history.highest - history.lowest);
   for (std::size_t i = 0; i < n_owned; ++i) {
@@ -147,6 +150,7 @@ double ShotMap::combine(State& state, const ShotHistory& history) const {
     if (now + moved > history.highest) share = std::min(share, std::max(history.highest - now, 0.0) / moved);
   }
   share = parallel::global_min(share);
+  // The heat that the move puts in is reported, since no shot has brought it.
   double put_in = 0;
   for (std::size_t i = 0; i < n_owned; ++i) {
     if (!stays(i)) continue;
@@ -159,6 +163,7 @@ double ShotMap::combine(State& state, const ShotHistory& history) const {
   }
   ghosts_.update(state.heat.temperature, 1);
   if (by_heat) ghosts_.update(state.heat.enthalpy, 1);
+  // Displacements move along by the same share.
   std::vector<double>& u = state.mechanics.displacement;
   const std::size_t components = u.size() / volume_.size();
   for (std::size_t i = 0; i < u.size(); ++i)

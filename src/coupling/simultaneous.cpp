@@ -26,10 +26,10 @@ namespace {
 constexpr int k_revisions = 5;  ///< of the limits of conduction, each with a further solution of both fields
 /// Solutions with fractions of phase changes that follow the temperatures: at most, and the difference
 /// between two at which they have settled, as a part of what the step changes.
-constexpr int k_fraction_turns = 24;
-/// After so many turns they go half of the way, after as many again a quarter, and so on: a step that freezes
-/// much may go round between two sets of fractions.
-constexpr int k_whole_turns = 8;
+constexpr int k_most_fraction_iterations = 24;
+/// After so many they go half of the way, after as many again a quarter, and so on: a step that freezes
+/// much may alternate between two sets of fractions.
+constexpr int k_whole_fraction_iterations = 8;
 constexpr double k_settled = 1e-9;
 /// The difference that may be left where the residuals with the new fractions are within the tolerances.
 constexpr double k_balanced = 1e-3;
@@ -145,6 +145,7 @@ StepEffort SimultaneousScheme::backward_euler(const State& old, State& trial, do
 std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State& trial, double time,
                                                          double dt, bool extrapolated, ContactWork& contact,
                                                          mechanics::StepDeformation& deformation) {
+  // The first stage, backward Euler over its share of the step.
   const double first_dt = material::k_sdirk_share * dt, middle = time - dt + first_dt;
   const std::vector<double> share = plateau_share(phases_, old.heat);
   const mechanics::MechanicalPass to_middle{
@@ -157,6 +158,8 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
   const StepEffort of_first =
       stage(old.mechanics, old.contacts, coherency, to_middle, first, deformation, &of_middle);
 
+  // The second stage starts from the extrapolated first one, if that may be; otherwise it is backward Euler
+  // over the rest.
   extrapolated =
       extrapolated && thermal.may_extrapolate(old.heat, first.heat, heat::last_loads(time, dt, true));
   const double carried = extrapolated ? material::k_sdirk_carried : 1.0;
@@ -185,6 +188,7 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
   // The second stage starts from a plastic strain that goes on as in the first, and flow does not go back.
   if (extrapolated && effort.energy.plastic_work < k_flow_falls * of_first.energy.plastic_work)
     return std::nullopt;
+  // Energies and effort of both stages add up.
   deformation = drop_carried();
   if (phases_.structural != nullptr) phases_.structural->set_deformation(deformation);
   effort.energy.add_first_stage(of_first.energy, carried);
@@ -200,16 +204,17 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
 void SimultaneousScheme::warn_of_held_fractions(double time) {
   if (std::exchange(warned_, true)) return;
   logging::warn(
-      "t = {:g} s: the fractions of phase changes go round between two sets in this step; those of the last "
+      "t = {:g} s: the fractions of phase changes alternate between two sets in this step; those of the last "
       "of {} solutions are held, as a split holds those of its start. Shorter steps settle them",
-      time, k_fraction_turns);
+      time, k_most_fraction_iterations);
 }
 
-bool SimultaneousScheme::settled(const PhaseIterate& fractions, int turn) {
+bool SimultaneousScheme::settled(const PhaseIterate& fractions, int iteration) {
   const double left = fractions.difference(newton_->thermal().state());
   if (left <= k_settled) return true;
   const CoupledResidual& start = report_.residuals.front();
-  return turn > 0 && left <= k_balanced && start.force <= phases_.mechanics->options().newton.tolerance &&
+  return iteration > 0 && left <= k_balanced &&
+         start.force <= phases_.mechanics->options().newton.tolerance &&
          start.heat <= newton_->thermal().tolerance();
 }
 
@@ -226,15 +231,15 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
   if (pressure != nullptr) pressure->release_pores();
   phases_.mechanics->begin(old, pass);
   std::vector<double> x = phases_.mechanics->start(old, pass);
-  int iterations = 0, linear_iterations = 0, revisions = 0, fraction_turns = 0;
-  // The equilibrium that a turn of the augmented Lagrangian sets out from.
+  int iterations = 0, linear_iterations = 0, revisions = 0, fraction_iterations = 0;
+  // The equilibrium that an augmentation of the Lagrangian sets out from.
   std::vector<double> balanced;
   heat::ThermalState balanced_heat;
-  for (int turn = 1;; ++turn) {
+  for (int solution = 1;; ++solution) {
     try {
       report_ = newton_->solve(old, pass, x);
     } catch (StepRejected& rejected) {
-      if (!balanced.empty() && take_back_turn(phases_)) {
+      if (!balanced.empty() && restore_multipliers(phases_)) {
         x = std::exchange(balanced, {});
         newton_->thermal().restart(balanced_heat);
         continue;
@@ -245,8 +250,8 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
     iterations += report_.iterations;
     linear_iterations += report_.linear_iterations;
     const std::span<const double> pressures = std::span(x).subspan(phases_.mechanics->n_displacements());
-    if (pressure != nullptr && pressure->fill_pores(pressures, turn)) continue;
-    if (!penetrations_small(phases_, turn)) {
+    if (pressure != nullptr && pressure->fill_pores(pressures, solution)) continue;
+    if (!penetrations_small(phases_, solution)) {
       balanced = x;
       balanced_heat = newton_->thermal().state();
       continue;
@@ -257,12 +262,13 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
       continue;
     }
     if (fractions == nullptr || !fractions->any()) break;
-    if (settled(*fractions, fraction_turns)) break;
-    if (++fraction_turns > k_fraction_turns) {
+    if (settled(*fractions, fraction_iterations)) break;
+    if (++fraction_iterations > k_most_fraction_iterations) {
       warn_of_held_fractions(pass.time);
       break;
     }
-    fractions->advance(newton_->thermal().state(), std::ldexp(1.0, -fraction_turns / k_whole_turns));
+    fractions->advance(newton_->thermal().state(),
+                       std::ldexp(1.0, -fraction_iterations / k_whole_fraction_iterations));
     fractions->hold(pass);
   }
   newton_->release_deformation();

@@ -65,7 +65,7 @@ class SimultaneousScheme final : public CouplingScheme {
   /// Says once in a run that a step holds fractions that its temperatures do not lead to.
   void warn_of_held_fractions(double time);
   /// Whether the solution found agrees with the fractions that it was found with.
-  bool settled(const PhaseIterate& fractions, int turn);
+  bool settled(const PhaseIterate& fractions, int iteration);
   /// Returns the deformation of the last stage, counted over the whole step.
   mechanics::StepDeformation drop_carried();
 

@@ -45,6 +45,7 @@ double SkinShare::change(std::span<const double> before, std::span<const double>
   const auto coherent = [](std::span<const double> of, Index node) {
     return std::min(of[static_cast<std::size_t>(node)], 1.0);
   };
+  // For each surface the share that becomes coherent; the largest counts.
   for (const std::vector<Part>& surface : surfaces_) {
     double change = 0;
     for (const Part& part : surface)

@@ -31,11 +31,13 @@ void place_contacts(const Phases& phases, const State& initial) {
 }
 
 void conduct(const Phases& phases, const State& initial, State& steady, StepEffort& effort) {
+  // The heat of a steady state is solved from the one before, if there is one, at time zero.
   const double start = processes::wall_time();
   const heat::ThermalState& from = steady.heat.temperature.empty() ? initial.heat : steady.heat;
   heat::ThermalState next;
   const heat::ThermalReport report = phases.heat->solve_steady(from, next, 0);
   steady.heat = std::move(next);
+  // What enters through conditions is the balance: nothing is stored.
   EnergyAudit& energy = effort.energy;
   energy.heat_in = 0;
   for (const heat::ConditionHeat& condition : report.balance.conditions) energy.heat_in += condition.heat;
@@ -50,7 +52,7 @@ void conduct(const Phases& phases, const State& initial, State& steady, StepEffo
 }
 
 /// Equilibrium at `temperature`, from the bodies as they are at the start.
-/// @param found  that a turn before has found deformation: Newton's iteration sets out from it
+/// @param found  that an iteration before has found deformation: Newton's iteration sets out from it
 void deform(const Phases& phases, const State& initial, std::span<const double> temperature, bool found,
             State& steady, StepEffort& effort) {
   const std::vector<double>& before = phases.heat != nullptr ? initial.heat.temperature : phases.temperature;
@@ -76,10 +78,11 @@ void deform(const Phases& phases, const State& initial, std::span<const double> 
     worst.look(n, std::abs(found[n] - seen[n]));
   }
   throw StepRejected(
-      fmt::format("coupling: heat and deformation do not agree on a steady state in {} turns, the last of "
-                  "which changed temperatures by {:.3g} K: a gap that opens when it conducts and closes when "
-                  "it does not has none",
-                  options.max_turns, change),
+      fmt::format(
+          "coupling: heat and deformation do not agree on a steady state in {} iterations, the last of "
+          "which changed temperatures by {:.3g} K: a gap that opens when it conducts and closes when "
+          "it does not has none",
+          options.max_iterations, change),
       worst.text(phases.heat->mesh(), found, {}), Failure::coupling);
 }
 
@@ -120,7 +123,7 @@ StepEffort solve_steady(const Phases& phases, const State& initial, State& stead
     const double size = largest_difference(found, seen);
     if (size <= std::max(k_rounding, options.tolerance * largest_difference(found, initial.heat.temperature)))
       break;
-    if (effort.coupling_iterations == options.max_turns) reject(phases, options, size, found, seen);
+    if (effort.coupling_iterations == options.max_iterations) reject(phases, options, size, found, seen);
     const double factor = relaxation.factor(std::span(change).first(n_owned));
     for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += factor * change[i];
     deform(phases, initial, seen, true, steady, effort);

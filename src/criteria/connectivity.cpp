@@ -57,6 +57,7 @@ Connectivity::Connectivity(const mesh::Mesh& mesh, const parallel::GhostExchange
     : mesh_(mesh), ghosts_(ghosts), chosen_(std::move(chosen)) {}
 
 ConnectedParts Connectivity::parts(std::span<const char> inside) const {
+  // Inside nodes of one element are connected; elements with all nodes inside make their part whole.
   const std::size_t n = inside.size();
   Joined joined(n);
   std::vector<char> whole(n, 0);  // a node of each whole element
@@ -78,6 +79,7 @@ ConnectedParts Connectivity::parts(std::span<const char> inside) const {
     }
   }
 
+  // Each part is named by its least node number on this process.
   ConnectedParts parts;
   parts.label.assign(n, ConnectedParts::k_none);
   for (std::size_t i = 0; i < n; ++i)
@@ -104,6 +106,7 @@ ConnectedParts Connectivity::parts(std::span<const char> inside) const {
     for (double& label : parts.label)
       if (const auto found = common.find(label); found != common.end()) label = found->second;
 
+  // Which parts hold a whole element, over all processes.
   std::vector<double> own;
   for (std::size_t i = 0; i < n; ++i)
     if (whole[i] != 0 && (own.empty() || own.back() != parts.label[i])) own.push_back(parts.label[i]);

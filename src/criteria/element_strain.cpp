@@ -19,6 +19,7 @@ ElementStrain::ElementStrain(const mesh::Mesh& mesh, const mesh::ElementBlock& b
   hoop_.assign(axisymmetric_ ? entries : 0, Lane(0.0));
   share_.assign(entries, Lane(0.0));
   volume_.assign(static_cast<std::size_t>(n_batches_), Lane(0.0));
+  // Gradients, hoop terms and shape functions as means over each element, by volume.
   for (Index batch = 0; batch < n_batches_; ++batch) {
     Lane volume(0.0);
     for (int q = 0; q < g.n_points; ++q) volume += g.weight_at(batch, q);
@@ -58,6 +59,7 @@ Sym<Lane> ElementStrain::strain(std::span<const double> displacement, Index batc
   const auto dim = static_cast<std::size_t>(dim_);
   const std::size_t first = static_cast<std::size_t>(batch) * static_cast<std::size_t>(n_nodes_);
   Sym<Lane> strain;
+  // Symmetric gradient of the displacement with mean gradients; the hoop strain is u_r over the radius.
   for (std::size_t a = 0; a < static_cast<std::size_t>(n_nodes_); ++a) {
     const Index* of_node = nodes(batch) + a * k_lanes;
     for (std::size_t i = 0; i < dim; ++i) {

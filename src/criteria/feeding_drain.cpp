@@ -158,11 +158,13 @@ void Feeding::refill(Step& step) const {
       if (step.pool[i] >= 0 && pools.metal[static_cast<std::size_t>(step.pool[i])] < 0)
         visit(i, static_cast<std::size_t>(step.pool[i]), rows(i, k_room) / step.demands[i].fed.total());
   };
+  // What all holes of a pool take, and its surface when it rises by one; summed over the processes.
   each([&](std::size_t i, std::size_t p, double metal) {
     holds[p] += metal * std::max(0.0, rows.emptied(i));
     holds[pools.size() + p] += metal * surface(i, p);
   });
   processes::sum(holds);
+  // Each hole closes by the same share, each surface rises by the same height.
   each([&](std::size_t i, std::size_t p, double) {
     const double swells = -pools.metal[p], in_holes = std::min(swells, holds[p]);
     const double part = holds[p] > 0 ? in_holes / holds[p] : 0;

@@ -45,6 +45,7 @@ void add(std::map<double, Part>& parts, const Part& other) {
 }
 
 std::map<double, Part> of_all_processes(const std::map<double, Part>& own) {
+  // Parts as rows of numbers, joined by their label over all processes.
   std::vector<double> rows;
   for (const auto& [label, p] : own)
     rows.insert(rows.end(), {label, p.volume, p.moment[0], p.moment[1], p.moment[2], p.rank, p.place[0],
@@ -168,6 +169,7 @@ CriterionResult Feeding::densest_pores(const CriterionRecord& record) const {
   CriterionRecord copy{record.name, record.columns, {}};
   const FeedingRows rows(copy.columns[0].values);
   std::vector<double> own;
+  // The densest own node, then the densest of all.
   for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i)
     if (rows(i, k_room) > 0 && (own.empty() || rows(i, k_pores) > own[0]))
       own = {rows(i, k_pores), mesh_.x[i][0], mesh_.x[i][1], mesh_.x[i][2]};

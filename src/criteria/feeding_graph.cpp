@@ -64,6 +64,7 @@ void FeedingGraph::connect(const mesh::Mesh& mesh, AnalysisKind kind, const std:
     for (const mesh::ElementBlock& block : mesh.blocks)
       if (bodies[static_cast<std::size_t>(block.body)] != 0) visit(block);
   };
+  // Count first, then fill: the entries of each own node over its elements.
   each_block([&](const mesh::ElementBlock& block) {
     const int n = mesh::node_count(block.shape);
     for (const Index node : block.nodes)
@@ -79,6 +80,8 @@ void FeedingGraph::connect(const mesh::Mesh& mesh, AnalysisKind kind, const std:
         mesh::order(block.shape) == 1 ? mesh::nodal_rule(block.shape) : mesh::stiffness_rule(block.shape));
     const int n = g.n_nodes;
     std::vector<Lane> factor(static_cast<std::size_t>(n * n));
+    // The entry of two nodes is that of the conduction matrix, -∫ ∇N_a·∇N_b dV, which is the flow between
+    // them for a unit of pressure and permeability.
     for (Index batch = 0; batch < g.n_batches; ++batch) {
       std::fill(factor.begin(), factor.end(), Lane(0.0));
       for (int q = 0; q < g.n_points; ++q) {
@@ -103,6 +106,7 @@ void FeedingGraph::connect(const mesh::Mesh& mesh, AnalysisKind kind, const std:
       }
     }
   });
+  // Entries of one pair are added up; negative sums would flow uphill and are left out.
   start_.assign(owned + 1, 0);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < owned; ++i) {

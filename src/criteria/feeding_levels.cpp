@@ -31,8 +31,8 @@ std::vector<PoolLevel> find_levels(std::span<const DrainedNode> nodes, std::span
   // For each pool the level is sought above which the metal drained equals what is asked for. All pools are
   // searched at once, so that each trial costs one sum over the processes.
   const std::size_t n = metal.size();
-  constexpr double k_far = std::numeric_limits<double>::max();
-  std::vector<double> extent(2 * n, -k_far);  // highest top, and the lowest bottom with its sign turned
+  constexpr double k_no_level = std::numeric_limits<double>::max();
+  std::vector<double> extent(2 * n, -k_no_level);  // highest top, and the lowest bottom with its sign turned
   for (const DrainedNode& i : nodes) {
     extent[i.pool] = std::max(extent[i.pool], i.high);
     extent[n + i.pool] = std::max(extent[n + i.pool], -i.low);
@@ -43,7 +43,7 @@ std::vector<PoolLevel> find_levels(std::span<const DrainedNode> nodes, std::span
   std::vector<PoolLevel> levels(n);
   // Pools without nodes or without anything to drain keep the level zero.
   for (std::size_t p = 0; p < n; ++p) {
-    if (!(metal[p] > 0) || extent[p] == -k_far) continue;
+    if (!(metal[p] > 0) || extent[p] == -k_no_level) continue;
     search[p] = {extent[p], -extent[n + p], -extent[n + p], false};
   }
   // Each trial sums what lies above the present level, and its increase per depth for Newton's step.

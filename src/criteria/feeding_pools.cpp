@@ -30,6 +30,8 @@ int place_in(const std::vector<double>& numbers, double number) {
 
 void Feeding::feed(Step& step) const {
   leave_out_absent(step);
+  // Pools first, whose demand is summed over processes; then mush is fed through itself, swollen pools refill
+  // their holes, and the others are drained.
   find_pools(step);
   for (std::size_t i = 0; i < step.demands.size(); ++i)
     if (step.pool[i] >= 0)
@@ -110,10 +112,12 @@ void Feeding::find_pools(Step& step) const {
 void Feeding::feed_mush(Step& step) const {
   const std::size_t owned = step.demands.size();
   bool mush = false;
+  // Nothing to do where no mush outside of pools asks for metal or holds gas.
   for (std::size_t i = 0; i < owned; ++i)
     mush = mush || (step.soft[i] != 0 && step.pool[i] < 0 &&
                     (step.demands[i].metal != 0 || gas_[static_cast<std::size_t>(body_[i])]));
   if (!parallel::any_process(mush)) return;
+  // Mush that is connected with a pool over soft metal is fed by it, through the mush.
   const ConnectedParts parts = connectivity_.parts(step.soft);
   std::vector<double> own;
   for (std::size_t i = 0; i < owned; ++i)
@@ -128,6 +132,7 @@ void Feeding::feed_mush(Step& step) const {
     region[i] = place_in(fed, parts.label[i]);
     if (region[i] >= 0) place[i] = step.pool[i] >= 0 ? MushPlace::pool : MushPlace::mush;
   }
+  // The demand of each node is a flow into it; gas gives way with pressure, linearly within the step.
   std::vector<double> pressure(place.size());
   for (std::size_t i = 0; i < place.size(); ++i) pressure[i] = step.rows(i, k_pressure);
   for (std::size_t i = 0; i < owned; ++i) {
@@ -149,6 +154,8 @@ void Feeding::feed_mush(Step& step) const {
                                                .drop = drop,
                                                .n_pools = step.pools.size()},
                                               pressure);
+  // Pressures give gas its room and pores theirs; mush that no pool reaches opens pores for all of its
+  // demand.
   for (std::size_t i = 0; i < owned; ++i) {
     FeedingDemand& demand = step.demands[i];
     step.rows(i, k_pressure) = pressure[i];

@@ -30,11 +30,13 @@ CriterionRecord Freezing::restart(const CriterionRecord& before, const Criterion
     const double row[k_entries] = {start.solid_fraction[i] < 1 ? 1.0 : 0.0, frozen, number, x[0], x[1], x[2]};
     take(own.data() + static_cast<std::size_t>(who.body) * k_entries, row);
   }
+  // The best of all processes, which may each have several bodies.
   const std::vector<double> all = gathered(own);
   std::vector<double> best(own.size(), 0.0);
   for (std::size_t b = 0; b < n_bodies; ++b) best[b * k_entries + 2] = -1;
   for (std::size_t k = 0; k * k_entries < all.size(); ++k)
     take(best.data() + (k % n_bodies) * k_entries, all.data() + k * k_entries);
+  // Bodies that hold melt again begin again; the others keep the place that froze last.
   CriterionRecord record = initial(start);
   constexpr std::size_t width = k_row;
   std::vector<double>& rows = record.tables[0].values;

@@ -29,6 +29,7 @@ GasPores::GasPores(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage,
     : mesh_(mesh), laws_(std::move(laws)), ghosts_(mesh) {
   for (Index i = 0; i < mesh.n_owned_nodes; ++i) {
     Node node{i, -1, 0};
+    // A node belongs to the body with gas that has the most of it.
     for (std::size_t b = 0; b < laws_.size(); ++b) {
       const double room = laws_[b] ? storage.volume(i, static_cast<int>(b)) : 0.0;
       if (room <= node.room) continue;
@@ -50,6 +51,7 @@ void GasPores::step(const CriterionInput& old, const CriterionInput& next, Crite
   constexpr double k_mean = 0.5;  // of a step in which metal begins to freeze
   for (const Node& who : nodes_) {
     const auto i = static_cast<std::size_t>(who.node);
+    // The time of freezing counts from the step in which freezing begins, of which half is taken.
     const double before = old.solid_fraction[i], after = next.solid_fraction[i];
     if (before >= 1 && after >= 1) continue;
     times[i] = after > 0 ? times[i] + (before > 0 ? 1 : k_mean) * (next.time - old.time) : 0;

@@ -116,6 +116,7 @@ class Equations {
   void balance() {
     constexpr double k_tolerance = 1e-7;
     constexpr int k_most_iterations = 2000;
+    // The residual and the first direction, with what the tolerance relates to: the size of all flows.
     ghosts_.update(pressure_, 1);
     std::vector<double> residual(rows_.size(), 0.0), image(rows_.size()), direction(pressure_.size(), 0.0);
     double size = 0, product = 0;
@@ -131,6 +132,7 @@ class Equations {
     processes::sum(sums);
     size = sums[0];
     product = sums[1];
+    // Until the residual in the norm of the diagonal is small against the flows.
     for (int i = 0; i < k_most_iterations && product > k_tolerance * k_tolerance * size; ++i) {
       ghosts_.update(direction, 1);
       double curvature = 0;
@@ -162,6 +164,7 @@ class Equations {
     MushResult result;
     result.pores.assign(input_.flow.size(), 0.0);
     result.from_pool.assign(input_.n_pools, 0.0);
+    // Rows whose pressure is held at its least open pores; flow from pools is what they give to the mush.
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const std::size_t i = rows_[k];
       if (held_[k] != 0) result.pores[i] = std::max(0.0, pores(k));

@@ -31,6 +31,7 @@ mesh::Point centre_of(mesh::Shape shape) {
 
 Patches::Patches(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<char> chosen)
     : mesh_(mesh), kind_(kind), chosen_(std::move(chosen)) {
+  // Shape functions and gradients at the centre of each kind of element.
   for (const mesh::ElementBlock& block : mesh.blocks) {
     Centre& centre = centres_.emplace_back();
     const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
@@ -91,6 +92,7 @@ Patches::Gradient Patches::gradient(const Element& e, std::span<const double> va
   const std::size_t dim = centre.gradients.size() / centre.values.size();
   Matrix j{};                     // J_ij = ∂x_i/∂ξ_j
   std::array<double, 3> slope{};  // ∂v/∂ξ_j
+  // At the centre of the element: Jacobian, slope in reference coordinates and, in axisymmetry, the radius.
   double radius = 0;
   for (std::size_t a = 0; a < element.size(); ++a) {
     const mesh::Point& x = mesh_.x[static_cast<std::size_t>(element[a])];

@@ -92,11 +92,13 @@ std::vector<int> follow_pools(std::vector<Pool>& pools, const Melt& melt, double
   };
   std::sort(overlaps.begin(), overlaps.end(),
             [&](const Overlap& a, const Overlap& b) { return rank(a) < rank(b); });
+  // Each pool goes on in the part with which it shares the most, each part continues one pool.
   std::map<double, int> number_of;  // by label
   std::map<int, int> kept;          // pool -> 1
   for (const Overlap& o : overlaps)
     if (!kept.contains(o.pool) && number_of.try_emplace(o.label, o.pool).second) kept[o.pool] = 1;
 
+  // A pool without a part has joined another one, left with its body, or frozen at its last node.
   for (Pool& pool : pools) {
     pool.ended = false;
     if (!pool.present() || kept.contains(pool.number)) continue;
@@ -119,6 +121,7 @@ std::vector<int> follow_pools(std::vector<Pool>& pools, const Melt& melt, double
     pool.where = last->where;
   }
 
+  // Parts without a pool are born, of the pool that they come from, if they hold a whole element.
   std::vector<int> numbers;
   for (const MeltPart& part : melt.parts) {
     const auto known = number_of.find(part.label);

@@ -213,6 +213,7 @@ std::vector<CriterionResult> Pools::findings(const CriterionRecord& record) cons
   std::erase_if(closed, [](const Pool& p) { return p.closed_off < 0; });
   std::vector<CriterionResult> found{
       {"closed_off_pools", "1", static_cast<double>(closed.size()), false, {}}};
+  // The largest pools by their greatest volume.
   std::stable_sort(closed.begin(), closed.end(),
                    [](const Pool& a, const Pool& b) { return a.largest > b.largest; });
   for (std::size_t k = 0; k < std::min(closed.size(), k_told); ++k) {

@@ -117,6 +117,7 @@ std::optional<Resolution::Told> Resolution::told(const CriteriaState& state) {
     Told told;
     told.frozen_within = record.columns[0].values;
     const std::vector<double>& sums = record.tables[0].values;
+    // The mean error of each body over the time sampled.
     for (std::size_t k = k_width; k + 1 < sums.size(); k += k_width)
       told.flow_error.push_back(sums[k + 1] > 0 ? sums[k] / sums[k + 1] : 0.0);
     return told;

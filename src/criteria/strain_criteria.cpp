@@ -91,6 +91,8 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
     return max(min(block.strain.mean(fraction, batch), Lane(1.0)), Lane(0.0));
   };
   const std::vector<double>&old_u = old.mechanics.displacement, &u = next.mechanics.displacement;
+  // In each element: the strain at coherency is renewed as long as it is melt; the increment counts for the
+  // brittle range by the share of the step within it.
   for (const OfBlock& block : blocks_) {
     if (block.freezing == nullptr) continue;
     for (const Index n : block.nodes) {
@@ -126,6 +128,7 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
       store_tensors(sum, k_tensor, first, count, brittle);
     }
   }
+  // Displacements of melt are those at coherency, until it is coherent.
   std::vector<double>& displacement = record.columns[k_displacement].values;
   // Melt moves fast where it feeds or is pressed out: a node that becomes coherent within a step has its
   // displacement of that moment, not of the end of the step.

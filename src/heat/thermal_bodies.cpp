@@ -27,6 +27,7 @@ std::size_t at(Index i) {
 
 CarriedHeat ThermalPhase::set_conditions(const ThermalConditions& conditions, ThermalState* state,
                                          const std::function<double(Index, int)>& fresh) {
+  // Bodies that come need their heat; if none comes or goes only the factors of the solver are forgotten.
   const linear::ActiveSet before = system_->active(), now(mesh_, conditions.absent_bodies);
   for (int body = 0; body < static_cast<int>(materials_.size()); ++body)
     if (now.body(body) && !before.body(body) && !fresh)
@@ -35,6 +36,7 @@ CarriedHeat ThermalPhase::set_conditions(const ThermalConditions& conditions, Th
     solver_->forget();
     return {};
   }
+  // The heat that bodies take away and bring is reported.
   CarriedHeat carried;
   if (state != nullptr) carried.away = take_out(now, *state);
   change_bodies(before);
@@ -98,6 +100,7 @@ void ThermalPhase::change_bodies(const linear::ActiveSet& before) {
   if (at_nodes_) at_nodes_->set_active(now);
   if (consistent_) consistent_->set_active(now);
   if (options_.integration == HeatIntegration::closed) return;
+  // Blocks that stay keep their points, those that come get new ones.
   std::vector<std::unique_ptr<PointStorage>> left;
   auto points = points_.begin();
   for (const mesh::ElementBlock& block : mesh_.blocks) {

@@ -94,6 +94,7 @@ bool ThermalIteration::may_extrapolate(const ThermalState& old, const ThermalSta
   if (!nodal()) return true;
   TemperatureRange around = phase_.system_->surroundings();  // at the end of the first stage
   phase_.system_->set_window(loads);
+  // The range of surroundings over the whole step, with some room for deformation.
   const TemperatureRange at_end = phase_.system_->surroundings();
   around = {std::min({around.lowest, at_end.lowest, at_start_.lowest}),
             std::max({around.highest, at_end.highest, at_start_.highest})};

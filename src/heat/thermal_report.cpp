@@ -25,6 +25,7 @@ HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& n
                                   std::span<const double> residual, double moved, double dt) const {
   HeatBalance balance = measure(next.temperature, residual, dt);
   double stored = 0;
+  // Stored is the difference of the nodal enthalpies, or that at points, and what consistent heat adds.
   if (nodal()) {
     for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i) stored += next.enthalpy[i] - old.enthalpy[i];
     if (consistent_) stored += consistent_->stored(next.temperature);
@@ -54,6 +55,7 @@ void ThermalPhase::set_latent(HeatBalance& balance, const ThermalState& old, con
 HeatBalance ThermalPhase::measure(std::span<const double> temperature, std::span<const double> residual,
                                   double dt) const {
   HeatBalance balance;
+  // Reactions are heat at prescribed temperatures; each kind of condition is listed with its heat.
   std::vector<double> reactions(residual.size());  // where the temperature is prescribed
   for (std::size_t i = 0; i < reactions.size(); ++i) reactions[i] = system_->fixed()[i] ? residual[i] : 0.0;
   double entropy = system_->entropy_power(temperature);

@@ -86,6 +86,7 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   const linear::RungeKuttaStage first{k_sdirk_share * pass.dt, 0}, extrapolated{first.dt, k_sdirk_carried},
       rest{pass.dt - first.dt, 1};
   const bool flows = nodal() && !pass.adiabatic;
+  // The first stage, backward Euler over its share of the step.
   ThermalState middle;
   ThermalReport report = solve_stage(old, old, first,
                                      {.time = pass.time - pass.dt + first.dt,
@@ -99,6 +100,8 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   std::optional<ExtrapolationGuard> guard;
   TemperatureRange around;
   bool second_order = true;
+  // By the closed rule extrapolation is watched: the range of surroundings over both stages bounds what it
+  // may lead to.
   if (flows && options_.integration == HeatIntegration::closed) {
     around = system_->surroundings();
     system_->set_window(last_loads(pass.time, pass.dt, true));
@@ -113,6 +116,7 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
                      .newton_steps = pass.newton_steps,
                      .loads = last_loads(pass.time, pass.dt, second_order)};
   ThermalReport last = solve_stage(old, middle, second_order ? extrapolated : rest, to_end, next);
+  // Afterwards the temperatures themselves tell; then the second stage is solved again, as backward Euler.
   const auto overshoots = [&] {
     if (!pass.within_range) return guard->overshoots(next, around, k_far_overshoot);
     return guard->overshoots(next, around) || guard->turns_back(next, ghosts_);

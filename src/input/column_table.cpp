@@ -210,6 +210,7 @@ ColumnTable parse_json_table(const std::string& text, const std::string& name) {
 
 HeaderText split_header(const std::string& text) {
   HeaderText parts;
+  // A unit in brackets at the end, or behind the last comma.
   const auto open = opening_bracket(text);
   const auto comma = text.rfind(", ");
   if (open != std::string::npos && open > 0) {

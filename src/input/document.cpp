@@ -173,6 +173,7 @@ std::string Value::describe() const {
 }
 
 Value parse_document(std::string_view text, const std::string& name) {
+  // What no parser should see is refused before.
   if (text.find('\0') != std::string_view::npos)
     throw InputError({name, 0, 0}, "this is not a text file", "a TOML text file in UTF-8");
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)

@@ -77,6 +77,7 @@ std::string type_text(const Key& key) {
     }
     return {};
   };
+  // A list has its length, where it is fixed.
   if (!key.list) return single();
   if (key.length) return fmt::format("list of {} x {}", key.length, single());
   return (key.single ? single() + " or list of " : "list of ") + single();
@@ -139,6 +140,7 @@ void explain_key(const Key& key, const std::string& path, std::string& out) {
 void explain_section(const SectionInfo& info, const std::string& title, const std::string& path,
                      std::string& out) {
   out += fmt::format("{}{}\n", title.empty() ? "" : title + "  ", info.doc);
+  // Keys first, each in a line; then the sections within.
   for (const Key& key : info.keys)
     if (!is_section(key))
       out += fmt::format("  {:<24} {:<34} default: {}\n", key.name, type_text(key), default_text(key));

@@ -142,6 +142,7 @@ PointTable::PointTable(const std::filesystem::path& file, const std::string& col
 }
 
 void PointTable::arrange(const std::filesystem::path& file) {
+  // Rows in order of their coordinates, no point twice.
   const std::size_t n = names_.size();
   std::sort(points_.begin(), points_.end());
   for (std::size_t i = 1; i < points_.size(); ++i)
@@ -149,6 +150,7 @@ void PointTable::arrange(const std::filesystem::path& file) {
       throw InputError({file.string(), 0, 0},
                        fmt::format("two rows have the point ({:g})",
                                    fmt::join(points_[i].begin(), points_[i].end() - 1, ", ")));
+  // The values of each coordinate: if every combination has a row it is a grid.
   std::size_t product = 1;
   std::vector<std::vector<double>> axes(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -165,6 +167,7 @@ void PointTable::arrange(const std::filesystem::path& file) {
     for (const auto& point : points_) values_.push_back(point.back());
     return;
   }
+  // Scattered points are grouped by time, so that each time can be searched in space.
   if (n_space_ == 0 || n_space_ == n) return;
   std::stable_sort(points_.begin(), points_.end(),
                    [&](const auto& a, const auto& b) { return a[n_space_] < b[n_space_]; });

@@ -47,6 +47,7 @@ NodeGraph::NodeGraph(const mesh::Mesh& mesh) : mesh_(mesh), rows_(at(mesh.n_owne
 void NodeGraph::add_cliques(std::span<const Index> nodes, int n) {
   const auto count = static_cast<std::size_t>(n);
   assert(nodes.size() % count == 0);
+  // Every pair of nodes of an element, in the rows of this process.
   for (std::size_t start = 0; start < nodes.size(); start += count) {
     const auto clique = nodes.subspan(start, count);
     for (Index row : clique) {
@@ -375,6 +376,7 @@ void multiply_rows(std::span<const std::int64_t> row_start, std::span<const Inde
 }  // namespace
 
 void BlockMatrix::multiply(std::span<const double> x, std::span<double> y) const {
+  // A stored upper half is multiplied both ways.
   if (storage_ == Storage::upper)
     return multigrid::multiply_symmetric(block_size_, row_start_, columns_.data(), block(0), x.data(),
                                          y.data(), scratch_, mesh_.n_nodes());

@@ -72,6 +72,7 @@ void BlockMultigrid::apply(std::span<const double> r, std::span<double> z) {
   if (!compact_) return Multigrid::apply(r, z);
   const std::vector<Index>& rows = compact_->rows;
   const auto size = static_cast<std::ptrdiff_t>(components_);
+  // Rows without neighbours are left out of the hierarchy and divided by their diagonal.
   for (std::size_t i = 0; i < rows.size(); ++i)
     std::copy_n(r.begin() + rows[i] * size, size, right_.begin() + static_cast<std::ptrdiff_t>(i) * size);
   Multigrid::apply(right_, solution_);

@@ -92,6 +92,7 @@ OrthogonalFactors orthogonal_factors(const Columns& a) {
   const int n_work = 32 * std::max(1, n);
   std::vector<double> reflectors(a.count), work(static_cast<std::size_t>(n_work));
   int info = 0;
+  // Householder's factorisation, then its orthogonal factor explicitly.
   LAPACKgeqrf_(&m, &n, f.q.all().values, &lda, reflectors.data(), work.data(), &n_work, &info);
   require(info, "geqrf");
   for (std::size_t j = 0; j < a.count; ++j)

@@ -28,11 +28,12 @@ class HierarchyAge {
   /// After a solve with it. Tolerances differ from solve to solve: what counts are iterations for each digit.
   /// @param reduction  of the residual that was asked for
   void judge(const LinearReport& report, double reduction) {
-    constexpr double k_slower = 0.5, k_few = 4;
+    constexpr double k_slower = 0.5, k_more_iterations = 4;
     const double digits = std::max(0.1, -std::log10(reduction));
     if (stale_) first_rate_ = report.iterations / digits;
     const double expected = first_rate_ * digits;
-    stale_ = !report.converged || report.iterations > expected + std::max(k_slower * expected, k_few);
+    stale_ =
+        !report.converged || report.iterations > expected + std::max(k_slower * expected, k_more_iterations);
   }
 
  private:

@@ -14,7 +14,7 @@ constexpr float k_least_pivot = 1e-4F;
 constexpr float k_borne_fill = 0.3F;
 /// Share of a row's entries with nodes of other processes that goes to its diagonal.
 constexpr float k_across = 0.7F;
-/// Shares of the diagonal that are added to it in turn until no pivot is negative.
+/// Shares of the diagonal that are added to it one after the other until no pivot is negative.
 constexpr std::array k_shifts = {0.0F, 0.01F, 0.04F, 0.16F, 0.64F, 2.56F};
 
 std::size_t at(std::int64_t i) {
@@ -115,6 +115,8 @@ void IncompleteCholesky::apply(std::span<const double> r, std::span<double> z) {
 std::span<const float> IncompleteCholesky::apply(std::span<const double> r) {
   const std::size_t n = work_.size();
   std::transform(r.begin(), r.end(), work_.begin(), [](double v) { return static_cast<float>(v); });
+  // Forward and backward substitution with the rows of this process; single precision suffices for a
+  // preconditioner.
   for (std::size_t row = 0; row < n; ++row) {
     const std::int64_t diagonal = start_[row], end = end_of_owned(row);
     const float value = work_[row];

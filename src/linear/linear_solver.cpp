@@ -34,6 +34,8 @@ void LinearSolver::use_blocks_of_first_field(BlockMatrix& blocks, double scale) 
 LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std::span<double> x,
                                  double forcing) {
   Implementation& my = *implementation_;
+  // Blocks stored by their upper half have incomplete factors; conjugate gradients are our own unless options
+  // ask PETSc for another Krylov method.
   if (my.factor_of_blocks(a)) {
     my.stale = true;
     if (my.gradients_of_blocks()) {
@@ -47,6 +49,7 @@ LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std:
     my.create_shell(a);
     return solve(my.shell, b, x, forcing);
   }
+  // Else by the multigrid of blocks, in single precision; matrices that it does not serve go to PETSc.
   if (!my.multigrid_of_blocks(a)) return solve(a.matrix(), b, x, forcing);
   if (my.rescue) return my.rescue->solve(a, b, x, forcing);
   my.create_shell(a);
@@ -99,6 +102,7 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
   if (my.gradients) return my.solve_by_gradients(b, x, forcing);
   my.set_tolerance(forcing);
   assert(my.matrix != nullptr);
+  // The shell works on the arrays given; PETSc's own matrices need copies.
   std::optional<PlacedArrays> placed;
   if (my.matrix == my.shell) {
     assert(b.data() != x.data());
@@ -110,6 +114,8 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
 
   LinearReport report;
   const bool was_fresh = my.stale;
+  // A hierarchy of an earlier matrix that fails is made again, once; a factorisation that fails is tried
+  // again as long as that may help.
   KSPConvergedReason reason = my.run(my.b, my.x, report.iterations);
   if (reason < 0 && my.reuse_hierarchy && !was_fresh) reason = my.run(my.b, my.x, report.iterations);
   const bool direct = my.is_direct();
@@ -117,6 +123,7 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
   while (direct && reason == KSP_DIVERGED_PC_FAILED && my.try_again())
     reason = my.run(my.b, my.x, report.iterations);
   report.converged = reason > 0 || (direct && reason == KSP_CONVERGED_ITERATING);
+  // An exact solver refines its answer; others report why they ended.
   if (!report.converged) {
     report.reason = direct && reason == KSP_DIVERGED_PC_FAILED ? my.factorisation.failure(my.matrix)
                                                                : KSPConvergedReasons[reason];

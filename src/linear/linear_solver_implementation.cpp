@@ -27,9 +27,9 @@ constexpr double k_refine_above =
     1e-8;  ///< residual of a direct solve relative to b: above it one step of refinement
 constexpr double k_refuse_above = 1e-2;     ///< after refinement: Newton cannot work with such a direction
 constexpr int k_field_split_restart = 100;  ///< directions that FGMRES keeps
-/// A hierarchy is made anew, which costs as much as twenty iterations or more, where a solve takes half as
+/// A hierarchy is made again, which costs as much as twenty iterations or more, where a solve takes half as
 /// many again as the first one with it and more than a few.
-constexpr double k_slower = 0.5, k_few = 5;
+constexpr double k_slower = 0.5, k_more_iterations = 5;
 
 /// @param of_blocks  multigrid would be ours, not PETSc's
 SolverKind automatic_kind(const LinearSolverOptions& options, const mesh::Mesh& mesh, int components,
@@ -144,6 +144,8 @@ bool LinearSolver::Implementation::factorisation_serves(const BlockMatrix& a) co
 }
 
 void LinearSolver::Implementation::create_shell(BlockMatrix& a) {
+  // The matrix is given to PETSc as a shell: it only multiplies, by our own product on the blocks, and keeps
+  // no copy.
   if (blocks == &a && shell) return;
   blocks = &a;
   if (!ghosts) ghosts.emplace(mesh);
@@ -382,7 +384,7 @@ void LinearSolver::Implementation::judge_hierarchy(Vec rhs, int n, bool failed) 
   const double digits = end > 0 && end < start ? std::log10(start / end) : 0;
   if (stale) first_rate = digits > 0 ? n / digits : 0;
   const double expected = first_rate * digits;
-  stale = failed || n > expected + std::max(k_slower * expected, k_few);
+  stale = failed || n > expected + std::max(k_slower * expected, k_more_iterations);
 }
 
 /// Checks a direct solution against its residual, improves it once if needed, refuses it if that does not

@@ -45,6 +45,7 @@ MultiPointConstraints::MultiPointConstraints(const mesh::Mesh& mesh, int block_s
 void MultiPointConstraints::sum(std::span<double> r) const {
   if (empty()) return;
   std::vector<double> sums(groups_.size(), 0.0);
+  // The forces of all members of a group act on one unknown; sums go over the processes.
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (const Index entry : groups_[g].members) {
       sums[g] += r[static_cast<std::size_t>(entry)];

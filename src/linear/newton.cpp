@@ -145,6 +145,7 @@ void Iteration::spread_step() {
   std::size_t from = 0, to = 0;
   const std::size_t n_nodes =
       x_.size() / static_cast<std::size_t>(std::accumulate(components_.begin(), components_.end(), 0));
+  // Field by field from the owned unknowns to the local ones, with ghosts.
   for (const int components : components_) {
     const std::size_t n_owned = owned(components), n = n_nodes * static_cast<std::size_t>(components);
     std::copy_n(step_.begin() + static_cast<std::ptrdiff_t>(from), n_owned,

@@ -301,6 +301,7 @@ LinearReport RecyclingGmres::solve(std::span<const double> b, std::span<double> 
   std::fill(x.begin(), x.end(), 0.0);
   // The norm of a cycle and that of the true residual differ by rounding.
   const double limit = relative * norm(r), accepted = 1.01 * limit;
+  // What the kept directions can say of the solution is taken first.
   const auto project = [&] {
     if (my.n_kept == 0) return;
     Vector c(my.n_kept);
@@ -311,6 +312,7 @@ LinearReport RecyclingGmres::solve(std::span<const double> b, std::span<double> 
   };
   project();
   LinearReport report;
+  // Cycles until the true residual is small enough, which is computed after each of them.
   while (!(norm(r) <= accepted)) {  // not a number is no solution
     const int left = my.options.max_iterations - report.iterations;
     if (left <= 0 || !std::isfinite(norm(r))) {

@@ -28,6 +28,7 @@ double StiffnessGrowth::since(BlockMatrix& a) const {
   if (trace_.size() != a.row_start().size() - 1) {
     growth = std::numeric_limits<double>::infinity();
   } else {
+    // By the traces of the diagonal blocks: where a node has become stiffer.
     for (std::size_t node = 0; node < trace_.size(); ++node) {
       const float now = trace(a, static_cast<Index>(node));
       if (trace_[node] > 0 && now > 0) growth = std::max(growth, static_cast<double>(now / trace_[node]));

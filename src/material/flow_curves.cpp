@@ -44,6 +44,7 @@ double stress_of(const FlowCurve& curve, double strain) {
 FlowCurves::Axis::Axis(std::vector<double> rising) : points(std::move(rising)) {
   if (points.size() < 2) return;
   const double range = points.back() - points.front();
+  // Buckets as wide as the shortest interval find an interval at once.
   double shortest = range;
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
     shortest = std::min(shortest, points[i + 1] - points[i]);

@@ -184,6 +184,7 @@ void sample(const std::function<double(double)>& temperature, double a, double b
 
 void remark_on(const LiquidusSystem& system, const Composition& alloy, const Freezing& freezing,
                std::vector<std::string>& remarks) {
+  // Alloys beyond the lines of a solute, and solutes that a eutectic does not know.
   for (const auto& [name, percent] : alloy.solutes) {
     const Solute& s = solute(system, name, {});
     if (percent > s.up_to)

@@ -68,6 +68,7 @@ BodyBalance::BodyBalance(const mesh::Mesh& mesh, const linear::ActiveSet& active
       node_group_(static_cast<std::size_t>(mesh.n_owned_nodes), 0),
       n_groups_(mesh.bodies.size()),
       sums_(mesh.bodies.size()) {
+  // Bodies that share nodes balance together.
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (!active.body(block.body)) continue;
     for (const Index node : block.nodes)

@@ -96,6 +96,7 @@ CreepField CreepError::error(const CreepField& rate, const CreepField& before, d
       error[b] = {};
       continue;
     }
+    // Half of the step times the change of the rate, as of backward Euler.
     for (std::size_t i = 0; i < error[b].values.size(); ++i)
       error[b].values[i] = Lane(dt / 2) * (rate[b].values[i] - before[b].values[i]);
   }

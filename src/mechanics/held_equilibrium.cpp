@@ -39,6 +39,8 @@ linear::BlockMatrix& HeldEquilibrium::tangent(std::span<const double> x) {
   const auto n = static_cast<std::size_t>(matrix.block_size());
   const auto n_owned = static_cast<std::size_t>(phase_.mesh().n_owned_nodes);
   largest_.resize(n_owned * n, 0.0);
+  // Diagonals keep a share of the largest value that they have had, which slows what has just lost its
+  // stiffness.
   for (std::size_t node = 0; node < n_owned; ++node) {
     double* const block = matrix.diagonal_block(static_cast<Index>(node));
     for (std::size_t c = 0; c < n; ++c) {
@@ -77,6 +79,7 @@ class ShortSteps final : public linear::TangentSolver {
  private:
   linear::LinearReport shorten(linear::LinearReport report, std::span<double> x) const {
     const auto n = static_cast<std::size_t>(components_);
+    // No node moves farther than allowed; the direction stays.
     double squares = 0;
     for (std::size_t i = 0; i + n <= n_; i += n) {
       double of_node = 0;

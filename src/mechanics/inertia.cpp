@@ -28,6 +28,7 @@ MassMatrix::MassMatrix(const mesh::Mesh& mesh, AnalysisKind kind, std::span<cons
       graph.add_cliques(block.nodes, mesh::node_count(block.shape));
   graph.compress(row_start_, columns_);
   values_.assign(columns_.size(), 0.0);
+  // By blocks: consistent masses of the shape functions, or masses on the diagonal.
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const double rho = density[static_cast<std::size_t>(block.body)];
     if (mass == MassKind::consistent)

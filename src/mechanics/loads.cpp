@@ -124,6 +124,7 @@ void Loads::add_support(const mesh::Mesh& mesh, const linear::ActiveSet& active,
     throw InputError({}, "displacement component " + std::to_string(condition.component) + " of '" +
                              condition.node_set + "' does not exist in this analysis");
   Support support{condition.value, {}, {}};
+  // The entries of nodes that are there; relative to the start of the stage where the condition says so.
   for (Index node : find(mesh.node_sets, condition.node_set, "group"))
     if (active.node(node)) support.entries.push_back(node * components_ + condition.component);
   if (condition.relative)
@@ -184,6 +185,7 @@ void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const linear:
 void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const linear::ActiveSet& active,
                         const Traction& traction) {
   const mesh::Surface& surface = find(mesh.surfaces, traction.surface, "surface");
+  // For each direction the nodal forces of a unit traction, which the load multiplies.
   for (int i = 0; i < components_; ++i) {
     Unit unit{traction.value[static_cast<std::size_t>(i)], {}};
     integrate(mesh, kind, active, surface, [&](Index node, double area, const mesh::Point&) {

@@ -55,6 +55,7 @@ material::TimeStep MechanicalPhase::time_step(const MechanicalState& old, const 
 /// Hands the blocks temperatures, the state at t_n and the start of the effective step.
 void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& pass) {
   const profile::Part part("properties");
+  // What the time integration makes of the step, and whether it starts from an extrapolated history.
   const material::TimeStep step = time_step(old, pass);
   const MechanicalState& held = pass.iterate != nullptr ? *pass.iterate : old;
   const bool extrapolates = step.before != 0;
@@ -69,6 +70,8 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
   }
   const bool remembers = inertia_ && inertia_->motion().remembers();
   double stiffness = 0;
+  // Each block gets all of that at once; what it returns is its stiffness, of which the rounding of the
+  // residual follows.
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     stiffness += blocks_[b]->prepare(
         {.temperature = pass.temperature,
@@ -193,6 +196,7 @@ MechanicalReport MechanicalPhase::solve(const MechanicalState& old, MechanicalSt
                                         const MechanicalPass& pass) {
   begin(old, pass);
   Equilibrium equilibrium(*this, old);
+  // No tolerance below the rounding of the forces, and no more iterations than the pass allows.
   linear::NewtonOptions newton_options = options_.newton;
   newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
   if (pass.newton_steps > 0) newton_options.max_iterations = pass.newton_steps;
@@ -208,6 +212,7 @@ MechanicalReport MechanicalPhase::solve(const MechanicalState& old, MechanicalSt
     report.newton = linear::newton(equilibrium, *solver_, ghosts_, fields_, x, newton_options);
     report.newton.add_solves(from_guess);
   }
+  // With contact a second attempt goes another way from the start; without it Newton's answer stands.
   if (!report.newton.converged && pass.newton_steps == 0 && !contributions_.empty()) {
     const linear::NewtonReport failed = std::move(report.newton);
     x = start(old, pass);
@@ -215,9 +220,11 @@ MechanicalReport MechanicalPhase::solve(const MechanicalState& old, MechanicalSt
     if (!report.newton.converged) report.newton.reason = failed.reason + ", nor in a second attempt";
     report.newton.add_solves(failed);
   }
-  for (int turn = 1; report.newton.converged && pressure_ &&
-                     pressure_->fill_pores(std::span<const double>(x).subspan(n_displacements()), turn);
-       ++turn) {
+  // Converged pressures may open or fill pores, which changes the equations: solve again until none changes.
+  for (int iteration = 1;
+       report.newton.converged && pressure_ &&
+       pressure_->fill_pores(std::span<const double>(x).subspan(n_displacements()), iteration);
+       ++iteration) {
     const linear::NewtonReport before = std::move(report.newton);
     residual_is_known_ = false;
     report.newton = linear::newton(equilibrium, *solver_, ghosts_, fields_, x, newton_options);
@@ -247,6 +254,7 @@ bool MechanicalPhase::try_guess(const MechanicalPass& pass, std::vector<double>&
   if (!parallel::any_process(!pass.guess.empty())) return false;
   std::vector<double> guess = x;
   std::copy(pass.guess.begin(), pass.guess.end(), guess.begin());
+  // The guess keeps prescribed displacements. It is taken only if it lowers the unbalanced forces.
   loads_->prescribe(pass.time, std::span(guess).first(n_displacements()));
   if (pressure_ && !pass.guessed_pressure.empty())
     pressure_->to_unknowns(pass.guessed_pressure, std::span(guess).subspan(n_displacements()));

@@ -19,6 +19,8 @@ Motion Motion::newmark(double gamma, double beta) {
 Motion Motion::generalised_alpha(double spectral_radius) {
   if (!(spectral_radius >= 0 && spectral_radius <= 1))
     throw std::invalid_argument("the spectral radius lies between 0 and 1");
+  // Chung and Hulbert (1993): second order, and the least damping of low frequencies for that of the highest
+  // ones.
   Motion m;
   m.alpha_m = (2 * spectral_radius - 1) / (1 + spectral_radius);
   m.alpha_f = spectral_radius / (1 + spectral_radius);

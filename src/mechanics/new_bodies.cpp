@@ -27,6 +27,7 @@ void renew_history(const MechanicalPhase& phase, const std::vector<char>& bodies
   for (std::size_t b = 0; b < phase.mesh().blocks.size(); ++b) {
     if (bodies[static_cast<std::size_t>(phase.mesh().blocks[b].body)] == 0) continue;
     if (!phase.active().body(phase.mesh().blocks[b].body)) continue;  // it only conducts heat
+    // A history of its own, no stress, and the solid fraction with which it was poured.
     state.history[b] = phase.blocks()[b]->initial_history();
     if (b < state.elements.size()) state.elements[b].reset();
     if (!state.before.empty()) state.before[b] = state.history[b];

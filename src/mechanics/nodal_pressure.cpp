@@ -13,7 +13,7 @@ namespace solidus::mechanics {
 namespace {
 
 /// Solutions of a step after each of which further elements may be full of pores.
-constexpr int k_pore_turns = 20;
+constexpr int k_most_pore_iterations = 20;
 
 std::vector<const mesh::ElementBlock*> blocks_with_pressure(
     const mesh::Mesh& mesh, std::span<const std::unique_ptr<BlockKernel>> blocks) {
@@ -40,12 +40,14 @@ NodalPressure::NodalPressure(const mesh::Mesh& mesh, BodyFields fields_of_bodies
       ghosts_(mesh),
       fields_of_body_(std::move(fields_of_bodies)),
       blocks_(blocks_with_pressure(mesh, blocks)) {
+  // A pressure for each node and field; a field is a body, or several that share no nodes.
   const auto n = mesh.x.size() * static_cast<std::size_t>(fields());
   pressure_.assign(n, 0.0);
   volume_residual_.assign(n, 0.0);
   volume_change_.assign(n, 0.0);
   weight_.assign(n, 0.0);
   std::vector<double> absent(n, 1.0);
+  // Blocks of mixed elements write into these arrays; nodes without such an element have no pressure.
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     auto* kernel = dynamic_cast<MixedKernel*>(blocks[b].get());
     if (kernel == nullptr) continue;
@@ -97,12 +99,12 @@ void NodalPressure::release_pores() {
   for (MixedKernel* kernel : kernels_) kernel->release_pores();
 }
 
-bool NodalPressure::fill_pores(std::span<const double> unknowns, int turn) {
+bool NodalPressure::fill_pores(std::span<const double> unknowns, int iteration) {
   set(unknowns);
   bool filled = false;
   for (MixedKernel* kernel : kernels_) filled |= kernel->fill_pores();
   if (!parallel::any_process(filled)) return false;
-  if (turn > k_pore_turns)
+  if (iteration > k_most_pore_iterations)
     throw StepRejected("mechanics: one element after another fills with pores",
                        "a step in which much more shrinks than can be fed", Failure::equilibrium);
   return true;
@@ -142,6 +144,7 @@ void NodalPressure::add_projection_to(std::span<const double> x, double factor, 
   if (!orthogonal_) return;
   local_.resize(pressure_.size());
   std::copy(x.begin(), x.end(), local_.begin());
+  // Nodes without a pressure take no part.
   for (std::size_t i = 0; i < x.size(); ++i)
     if (absent_[i]) local_[i] = 0;
   ghosts_.update(local_, fields());

@@ -62,9 +62,9 @@ class NodalPressure {
   /// A step begins with no element that is full of pores (pores.hpp).
   void release_pores();
   /// After equilibrium: whether further elements have filled with pores at these unknowns, so that it must be
-  /// sought again from there. Throws StepRejected after too many turns. Collective.
-  /// @param turn  from one
-  bool fill_pores(std::span<const double> unknowns, int turn);
+  /// sought again from there. Throws StepRejected after too many iterations. Collective.
+  /// @param iteration  from one
+  bool fill_pores(std::span<const double> unknowns, int iteration);
 
   /// y += factor × unit² × the part of S that couples neighbours of neighbours, taken as positive: S is its
   /// compact part less this one. x are unknowns; both on owned nodes. Collective.

@@ -75,6 +75,7 @@ std::vector<double> NodalPhases::solid_fraction(const FractionPlace& at) const {
     const material::PhaseChange* const freezing =
         of.material != nullptr ? of.material->solidification() : nullptr;
     if (freezing == nullptr) continue;
+    // At each node by the temperature and, within a jump, by the share of it that is done.
     for (const Index node : of.nodes) {
       const auto i = static_cast<std::size_t>(node);
       fraction[place(i, of)] = freezing->fraction.value(at.temperature[i], share_at(at, i));

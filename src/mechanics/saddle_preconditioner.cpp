@@ -66,6 +66,7 @@ void SaddlePreconditioner::find_softness() {
   const std::size_t fields = schur_.size(), n = mesh_.x.size() * fields;
   const double scale = pressure_.unit() * pressure_.unit();
   std::vector<double> softness(n, 0.0), volume(n, 0.0);
+  // Softness of the volume at each node; its inverse augments the displacement block.
   for (const MixedKernel* kernel : pressure_.kernels()) kernel->add_softness(softness, volume);
   inverse_softness_.assign(static_cast<std::size_t>(mesh_.n_owned_nodes) * fields, 0.0);
   stiffness_.assign(n, 0.0);

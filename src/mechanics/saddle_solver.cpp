@@ -104,6 +104,7 @@ void SaddleSolver::multiply(std::span<const double> x, std::span<double> y) {
   local_u_.resize(mesh_.x.size() * static_cast<std::size_t>(matrix_.components()));
   local_p_.resize(mesh_.x.size() * static_cast<std::size_t>(matrix_.fields()));
   unknowns_->expand(x, whole_);
+  // Both parts with their ghosts, the product, and the projection of the stabilisation.
   std::copy_n(whole_.begin(), n_u, local_u_.begin());
   std::copy_n(whole_.begin() + static_cast<std::ptrdiff_t>(n_u), n_p, local_p_.begin());
   ghosts_.update(local_u_, matrix_.components());
@@ -154,6 +155,8 @@ linear::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::s
   for (std::size_t i = n_u; i < whole.size(); ++i) whole[i] = -whole[i];
   unknowns_->restrict_to(whole, right_);
   linear::LinearReport report;
+  // An old hierarchy that fails is renewed; a new one that fails gives way to a factorisation where the
+  // system is small enough for one.
   for (bool again = true; again;) {
     again = false;
     const double relative = direct_ ? std::min(k_direct_tolerance, options_.relative_tolerance)

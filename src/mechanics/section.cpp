@@ -142,6 +142,7 @@ std::vector<double> sections(const mesh::Mesh& mesh, AnalysisKind kind,
                              const MechanicalConditions& conditions, const linear::ActiveSet& active) {
   const std::vector<unsigned> held = held_components(mesh, conditions);
   std::vector<double> result(mesh.bodies.size(), 0.0);
+  // Volume over cooling area, of bodies that are there and are cooled somewhere.
   for (std::size_t b = 0; b < result.size(); ++b) {
     const auto body = static_cast<int>(b);
     if (!active.body(body)) continue;

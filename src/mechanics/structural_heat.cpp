@@ -38,6 +38,7 @@ void StructuralHeat::add_tangent(std::span<const double> temperature, linear::Bl
   if (!has_tangent_) return;
   work_.assign(temperature.size(), 0.0);
   slots_.resize(deformation_.size());
+  // Heat that goes to the nodes has slopes on the diagonal; heat at points has those of its elements.
   for (std::size_t b = 0; b < deformation_.size(); ++b) {
     if (!deformation_[b]) continue;
     if (at_nodes_[b]) {

@@ -231,6 +231,7 @@ StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, const Stage
       stage.carried.empty();  // the deformation comes before the stages, with its work and heat
   const Start start = first ? Start{at.old_entropy, at.old_energy + at.work} : stage.carried[point];
   const Lane dissipated = first ? at.dissipated : Lane(0.0);
+  // The form of capacities (4.53a) counts from the temperature of the mechanical phase.
   if (form == StructuralForm::temperature) {
     const Lane capacity = state(at, at.now, temperature).capacity;
     const Lane warmed = temperature - at.temperature;
@@ -239,6 +240,7 @@ StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, const Stage
             capacity * (Lane(1.0) + warmed / temperature) + h.slope};
   }
   const State now = state_now(point, temperature);
+  // All others are differences of energy or entropy since the start.
   switch (form) {
     case StructuralForm::energy:
       return {now.internal_energy - start.energy, now.capacity};

@@ -46,6 +46,7 @@ LocatedPoint locate(const Mesh& mesh, const Point& point, int body) {
   NearestPlace nearest;
   Candidate best;
   best.process = rank;
+  // The nearest element of this process; boxes farther away than what is found are passed over.
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const ElementBlock& block = mesh.blocks[b];
     if (body >= 0 && block.body != body) continue;
@@ -63,6 +64,7 @@ LocatedPoint locate(const Mesh& mesh, const Point& point, int body) {
     }
   }
 
+  // Of all processes the nearest; at equal distances the least body, element and process decide.
   const std::array own = best.key();
   const std::vector<double> all = processes::gather(own);
   for (std::size_t i = 0; i < all.size(); i += own.size()) {
@@ -107,6 +109,7 @@ GroupKind kind_of(const Mesh& mesh, const std::string& group) {
 // ∫ N_a over the elements that this process counts, summed into the nodes; zero-weight terms left out.
 NodalFunctional integral(const Mesh& mesh, const std::string& group, GroupKind group_kind,
                          AnalysisKind kind) {
+  // By the kind of group: volumes of elements, areas of faces, or one for each node.
   std::vector<double> weight(static_cast<std::size_t>(mesh.n_nodes()), 0.0);
   if (group_kind == GroupKind::body) {
     for (const ElementBlock& block : mesh.blocks) {
@@ -136,6 +139,7 @@ NodalFunctional integral(const Mesh& mesh, const std::string& group, GroupKind g
     for (const Index i : mesh.node_sets.at(group))
       if (i < mesh.n_owned_nodes) weight[static_cast<std::size_t>(i)] = 1;
   }
+  // Only nodes with a weight are kept.
   NodalFunctional functional;
   const auto n =
       static_cast<std::size_t>(std::count_if(weight.begin(), weight.end(), [](double w) { return w != 0; }));

@@ -71,6 +71,7 @@ class Search {
     std::array<double, 60> slope{};
     xi = centre(shape);
     for (int iteration = 0;; ++iteration) {
+      // The distance and the tangents at the present place.
       basis_values(shape, xi, value);
       basis_gradients(shape, xi, slope);
       Point r = target_;
@@ -83,6 +84,7 @@ class Search {
         }
       }
       distance = std::hypot(r[0], r[1], r[2]);
+      // The normal equations of the step; steps are at most two long, since reference elements are.
       std::array<std::array<double, 3>, 3> metric{};
       Point rhs{}, step{};
       for (std::size_t k = 0; k < dim; ++k) {

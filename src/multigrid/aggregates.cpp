@@ -44,10 +44,12 @@ struct StrongCouplings {
 StrongCouplings::StrongCouplings(const MatrixView& a) {
   const Index n = a.n_rows();
   std::vector<double> diagonal(at(n), 0.0);  // norms
+  // The norm of each diagonal block, by which a coupling is strong or weak.
   for (Index row = 0; row < n; ++row)
     a.each(row, [&](Index j, std::int64_t s, bool) {
       if (j == row) diagonal[at(row)] = std::sqrt(squared_norm(a.block(s), a.size));
     });
+  // A coupling is strong if its norm is a share of the geometric mean of both diagonals.
   for (Index row = 0; row < n; ++row) {
     a.each(row, [&](Index j, std::int64_t s, bool) {
       if (j >= n) return;

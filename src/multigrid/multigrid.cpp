@@ -99,6 +99,7 @@ void Multigrid::Level::estimate_largest() {
   const auto scale = [](std::vector<float>& a, double factor) {
     for (float& value : a) value *= static_cast<float>(factor);
   };
+  // The start is a fixed scattered vector, so that every run is the same.
   for (std::size_t i = 0; i < n; ++i) {
     root[i] = std::sqrt(std::abs(inverse_diagonal[i]));
     v[i] = scattered(numbering.first * size + static_cast<GlobalIndex>(i));
@@ -107,6 +108,7 @@ void Multigrid::Level::estimate_largest() {
   if (!(length > 0)) return;
   scale(v, 1 / length);
   std::vector<double> diagonal, beside;
+  // Each step adds a row to the tridiagonal matrix whose largest eigenvalue is asked for.
   for (int k = 0; k < k_lanczos_steps; ++k) {
     for (std::size_t i = 0; i < n; ++i) x[i] = root[i] * v[i];
     ghosts->update(x, size);
@@ -253,6 +255,7 @@ void Multigrid::set_up(const MatrixView& a, Numbering numbering, std::span<const
 
 void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<const char> fixed, int modes,
                           std::vector<double> near_null) {
+  // The level packs its matrix and works on vectors of single precision.
   const std::size_t n_local = at(numbering.n_local()) * at(a.size),
                     n_owned = at(numbering.n_owned) * at(a.size);
   parallel::GhostExchange ghosts(numbering.n_owned, numbering.first, numbering.ghosts);

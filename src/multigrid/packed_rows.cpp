@@ -43,6 +43,7 @@ template <int rows, int columns, bool add>
 void multiply_rows(std::span<const std::int64_t> start, const Index* column, const float* value,
                    const float* x, float* y) {
   using Type = typename Vector<rows>::Type;
+  // Columns of a block are loaded as vectors, so that each entry of x is used once.
   for (std::size_t row = 0; row + 1 < start.size(); ++row) {
     Type sum{};
     const float* a = value + start[row] * rows * columns;
@@ -60,6 +61,7 @@ void multiply_rows(std::span<const std::int64_t> start, const Index* column, con
 template <int rows, int columns>
 void multiply_transposed(std::span<const std::int64_t> start, const Index* column, const float* value,
                          const float* x, float* y) {
+  // By rows of the matrix the product goes to the columns.
   for (std::size_t row = 0; row + 1 < start.size(); ++row) {
     const float* const from = x + row * rows;
     const float* a = value + start[row] * rows * columns;

@@ -88,16 +88,16 @@ class Refinement {
       // The best way of meshing is looked for when the sizes are found, not for each that is tried.
       kept.be_content_with(mesh::k_usable_quality);
       bool of_sizes = true;
-      constexpr int k_turns = 6;
-      for (int turn = 0; turn < k_turns; ++turn) {
-        if (turn == 0) find_skins();  // sizes do not change which skins there are
+      constexpr int k_most_tries = 6;
+      for (int attempt = 0; attempt < k_most_tries; ++attempt) {
+        if (attempt == 0) find_skins();  // sizes do not change which skins there are
         write_draft(draft_);
         const Case c = load_case(draft_.folder / "case.toml", {}, Physics::heat);
         const bool good = adapt(check_run(c));
         write_draft(draft_);
         const bool sound = !kept.way() || kept.way()->quality >= mesh::k_sound_quality;
         if (good && (sound || !of_sizes)) break;
-        if (good || turn + 2 == k_turns) {
+        if (good || attempt + 2 == k_most_tries) {
           of_sizes = false;
           kept.be_content_with(mesh::k_sound_quality);
         }
@@ -137,6 +137,7 @@ class Refinement {
   void find_skins() {
     mesh::RawMesh mesh = drafted_mesh();
     bool more = false;
+    // A body that the draft does not know is a core; with it the mesh is made again.
     for (const auto& [group, content] : mesh.groups) {
       if (draft_.meshed)
         break;  // the bodies of the file are known, and its other sets hold the same elements
@@ -149,6 +150,7 @@ class Refinement {
       more = true;
     }
     if (more) mesh = drafted_mesh();
+    // Then what lies on the skins: cavities of dies, heated walls, channels, free faces and symmetry.
     draft_.films.clear();
     draft_.symmetric.clear();
     draft_.cavity.clear();
@@ -352,6 +354,7 @@ void write_draft(const Draft& draft) {
       throw InputError({draft.folder.string()}, "the case cannot be written there: " + reason,
                        "-o names another folder");
   };
+  // The geometry is copied into the folder, so that the case can be moved, unless it lies there.
   std::error_code error;
   fs::create_directories(draft.folder, error);
   require(!error, error.message());

@@ -40,6 +40,7 @@ std::string mesh_text(const Draft& d) {
   if (d.meshed) return t + "# Elements are those of the file.\n\n";
   t += "# Elements: the largest, and the smallest in thin walls. Half the size is about eight times the "
        "time.\n";
+  // Sizes for what is poured, and how elements grow in what surrounds it.
   for (const DraftBody& b : d.bodies) {
     if (is_poured(b.role))
       t += fmt::format(
@@ -50,6 +51,7 @@ std::string mesh_text(const Draft& d) {
           "[[mesh.size]]\nbody = {}\nsize = {}\nacross = 0\ngrowth = {}  # away from the metal\n\n",
           quoted(b.group), mm(d.mould_size), has_layers(b.role) ? k_growth_of_sand : k_growth);
   }
+  // Block, riser, symmetry and layers, as far as the draft has them.
   if (d.mould) {
     const auto& w = d.mould->walls;
     const bool even = std::all_of(w.begin(), w.end(), [&](double x) { return x == w[0]; });

@@ -37,13 +37,13 @@ class Pieces {
     return {piece.y + piece.slope * (x - piece.x), piece.slope};
   }
   Line<Lane> line(const Lane& x) const {
-    return pieces_.size() <= k_few ? line_by_comparison(x) : line_by_look_up(x);
+    return pieces_.size() <= k_most_to_compare ? line_by_comparison(x) : line_by_look_up(x);
   }
 
  private:
   /// So few pieces are compared with all lanes at once, more are looked up: where bench/numbers_bench.cpp
   /// finds equal costs.
-  static constexpr std::size_t k_few = k_registers <= 2 ? 16 : 3;
+  static constexpr std::size_t k_most_to_compare = k_registers <= 2 ? 16 : 3;
 
   Line<Lane> line_by_comparison(const Lane& x) const;
   Line<Lane> line_by_look_up(const Lane& x) const;

@@ -113,6 +113,7 @@ std::vector<TimeEvent> breaks(const std::function<double(double)>& f, double fro
   const auto n = static_cast<std::size_t>(std::clamp((to - from) / spacing, k_least, k_most));
   const double step = (to - from) / static_cast<double>(n);
   const auto at = [&](std::size_t i) { return i == n ? to : from + static_cast<double>(i) * step; };
+  // The function on an even grid, and the range of its values.
   std::vector<double> values(n + 1);
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (std::size_t i = 0; i <= n; ++i) {
@@ -126,6 +127,7 @@ std::vector<TimeEvent> breaks(const std::function<double(double)>& f, double fro
   const auto add = [&](double time, bool jump) {
     if (time > from && time < to) found.push_back({time, false, jump});
   };
+  // Steep intervals are searched for a jump, those without one for a bend at their ends.
   std::vector<char> jumps(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
     if (!(std::abs(values[i + 1] - values[i]) > k_small_jump * range)) continue;
@@ -153,6 +155,7 @@ std::vector<TimeEvent> breaks(const std::function<double(double)>& f, double fro
 std::vector<TimeEvent> in_order(std::vector<TimeEvent> events, double same, double shortest) {
   std::sort(events.begin(), events.end(),
             [](const TimeEvent& a, const TimeEvent& b) { return a.time < b.time; });
+  // Events nearer than the shortest step become one, which jumps if either does.
   std::vector<TimeEvent> kept;
   for (const TimeEvent& event : events) {
     if (!kept.empty() && event.time - kept.back().time <= (event.at_ends ? same : shortest)) {

@@ -51,6 +51,7 @@ void RowExchange::exchange(bool to_owners, const Pack& pack, const Unpack& unpac
   std::vector<std::vector<double>> out(neighbours.size()), in(neighbours.size());
   std::vector<int> n_out(neighbours.size()), n_in(neighbours.size());
   std::size_t request = 0;
+  // Lengths are exchanged first, so that each process knows how much it receives.
   for (std::size_t k = 0; k < neighbours.size(); ++k) {
     for (const Index node : to_owners ? neighbours[k].receive : neighbours[k].send) {
       const std::size_t place = out[k].size();
@@ -72,6 +73,7 @@ void RowExchange::exchange(bool to_owners, const Pack& pack, const Unpack& unpac
               &requests[request++]);
   }
   MPI_Waitall(static_cast<int>(request), requests.data(), MPI_STATUSES_IGNORE);
+  // Rows are taken out in the order of the nodes, which both sides have alike.
   for (std::size_t k = 0; k < neighbours.size(); ++k) {
     std::size_t place = 0;
     for (const Index node : to_owners ? neighbours[k].send : neighbours[k].receive) {

@@ -115,6 +115,8 @@ class Checks {
     const Answer here = at(step.state.strain);
     const double time = step.state.time, size = largest(here.tangent);
     double best = std::numeric_limits<double>::max();
+    // Differences with several perturbations: a small one suffers from rounding, a large one from curvature;
+    // the best counts.
     for (const double h : k_perturbations) {
       double worst = 0;
       for (int j = 0; j < 6; ++j) {
@@ -132,6 +134,7 @@ class Checks {
       best = std::min(best, worst);
     }
     tangent_.take(best, time);
+    // How far the tangent is from a symmetric one.
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < i; ++j)
         skew_.take(std::abs(here.tangent[i][static_cast<std::size_t>(j)] -

@@ -18,7 +18,7 @@ namespace solidus::python {
 
 namespace {
 
-/// Starts PETSc, and MPI where nobody has; does nothing a second time.
+/// Starts PETSc, and MPI where it does not run yet; does nothing a second time.
 /// @param communicator  Fortran's number of an MPI communicator; absent: MPI_COMM_WORLD
 /// @param options       of PETSc
 void initialize(std::optional<int> communicator, const std::vector<std::string>& options) {

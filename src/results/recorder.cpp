@@ -229,7 +229,7 @@ void Recorder::step(const coupling::StepRecord& taken, const coupling::State& st
   options_.summary.rejected += record.rejected;
   options_.summary.shortened += record.shortened;
   note_left_walls(record);
-  note_unsettled_turns(record);
+  note_unsettled_augmentations(record);
 }
 
 void Recorder::shot(const coupling::ShotRecord& record, const coupling::State& state) {
@@ -268,13 +268,13 @@ void Recorder::note_left_walls(const coupling::StepRecord& record) {
   }
 }
 
-void Recorder::note_unsettled_turns(const coupling::StepRecord& record) {
-  std::vector<UnsettledTurns>& pairs = options_.summary.unsettled;
+void Recorder::note_unsettled_augmentations(const coupling::StepRecord& record) {
+  std::vector<UnsettledAugmentations>& pairs = options_.summary.unsettled;
   for (std::size_t i = 0; i < record.contacts.size(); ++i) {
     const double left = record.contacts[i].left_penetration;
     if (!(left > 0)) continue;
     const std::string& name = phases_.contacts[i]->spec().name;
-    auto pair = std::ranges::find(pairs, name, &UnsettledTurns::contact);
+    auto pair = std::ranges::find(pairs, name, &UnsettledAugmentations::contact);
     if (pair == pairs.end()) pair = pairs.insert(pair, {.contact = name});
     ++pair->steps;
     pair->penetration = std::max(pair->penetration, left);

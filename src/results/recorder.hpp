@@ -79,7 +79,7 @@ class Recorder : public coupling::Observer {
   void show_castings(coupling::StepEffort& effort, const coupling::State& state) const;
   void add_pools(const coupling::State& state);
   void note_left_walls(const coupling::StepRecord& record);
-  void note_unsettled_turns(const coupling::StepRecord& record);
+  void note_unsettled_augmentations(const coupling::StepRecord& record);
   /// Prints and writes the conclusion at the end of a run, or at its stop.
   /// @param mechanical  stresses and gaps are those of the state
   void conclude(const std::string& outcome, const coupling::State& state, bool mechanical);

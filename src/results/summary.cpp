@@ -59,9 +59,9 @@ Json left_wall_members(const LeftWall& wall) {
   return json;
 }
 
-Json unsettled_members(const UnsettledTurns& turns) {
+Json unsettled_members(const UnsettledAugmentations& found) {
   Json json;
-  json.add("steps", turns.steps).add("largest_penetration_over_face", turns.penetration);
+  json.add("steps", found.steps).add("largest_penetration_over_face", found.penetration);
   return json;
 }
 
@@ -148,7 +148,8 @@ std::string summary_json(const Summary& s) {
   if (!s.left_walls.empty())
     json.add("liquid_metal_left_its_wall", by_name(s.left_walls, &LeftWall::contact, left_wall_members));
   if (!s.unsettled.empty())
-    json.add("turns_that_did_not_settle", by_name(s.unsettled, &UnsettledTurns::contact, unsettled_members));
+    json.add("turns_that_did_not_settle",
+             by_name(s.unsettled, &UnsettledAugmentations::contact, unsettled_members));
   if (s.overview) json.add("understood", results::json(*s.overview));
   json.add("warnings", std::move(warnings));
   return json.text();

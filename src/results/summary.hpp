@@ -52,7 +52,7 @@ struct LeftWall {
 };
 
 /// Steps whose augmentations of the Lagrangian ended early, since the run began or went on.
-struct UnsettledTurns {
+struct UnsettledAugmentations {
   std::string contact;
   int steps = 0;
   double penetration = 0;  ///< the largest that was left, as a share of the mean size of the slave's faces
@@ -82,7 +82,7 @@ struct Summary {
   std::optional<Answers> answers;                   ///< absent in steady runs
   std::vector<ChosenMelt> melt;
   std::vector<LeftWall> left_walls;
-  std::vector<UnsettledTurns> unsettled;
+  std::vector<UnsettledAugmentations> unsettled;
   std::optional<Overview> overview;  ///< the case as it was understood
   std::vector<std::string> warnings;
 };

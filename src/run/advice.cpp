@@ -105,11 +105,11 @@ std::vector<std::string> guard_advice(const coupling::Stop& stop, const CaseSpec
   return advice;
 }
 
-/// Advice where the turns of the augmented Lagrangian do not end (coupling/contact_states.hpp).
+/// Advice where the augmentations of the Lagrangian do not end (coupling/contact_states.hpp).
 std::vector<std::string> contact_advice() {
-  return {"normal = \"penalty\" in that [[contact]], which needs no turns",
+  return {"normal = \"penalty\" in that [[contact]], which needs no augmentations",
           "a larger penetration_tolerance, or a larger penalty_factor, of that contact",
-          "a smaller mechanics.tolerance: turns cannot gain what Newton's iteration leaves"};
+          "a smaller mechanics.tolerance: augmentations cannot gain what Newton's iteration leaves"};
 }
 
 std::vector<std::string> coupling_advice(const coupling::Stop& stop, const CaseSpec& spec) {
@@ -154,6 +154,7 @@ std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec&
 }
 
 std::vector<std::string> advice_of(const coupling::Stop& stop, const CaseSpec& spec) {
+  // What the physics explains goes before what the numerics saw.
   if (stop.diagnosis.physics == coupling::Physics::nothing_carries ||
       stop.diagnosis.physics == coupling::Physics::runs_out ||
       stop.diagnosis.physics == coupling::Physics::limit_load)

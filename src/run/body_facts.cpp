@@ -119,7 +119,7 @@ void Bodies::find_supports(std::vector<BodyFacts>& facts) const {
   // the union as often as there are bodies reaches all of a chain.
   std::vector<int> group(n_);
   for (std::size_t b = 0; b < n_; ++b) group[b] = static_cast<int>(b);
-  for (std::size_t turn = 0; turn < n_; ++turn)
+  for (std::size_t sweep = 0; sweep < n_; ++sweep)
     for (std::size_t b = 0; b < n_; ++b)
       for (std::size_t other = 0; other < n_; ++other)
         if (joined[b * n_ + other] > 0) group[b] = group[other] = std::min(group[b], group[other]);
@@ -184,7 +184,7 @@ void find_contacts(const Assembly& a, const coupling::State& last, const mechani
   const auto any_carried = [&](const std::set<std::size_t>& side) {
     return std::ranges::any_of(side, [&](std::size_t b) { return facts[b].carried; });
   };
-  for (std::size_t turn = 0; turn <= facts.size(); ++turn)
+  for (std::size_t sweep = 0; sweep <= facts.size(); ++sweep)
     for (const Pair& pair : pairs) {
       if (!pair.closed) continue;
       const bool carries = pair.rigid || any_carried(pair.slave) || any_carried(pair.master);

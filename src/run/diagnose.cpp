@@ -22,7 +22,7 @@ using coupling::Diagnosis;
 
 /// A body that moves by this share of its size in a try has lost what held it, and a law that finds no state
 /// there is not the cause.
-constexpr double k_far = 0.01, k_too_far_for_a_law = 0.1;
+constexpr double k_moved_far = 0.01, k_too_far_for_a_law = 0.1;
 /// A body that flows in this share of its volume is a mechanism; one that is strained so much has been one.
 constexpr double k_mechanism = 0.25, k_strained = 0.2;
 /// A contact that keeps less than this share of its closed points comes off.
@@ -107,7 +107,7 @@ bool comes_off(const coupling::ContactPoints& c) {
 /// Returns the physics behind the failed equilibrium of a body.
 coupling::Physics physics_of(const BodyFacts& body, const Diagnosis& d, Failure failure, bool inertia) {
   const double share = body.moved / body.size;
-  const bool far = d.in_try && !(share <= k_far), law_failed = failure == Failure::law;
+  const bool far = d.in_try && !(share <= k_moved_far), law_failed = failure == Failure::law;
   if (!inertia && !body.carried && (body.weight > 0 || far || failure == Failure::linear_solver))
     return coupling::Physics::nothing_carries;
   const bool mechanism = body.plastic && body.yielding > k_mechanism;
@@ -173,6 +173,7 @@ Diagnosis of_heat(const CaseSpec& spec, const Assembly& a, const coupling::State
   describe_node(a, last, rejected.node, d);
   const int owner = owner_of(rejected.node);
   if (owner < 0) return d;
+  // The process that owns the node knows its temperature and body and tells the others.
   std::vector<double> tried(1, 0.0);
   if (owner == processes::rank()) {
     tried[0] = rejected.temperature[at(rejected.node)];
@@ -182,6 +183,7 @@ Diagnosis of_heat(const CaseSpec& spec, const Assembly& a, const coupling::State
   processes::broadcast(d.body, owner);
   d.tried_temperature = tried[0];
   d.largest_change = coupling::largest_difference(rejected.temperature, last.heat.temperature);
+  // Then what explains it: heat that a contact conducts within the step, or a flow of the melt.
   find_contact_heat(a, last, rejected.node, d.step, d);
   d.physics = rejected.failure() == Failure::temperature ? coupling::Physics::cold
               : d.conductance_number > k_conducts        ? coupling::Physics::contact_heat

@@ -24,8 +24,10 @@ std::size_t at(Index i) {
 
 MeltWatch::MeltWatch(const CaseSpec& spec, const Assembly& a)
     : spec_(spec), a_(a), body_(at(a.mesh.n_owned_nodes), -1) {
-  constexpr double k_far = std::numeric_limits<double>::infinity();
-  boxes_.resize(spec.bodies.size(), {{k_far, k_far, k_far}, {-k_far, -k_far, -k_far}});
+  constexpr double k_unbounded = std::numeric_limits<double>::infinity();
+  boxes_.resize(spec.bodies.size(),
+                {{k_unbounded, k_unbounded, k_unbounded}, {-k_unbounded, -k_unbounded, -k_unbounded}});
+  // The box around each body as it starts, and of each own node the body.
   for (const mesh::ElementBlock& block : a.mesh.blocks) {
     const auto body = static_cast<std::size_t>(block.body);
     for (const Index node : block.nodes) {
@@ -59,6 +61,7 @@ void MeltWatch::step(const coupling::StepRecord&, const coupling::State& state) 
   const std::vector<double> coherency = coupling::coherency_of(a_.phases, state.heat);
   const std::size_t n = u.size() / std::max<std::size_t>(a_.mesh.x.size(), 1);
   std::vector<double> farthest(boxes_.size(), 0.0);
+  // How far melt below coherency lies outside the box of its body.
   for (std::size_t i = 0; i < body_.size(); ++i) {
     if (body_[i] < 0 || coherency[i] >= 1) continue;
     mesh::Point place = a_.mesh.x[i];

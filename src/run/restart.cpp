@@ -23,6 +23,7 @@ std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOpt
   const results::CheckpointFolder folder(options.folder);
   results::Checkpoint found = folder.read(a.mesh, fingerprint, a.initial);
   check_stage_of_checkpoint(spec, found.continuation.stage, found.state.time);
+  // A run may have ended for three reasons before its time: periodic, all solid, or its end time reached.
   const CycleSpec* cycle = periodic_cycle(spec);
   const StageRun* stage = found.continuation.stage.number > 0
                               ? &a.stages[static_cast<std::size_t>(found.continuation.stage.number) - 1]

@@ -113,6 +113,7 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
   parts_->options = std::move(options);
   Case& c = parts_->c;
   const RunOptions& o = parts_->options;
+  // In the order of the data: materials, mesh, phases, and then findings, since these need all of it.
   check_restart(c.spec, o);
   Assembly& a = parts_->a;
   std::optional<profile::Part> part;
@@ -132,6 +133,7 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
   if (a.phases.audits_stability())
     announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh, a.start));
 
+  // Without a folder nothing is recorded.
   results::RecorderOptions r = recorder_options(c, o, a);
   if (o.folder.empty()) {
     if (!c.spec.time.steady) parts_->transient.emplace(c.spec, o, a, nullptr);
@@ -141,6 +143,7 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
   r.fingerprint = fingerprint(c.spec, a.mesh, a.materials, a.initial.heat.temperature);
   parts_->lock.emplace(o.folder);
   std::optional<results::Checkpoint>& from = parts_->from;
+  // From a checkpoint time, energies and counters go on.
   from = checkpoint(c.spec, o, a, r.fingerprint);
   if (from) {
     r.progress_options.start = from->state.time;
@@ -149,6 +152,7 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
         {}, from->continuation, from->energy, from->rejected, from->shortened, from->stability};
     r.continue_from->state.time = from->state.time;
   }
+  // What the program has chosen for melts is told once.
   std::vector<std::string> melts;
   for (const results::ChosenMelt& melt : r.summary.melt)
     melts.push_back(

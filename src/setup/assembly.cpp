@@ -98,6 +98,7 @@ void build_contacts(const CaseSpec& spec, Assembly& a) {
 
 void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_temperature, Assembly& a) {
   std::vector<linear::Contribution*> contributions;
+  // Each pair of surfaces adds forces and stiffness; the matrix is symmetric if that of all of them is.
   mechanics::MechanicsOptions options = mechanics_options(spec);
   for (const auto& pair : a.contacts) {
     contributions.push_back(&pair->mechanics());
@@ -112,6 +113,8 @@ void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_te
   mechanics::MechanicalConditions conditions = mechanical_conditions(spec, a.first_stage());
   conditions.absent_bodies =
       absent_from_mechanics(spec, nullptr);  // others leave when the first stage begins
+  // The phase is made of all bodies that conditions of the first stage leave; contacts need to know where
+  // melt touches them.
   a.mechanics = std::make_unique<mechanics::MechanicalPhase>(a.mesh, spec.analysis.kind, a.materials,
                                                              initial_temperature, std::move(conditions),
                                                              std::move(options), contributions);

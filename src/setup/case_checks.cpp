@@ -320,6 +320,7 @@ bool has_unit_of_the_run(const CaseSpec& spec, const ProbeSpec& probe) {
 void check_profiles(const CaseSpec& spec) {
   check_names(spec.profiles, "[[profile]]");
   for (const ProfileSpec& p : spec.profiles) {
+    // The name becomes that of a file, and the units of columns those of fields.
     const bool plain = std::all_of(p.name.begin(), p.name.end(), [](unsigned char c) {
       return std::isalnum(c) != 0 || c == '_' || c == '-';
     });
@@ -384,10 +385,10 @@ void check_coupling(const CaseSpec& spec) {
     throw InputError(c.where, wrong->found, wrong->allowed);
   if (const std::string reason = against_two_stages(spec);
       spec.heat.stepping == heat::ThermalStepping::sdirk2 && !reason.empty())
-    throw InputError(
-        c.where, "heat.stepping = \"sdirk2\": " + reason,
-        "no such key, or a split whose phases come in turn, once a step, with structural_heating "
-        "\"energy\" or \"none\"");
+    throw InputError(c.where, "heat.stepping = \"sdirk2\": " + reason,
+                     "no such key, or a split whose phases are solved once a step, one after the other, with "
+                     "structural_heating "
+                     "\"energy\" or \"none\"");
   if (c.as_printed && (c.structural_heating == Heating::energy || c.structural_heating == Heating::none))
     throw InputError(c.where, "as_printed has no meaning without a printed form of structural heat",
                      "structural_heating \"entropy\", \"literal\" or \"temperature\", or as_printed = false");

@@ -38,6 +38,7 @@ void resolve_places(Value& section) {
 }
 
 void resolve_paths(Value& document) {
+  // Paths count from the folder of the file that names them.
   if (Value* mesh = document.find("mesh"); mesh && mesh->is_table())
     if (Value* file = mesh->find("file"); file && file->is_text()) resolve(*file);
   if (Value* conditions = document.find("thermal_condition"); conditions && conditions->is_list())

@@ -188,6 +188,8 @@ void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
 
 void set_solid_penalty(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                        contact::ContactParameters& pair) {
+  // The penalty of melt is bounded by the pressure of the atmosphere; solids get that of the softer of both
+  // bodies, if both are solid bodies.
   if (!std::isfinite(pair.largest_penalty) || !pair.penalty_is_factor) return;
   std::vector<std::string> surfaces{pair.slave};
   if (!pair.rigid_master) surfaces.push_back(pair.master);

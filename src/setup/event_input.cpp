@@ -51,6 +51,8 @@ class EventList {
 
  private:
   void add(const PlaceSpec& place, double from, double to, double start, bool at_ends) {
+    // Times of a table of points, or those at which a formula of time alone breaks; of others those of their
+    // comparisons.
     if (place.kind == PlaceSpec::Kind::points) {
       const std::vector<double> times =
           PointTable(place.file, place.column, place.key_unit, place.where).times();

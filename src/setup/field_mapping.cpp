@@ -68,6 +68,7 @@ Source read_source(const PlaceSpec& place, AnalysisKind kind, const material::En
   if (field.mesh.dimension != (kind == AnalysisKind::solid ? 3 : 2))
     throw InputError(place.where, fmt::format("'{}' has {} dimensions, the analysis {}", place.file,
                                               field.mesh.dimension, kind == AnalysisKind::solid ? 3 : 2));
+  // The unit of the case goes before that of the file.
   units::Conversion to_kelvin = place.unit;
   if (!place.unit_given && !field.unit.empty()) {
     try {
@@ -80,6 +81,8 @@ Source read_source(const PlaceSpec& place, AnalysisKind kind, const material::En
                             cell_volumes = std::move(field.cell_volumes);
   Source source{std::move(field.mesh), std::move(field.values)};
   const std::vector<double> fractions = solid_fractions(place, curve);
+  // Temperatures become enthalpies per volume, with the solid fraction of the file where there is one; volume
+  // and content of the field follow by its closed weights.
   const std::vector<double> weight = closed_weights(source.mesh, 0, kind);
   source.low = std::numeric_limits<double>::infinity();
   source.high = -source.low;
@@ -131,6 +134,7 @@ MappedEnthalpy map_enthalpy(const PlaceSpec& place, AnalysisKind kind, const mat
   MappedEnthalpy mapped;
   mapped.values.resize(nodes.size());
   Source source;
+  // Every node takes the field where it lies, or at the nearest place within.
   run_collectively([&] {
     source = read_source(place, kind, curve);
     const mesh::ElementSearch search(source.mesh);
@@ -149,6 +153,7 @@ MappedEnthalpy map_enthalpy(const PlaceSpec& place, AnalysisKind kind, const mat
       mapped.values[k] = std::clamp(found.share(source.enthalpy), source.low, source.high);
     }
   });
+  // Content, and how far values could still move to the highest and lowest of the field.
   double volume = 0, total = 0, above = 0, below = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     volume += weights[k];
@@ -165,6 +170,8 @@ MappedEnthalpy map_enthalpy(const PlaceSpec& place, AnalysisKind kind, const mat
   below = parallel::global_sum(below);
   mapped.kept = std::abs(volume - source.volume) <= k_same_shape * source.volume;
   if (!mapped.kept) return mapped;
+  // Mapping loses or gains a little heat. The difference is shared out in proportion to the way of each value
+  // to the highest or lowest one, so that no new extremes arise.
   const double missing = source.total / source.volume * volume - total;
   const double room = missing > 0 ? above : below;
   if (missing == 0 || !(room > 0)) return mapped;

@@ -63,6 +63,7 @@ std::string against_two_stages(const CaseSpec& spec) {
 heat::HeatOptions heat_options(const CaseSpec& spec) {
   heat::HeatOptions options = spec.heat;
   options.alone = !spec.simultaneous();
+  // Two stages unless something of the case speaks against them.
   if (!options.stepping)
     options.stepping = !spec.dynamics && against_two_stages(spec).empty()
                            ? heat::ThermalStepping::sdirk2

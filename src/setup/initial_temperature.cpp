@@ -41,6 +41,8 @@ InitialTemperatures::InitialTemperatures(const CaseSpec& spec,
                                          const std::vector<material::Material>& materials,
                                          const mesh::Mesh& mesh) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    // Given by place the temperature is evaluated at every node; a number is one value for the body, moved to
+    // the jump of enthalpy where it lies next to one.
     const Function& given = spec.bodies[b].initial_temperature;
     if (given.place != nullptr) {
       bodies_.push_back(evaluated(*given.place, mesh, static_cast<int>(b), spec.analysis.kind, materials[b],
@@ -72,10 +74,10 @@ InitialTemperatures::Body InitialTemperatures::evaluated(const PlaceSpec& place,
     for (std::size_t k = 0; k < nodes.size(); ++k)
       if (nodes[k] < mesh.n_owned_nodes) weights[k] = all[static_cast<std::size_t>(nodes[k])];
     MappedEnthalpy mapped = map_enthalpy(place, kind, curve, mesh, nodes, weights);
-    constexpr double k_few = 0.05;
+    constexpr double k_largest_share_outside = 0.05;
     // What lies outside of the other mesh, or has another volume, is told, since it may be the file of
     // another part or unit.
-    if (mapped.outside > k_few)
+    if (mapped.outside > k_largest_share_outside)
       logging::warn(
           "body '{}': {:.0f} % of it lies outside of the grid of '{}', up to {:.3g} m away, and starts with "
           "the temperature of the nearest place; is the file of a mesh at another place, or in another unit "

@@ -52,6 +52,7 @@ mesh::RawMesh built_in_shape(const MeshSpec& m) {
 mesh::GeometryChoice geometry_choice(const MeshSpec& m) {
   mesh::GeometryChoice choice;
   choice.conforming = m.conforming;
+  // Groups by rule are found later, in the mesh; here are those by numbers, labels and boxes of the geometry.
   for (const MeshGroupSpec& g : m.groups) {
     if (g.by_rule()) continue;
     mesh::GeometryGroup& group = choice.groups.emplace_back();
@@ -68,6 +69,7 @@ mesh::GeometryChoice geometry_choice(const MeshSpec& m) {
 }
 
 mesh::CastingGeometry casting_geometry(const MeshSpec& m) {
+  // A size without a smallest one may shrink to a quarter where the part is thin.
   mesh::CastingGeometry geometry;
   for (const MeshSizeSpec& s : m.sizes) {
     if (s.smallest && *s.smallest > s.size)
@@ -113,8 +115,9 @@ void add_layers(const std::vector<MeshLayersSpec>& sections, const std::string& 
       logging::info("layers of '{}' on '{}': {} of {:.3g} mm, the first {:.3g} mm; in the mean {:.3g} mm",
                     body, surface, together[k].number, 1e3 * report.whole, 1e3 * report.first,
                     1e3 * report.mean);
-      constexpr double k_little = 0.35;  // deep layers are thinner at corners and between bodies
-      if (report.mean < k_little * report.whole)
+      constexpr double k_least_share_of_depth =
+          0.35;  // deep layers are thinner at corners and between bodies
+      if (report.mean < k_least_share_of_depth * report.whole)
         logging::warn(
             "layers of '{}' on '{}' have room for {:.2g} of {:.2g} mm in the mean; {} of {} vertices have "
             "none",
@@ -129,6 +132,7 @@ mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) 
   const MeshSpec& m = spec.mesh;
   const std::string name = m.file ? *m.file : *m.shape;
   mesh::RawMesh result;
+  // From a file, meshed where it is a geometry; else one of the built-in shapes.
   if (m.file) {
     mesh::MeshSource source{*m.file, mesh::metres_of_unit(*m.file, m.unit, "m", m.where),
                             m.element_size.value_or(0), m.order};
@@ -145,6 +149,7 @@ mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) 
       throw InputError(m.where, "the shape '" + *m.shape + "': " + error.what());
     }
   }
+  // Interfaces and rules need bodies, and interfaces make contacts of what they find.
   if (!spec.interfaces.empty() || std::ranges::any_of(m.groups, &MeshGroupSpec::by_rule)) {
     check_bodies_of(spec, result);
     add_rule_groups(spec, result, name);
@@ -203,6 +208,7 @@ void require_sound_mesh(const CaseSpec& spec) {
 
 mesh::Mesh load_mesh(CaseSpec& spec) {
   mesh::RawMesh raw;
+  // Interfaces of geometry are found by the first process alone and told to the others.
   if (!spec.interfaces.empty()) {
     const profile::Part part("reading and meshing");
     std::vector<FoundInterface> found;
@@ -216,6 +222,8 @@ mesh::Mesh load_mesh(CaseSpec& spec) {
     results::on_first_process([&] { raw = raw_mesh(spec); });
   }
   vary_contacts(spec);
+  // A body that only conducts costs less than one with mechanics; the partition weighs them so. Sides of
+  // contacts are present on every process.
   const profile::Part part("partition");
   std::vector<std::string> bodies, replicated;
   std::vector<mesh::BodyWork> work;

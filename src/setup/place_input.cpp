@@ -68,6 +68,7 @@ Evaluate formula(const PlaceSpec& spec, AnalysisKind kind) {
 }
 
 Evaluate points(const PlaceSpec& spec, AnalysisKind kind, std::shared_ptr<const PointTable> table) {
+  // Which coordinate each column of the table is; a column that the key does not have is refused.
   std::vector<std::size_t> component;  // of (x, y, z, t)
   for (const std::string& name : table->coordinates()) {
     std::optional<std::size_t> found;
@@ -118,7 +119,7 @@ class Field {
   }
   double value(const Position& x) const {
     const mesh::ElementSearch::Found found = search_->find(x);
-    if (spec_.outside_is_error && found.distance > k_near * std::hypot(x[0], x[1], x[2]))
+    if (spec_.outside_is_error && found.distance > k_nearby * std::hypot(x[0], x[1], x[2]))
       throw InputError(spec_.where,
                        fmt::format("'{}' is asked for at {}, {:.3g} m outside of '{}'", spec_.key,
                                    text(x, kind_), found.distance, spec_.file),
@@ -127,7 +128,7 @@ class Field {
   }
 
  private:
-  static constexpr double k_near = 1e-6;  ///< coordinates may be stored as single precision
+  static constexpr double k_nearby = 1e-6;  ///< coordinates may be stored as single precision
   PlaceSpec spec_;
   AnalysisKind kind_;
   results::ReadField read_;
@@ -182,10 +183,12 @@ class CheckedLaw : public PlaceLaw {
   }
 
   void values(std::span<const Position> x, double time, std::span<double> values) const override {
+    // Values that do not change with time are kept for the places they were asked for.
     if (steady_ && std::equal(x.begin(), x.end(), kept_at_.begin(), kept_at_.end())) {
       std::copy(kept_.begin(), kept_.end(), values.begin());
       return;
     }
+    // A moving field is evaluated at the place that is there now.
     for (std::size_t i = 0; i < x.size(); ++i) {
       Position there = x[i];
       for (std::size_t k = 0; k < 3; ++k) there[k] -= spec_.velocity[k] * time;
@@ -212,9 +215,10 @@ class CheckedLaw : public PlaceLaw {
           variables[c.variable] = x;
           return comparison->value(variables);
         };
-        constexpr double k_near = 1, k_far = 30, k_apart = 0.01;  ///< [m]
-        for (const auto& [low, high] : {std::pair(-k_far, -k_near), {-k_near, k_near}, {k_near, k_far}})
-          for (const TimeEvent& at : breaks(value, low, high, k_apart))
+        constexpr double k_nearby = 1, k_farthest = 30, k_spacing = 0.01;  ///< [m]
+        for (const auto& [low, high] :
+             {std::pair(-k_farthest, -k_nearby), {-k_nearby, k_nearby}, {k_nearby, k_farthest}})
+          for (const TimeEvent& at : breaks(value, low, high, k_spacing))
             breaks_[c.component].push_back(at.time);
       }
     }

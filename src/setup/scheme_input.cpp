@@ -58,6 +58,7 @@ bool keeps_strain(const CaseSpec& spec, const std::vector<material::Material>& m
                   std::span<const InitialTemperatureRange> start) {
   constexpr double k_same = 1;  // [K]
   const Range all = temperatures(spec, start);
+  // Metal that melts or flows keeps the strain of the temperatures at which it did.
   for (std::size_t b = 0; b < materials.size(); ++b) {
     if (!materials[b].mechanical() || only_conducts(spec.bodies[b])) continue;
     const material::PhaseChange* freezing = materials[b].solidification();

@@ -66,6 +66,7 @@ void check_number_of_steps(const TimeSpec& t, double steps) {
 
 coupling::StepOptions step_options(const TimeSpec& t, double step) {
   coupling::StepOptions options;
+  // A limit that the case does not give has the default of the documentation.
   options.step = step;
   options.adaptive = t.adaptive;
   options.min_step = t.min_step.value_or(0);

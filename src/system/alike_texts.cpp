@@ -78,6 +78,7 @@ std::vector<std::string> told_once(const std::vector<std::string>& texts) {
     std::vector<std::string> others;  ///< names of the texts after the first
   };
   std::vector<Kind> kinds;
+  // Texts of one form that differ in names alone are told once, with the names of the others behind.
   for (const std::string& text : texts) {
     Text now = read(text);
     const auto equal = [&](const Kind& k) { return k.text == text; };

@@ -38,6 +38,7 @@ CaughtError caught_in(const std::function<void()>& work) {
 }  // namespace
 
 void run_collectively(const std::function<void()>& work, const ThrowInputError& throw_input_error) {
+  // The first process that failed tells its kind and message; the others throw the same.
   CaughtError caught = caught_in(work);
   const int failing = processes::least(caught.error ? processes::rank() : processes::count());
   if (failing == processes::count()) return;

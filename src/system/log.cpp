@@ -61,6 +61,7 @@ void clear_warnings() {
 
 void message(Level level, std::string_view text) {
   Log& log = state();
+  // A warning is told once; others come as often as they are said.
   if (level == Level::warn) {
     if (std::find(log.warnings.begin(), log.warnings.end(), text) != log.warnings.end()) return;
     log.warnings.emplace_back(text);

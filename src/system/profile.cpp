@@ -94,6 +94,7 @@ std::string text() {
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   std::string lines;
   double rest = 0;
+  // Parts in order of their time; what is short is summed up.
   for (const auto& [name, seconds] : all) {
     if (seconds < k_shown * whole || name == "other") {
       rest += seconds;

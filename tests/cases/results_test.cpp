@@ -274,9 +274,8 @@ TEST(AugmentedLagrangian, WhoseTurnsDoNotEndSaysWhereAndAdvisesOnTheContactAlone
   const auto run = k_here.run("turns", text, {"time.min_step=\"0.5 s\""});
   EXPECT_FALSE(run.finished);
   EXPECT_THAT(run.reason, HasSubstr("reason: the contact pressure on body "));
-  EXPECT_THAT(
-      run.reason,
-      HasSubstr("does not come to rest: contact 'faces': 200 turns of the augmented Lagrangian leave"));
+  EXPECT_THAT(run.reason,
+              HasSubstr("does not come to rest: contact 'faces': 200 augmentations of the Lagrangian leave"));
   EXPECT_THAT(run.reason, HasSubstr("where: node "));
   EXPECT_THAT(run.reason, HasSubstr("normal = \"penalty\" in that [[contact]]"));
   EXPECT_THAT(run.reason, HasSubstr("penalty_factor"));

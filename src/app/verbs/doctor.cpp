@@ -126,10 +126,10 @@ Finding look_at_present_folder() {
 /// Why a program did not do what was asked, in one line.
 std::string reason(const ChildOutcome& outcome) {
   if (!outcome.failure.empty()) return outcome.failure;
-  constexpr std::size_t k_enough = 40;  // characters; what follows the first lines is advice
+  constexpr std::size_t k_characters_of_a_reason = 40;  // characters; what follows the first lines is advice
   std::string text;
   std::istringstream said(outcome.said);
-  for (std::string part; std::getline(said, part) && text.size() < k_enough;) {
+  for (std::string part; std::getline(said, part) && text.size() < k_characters_of_a_reason;) {
     if (part.empty() || part.starts_with("----")) continue;
     if (!text.empty()) text += ' ';
     text += part.substr(part.find_first_not_of(' '));

@@ -234,6 +234,7 @@ ExitCode run_point(const PointArguments& arguments) {
                     summary.notes));
   note_folder(folder);
   print("Results in " + folder.lexically_normal().string() + "\n");
+  // Curves that stopped are told at the end, after their tables are written.
   if (summary.failures.empty()) return k_done;
   std::fputs(("solidus: " + summary.failures).c_str(), stderr);
   return k_cannot_continue;

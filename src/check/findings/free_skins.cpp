@@ -78,7 +78,7 @@ void melts_open_below(const CaseSpec& spec, const Assembly& a, const CaseMeasure
 
 /// A support of all directions on a free surface of a casting keeps it from shrinking there.
 void held_free_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_little = 0.02;  // of the skin
+  constexpr double k_least_share_of_skin = 0.02;  // of the skin
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
     const bool all =
         c.kind == MechanicalConditionSpec::Kind::displacement &&
@@ -87,7 +87,8 @@ void held_free_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures
     const SurfaceMeasures surface = measure_surface(a.mesh, c.group, spec.analysis.kind);
     if (!m.is_poured(static_cast<std::size_t>(surface.body))) continue;
     const auto body = static_cast<std::size_t>(surface.body);
-    if (only_conducts(spec.bodies[body]) || surface.area < k_little * m.bodies[body].skin) continue;
+    if (only_conducts(spec.bodies[body]) || surface.area < k_least_share_of_skin * m.bodies[body].skin)
+      continue;
     findings.push_back(
         {false, c.where,
          fmt::format(

@@ -82,6 +82,7 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
                         "time.end and time.step in place of time.steady"});
     return;
   }
+  // Without cooling, or with too little, no estimate says how long it takes.
   if (pour.no_estimate == "nothing cools it") {
     findings.push_back({false, spec.bodies[pour.body].where, fmt::format("nothing cools the body '{}'", name),
                         "a contact with [contact.heat], a film, radiation or a temperature on its skin"});
@@ -99,8 +100,10 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
     return;
   }
   // An estimate is good to a factor of two.
-  constexpr double k_early = 0.25, k_liquid = 0.4, k_fine = 4, k_enough = 20, k_days = 15 * 86400.0;
+  constexpr double k_early = 0.25, k_liquid = 0.4, k_fine = 4, k_least_steps = 20, k_days = 15 * 86400.0;
   const double time = *pour.freezing.time;
+  // The run, or the stay of the casting in it, against the estimate; then the steps against it, from too long
+  // to too many.
   if (*spec.time.end < k_early * time)
     findings.push_back({false, spec.time.where,
                         fmt::format("the run ends after {}, but '{}' takes some {} to freeze",
@@ -126,7 +129,8 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
                         fmt::format("the first step is {}, but '{}' freezes within some {}", duration(first),
                                     name, duration(time)),
                         "time.step of a thousandth to a hundredth of that; is its unit right?"});
-  if (const double least = spec.time.adaptive ? spec.time.min_step.value_or(0) : 0; k_enough * least > time)
+  if (const double least = spec.time.adaptive ? spec.time.min_step.value_or(0) : 0;
+      k_least_steps * least > time)
     findings.push_back({false, spec.time.where,
                         fmt::format("steps of {} at least, but '{}' freezes within some {}", duration(least),
                                     name, duration(time)),
@@ -188,6 +192,7 @@ void heating(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, con
   for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
     const ThermalConditionSpec& c = spec.thermal_conditions[i];
     if (m.surfaces[i].body != static_cast<int>(pour.body)) continue;
+    // A temperature above the solidus that lasts, heat that flows in, and surroundings above the solidus.
     if (c.kind == Kind::temperature && is_number(c.temperature) && c.temperature.table.value(0) > solidus &&
         pour.freezing.time.value_or(1e300) > spec.time.end.value_or(0))
       findings.push_back(
@@ -222,6 +227,8 @@ void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
     if (freezing == nullptr || a.start[b].high >= freezing->fraction.liquidus()) continue;
     const Role role = role_of(spec.bodies[b], a.materials[b]);
     if (!is_poured(role)) continue;  // the case says that it is a chill
+    // Between solidus and liquidus it was poured too cold; below, it is no casting, or a riser that cannot
+    // feed.
     if (a.start[b].high >= freezing->fraction.solidus()) {
       const bool hottest = std::none_of(a.start.begin(), a.start.end(),
                                         [&](const auto& s) { return s.high > a.start[b].high; });
@@ -296,6 +303,7 @@ void melts_side_by_side(const CaseSpec& spec, const Assembly& a, const CaseMeasu
     return std::any_of(m.pours.begin(), m.pours.end(),
                        [&](const Pour& p) { return static_cast<int>(p.body) == body; });
   };
+  // Contacts between poured bodies, then common nodes of different alloys.
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
     const ContactMeasures& contact = m.contacts[c];
     if (!poured(contact.slave_body) || !poured(contact.master_body) ||

@@ -110,6 +110,7 @@ void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& find
         // Elements of second order know no pores, so that shrinkage strains them.
         spec.has_mechanics() ? "" : ", or two of second order",
         spec.mesh.sizes.empty() ? "mesh.element_size" : "smaller `size` and `smallest` of [[mesh.size]]");
+    // Elements through the whole wall are worst, then those larger than the deepest place, then a single one.
     if (pour.spanned > 0.5)
       findings.push_back(
           {false, spec.mesh.where,

@@ -145,9 +145,9 @@ void cold_dies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, F
 
 /// Rounds that are too few for a search.
 void few_rounds(const CaseSpec& spec, Findings& findings) {
-  constexpr int k_few = 3;
+  constexpr int k_least_rounds = 3;
   for (const CycleSpec& cycle : spec.cycles)
-    if (cycle.periodic && cycle.repeat < k_few)
+    if (cycle.periodic && cycle.repeat < k_least_rounds)
       findings.push_back({false, cycle.where,
                           fmt::format("the cycle '{}' looks for its periodic state in {} round{} at most",
                                       cycle.name, cycle.repeat, cycle.repeat == 1 ? "" : "s"),

@@ -231,6 +231,8 @@ void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findin
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::Material& m = a.materials[b];
     const bool metal = m.solidification() != nullptr;
+    // The arguments of the tables, then the numbers of the solid, heat, phase changes and the melt, in this
+    // order.
     for (const material::Property& property : m.properties())
       if (spec.has_heat()) compare_argument(spec.bodies[b], property, low, m.solidification(), findings);
     if (spec.has_mechanics() && m.mechanical() && !only_conducts(spec.bodies[b]))

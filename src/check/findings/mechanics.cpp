@@ -148,6 +148,8 @@ void pressed_melts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
     if (c.kind != Kind::pressure || !is_number(c.pressure) || c.pressure.table.value(0) < k_head) continue;
     if (!holds(c.stages, a.first_stage())) continue;
+    // The skin of the pressed melt that has anything against it: shared nodes, supports, contacts and the
+    // pressure itself.
     const SurfaceMeasures pressed = measure_surface(a.mesh, c.group, kind);
     for (const Pour& pour : m.pours) {
       const auto body = static_cast<int>(pour.body);

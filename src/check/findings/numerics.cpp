@@ -12,9 +12,10 @@ namespace solidus::model {
 namespace {
 
 void iterations(const CaseSpec& spec, Findings& findings) {
-  constexpr int k_few = 5;
+  constexpr int k_least_iterations = 5;
+  // Limits on iterations that would cut steps for no reason.
   const auto compare = [&](const char* key, int allowed, const char* usual) {
-    if (allowed > 0 && allowed < k_few)
+    if (allowed > 0 && allowed < k_least_iterations)
       findings.push_back(
           {false, spec.time.where,
            fmt::format("{} = {}: a step that needs more is cut, again and again", key, allowed), usual});
@@ -34,8 +35,9 @@ void iterations(const CaseSpec& spec, Findings& findings) {
 
 /// Points look for partners no farther than that: beyond neither force nor heat passes.
 void search_distances(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_near = 2e-3,
-                   k_far = 0.5;  // of the size of the slave's body: what castings shrink by; itself
+  constexpr double k_least_search_distance = 2e-3,
+                   k_largest_search_distance =
+                       0.5;  // of the size of the slave's body: what castings shrink by; itself
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
     const ContactSpec& contact = spec.contacts[c];
     if (!contact.search_distance || m.contacts[c].slave_body < 0) continue;
@@ -43,12 +45,14 @@ void search_distances(const CaseSpec& spec, const CaseMeasures& m, Findings& fin
     double size = 0;
     for (std::size_t d = 0; d < 3; ++d) size = std::max(size, body.high[d] - body.low[d]);
     const double distance = *contact.search_distance;
-    if (distance >= k_near * size && distance <= k_far * size) continue;
+    if (distance >= k_least_search_distance * size && distance <= k_largest_search_distance * size) continue;
     findings.push_back(
         {false, contact.where,
          fmt::format("the contact '{}' looks for partners up to {:g} mm away, its body is {:.4g} mm large{}",
                      contact.name, 1e3 * distance, 1e3 * size,
-                     distance < k_near * size ? ": heat ends where the gap of a casting is wider" : ""),
+                     distance < k_least_search_distance * size
+                         ? ": heat ends where the gap of a casting is wider"
+                         : ""),
          "a hundredth to a tenth of the body, or without the key"});
   }
 }

@@ -42,6 +42,7 @@ std::map<std::size_t, OpenSkin> open_skins(const CaseSpec& spec, const Assembly&
   for (const Pour& pour : m.pours)
     if (spec.bodies[pour.body].role == Role::riser) skins[pour.body] = {};
   if (skins.empty()) return skins;
+  // A contact both holds and cools; a held temperature counts as an inlet, which is open to nothing.
   std::set<std::string> held = contact_sides(spec), cooled = held;
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) held.insert(c.group);
   for (const ThermalConditionSpec& c : spec.thermal_conditions) {
@@ -50,6 +51,7 @@ std::map<std::size_t, OpenSkin> open_skins(const CaseSpec& spec, const Assembly&
   }
   const auto held_faces = mesh::body_face_keys(a.mesh, held),
              cooled_faces = mesh::body_face_keys(a.mesh, cooled);
+  // Areas by direction: up or beside, held or free, cooled or bare.
   mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
     const auto found = skins.find(static_cast<std::size_t>(face.body));
     if (found == skins.end()) return;
@@ -73,20 +75,22 @@ std::map<std::size_t, OpenSkin> open_skins(const CaseSpec& spec, const Assembly&
 }  // namespace
 
 void find_in_open_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_little = 0.02;  // of the skin
+  constexpr double k_least_share_of_skin = 0.02;  // of the skin
   const std::array<double, 3> g = gravity(spec.analysis);
   const double size = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
   if (!spec.has_heat() || !(size > 0)) return;
+  // Faces that look against gravity are the open top of a riser, if it has one.
   for (const auto& [body, skin] : open_skins(spec, a, m, {-g[0] / size, -g[1] / size, -g[2] / size})) {
     const BodySpec& riser = spec.bodies[body];
-    if (skin.bare_up > k_little * skin.all)
+    if (skin.bare_up > k_least_share_of_skin * skin.all)
       findings.push_back(
           {false, riser.where,
            fmt::format("{:.0f} % of the skin of the riser '{}' face up and have neither a thermal condition "
                        "nor a contact: no heat leaves there",
                        100 * skin.bare_up / skin.all, riser.name),
            "10 to 20 W/m2/K and radiation on open metal, 1 to 3 W/m2/K under a cover"});
-    if (spec.has_mechanics() && skin.up < 0.1 * k_little * skin.all && skin.beside > k_little * skin.all)
+    if (spec.has_mechanics() && skin.up < 0.1 * k_least_share_of_skin * skin.all &&
+        skin.beside > k_least_share_of_skin * skin.all)
       findings.push_back(
           {false, spec.analysis.where,
            fmt::format("the riser '{}' is closed on top and open beside, as gravity acts: {:.0f} % of its "

@@ -82,6 +82,7 @@ void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   constexpr double k_most_superheat = 270;  // [K]: less than what kelvins read as degrees Celsius add
   // A case that switches the criteria of castings off states that nothing freezes in it.
   if (!spec.has_heat() || !spec.criteria.follow || hottest(a) < 0) return;
+  // The hottest body is taken for the casting: its role, then its superheat, then whether it freezes at all.
   const auto poured = static_cast<std::size_t>(hottest(a));
   const BodySpec& body = spec.bodies[poured];
   if (body.role && !is_poured(*body.role)) {

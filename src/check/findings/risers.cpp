@@ -74,6 +74,7 @@ void risers_larger_than_castings(const CaseSpec& spec, const CaseMeasures& m, Fi
   constexpr double k_much = 2;
   double castings = 0, risers = 0;
   const Pour* largest = nullptr;
+  // Volumes of castings and of risers; a riser much larger than its casting is hardly meant.
   for (const Pour& pour : m.pours) {
     const double volume = m.bodies[pour.body].volume;
     (is_riser(spec, pour) ? risers : castings) += volume;

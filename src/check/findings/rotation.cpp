@@ -79,6 +79,8 @@ class RigidMotions {
     form_.setZero(n_, n_);
   }
   void hold(Index node, int axis) {
+    // A held node takes from the rigid motions what moves it along that axis: translation, and rotation by
+    // its arm.
     const mesh::Point& x = mesh_.x[static_cast<std::size_t>(node)];
     const Eigen::Vector3d arm = (Eigen::Vector3d(x[0], x[1], x[2]) - centre_) / size_;
     const Eigen::Vector3d turn = arm.cross(Eigen::Vector3d::Unit(axis));

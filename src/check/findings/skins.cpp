@@ -121,8 +121,8 @@ void find_bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures
   // Bare faces of a poured body that lie on another body without contact or shared nodes pass no heat. Both
   // skins are compared where they come near each other; the size of the largest face is the distance that
   // counts.
-  constexpr double k_little = 0.05;          // of the skin of the smaller one
-  constexpr double k_same_temperature = 50;  // [K]: as in findings_interface.cpp
+  constexpr double k_least_share_of_skin = 0.05;  // of the skin of the smaller one
+  constexpr double k_same_temperature = 50;       // [K]: as in findings_interface.cpp
   if (!spec.has_heat() || spec.bodies.size() < 2 || m.pours.empty()) return;
   const Skins bare_faces = bare_skins(spec, a, m);
   if (!parallel::any_process(
@@ -150,7 +150,7 @@ void find_bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures
       const double area =
           area_on(bare, gather_near(skins[other], m.bodies[body].low, m.bodies[body].high, largest), largest,
                   a.mesh.dimension);
-      if (area < k_little * std::min(skin, total_area(skins[other]))) continue;
+      if (area < k_least_share_of_skin * std::min(skin, total_area(skins[other]))) continue;
       findings.push_back(
           {false, spec.bodies[body].where,
            fmt::format("'{}' lies on '{}' with {:.0f} % of its skin where nothing joins them: no heat "

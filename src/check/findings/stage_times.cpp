@@ -34,9 +34,10 @@ std::vector<const StageRun*> freezing_stages(const CaseSpec& spec, const Assembl
 /// The first stage has the rule of runs without stages where steps are fixed; all others have theirs here.
 void steps_of_freezing(const CaseSpec& spec, const Assembly& a, const Pour& pour, Findings& findings) {
   if (!pour.freezing.time) return;
-  constexpr double k_fine = 4, k_enough = 20;
+  constexpr double k_fine = 4, k_least_steps_to_freeze = 20;
   const double time = *pour.freezing.time;
   const std::string& name = spec.bodies[pour.body].name;
+  // One finding is enough: later stages would repeat it.
   for (const StageRun* run : freezing_stages(spec, a, pour)) {
     const StageSpec& stage = *run->stage;
     const double step = first_step(stage, spec.time);
@@ -51,7 +52,8 @@ void steps_of_freezing(const CaseSpec& spec, const Assembly& a, const Pour& pour
                               : "twenty steps and more while it freezes; time.adaptive chooses them"});
       return;
     }
-    if (const double least = spec.time.adaptive ? stage.min_step.value_or(0) : 0; k_enough * least > time) {
+    if (const double least = spec.time.adaptive ? stage.min_step.value_or(0) : 0;
+        k_least_steps_to_freeze * least > time) {
       findings.push_back(
           {false, stage.where,
            fmt::format("steps of {:g} s at least in the stage '{}', but '{}' freezes within some {:.3g} s",
@@ -152,7 +154,7 @@ double share_of_range(const Table& table, double seconds) {
 /// A table that counts from the start of its stage, and changes when that is over, or begins where the stage
 /// begins in the run.
 void tables_of_the_stage(const Assembly& a, const TimeTable& t, Findings& findings) {
-  constexpr double k_same = 0.01, k_little = 0.2;
+  constexpr double k_same = 0.01, k_least_share_of_range = 0.2;
   double longest = 0;
   const StageRun* begins_there = nullptr;
   const double first = t.table.x().front(), last = t.table.x().back();
@@ -168,7 +170,7 @@ void tables_of_the_stage(const Assembly& a, const TimeTable& t, Findings& findin
                      "counts from the start of the stage",
                      t.name, first, begins_there->stage->name),
          "a table that begins at 0 s, or time = \"run\""});
-  else if (last > longest && share_of_range(t.table, longest) < k_little)
+  else if (last > longest && share_of_range(t.table, longest) < k_least_share_of_range)
     findings.push_back(
         {false, t.where,
          fmt::format("the table of '{}' goes from {:g} s to {:g} s, counted from the start of a "

@@ -88,6 +88,7 @@ Translations::Translations(const CaseSpec& spec, const Assembly& a, const CaseMe
   std::iota(group_.begin(), group_.end(), 0);
   form_.setZero(n_ * n_bodies, n_ * n_bodies);
   fixed_.setZero(n_ * n_bodies, n_);
+  // Bodies that do not move in this stage are held; then supports, contacts and shared nodes tie what moves.
   for (const BodySpec& body : spec.bodies)
     moves_.push_back(!only_conducts(body) && holds(body.stages, stage));
   for (std::size_t b = 0; b < moves_.size(); ++b)
@@ -105,6 +106,8 @@ Translations::Translations(const CaseSpec& spec, const Assembly& a, const CaseMe
 void Translations::add_supports(const CaseSpec& spec, const Assembly& a, const StageRun* stage) {
   using Bits = std::uint64_t;
   const auto bit = [](std::size_t body) { return Bits{1} << std::min<std::size_t>(body, 63); };
+  // A bit of each body at its nodes tells which bodies a group of nodes belongs to; the last bit is shared by
+  // all bodies from the 64th on.
   std::vector<Bits> of_node(a.mesh.x.size(), 0);
   for (const mesh::ElementBlock& block : a.mesh.blocks)
     for (const Index node : block.nodes)
@@ -185,6 +188,7 @@ Eigen::MatrixXd Translations::held(int group) const {
 Eigen::VectorXd Translations::followed(std::size_t body, const Eigen::VectorXd& pull) const {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(form_.rows());
   all.segment(n_ * static_cast<int>(body), n_) = pull;
+  // What of the pull lies in motions that nothing resists.
   const SymmetricEigen modes = modes_of(form_);
   Eigen::VectorXd motion = Eigen::VectorXd::Zero(all.size());
   for (Eigen::Index k = 0; k < all.size(); ++k)
@@ -266,11 +270,11 @@ void falling_bodies(const CaseSpec& spec, const Translations& t, const std::stri
 /// has to lie below them. Friction on upright faces counts, for a mould may clamp what it holds.
 bool carries(const ContactSpec& contact, const ContactMeasures& sides, const std::vector<char>& bodies) {
   const auto is_of_them = [&](int body) { return body >= 0 && bodies[static_cast<std::size_t>(body)] != 0; };
-  constexpr double k_little = 0.01;  // of the area
+  constexpr double k_least_share_of_area = 0.01;  // of the area
   const bool slave = is_of_them(sides.slave_body), master = is_of_them(sides.master_body);
   if (slave == master) return false;
   const double below = slave ? sides.below : sides.above;
-  return below + (contact.friction ? sides.beside : 0.0) > k_little * sides.paired;
+  return below + (contact.friction ? sides.beside : 0.0) > k_least_share_of_area * sides.paired;
 }
 
 /// Bodies that two-sided contacts would hold, but that gravity takes off what they lie on. A body that shares
@@ -318,6 +322,7 @@ void lifted_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
 
 void find_loose_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_mechanics() || spec.dynamics) return;
+  // The first stage in full, then what becomes loose in later ones; each body is told once.
   const Translations translations(spec, a, m, a.first_stage());
   std::vector<char> told(spec.bodies.size(), 0);
   loose_groups(spec, translations, "", told, findings);

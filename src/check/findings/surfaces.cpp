@@ -88,9 +88,9 @@ void films_in_one_place(const CaseSpec& spec, const mesh::Mesh& mesh, Findings& 
     const double all = parallel::global_sum(static_cast<double>(faces.size()));
     for (std::size_t k = 0; k < i; ++k) {
       const double one = strength(*films[i]), other = strength(*films[k]);
-      constexpr double k_little = 0.2;
+      constexpr double k_least_ratio_of_films = 0.2;
       if (films[i]->group == films[k]->group || !share_a_stage(films[i]->stages, films[k]->stages) ||
-          std::min(one, other) < k_little * std::max(one, other))
+          std::min(one, other) < k_least_ratio_of_films * std::max(one, other))
         continue;
       const auto others = mesh::body_face_keys(mesh, {films[k]->group});
       const double shared = parallel::global_sum(static_cast<double>(
@@ -176,6 +176,7 @@ Ends ends_of(const mesh::Mesh& mesh, const std::vector<Index>& group, const std:
   const double near = 1e-3 * (body.high[axis] - body.low[axis]);
   Ends found;
   bool elsewhere = false;
+  // The nodes of the group at both ends of the body along the axis; a group that has others is no end.
   for (const Index node : group) {
     const auto i = static_cast<std::size_t>(node);
     if (of_body[i] == 0) continue;
@@ -206,6 +207,7 @@ void clamped_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasure
     if (only_conducts(body)) continue;
     const BodyMeasures& measures = m.bodies[pour.body];
     const std::vector<char> of_body = nodes_of_body(a.mesh, pour.body);
+    // Along each axis the supports at both ends of the casting; the axis of revolution has no second end.
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(a.mesh.dimension); ++axis) {
       const bool round = spec.analysis.kind == AnalysisKind::axisymmetric && axis == 0;
       const double extent = measures.high[axis] - measures.low[axis];

@@ -46,6 +46,7 @@ void AugmentedLagrangian::accelerate(const std::vector<double>& penetration) {
   if (last_penetration_.size() != penetration.size()) {
     step_factor_.assign(penetration.size(), 1.0);
   } else {
+    // Aitken's factor by the ratio in which penetrations fall, not below the plain step and not far above it.
     for (std::size_t i = 0; i < penetration.size(); ++i) {
       const double last = last_penetration_[i], fallen = last - penetration[i];
       const double ratio = fallen != 0 ? last / fallen : 1.0;
@@ -173,6 +174,8 @@ double AugmentedLagrangian::pressure_error(const ContactState& now) const {
   if (!acts()) return 0;
   double force = 0, area = 0;
   const ContactKinematics& kinematics = geometry_.kinematics();
+  // Mean force and area of what presses; the largest penetration times the stiffness is what the pressure may
+  // be wrong by.
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactKinematics::Particle particle = kinematics.particle(p);
     const double pressure = now.points[at(p)].pressure;

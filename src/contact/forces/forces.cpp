@@ -15,6 +15,8 @@ namespace {
 PointLaw law_of(const ContactParameters& spec, double penalty) {
   PointLaw law;
   law.normal = {spec.normal, penalty};
+  // Solid bodies may have a stiffer penalty than melt; friction has a tangential penalty of its own or a
+  // share of the normal one.
   if (spec.normal == NormalKind::penalty) law.stiffening = std::max(spec.solid_penalty / penalty, 1.0);
   if (!spec.friction) return law;
   const FrictionParameters& friction = *spec.friction;

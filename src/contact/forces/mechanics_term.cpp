@@ -128,6 +128,8 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
   const double w = motion.weight;
   const bool frictional = law_.friction.has_value() && f.normal.closed;
   const double spring = frictional ? law_.tangential_penalty(from) : 0.0;
+  // How the traction follows the penetration: by its friction limit and, where temperatures are solved along,
+  // by the conductance that pressure and gap change.
   Point traction_by_penetration{};
   if (frictional && !symmetric_) {
     traction_by_penetration = scale(f.normal.tangent, f.traction_by_pressure);
@@ -138,6 +140,7 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
                      f.traction_by_conductance);
   }
   const double stabilisation = w * hold_ * stabilisation_ * stabilisation_share_ * law_.normal.penalty;
+  // Rates by each node: penetration and, with friction, the traction that slip and rotation change.
   for (std::size_t c = 0; c < n; ++c) {
     const Point& g = motion.penetration_rate[c];
     Tensor traction_rate{};
@@ -153,6 +156,7 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
     // B_b F of a point is one tensor but for B_b.
     const bool alike = motion.push_share.empty();
     const Tensor pushed = frictional && alike ? times(motion.push, traction_rate) : Tensor{};
+    // Each node takes the force of normal, stabilisation and traction with its share.
     for (std::size_t b = 0; b < n; ++b) {
       double* block = run.k.data() + (b * n + c) * dim * dim;
       const Point normal = scale(w * f.normal.balance_tangent, motion.normal_at(b));
@@ -167,6 +171,7 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
         for (std::size_t j = 0; j < dim; ++j) block[i * dim + j] += share * of_node[i][j];
     }
   }
+  // Weights change with the place where segments are cut again.
   if (follows_weights_ && !motion.weight_rate.empty()) {
     for (std::size_t b = 0; b < n; ++b) {
       const Point force = frictional ? motion.force_at(b, f.normal.balance_pressure, f.traction)
@@ -238,6 +243,8 @@ void MechanicsTerm::add_temperature_tangent(linear::CoupledMatrix& matrix) {
     coupled_slots_.bind(*coupled_, n_owned_, kinematics_.n_points());
   }
   const auto components = static_cast<std::size_t>(components_);
+  // At each point that slips the traction changes with the temperature of the interface, and this with the
+  // nodal temperatures of both sides.
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
     if (!kinematics_.concerns(p)) continue;
     const PointMotion motion = kinematics_.motion(p, step_.from[at(p)], ContactKinematics::Asked::motion);

@@ -120,6 +120,8 @@ SurfaceCurvature HeatTerm::master_curvature(Index point) const {
 }
 
 HeatTerm::Radiation HeatTerm::radiation(Index point) const {
+  // Across a gap of curved surfaces radiation goes between different areas, the mean of both; closed or plane
+  // the factor is that of the law.
   const double gap = -points_[at(point)].penetration;
   if (!(gap > 0) || partners_.partnered[at(point)] == 0 || (curvature_.empty() && master_curvature_.empty()))
     return {law_.radiation_factor(), 0};

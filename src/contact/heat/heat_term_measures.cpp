@@ -19,6 +19,7 @@ std::size_t at(Index i) {
 std::vector<InterfaceHeatFlux> HeatTerm::surface_heat(std::span<const double> temperature) const {
   std::vector<InterfaceHeatFlux> heat(points_.size());
   if (!active_) return heat;
+  // Heat by friction goes to both sides; what is conducted and radiated goes from one to the other.
   for (Index p = 0; p < partners_.n_points(); ++p) {
     if (partners_.partnered[at(p)] == 0) continue;
     const AtPoint s = see(p, temperature);
@@ -35,6 +36,7 @@ std::vector<InterfaceHeatFlux> HeatTerm::surface_heat(std::span<const double> te
 InterfaceHeatFlux HeatTerm::counted_heat(std::span<const double> temperature) const {
   InterfaceHeatFlux sum;
   const std::vector<InterfaceHeatFlux> heat = surface_heat(temperature);
+  // Only points that this process counts, so that sums over processes hold each once.
   for (Index p = 0; p < partners_.n_points(); ++p) {
     if (partners_.counted[at(p)] == 0) continue;
     for (std::size_t side = 0; side < 2; ++side) {
@@ -147,6 +149,7 @@ double HeatTerm::dissipated(const AtPoint& s) const {
 std::vector<std::optional<FrictionResponse>> HeatTerm::keep_slip(std::span<const double> temperature) {
   std::vector<std::optional<FrictionResponse>> slip(points_.size());
   if (!active_) return slip;
+  // Points that have a temperature keep the friction of the solution with its dissipation.
   for (Index p = 0; p < partners_.n_points(); ++p) {
     HeatPoint& point = points_[at(p)];
     if (point.friction == nullptr || !point.has_temperature || partners_.partnered[at(p)] == 0) continue;

@@ -6,6 +6,8 @@ namespace solidus::contact {
 
 Asperities::Pressed Asperities::spots(double pressure, double temperature) const {
   if (!(pressure > 0)) return {};
+  // Contacts of plastic asperities (the exponents are those of the correlation), with a hardness that depends
+  // on the size of their indentations.
   constexpr double k_exponent = 0.95, k_size = 0.071;
   constexpr double k_per_micrometre = 1e6;
   const double power = 1 / (1 + k_size * hardness_exponent);

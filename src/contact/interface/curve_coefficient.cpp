@@ -87,6 +87,7 @@ CoefficientBounds CurveCoefficient::slopes(double from, double to, double theta)
   const auto of_table = [&](const Table& table) {
     CoefficientBounds t{table.derivative(from), table.derivative(from)};
     const auto x = table.x();
+    // Slopes change at the points of the table only; beyond the last one it is level.
     for (auto i = std::upper_bound(x.begin(), x.end(), from); i != x.end() && *i <= to; ++i) {
       const double slope = *i == x.back() ? 0 : table.derivative(*i);  // level beyond
       t = {std::min(t.low, slope), std::max(t.high, slope)};

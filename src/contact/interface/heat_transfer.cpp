@@ -174,6 +174,8 @@ LawConductance HeatTransferLaw::open(double gap, double temperature) const {
 }
 
 LawConductance HeatTransferLaw::closed(double pressure, double temperature) const {
+  // Spots of contact and the gas between them conduct side by side; where the law knows how far rough
+  // surfaces are apart, gas fills that distance.
   const LawConductance pressed = spec_.contact_law->at(pressure, temperature);
   if (!spec_.contact_law->beside_gas()) return pressed;
   if (!between_asperities_) {

@@ -62,6 +62,8 @@ InterfaceResponse interface_response(const InterfaceSides& sides, double tempera
   r.temperature = temperature;
   r.stiffness = stiffness;
   const auto& h = sides.conductance;
+  // Fluxes from both sides and their slopes: a side changes the temperature of the interface by its
+  // conductance over the stiffness of the balance.
   for (std::size_t i = 0; i < 2; ++i) {
     r.flux[i] = h[i] * (sides.temperature[i] - temperature);
     r.by_side[i] = h[i] / stiffness;
@@ -136,6 +138,8 @@ InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionI
   const double stored =
       law.stores() ? coefficient.point(in.internal_variable, in.temperature).stored_theta : 0;
   InterfaceReturn r;
+  // Without capacity or exchange the interface has nothing to balance: its heat is that of friction at the
+  // temperature it has.
   if (isolated(law.heat_capacity(), sides)) {
     r.friction = law.update(in);
     r.heat = shared_heat(
@@ -171,6 +175,8 @@ InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionI
     return theta * (gained + conductance) - source - f.dissipation * rate;
   };
 
+  // The balance rises with temperature: an upper bound by doubling, then Newton's method, with bisection
+  // whenever it leaves the bounds or gains too little.
   double theta = interface_balance(still, sides).temperature;  // the trial state (5.33)
   double low = 0, high = theta, value = balance(theta);
   for (int i = 0; value < 0 && i < k_doublings; ++i) {
@@ -194,6 +200,7 @@ InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionI
     value = balance(theta);
     (value > 0 ? high : low) = theta;
   }
+  // At the solution: fluxes and their slopes, and the traction by temperature.
   r.heat = interface_response(sides, theta, slope);
   if (!r.friction.sticks) {
     const auto now = coefficient.point(r.friction.internal_variable, theta);

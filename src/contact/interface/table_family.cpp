@@ -21,6 +21,7 @@ TableFamily::TableFamily(std::vector<double> temperature, std::vector<Table> tab
 TableFamily::Value TableFamily::at(double argument, double temperature) const {
   const auto next = static_cast<std::size_t>(
       std::upper_bound(temperature_.begin(), temperature_.end(), temperature) - temperature_.begin());
+  // Beyond the temperatures the nearest table holds; between two everything is linear.
   if (temperature_.size() < 2 || next == 0 || next == temperature_.size()) {
     const auto line = (next == 0 ? tables_.front() : tables_.back()).line(argument);
     return {line.value, line.slope, 0, 0};

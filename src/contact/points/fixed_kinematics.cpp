@@ -47,6 +47,8 @@ FixedKinematics::Particle FixedKinematics::particle(Index point) const {
 }
 
 void FixedKinematics::place(std::span<const double> u, Points) {
+  // Shares do not change in small sliding, so that the relative displacement of each point is linear in the
+  // nodal ones.
   for (const Pairing& pairing : points_.pairings) {
     const Index* nodes = points_.nodes.data() + pairing.first_node;
     const double* b = points_.shape.data() + pairing.first_shape;

@@ -13,6 +13,8 @@ Point through_basis(const std::array<Point, 2>& dual, const std::array<Point, 2>
 
 Tensor push_forward(const MasterFrame& frame, const Point& reference_plane, const Point& normal) {
   const auto dual = dual_basis(frame.tau);
+  // Each unit vector goes the way of the traction: to the reference face, with its basis to the present one,
+  // to the normal.
   Tensor columns{};  // row j is F e_j
   for (std::size_t j = 0; j < 3; ++j) {
     Point e{};
@@ -29,6 +31,8 @@ Tensor push_forward(const MasterFrame& frame, const Point& reference_plane, cons
 PushRates push_rates(const MasterFrame& frame, const Point& reference_plane,
                      const std::array<Point, 2>& reference_plane_xi, const Point& normal,
                      const Point& traction) {
+  // The traction turns from the reference plane to that of the face, is carried by its basis to the present,
+  // and turns to the normal: the push of a traction vector with the master.
   const auto dual = dual_basis(frame.tau);
   const RotationRates back = rotation_rates(reference_plane, frame.reference_face_normal, traction);
   const Point there = times(back.by_vector, traction);
@@ -46,6 +50,7 @@ PushRates push_rates(const MasterFrame& frame, const Point& reference_plane,
     rates.by_tau[b] = times(turn.by_vector, by_basis);
     contact::add_scaled(rates.by_tau[b], 1, times(turn.by_from, of_normal));
   }
+  // Along the reference face the basis changes by its curvature, and so does what is carried.
   const std::array<std::array<std::size_t, 2>, 2> k_order{{{0, 2}, {2, 1}}};  // of τ_β,α
   for (std::size_t a = 0; a < 2; ++a) {
     const Point turned =

@@ -151,11 +151,14 @@ void ContactGeometry::make_kinematics(AnalysisKind kind, const ContactParameters
         "formulation = \"small_sliding\", or integration = \"segments\", \"gauss\" or \"nodal\"");
   const ContactSurface& slave = surfaces.slave;
   const double reach = spec.search_distance.value_or(0.1 * slave.extent());
+  // Small sliding finds all partners once, in the reference configuration.
   if (!slides) {
     kinematics_ = std::make_unique<FixedKinematics>(
         find_points(mesh_, kind, spec, reach, slave, *surfaces.master), components_);
     return;
   }
+  // Large sliding meets a mesh or an exact surface; segments cut faces of the slave at those of the master,
+  // other rules keep their points.
   const bool cut = spec.integration == IntegrationRule::segments;
   std::unique_ptr<Master> met;
   if (surfaces.master)

@@ -32,6 +32,7 @@ MasterWear::MasterWear(const mesh::Mesh& mesh, AnalysisKind kind, const ContactS
   for (Index f = 0; f < master.n_faces(); ++f) {
     const Face face = master.reference_face(f);
     const auto nodes = master.nodes(f);
+    // The area that belongs to each node, with positive shares.
     for (const auto& q : mesh::gauss_rule(face.shape, k_degree)) {
       const std::span<double> s = std::span(shares).first(nodes.size());
       mesh::basis_values(face.shape, q.xi, s);
@@ -53,6 +54,7 @@ std::vector<WornNode> MasterWear::initial_state() const {
 void MasterWear::add(const PointMotion& motion, double depth, double dissipation,
                      std::vector<WornNode>& nodes) const {
   const auto first = static_cast<std::size_t>(motion.n_slave);
+  // Nodes take part with positive shares, which are made to sum to one.
   const auto share = [&](std::size_t b) { return std::max(-motion.share[b], 0.0); };
   double sum = 0;
   for (std::size_t b = first; b < motion.nodes.size(); ++b) sum += share(b);

@@ -24,6 +24,7 @@ std::vector<GlobalIndex> face_key(const mesh::Mesh& mesh, std::span<const Index>
 
 double local_stiffness(const mesh::Mesh& mesh, const ContactSurface& surface,
                        std::span<const double> modulus) {
+  // Which face of the surface each set of corners is.
   std::map<std::vector<GlobalIndex>, Index> face_of;
   for (Index f = 0; f < surface.n_faces(); ++f) {
     const auto vertices = static_cast<std::size_t>(mesh::vertex_count(surface.shape(f)));
@@ -41,6 +42,8 @@ double local_stiffness(const mesh::Mesh& mesh, const ContactSurface& surface,
         const auto n = static_cast<std::size_t>(mesh::vertex_count(mesh::face_shape(block.shape)));
         vertices.clear();
         for (std::size_t i = 0; i < n; ++i) vertices.push_back(nodes[local[i]]);
+        // The element behind a face: its modulus over its height along the normal is the stiffness per area,
+        // whose mean by area is asked for.
         const auto found = face_of.find(face_key(mesh, vertices));
         if (found == face_of.end() || surface.nodes(found->second)[0] >= mesh.n_owned_nodes) continue;
         const Face face = surface.reference_face(found->second);

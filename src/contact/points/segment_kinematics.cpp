@@ -144,6 +144,7 @@ void SegmentKinematics::place(std::span<const double> displacement, Points) {
 FacetGap SegmentKinematics::facets(Index point) const {
   FacetGap mean;
   if (covered_[at(point)] == 0) return mean;
+  // The mean over the pieces of the cell, by area.
   for (Index s = first_place_[at(point)]; s < first_place_[at(point) + 1]; ++s) {
     if (places_.partner(s).face < 0) continue;
     const FacetGap here = places_.facets(s);
@@ -163,6 +164,7 @@ bool SegmentKinematics::concerns(Index point) const {
 
 void SegmentKinematics::number_nodes(const PointMotion& place) const {
   where_.clear();
+  // Nodes of all pieces of a cell in one list, and where each piece has its own in it.
   for (const Index node : place.nodes) {
     where_.push_back(at(static_cast<Index>(std::ranges::find(nodes_, node) - nodes_.begin())));
     if (where_.back() < nodes_.size()) continue;
@@ -274,6 +276,7 @@ void SegmentKinematics::add_geometric_tangent(Index point, double pressure, cons
   const std::size_t n = nodes_.size();
   assert(k.size() == n * n);
   std::vector<Tensor> part;
+  // Pieces add theirs at the places of their nodes in the list of the cell.
   for_each_place(point, Asked::rates, [&](Index s, const PointMotion& place) {
     const std::size_t m = place.nodes.size();
     part.assign(m * m, Tensor{});
@@ -288,6 +291,7 @@ void SegmentKinematics::add_share_rates(Index point, std::span<Point> rates) con
   const std::size_t n = nodes_.size();
   assert(rates.size() == n * n);
   std::vector<Point> part;
+  // The shares of a cell are the mean of those of its pieces by their weights.
   for_each_place(point, Asked::rates, [&](Index s, const PointMotion& place) {
     const std::size_t m = place.nodes.size();
     part.assign(m * m, Point{});

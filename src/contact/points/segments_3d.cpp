@@ -84,6 +84,8 @@ class Cutter {
     if (!facing(partner, plane_.normal)) return;
     const int degree = options_.degree > 0 ? options_.degree : std::min(product_degree(slave_, partner), 20);
     const auto rule = mesh::gauss_rule(mesh::Shape::tri3, degree);
+    // Both faces as polygons in one plane; where they overlap and no other face is nearer, the piece is
+    // integrated by triangles.
     for (const Polygon& window : slave_images_)
       for (const Polygon& image : images(partner, plane_, false)) {
         const Polygon piece = clip(image, window, 1e-12 * size_);

@@ -163,6 +163,7 @@ Point clamp(Shape shape, Point xi) {
     if (is_line(shape)) xi[1] = 0;
     return xi;
   }
+  // Beyond the hypotenuse a point goes back along its normal, then onto the legs.
   if (const double excess = xi[0] + xi[1] - 1; excess > 0) {
     xi[0] -= excess / 2;
     xi[1] -= excess / 2;

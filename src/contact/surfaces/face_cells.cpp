@@ -7,6 +7,7 @@ namespace solidus::contact {
 std::vector<std::vector<Point>> face_cells(mesh::Shape shape) {
   const auto v = reference_vertices(shape);
   const std::size_t n = v.size();
+  // Each vertex has the quarter of the face next to it; a triangle has a cell in its middle too.
   if (n == 2) return {{v[0], Point{}}, {Point{}, v[1]}};
   std::vector<std::vector<Point>> result;
   std::vector<Point> middle(n);
@@ -41,6 +42,7 @@ std::vector<SlaveRulePoint> cell_rule(const Face& face, AnalysisKind kind, const
   part.shape = cell.size() == 2 ? Shape::line2 : cell.size() == 3 ? Shape::tri3 : Shape::quad4;
   std::copy(cell.begin(), cell.end(), part.x.begin());
   std::vector<SlaveRulePoint> points;
+  // Gauss's rule on the cell, mapped to the face and from there to the body.
   for (const auto& q : mesh::gauss_rule(part.shape, degree)) {
     const Point xi = part.at(q.xi);
     points.push_back(

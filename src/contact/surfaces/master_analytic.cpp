@@ -91,6 +91,7 @@ void AnalyticMaster::frame(const Partner& partner, bool, MasterFrame& frame) con
   } else {
     tangent_basis(nu, e1, e2);
   }
+  // The normal changes with the place by the curvature of the surface, towards the inside where it is hollow.
   const double side = surface_.hollow ? -1 : 1;
   const Point radial = scale(side, nu);
   const Point c1 = curvature(radial, e1), c2 = planar_ ? Point{} : curvature(radial, e2);
@@ -101,6 +102,7 @@ void AnalyticMaster::frame(const Partner& partner, bool, MasterFrame& frame) con
   frame.reference_face_normal = frame.reference_nu = nu;
   frame.reference_face_normal_xi = frame.reference_nu_xi = {scale(side, c1), scale(side, c2)};
 
+  // What is of the reference moves along with the tool: turned about its centre and shifted.
   const Point& c = surface_.motion.centre;
   frame.y = add(add(c, times(turn_, subtract(partner.xi, c))), shift_);
   for (std::size_t a = 0; a < 2; ++a) {

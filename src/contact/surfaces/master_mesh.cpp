@@ -43,6 +43,7 @@ Basis basis_at(const Face& face, const Point& xi) {
   b.tau_xi = face.curvatures(xi);
   const Point n = cross(b.tau[0], b.tau[1]);
   b.normal = scale(1 / norm(n), n);
+  // The normal turns with the place by the curvature of the face (Weingarten).
   const auto dual = dual_basis(b.tau);
   const double k11 = dot(b.tau_xi[0], b.normal), k22 = dot(b.tau_xi[1], b.normal),
                k12 = dot(b.tau_xi[2], b.normal);
@@ -208,6 +209,7 @@ Partner MeshMaster::smooth_on(Index f, const Point& start, const Point& x, doubl
   for (int i = 0; i < k_max_iterations; ++i) {
     const auto d = normals_->at(f, here.shape, xi);
     if (i == 0) g = -dot(subtract(x, here.at(xi)), d.nu);
+    // The residual and its derivatives by both parameters and by the gap, solved by Cramer's rule.
     const Point r = add_scaled(subtract(x, here.at(xi)), g, d.nu);
     const auto tau = here.tangents(xi);
     const Point a = add_scaled(tau[0], -g, d.nu_xi[0]), b = add_scaled(tau[1], -g, d.nu_xi[1]);
@@ -216,11 +218,13 @@ Partner MeshMaster::smooth_on(Index f, const Point& start, const Point& x, doubl
     if (!(std::abs(det) > 1e-10 * norm(a) * norm(b))) return {};
     const double d1 = dot(r, cross(b, c)) / det, d2 = here.dimension() == 1 ? 0 : dot(r, cross(c, a)) / det;
     const double length = std::max(std::abs(d1), std::abs(d2));
+    // A step longer than one is cut, as parameters of a face lie between -1 and 1.
     const double step = length > 1 ? 1 / length : 1;
     xi = {xi[0] + step * d1, xi[1] + step * d2, 0};
     g += step * dot(r, cross(a, b)) / det;
     if (outside_by(here.shape, xi) > 2) return {};
     if (length > allowed && i + 1 < k_max_iterations) continue;
+    // The partner must have converged and lie on the face, or beyond it by no more than the tolerance.
     if (length > 1e-9 || outside_by(here.shape, xi) > tolerance) return {};
     Partner p;
     p.face = f;

@@ -73,6 +73,7 @@ std::span<const Index> AveragedNormals::nodes(Index face) const {
 }
 
 void AveragedNormals::place(std::span<const Face> faces) {
+  // Normals of all faces at their nodes, then at each node the mean of those that belong together.
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (std::size_t a = 0; a < static_cast<std::size_t>(faces[f].n_nodes); ++a)
       own_[first_node_[f] + a] = faces[f].normal(node_xi(faces[f].shape, a));
@@ -102,6 +103,7 @@ AveragedNormals::Director AveragedNormals::at(Index face, mesh::Shape shape, con
   std::array<double, 2 * k_max_face_nodes> g;
   mesh::basis_gradients(shape, xi, g);
   const auto dim = static_cast<std::size_t>(mesh::dimension(shape));
+  // The derivative of the interpolated normal, across itself.
   for (std::size_t alpha = 0; alpha < dim; ++alpha) {
     Point slope{};
     for (std::size_t a = 0; a < static_cast<std::size_t>(mesh::node_count(shape)); ++a)
@@ -120,6 +122,7 @@ void AveragedNormals::rates(Index face, std::span<const Face> faces, const Point
   std::array<double, k_max_face_nodes> values;
   mesh::basis_values(here.shape, xi, values);
   std::fill(nu_rate.begin(), nu_rate.end(), Tensor{});
+  // Each node's normal is the mean of the normals of its faces, so that every node of these faces moves it.
   for (std::size_t a = 0; a < static_cast<std::size_t>(here.n_nodes); ++a) {
     const std::size_t i = first(face) + a;
     for (std::size_t k = first_member_[i]; k < first_member_[i + 1]; ++k) {

@@ -94,6 +94,8 @@ bool one_minimum(const Face& face, const Point& p) {
 }
 
 void try_line(const Face& line, const Point& p, Best& best) {
+  // On a straight line there is a formula; on a curved one several starts find several minima, and the ends
+  // bound it.
   if (line.n_nodes == 2) {
     const Point d = subtract(line.x[1], line.x[0]);
     const double s = dot(subtract(p, line.x[0]), d) / dot(d, d);
@@ -200,6 +202,7 @@ Projection project_along(const Face& face, const Point& p, const Point& d, doubl
   Projection result = project_along_extended(face, p, d);
   if (!result.found) return result;
   const double outside = outside_by(face.shape, result.xi);
+  // Slightly outside the point is drawn onto the face.
   if (outside > tolerance) {
     result.found = false;
   } else if (outside > 0) {

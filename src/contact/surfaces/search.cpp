@@ -88,6 +88,7 @@ SurfacePoint FaceSearch::along(const Point& p, const Point& n, double max_distan
 SurfacePoint FaceSearch::along(const Point& p, const Point& n, double max_distance, double tolerance,
                                const std::vector<Index>& among) const {
   SurfacePoint best;
+  // The nearest face that looks against the normal; of faces as near within rounding the first.
   for (Index f : among) {
     const Face& candidate = face(f);
     const Projection projection = project_along(candidate, p, n, tolerance);

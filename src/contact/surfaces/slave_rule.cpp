@@ -55,6 +55,7 @@ std::vector<SlaveRulePoint> slave_rule(const Face& face, AnalysisKind kind, Inte
       points.push_back({q.xi, q.weight * face.jacobian(q.xi) * circumference(kind, face.at(q.xi))});
     return points;
   }
+  // By nodes: each with its own area, where that is positive.
   const std::vector<double> measures = nodal_measures(face, kind);
   for (std::size_t a = 0; a < measures.size(); ++a)
     if (measures[a] > 0) points.push_back({node_xi(face.shape, a), measures[a]});

@@ -56,6 +56,7 @@ void SlidingSearch::build() {
   std::vector<Entry> entries, watched;
   entries.reserve(faces_.size());
   built_at_.clear();
+  // Boxes are wider than faces by a margin, so that the tree serves until a node has moved by that.
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const auto [low, high] = faces_[f].box();
     entries.emplace_back(box_around(low, high, margin_), static_cast<Index>(f));

@@ -130,6 +130,7 @@ double ShapeOperator::turn_along(const Point& d) const {
 }
 
 std::vector<ShapeOperator> shape_operators(const ContactSurface& surface, double feature_angle) {
+  // Centre, normal and a tangent of each face, and the faces at each node.
   std::vector<Facet> facets;
   std::unordered_map<Index, std::vector<std::size_t>> at_node;
   std::unordered_map<Index, Point> place;
@@ -144,6 +145,8 @@ std::vector<ShapeOperator> shape_operators(const ContactSurface& surface, double
   }
   const double least_cosine = std::cos(feature_angle);
   std::vector<ShapeOperator> shapes;
+  // Around each face its neighbours up to sharp edges. Triangles fit a quadric through the nodes of the patch
+  // if it has enough of them; all others fit the change of the normals.
   for (std::size_t f = 0; f < facets.size(); ++f) {
     std::vector<std::size_t> around;
     for (const Index node : surface.nodes(static_cast<Index>(f)))

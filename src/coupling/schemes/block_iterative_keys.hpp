@@ -26,7 +26,8 @@ struct IterationKeys {
 };
 
 struct BlockIterativeScheme {
-  static constexpr std::string_view name = "block_iterative", doc = "both phases in turn until they agree";
+  static constexpr std::string_view name = "block_iterative",
+                                    doc = "both phases in alternation until they agree";
   IterationKeys iteration;
 
   static void keys(Section<BlockIterativeScheme>& s) {
@@ -62,7 +63,8 @@ struct BlockIterativeScheme {
                       "coupling.iteration.tolerance (now {:g})",
                       iteration.max_iterations, iteration.tolerance));
     advice.emplace_back(
-        "another scheme: coupling.scheme = \"isentropic\" takes one turn a step, \"simultaneous\" solves "
+        "another scheme: coupling.scheme = \"isentropic\" solves each phase once a step, \"simultaneous\" "
+        "solves "
         "both fields at once");
     return advice;
   }
@@ -81,7 +83,7 @@ struct BlockIterativeScheme {
     // The keys of [coupling.iteration], in the order in which the reference lists them: which state a phase
     // sees, what it holds, how the loops are nested, and when the iteration ends.
     using I = IterationKeys;
-    Section<I> s("iteration", "The block-iterative scheme: both phases in turn until they agree.");
+    Section<I> s("iteration", "The block-iterative scheme: both phases in alternation until they agree.");
     s.choice("sweep", &I::sweep,
              {{"gauss_seidel", I::Sweep::gauss_seidel, "each phase sees the newest state of the other"},
               {"jacobi", I::Sweep::jacobi, "each phase sees the other as the iteration before left it"}})

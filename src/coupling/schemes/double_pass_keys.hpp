@@ -17,11 +17,12 @@ struct DoublePassScheme {
   ThermalFlow flow = ThermalFlow::kept;
 
   static void keys(Section<DoublePassScheme>& s) {
-    s.choice("passes", &DoublePassScheme::passes,
-             {{"isentropic", Passes::isentropic, "the mechanical phase holds the entropy of every point"},
-              {"isothermal", Passes::isothermal,
-               "it holds the temperature to which its own deformation leads, found in a few turns; for weak "
-               "coupling only"}})
+    s.choice(
+         "passes", &DoublePassScheme::passes,
+         {{"isentropic", Passes::isentropic, "the mechanical phase holds the entropy of every point"},
+          {"isothermal", Passes::isothermal,
+           "it holds the temperature to which its own deformation leads, found in a few iterations; for weak "
+           "coupling only"}})
         .initially("isentropic")
         .doc("Which split the double pass is made of.");
     declare_thermal_flow(s, &DoublePassScheme::flow);

@@ -98,6 +98,7 @@ class Conduction final : public ConductionBlock {
   void add_tangent_once(double factor, linear::BlockMatrix& matrix) const override {
     constexpr Index k_together = 1024;  // batches
     constexpr std::size_t k_nodes = static_cast<std::size_t>(n_nodes) * k_lanes;
+    // Slots are found for many batches at once, and no more, as they are used only here.
     for (Index first = 0; first < geometry_.n_batches; first += k_together) {
       const Index n = std::min(k_together, geometry_.n_batches - first);
       const std::span<const Index> nodes =

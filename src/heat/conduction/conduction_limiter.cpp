@@ -281,6 +281,7 @@ ConductionLimiter::Held ConductionLimiter::hold(std::span<const double> temperat
   if (!needed_) return Held::none;
   if (held_nodes_.empty()) held_nodes_.assign(sums_.size(), 0);
   auto held = Held::none;
+  // A node that is out of bounds once is held on that side from then on.
   for (const Index node : nodes_) {
     const std::size_t i = at(node);
     if (temperature[i] >= lowest && temperature[i] <= highest) continue;
@@ -324,6 +325,7 @@ void ConductionLimiter::add_symmetric_tangent(linear::BlockMatrix& matrix) const
 
 void ConductionLimiter::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const {
   for_held([&](const KirchhoffPotential& u, const Pair& p, double left) {
+    // What is left of each pair as a flow between two potentials, by its slopes.
     const auto slope = [&](Index node) {
       return left * p.k * (u.constant() ? u.reference() : u.conductivity(temperature[at(node)]));
     };

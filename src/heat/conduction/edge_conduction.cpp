@@ -171,6 +171,7 @@ const mesh::Wedge* EdgeConduction::wedge(Index node) const {
 std::optional<EdgeLoss> EdgeConduction::loss(const mesh::Mesh& mesh, mesh::Shape shape,
                                              const Index* nodes) const {
   if (wedges_.empty() || (shape != mesh::Shape::tri3 && shape != mesh::Shape::tet4)) return {};
+  // Which nodes of the element lie on re-entrant edges.
   const auto n = static_cast<std::size_t>(mesh::node_count(shape));
   std::array<const mesh::Wedge*, k_nodes> wedges{};
   bool any = false;
@@ -184,6 +185,7 @@ std::optional<EdgeLoss> EdgeConduction::loss(const mesh::Mesh& mesh, mesh::Shape
       for (std::size_t j = 0; j < 3; ++j) mean[i][j] += (1 - c) * ((i == j ? 1.0 : 0.0) - t[i] * t[j]);
     ++n_edges;
   };
+  // A side along an edge has the solution of the wedge between both nodes.
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = a + 1; b < n; ++b) {
       if (wedges[a] == nullptr || wedges[b] == nullptr) continue;

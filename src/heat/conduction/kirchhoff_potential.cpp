@@ -14,6 +14,7 @@ KirchhoffPotential::KirchhoffPotential(const Table& conductivity)
   const bool linear = conductivity.extrapolation() == Extrapolation::linear;
   u_.push_back(0);
   slope_.push_back(0);
+  // The integral of the conductivity, exact for a table that is linear between its points.
   for (std::size_t i = 0; i < last; ++i) {
     const double width = t_[i + 1] - t_[i];
     slope_.push_back((k_[i + 1] - k_[i]) / width);

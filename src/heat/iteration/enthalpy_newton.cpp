@@ -39,6 +39,8 @@ void EnthalpyNewton::evaluate(std::span<const double> temperature) {
   const profile::Part part("residual");
   double moved = system_.residual(temperature, r_), norm = 0, contents = 0;
   const std::vector<char>& fixed = system_.fixed();
+  // Stored heat joins the flows; at prescribed temperatures the residual is a reaction, elsewhere it must
+  // vanish.
   for (std::size_t i = 0; i < r_.size(); ++i) {
     const double stored = (heat_[i] - old_heat_[i]) / dt_;
     r_[i] += stored;

@@ -75,6 +75,7 @@ ConductionLimiter::Held HeatSystem::hold_nodes(std::span<const double> temperatu
   if (!limiter_ || !exchange_) return ConductionLimiter::Held::none;
   const double lowest = range.lowest - k_rounding, highest = range.highest + k_rounding;
   const ConductionLimiter::Held held = limiter_->hold(temperature, lowest, highest);
+  // Contributions limit what they exchange at the same nodes.
   if (held == ConductionLimiter::Held::none || contributions_.empty()) return held;
   std::vector<char> beyond(temperature.size());
   for (std::size_t i = 0; i < beyond.size(); ++i)
@@ -91,6 +92,7 @@ void HeatSystem::release_nodes() {
 
 TemperatureRange HeatSystem::surroundings() const {
   TemperatureRange range;
+  // Ambient temperatures and prescribed ones, over all processes.
   const auto include = [&range](const TemperatureRange& other) {
     range.lowest = std::min(range.lowest, other.lowest);
     range.highest = std::max(range.highest, other.highest);
@@ -126,6 +128,8 @@ TemperatureRange HeatSystem::ambient_range(bool with_contributions) const {
 
 TemperatureRange HeatSystem::range_of_contributions(std::span<const double> temperature) {
   TemperatureRange range;
+  // Contributions that only exchange heat can lead no farther than the temperatures of the nodes that they
+  // touch.
   for (linear::Contribution* contribution : contributions_) {
     if (contribution->stores()) continue;
     std::fill(contributed_.begin(), contributed_.end(), 0.0);

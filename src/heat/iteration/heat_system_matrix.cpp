@@ -132,6 +132,7 @@ void HeatSystem::find_node_bodies() {
   if (mesh_.bodies.size() == 1) return;
   constexpr int k_none = -2;
   node_body_.assign(mesh_.x.size(), k_none);
+  // The one body of each node, or none where several share it.
   for (const mesh::ElementBlock& block : mesh_.blocks) {
     if (!active_.body(block.body)) continue;
     for (const Index node : block.nodes) {
@@ -175,6 +176,7 @@ void HeatSystem::scale_by_slopes(std::span<const double> slopes) {
 
 void HeatSystem::add_kept_conduction(std::span<const double> temperature, std::span<const double> slopes,
                                      SharedNodes shared) {
+  // Where all nodes have one curve of one body the kept matrix is added as it is.
   double* values = matrix_->block(0);
   if (nodal_->identity() || node_body_.empty() || shared == SharedNodes::plain) {
     for (std::size_t s = 0; s < kept_conduction_.size(); ++s) values[s] += kept_conduction_[s];
@@ -192,6 +194,8 @@ void HeatSystem::add_kept_conduction(std::span<const double> temperature, std::s
   };
   const std::span<const std::int64_t> start = matrix_->row_start();
   const std::span<const Index> columns = matrix_->columns();
+  // Else entries to shared nodes scale with the conductivity of the body over the slope of the shared curve;
+  // symmetric ones take the geometric mean.
   for (std::size_t row = 0; row + 1 < start.size(); ++row) {
     const auto i = static_cast<Index>(row);
     const int own = node_body_[row];

@@ -43,6 +43,7 @@ TemperatureSystem::TemperatureSystem(const mesh::Mesh& mesh, HeatSystem& system,
     : mesh_(mesh), system_(system), points_(points), ghosts_(ghosts) {}
 
 double TemperatureSystem::residual(std::span<const double> x, std::span<double> r) {
+  // Flows and storage; reactions at prescribed temperatures count as heat moved.
   double moved = system_.residual(x, r);
   if (storing_) {
     local_.assign(mesh_.x.size(), 0.0);
@@ -61,6 +62,7 @@ double TemperatureSystem::residual(std::span<const double> x, std::span<double> 
 linear::BlockMatrix& TemperatureSystem::tangent(std::span<const double> x) {
   const NodalPotential& potential = system_.potential();
   slope_.resize(mesh_.x.size(), 1.0);
+  // Slopes of the potential make the matrix symmetric in it.
   if (!potential.identity()) {
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
       slope_[static_cast<std::size_t>(i)] = potential.slope(i, x[static_cast<std::size_t>(i)]);

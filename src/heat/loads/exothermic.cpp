@@ -27,6 +27,8 @@ BurningState burn(const BurningState& state, const std::vector<double>& ignition
                   double end) {
   assert(state.lit.size() == ignition.size() && after.size() == ignition.size());
   BurningState next = state;
+  // What burns releases until the end of the step; what reaches its ignition within it is lit at that time,
+  // by linear interpolation.
   for (std::size_t i = 0; i < next.lit.size(); ++i) {
     if (std::isfinite(next.lit[i])) {
       next.released[i] = end;

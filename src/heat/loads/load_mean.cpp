@@ -74,6 +74,8 @@ LoadValues LoadLaw::values(std::span<const double> of_functions) const {
   double product = 1;
   for (const double f : of_functions.first(of_functions.size() - 1)) product *= f;
   const double driver = of_functions.back();
+  // Supply and loss apart for a power; coefficient and its product with the driving temperature for films and
+  // radiation.
   switch (kind) {
     case Kind::power: {
       const double power = product * driver;
@@ -119,6 +121,7 @@ std::vector<TimePoint> time_points(const LoadWindow& window, std::span<const Pla
   const std::span<const TimePoint> rule =
       n == 2 ? std::span<const TimePoint>(k_gauss_2) : std::span<const TimePoint>(k_gauss);
   std::vector<TimePoint> points;
+  // Gauss points between the breaks of the functions in time, weighted by the length of the pieces.
   for (int p = 0; p < window.n_parts; ++p) {
     const LoadWindow::Part& part = window.parts[static_cast<std::size_t>(p)];
     const std::vector<double> ends = pieces(part, functions, parts);

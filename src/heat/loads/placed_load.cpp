@@ -119,6 +119,8 @@ void PlacedLoad::average(const LoadLaw& law, std::span<const TimePoint> times, s
 
 CellIntegrals::Breaks PlacedLoad::breaks(const LoadLaw& law, std::span<const TimePoint> times) const {
   CellIntegrals::Breaks breaks;
+  // Along each axis where functions break at any of these times, and the least distance between two such
+  // places.
   for (std::size_t i = 0; i < 3; ++i) {
     std::vector<double> now;
     for (const TimePoint& time : times) {

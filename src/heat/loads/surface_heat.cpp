@@ -143,6 +143,8 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
     const int order = mesh::order(faces.shape);
     // Exact for N_a N_b times the radius on straight faces.
     const mesh::FaceGeometry g(mesh, faces, kind, mesh::gauss_rule(faces.shape, 2 * order + 1));
+    // By the closed rule heat goes to the nodes. Quadratic faces have corners of negative weight: a second
+    // set of weights, positive and with the same sum, serves heat that is supplied.
     if (closed) {
       for (Index face = 0; face < g.n_faces; ++face) {
         double area = 0, squares = 0;
@@ -160,6 +162,7 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
       if (order == 2 && mesh.dimension == 3 && law_.exchanges()) add_corners(faces, g);
       continue;
     }
+    // By the open rule the law is taken at Gauss points.
     patches_.push_back({.n_nodes = g.n_nodes,
                         .n_points = g.n_points,
                         .n_faces = g.n_faces,
@@ -188,6 +191,8 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
 
 void SurfaceHeat::place_points(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface,
                                bool closed) {
+  // Every point at which the law is taken, with its place and what belongs to it: a node, or a point in a
+  // face.
   std::vector<PlacedLoad::Point> points;
   std::vector<PlacedLoad::Share> shares;
   Index first_cell = 0;
@@ -351,6 +356,7 @@ void SurfaceHeat::add_supply(std::span<const double> temperature, std::span<doub
     for (std::size_t i = 0; i < heat.size(); ++i) (heat[i] > 0 ? gain : loss)[i] += std::abs(heat[i]);
     return;
   }
+  // Gains and losses apart, as bounds on temperatures weigh them differently.
   for (std::size_t s = 0; s < supplied_nodes_.size(); ++s) {
     const auto i = static_cast<std::size_t>(supplied_nodes_[s]);
     const double heat = supply_weight_[s] * at_node(temperature, supplied_nodes_[s]).q;
@@ -368,6 +374,7 @@ bool SurfaceHeat::diagonal() const {
 
 void SurfaceHeat::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const {
   if (is_placed_flux()) return;
+  // The slope of the law at each point, to the nodes of its face.
   for (const Patch& patch : patches_) {
     const linear::BlockMatrix::Slot* slot = patch.slots.data();
     for (Index face = 0; face < patch.n_faces; ++face, slot += patch.n_nodes * patch.n_nodes)
@@ -382,6 +389,7 @@ void SurfaceHeat::add_tangent(std::span<const double> temperature, linear::Block
             *matrix.block(slot[a * patch.n_nodes + b]) -= slope * n[a] * n[b];
       }
   }
+  // Pairs exchange between their nodes, each flow by the temperature that it comes from.
   for (const Pair& p : pairs_) {
     const double of_i = p.weight * at_node(temperature, p.i).slope,
                  of_j = p.weight * at_node(temperature, p.j).slope;

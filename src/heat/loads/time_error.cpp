@@ -14,6 +14,8 @@ constexpr double k_sdirk_error = (0.20710678118654752 - 1.0 / 6.0) / material::k
 std::vector<double> time_error(const StageFlows& flows, std::span<const double> before) {
   std::vector<double> error(flows.last.size());
   const double first = flows.share, second = 1 - flows.share;
+  // With one stage the error is that of backward Euler, by the rate before; with two it is the difference of
+  // both rates.
   for (std::size_t i = 0; i < error.size(); ++i) {
     const double last = flows.last[i];
     if (flows.first.empty()) {

@@ -17,6 +17,7 @@ void ConsistentHeat::begin_stage(const linear::RungeKuttaStage& stage, std::span
   const bool first = stage.carried == 0;
   dt_ = stage.dt;
   on_ = true;
+  // The excess over the lumped heat starts at the state before, or from the extrapolated first stage.
   for (const auto& block : points_) {
     if (first)
       block->start(before, stage.dt);
@@ -72,6 +73,7 @@ double ConsistentHeat::latent(std::span<const double> from, std::span<const doub
 
 EntropyChange ConsistentHeat::entropy_change(std::span<const double> from, std::span<const double> to) const {
   EntropyChange sum;
+  // The entropy at points less that at nodes, since only the difference is stored here.
   for (const auto& block : points_) {
     const EntropyChange part = block->entropy_change(from, to);
     sum.change += part.change;

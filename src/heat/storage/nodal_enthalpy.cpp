@@ -15,6 +15,7 @@ namespace solidus::heat {
 NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
                              const std::vector<material::Material>& materials)
     : materials_(materials) {
+  // The curves of all materials, where their pieces start in enthalpy, and where they break in temperature.
   for (const material::Material& m : materials_) {
     curves_.push_back(m.enthalpy());
     starts_.emplace_back();
@@ -51,6 +52,7 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
             volume_in(node, block.body) +=
                 weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
     });
+  // A mesh of one body needs no list of shares.
   if (n_owned > 0 && further.empty() && std::ranges::count(body_of, body_of.front()) == std::ssize(body_of)) {
     shares_ = NodeShares(body_of.front(), std::move(volume_of));
     return;
@@ -75,6 +77,7 @@ double NodalEnthalpy::held_by(const linear::ActiveSet& active, Index node, doubl
   const NodeShares::List list = shares_[node];
   if (std::all_of(list.begin(), list.end(), [&](const NodeShare& s) { return active.body(s.body); }))
     return heat;
+  // The heat of the bodies that stay, at the same temperature and share of the plateau.
   const double share = plateau_share(node, heat, temperature);
   double held = 0;
   for (const NodeShare s : list) {
@@ -171,6 +174,8 @@ double NodalEnthalpy::slope(Index node, double heat) const {
 NodalEnthalpy::Point NodalEnthalpy::point(Index node, double heat) const {
   const NodeShares::List list = shares_[node];
   if (list.empty()) return {std::numeric_limits<double>::quiet_NaN(), 0.0};  // it stores nothing
+  // A node of several bodies has the sum of their curves, which is solved for; one of a single body finds its
+  // piece by the enthalpy.
   if (list.size() != 1) {
     bool plateau = false;
     const double t = mixed_temperature(list, heat, plateau);
@@ -184,6 +189,8 @@ NodalEnthalpy::Point NodalEnthalpy::point(Index node, double heat) const {
   const std::size_t i = above == 0 ? 0 : above - 1;
   const auto& piece = curve(share).pieces()[i];
   const double from = h - piece.h0, width = piece.t1 - piece.t0;
+  // Below the first piece and above the last one capacity is constant; within a piece it is linear, so that
+  // enthalpy is quadratic.
   if (from <= 0) return {piece.t0 + from / piece.c0, 1.0 / (piece.c0 * share.weight)};
   const double in_piece = width * (piece.c0 + 0.5 * piece.c1 * width);
   if (from >= in_piece) {
@@ -252,6 +259,7 @@ double NodalEnthalpy::latent(Index node, double heat, double temperature) const 
   double latent = 0;
   for (const NodeShare s : shares_[node]) {
     const material::Material& m = materials_[static_cast<std::size_t>(s.body)];
+    // Fractions of all changes, within a jump by the share of it that is done.
     for (const material::PhaseChange& change : m.phase_changes) {
       const double below = change.fraction.below(temperature), above = change.fraction.above(temperature);
       const double share = below == above ? 0.0 : plateau_share(node, heat, temperature);

@@ -47,6 +47,7 @@ class Storage final : public PointStorage {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Nodal t = gather<n_nodes>(geometry_, batch, temperature);
       Nodal sum{};
+      // At each point the heat stored since the start of the stage, as a rate.
       for (int q = 0; q < geometry_.n_points; ++q) {
         const double* n = values(q);
         const std::size_t at = point(batch, q);
@@ -63,6 +64,7 @@ class Storage final : public PointStorage {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Nodal t = gather<n_nodes>(geometry_, batch, temperature);
       ConductionMatrix<n_nodes> m{};
+      // The slope of that rate is the capacity at the point.
       for (int q = 0; q < geometry_.n_points; ++q) {
         const double* n = values(q);
         const Lane theta = at_point(t, n);
@@ -96,6 +98,7 @@ class Storage final : public PointStorage {
 
   double latent(std::span<const double> old_temperature, std::span<const double> temperature) const override {
     double total = 0;
+    // What has transformed, by the change of the fraction at the points.
     for (const material::PhaseChange& change : material_.phase_changes) {
       Lane transformed(0.0);
       const auto add = [&](double sign) {

@@ -91,6 +91,8 @@ StorageCurve::AtHeat StorageCurve::at_heat(double h) const {
 }
 
 StorageCurve::AtPotential StorageCurve::at_potential(double v) const {
+  // The piece by its potential, then the temperature in it from a quadratic equation. Within rounding of a
+  // jump the slope is zero, as it is in the jump.
   const Piece* piece = &pieces_[by_potential_(v)];
   if (v < piece->v0) piece = &below_;
   double t = root(piece->k0, piece->k1, v - piece->v0);

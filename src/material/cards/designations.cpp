@@ -81,6 +81,7 @@ std::vector<std::string> designated(std::string_view name, const std::vector<std
   std::vector<std::string> found;
   if (wanted.size() < 2) return found;  // "7" means none
   int best = 1;
+  // All that are as like as the best one.
   for (const std::string& each : names) {
     const std::optional<Label> label = label_of(each, library);
     const int like = label ? likeness(wanted, *label) : 0;
@@ -92,9 +93,9 @@ std::vector<std::string> designated(std::string_view name, const std::vector<std
 
 std::string materials_meant(std::string_view name, const std::vector<std::string>& names,
                             std::span<const fs::path> library) {
-  constexpr std::size_t k_few = 6;
+  constexpr std::size_t k_most_candidates = 6;
   const std::vector<std::string> found = designated(name, names, library);
-  if (found.empty() || found.size() > k_few) return one_of(names, name);
+  if (found.empty() || found.size() > k_most_candidates) return one_of(names, name);
   std::vector<std::string> titled;
   for (const std::string& each : found) {
     const std::optional<Label> label = label_of(each, library);

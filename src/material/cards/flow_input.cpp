@@ -161,6 +161,7 @@ void add_isotropic(Material& m, Flow& flow, const FlowData& data) {
   flow.isotropic = data.isotropic;
   if (data.isotropic == IsotropicHardening::table) return add_curves(m, flow, data);
 
+  // Measured curves aside, the law has its flow stress and parameters, which may object to one another.
   flow.flow_stress = read_property(m, "plasticity.flow_stress", data.flow_stress);
   check_thermal_softening(flow.flow_stress, data, [&](std::size_t) { return data.flow_stress.where; });
   check_yield_strain(flow.flow_stress, m, data.flow_stress.where);
@@ -181,6 +182,7 @@ void add_kinematic(Material& m, Flow& flow, const FlowData& data) {
 void add_rate(Material& m, Flow& flow, const FlowData& data) {
   const RateLaw& law = rate_law(data.rate_dependence);
   flow.rate_dependence = data.rate_dependence;
+  // A law may complete what is not given, or say which key is missing.
   const GivenRates given = add_parameters(m, data, "rate_dependence", law, flow.rate);
   const RateCompletion completed = law.complete(flow.rate, given, m);
   if (completed.blamed) {

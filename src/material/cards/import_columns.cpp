@@ -113,6 +113,7 @@ units::Conversion conversion_of(const Quantity& quantity, const Column& column, 
 /// The column of a quantity: the one that the user names, or the one with a known header.
 const Column* find_column(const ColumnTable& table, const Quantity& quantity, const ImportOptions& options,
                           Column& renamed) {
+  // The user may name a column with a unit behind a colon; a colon may also belong to the name.
   if (const auto given = options.columns.find(quantity.name); given != options.columns.end()) {
     std::string header = given->second, unit;
     const auto matches = [&](const Column& c) { return c.header == header || c.name == header; };
@@ -129,6 +130,7 @@ const Column* find_column(const ColumnTable& table, const Quantity& quantity, co
     if (!unit.empty()) renamed.unit = unit;
     return &renamed;
   }
+  // Otherwise the first header that is known for the quantity.
   for (const Column& column : table.columns) {
     const HeaderParts parts = parts_of_header(column);
     if (std::find(quantity.headers.begin(), quantity.headers.end(), plain(parts.name)) ==

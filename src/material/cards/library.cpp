@@ -87,6 +87,7 @@ bool names_a_file(const std::string& reference) {
 fs::path locate(const std::string& reference, std::span<const fs::path> library,
                 const SourceLocation& where) {
   std::error_code unreadable;
+  // A file counts from the one that names it; a name is looked for in the folders, one after the other.
   if (names_a_file(reference)) {
     const fs::path file = fs::path(where.file).parent_path() / reference;
     if (!fs::exists(file, unreadable))
@@ -114,6 +115,7 @@ Value load_with_base(const fs::path& file, std::span<const fs::path> library, in
 void add_liquid_model(Material& m, const MaterialData& data) {
   m.liquid_model = data.liquid_model;
   const auto parameters = liquid_law(m.liquid_model).parameters();
+  // Each parameter is given, or has a default, or is missing.
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto given = data.liquid_numbers.find(parameters[i].key);
     if (given != data.liquid_numbers.end()) {
@@ -200,7 +202,7 @@ PropertyNote note_of(std::string property, const Function& f) {
 
 Table mean_expansion(const Table& instantaneous, double reference) {
   if (instantaneous.constant()) return instantaneous;
-  constexpr double k_close = 5, k_far = 4000;  // [K]
+  constexpr double k_close = 5, k_widest = 4000;  // [K]
   const std::span<const double> given = instantaneous.x();
   std::vector<double> x{given.begin(), given.end()};
   for (std::size_t i = 1; i < given.size(); ++i) {
@@ -210,7 +212,7 @@ Table mean_expansion(const Table& instantaneous, double reference) {
   }
   // A mean goes on changing where the coefficient itself stays what it is.
   if (instantaneous.extrapolation() != Extrapolation::error)
-    for (double beyond = k_close; beyond < k_far; beyond *= 1.3) {
+    for (double beyond = k_close; beyond < k_widest; beyond *= 1.3) {
       x.push_back(given.back() + beyond);
       if (given.front() - beyond > 0) x.push_back(given.front() - beyond);
     }

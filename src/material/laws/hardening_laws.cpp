@@ -57,6 +57,7 @@ std::optional<LawObjection> Voce::objection(const Table& flow_stress, const Hard
   std::vector<double> joint(flow_stress.x().begin(), flow_stress.x().end());  // between them both are lines
   joint.insert(joint.end(), saturated.x().begin(), saturated.x().end());
   std::sort(joint.begin(), joint.end());
+  // Both are linear between these temperatures, so that comparing there is enough.
   for (const double theta : joint)
     if (saturated.value(theta) < flow_stress.value(theta))
       return LawObjection{

@@ -55,6 +55,7 @@ void evaluate(const Material& material, const ExternalLaw& law, double temperatu
 std::vector<double> temperatures_of_law(const Material& material) {
   constexpr double k_room = k_zero_celsius + 20;
   const PhaseChange* const freezing = material.solidification();
+  // Room temperature and those of the table of Young's modulus up to the solidus, where the law acts.
   std::vector<double> temperatures{k_room};
   for (const double at : material.young_modulus.x())
     if (at > 0 && (freezing == nullptr || at <= freezing->fraction.solidus())) temperatures.push_back(at);

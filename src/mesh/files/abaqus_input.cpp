@@ -188,6 +188,8 @@ void Reader::begin(int depth) {
 
 void Reader::begin_scope() {
   if (part_ || instance_ != 0) fail("*" + keyword_.name + " stands inside of another part or instance");
+  // A part is kept until instances ask for it; an instance begins as a copy of its part, which is moved at
+  // its end.
   system_ = {};
   moved_ = false;
   if (keyword_.name == "PART") {
@@ -281,6 +283,7 @@ void Reader::node_line(const AbaqusLine& line) {
 }
 
 void Reader::element_line(const AbaqusLine& line) {
+  // The nodes of an element may go on in the next line; it is complete with all of them.
   for (std::size_t i = 0; i < line.parts.size(); ++i) pending_.push_back(line.integer(i));
   const auto nn = static_cast<std::size_t>(node_count(shape_));
   if (pending_.size() < nn + 1) return;
@@ -392,7 +395,7 @@ void Reader::surface_line(const AbaqusLine& line) {
       {members(line.parts[0], &AbaqusScope::element_sets, line), upper(line.parts[1]), at_});
 }
 
-// Abaqus Keywords Reference Guide, *INSTANCE: first the translation, then the turn around the line ab.
+// Abaqus Keywords Reference Guide, *INSTANCE: first the translation, then the rotation about the line ab.
 void Reader::place_instance() {
   if (lines_.empty()) return;
   const AbaqusLine& move = lines_[0];
@@ -400,14 +403,14 @@ void Reader::place_instance() {
   Point a{}, b{};
   double angle = 0;
   if (lines_.size() > 1) {
-    const AbaqusLine& turn = lines_[1];
+    const AbaqusLine& rotation = lines_[1];
     for (std::size_t i = 0; i < 3; ++i) {
-      a[i] = unit_ * turn.real(i);
-      b[i] = unit_ * turn.real(3 + i);
+      a[i] = unit_ * rotation.real(i);
+      b[i] = unit_ * rotation.real(3 + i);
     }
-    angle = turn.real(6);
+    angle = rotation.real(6);
     if (angle != 0 && length_of(difference(b, a)) == 0)
-      turn.fail("the instance turns around a line of no length");
+      rotation.fail("the instance turns around a line of no length");
   }
   moved_ = length_of(shift) > 0 || angle != 0;
   for (Point& x : scope().x) {

@@ -28,6 +28,7 @@ std::map<long, std::string> unit_statements(const std::string& path) {
   std::map<long, std::string> found;
   std::string statement;
   bool in_string = false;
+  // A statement that speaks of a unit has a number before its sign of equality.
   const auto end_statement = [&] {
     const bool of_units = statement.find("UNIT") != std::string::npos;
     if (of_units && statement.starts_with('#')) {
@@ -38,6 +39,7 @@ std::map<long, std::string> unit_statements(const std::string& path) {
     }
     statement.clear();
   };
+  // Statements end at a semicolon; outside of strings comments and blanks are left out.
   for (std::size_t i = 0; i < all.size(); ++i) {
     const char c = all[i];
     if (c == '\'') in_string = !in_string;

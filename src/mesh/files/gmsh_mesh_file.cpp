@@ -310,6 +310,8 @@ void Reader::read_elements_4() {
 
 std::optional<RawMesh> Reader::read() {
   bool known = false;
+  // Sections in any order, except that the format comes first; what is not needed is passed over, and what
+  // this reader does not know is left to Gmsh.
   while (!file_.at_end()) {
     const std::string word(file_.word());
     if (!word.starts_with('$')) file_.fail("'" + word.substr(0, 40) + "' stands where a section begins");
@@ -369,11 +371,13 @@ void Reader::add_blocks(const PieceKey& piece, const std::unordered_map<std::int
 RawMesh Reader::mesh() {
   RawMesh mesh;
   mesh.dimension = 0;
+  // The bodies are the elements of the highest dimension.
   for (const auto& [piece, elements] : pieces_) mesh.dimension = std::max(mesh.dimension, piece.dimension);
   if (mesh.dimension < 2)
     throw InputError(
         {path_}, "the mesh has no triangles, quads, tetrahedra or hexahedra: empty, cut off or not a mesh");
 
+  // Nodes in the order of their tags.
   std::sort(nodes_.begin(), nodes_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::set<std::int64_t> used;  // version 2 lists nodes that belong to nothing
   if (!version_4_)
@@ -388,6 +392,7 @@ RawMesh Reader::mesh() {
     mesh.input_node.push_back(static_cast<GlobalIndex>(tag));
   }
 
+  // Physical groups collect their elements; bodies without a group get a number as their name.
   std::map<EntityKey, std::vector<PieceKey>> groups;
   std::vector<PieceKey> without;
   for (const auto& [piece, types] : pieces_) {

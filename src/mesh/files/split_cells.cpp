@@ -60,7 +60,7 @@ FaceKey key_of(Corners corners) {
   return key;
 }
 
-/// The different corners of a face of a cell, in turn.
+/// The different corners of a face of a cell, in order around it.
 std::vector<Index> face_corners(Corners cell, const std::array<int, 4>& face) {
   std::vector<Index> corners;
   for (const int a : face) {
@@ -262,6 +262,7 @@ template <class Chosen>
 void cut_quadrilaterals(RawGroup& group, const Chosen& chosen) {
   RawBlock parts{Shape::tri3, {}, {}};
   std::vector<RawBlock> kept;
+  // Quadrilaterals that are cut become triangles of the same group, with the number of the face.
   for (RawBlock& block : group.blocks) {
     if (block.shape != Shape::quad4) {
       kept.push_back(std::move(block));

@@ -285,6 +285,7 @@ std::size_t components_of(const std::string& kind) {
 
 /// False for what is none.
 bool Reader::attribute(const std::string& kind, std::size_t n, bool of_cells) {
+  // Only scalars are kept; vectors and others are read over, as their lengths follow from their kind.
   if (kind == "field") {
     word();
     field(of_cells, n);

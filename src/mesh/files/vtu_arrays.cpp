@@ -95,6 +95,7 @@ bool nested_deeper(std::string_view xml, int most) {
     const std::size_t at = xml.find(end, from);
     return at == std::string_view::npos ? xml.size() : at + end.size();
   };
+  // Comments, instructions and the texts between quotes hold marks that mean nothing.
   for (std::size_t at = xml.find('<'); at < xml.size(); at = xml.find('<', at)) {
     const std::string_view rest = xml.substr(at);
     if (rest.starts_with("<!--")) {
@@ -157,6 +158,7 @@ VtuFile::VtuFile(const std::filesystem::path& file) : file_(file) {
   } catch (const pt::xml_parser_error& error) {
     fail(fmt::format("the file is no XML: {} in line {}", error.message(), error.line()));
   }
+  // What the head says of all arrays: order of bytes, width of lengths, compression.
   const auto root = document_.get_child_optional("VTKFile");
   if (!root) fail("the file is no VTK XML file", "an unstructured grid, .vtu or .pvtu");
   root_ = &*root;

@@ -85,6 +85,8 @@ class PartMaker {
   /// By the groups of the case, by labels, or as body_1, body_2, …
   void name_parts() {
     std::map<std::string, int> labels;
+    // Groups of the case name volumes by number, label or place; else labels do, numbered where several
+    // volumes have one.
     const gmsh::vectorpair all = all_volumes();
     for (const auto& [dimension, tag] : all) ++labels[label_of(tag)];
     std::map<std::string, int> used;
@@ -109,6 +111,7 @@ class PartMaker {
       else
         parts_.push_back({name, {volume}});
     }
+    // Groups that name no volume, or surfaces, are errors.
     for (const GeometryGroup& group : source_.geometry.groups) {
       if (!group.bodies)
         refuse("the group '" + group.name +
@@ -158,6 +161,7 @@ class PartMaker {
     gmsh::vectorpair objects, tools, out;
     std::vector<gmsh::vectorpair> map;
     std::vector<std::size_t> part_of;  // of each object
+    // Parts come first in the list, so that they keep what overlaps with riser and mould.
     for (std::size_t p = 0; p < parts_.size(); ++p)
       for (const auto& volume : parts_[p].volumes) objects.push_back(volume), part_of.push_back(p);
     int riser = -1, block = -1;
@@ -177,6 +181,7 @@ class PartMaker {
       tools.push_back(objects.back());
       objects.pop_back();
     }
+    // Each piece belongs to the first of those that it comes from.
     occ::fragment(objects, tools, out, map);
     note_overlaps(map, part_of);
     std::set<int> taken;

@@ -86,6 +86,7 @@ void look_at_face(int face, bool is_plane, double unit, const RawMesh& mesh,
   const Bulges bulge = is_plane ? Bulges{} : bulges(face, triangles, unit, mesh);
   std::map<Index, std::pair<Point, double>> sums;  // of area × normal, and of area × offset
   std::map<Index, double> areas;
+  // Normals by area, and how far the face bulges over its triangles: the mean over their edges.
   for (std::size_t t = 0; t < triangles.size(); t += 3) {
     const Index* node = triangles.data() + t;
     const Point& x = mesh.x[at(node[0])];
@@ -103,6 +104,7 @@ void look_at_face(int face, bool is_plane, double unit, const RawMesh& mesh,
       areas[node[a]] += area;
     }
   }
+  // At each vertex the mean normal and offset of this face.
   for (auto& [node, sum] : sums) {
     Point normal = sum.first;
     const double length = std::sqrt(dot(normal, normal));

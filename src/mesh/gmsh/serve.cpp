@@ -41,12 +41,14 @@ void tell_memory_at_exit() {
 }  // namespace
 
 void serve_request() {
+  // The process ends with the one that asks.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   // Ctrl-C reaches all processes of a terminal: the parent decides.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1}) std::signal(signal, SIG_IGN);
   const PutBytes put = [](const void* bytes, std::size_t n) { put_all(k_answer_descriptor, bytes, n); };
   const TakeBytes take = [](void* bytes, std::size_t n) { take_all(k_request_descriptor, bytes, n); };
   const auto say = [&](ReaderAnswer answer) { put(&answer, sizeof answer); };
+  // Both must be of the same build, as messages have no format of their own.
   if (const std::string version = take_text(take); !same_build(version, program_version())) {
     say(ReaderAnswer::internal);
     put_text("solidus-reader is of version " + program_version() + ", the program of " + version, put);
@@ -57,6 +59,7 @@ void serve_request() {
   take(&of_casting, sizeof of_casting);
   std::optional<CastingGeometry> casting;
   if (of_casting) casting = take_casting(take);
+  // Memory and rights are limited before anything of the file is read.
   double memory = 0;
   take(&memory, sizeof memory);
   sandbox::limit_memory(memory);
@@ -67,6 +70,7 @@ void serve_request() {
     say(ReaderAnswer::outlook);
     put_outlook(outlook, put);
   });
+  // The kind of answer goes first, then the mesh or the text.
   try {
     const RawMesh mesh = read_mesh_here(source, casting ? &*casting : nullptr);
     answer_begun = true;

@@ -9,7 +9,7 @@ namespace solidus::mesh {
 namespace {
 
 struct RingPart {
-  std::vector<Index> nodes;  ///< of the polygon, in turn about the edge
+  std::vector<Index> nodes;  ///< of the polygon, in order about the edge
   int body = 0;
 };
 

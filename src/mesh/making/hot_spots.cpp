@@ -48,7 +48,7 @@ InscribedSphere climb(const std::vector<SkinFace>& skin, const std::vector<doubl
                       const std::optional<HalfSpace>& on) {
   for (double step = r / 2; step > 0.02 * r; step /= 2) {
     bool higher = true;
-    for (int turn = 0; higher && turn < 20; ++turn) {
+    for (int pass = 0; higher && pass < 20; ++pass) {
       higher = false;
       for (std::size_t i = 0; i < 3; ++i)
         for (const double sign : {-1.0, 1.0}) {
@@ -166,6 +166,7 @@ std::vector<double> thickness_by_area(const RawMesh& mesh, const std::string& bo
   const std::vector<std::array<Point, 3>> all = triangles(skin);
   const std::vector<double> thickness = wall_thickness(all);
   std::vector<std::pair<double, double>> weighted;
+  // The thickness of each triangle with its area; then the values at equal steps of area, from thin to thick.
   double sum = 0;
   for (std::size_t t = 0; t < all.size(); ++t) {
     if (!(thickness[t] > 0)) continue;

@@ -318,6 +318,8 @@ class Room {
     RawMesh column;  // the vertices above one face, level by level
     column.dimension = mesh_.dimension;
     std::vector<LayerColumn> columns;
+    // Above each face that moves the vertices of all levels, and from them the elements as they would be
+    // made: none may have a negative volume.
     for (const WallFace& face : wall_.wall) {
       if (!has_changed(face.nodes.data(), face.n_vertices)) continue;
       const auto n = static_cast<std::size_t>(face.n_vertices);

@@ -75,6 +75,8 @@ SizeField::SizeField(const Point& low, const Point& high, const std::vector<Size
   for (std::size_t i = 0; i < 3; ++i)
     n_[i] = std::max(1, static_cast<int>(std::ceil((high[i] - low[i]) / size_)));
   h_.assign(index(n_[0] - 1, n_[1] - 1, n_[2] - 1) + 1, k_none);
+  // In each cell of the grid the smallest size of the triangles whose boxes reach it; from there sizes grow
+  // outwards.
   for (const SizeSample& s : samples) {
     std::array<int, 3> from{}, to{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -109,7 +111,7 @@ void SizeField::spread(double growth) {
           if (through < here * (1 - 1e-12)) here = through, changed = true;
         }
   };
-  for (int turn = 0; changed && turn < 20; ++turn) {
+  for (int sweep = 0; changed && sweep < 20; ++sweep) {
     changed = false;
     for (int k = 0; k < n_[2]; ++k)
       for (int j = 0; j < n_[1]; ++j)
@@ -145,6 +147,7 @@ std::vector<double> wall_thickness(const std::vector<std::array<Point, 3>>& skin
     centre.push_back(centre_of(t));
     radius.push_back(radius_of(t, centre.back()));
   }
+  // From the centre of each triangle, or of some where there are many, inward to the next one.
   std::vector<double> thickness(skin.size(), 0.0);
   const std::size_t stride = 1 + skin.size() / most;
   for (std::size_t s = 0; s < skin.size(); s += stride) {
@@ -152,6 +155,7 @@ std::vector<double> wall_thickness(const std::vector<std::array<Point, 3>>& skin
     for (double& c : inward) c = -c;
     const double nothing = 1e-6 * radius[s];
     double nearest = std::numeric_limits<double>::max();
+    // Triangles whose bounding sphere the ray misses, or that lie behind what is found, are passed over.
     for (std::size_t k = 0; k < skin.size(); ++k) {
       const Point to = minus(centre[k], centre[s]);
       const double ahead = dot(to, inward);

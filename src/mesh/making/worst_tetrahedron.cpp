@@ -43,7 +43,7 @@ double angle_of_body(const Tetrahedra& mesh, std::size_t t, Index a, Index b) {
   for (const bool forward : {true, false}) {
     const std::vector<std::size_t> around = mesh.around_edge(a, b);
     std::size_t here = t;
-    for (std::size_t turn = 0; turn < around.size(); ++turn) {
+    for (std::size_t step = 0; step < around.size(); ++step) {
       if (here != t || forward) sum += angle_at(mesh, here, a, b);
       const auto [p, q] = mesh[here].beside(a, b);
       const Index beyond = forward ? q : p;

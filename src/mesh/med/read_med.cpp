@@ -307,6 +307,7 @@ void add(const Member& member, RawGroup& group) {
 void Reader::make_groups(const Step& step) {
   const auto groups = families_of(step);
   std::map<std::pair<std::string, int>, RawGroup> named;  // by name and dimension
+  // Elements without a group are kept if they are of the body or of its boundary, by the name of the mesh.
   int highest = 0;
   for (const auto& [number, family] : families_)
     for (const Member& member : family) highest = std::max(highest, mesh::dimension(member.shape));
@@ -315,6 +316,7 @@ void Reader::make_groups(const Step& step) {
     RawGroup& group = named.try_emplace({name, d}, RawGroup{d, {}}).first->second;
     add(member, group);
   };
+  // Cells first, then nodes that have a family of their own.
   for (const std::map<med_int, Family>* families : {&families_, &of_nodes_})
     for (const auto& [number, family] : *families) {
       const auto of = groups.find(number);

@@ -51,12 +51,14 @@ void number_used_nodes(const RawMesh& raw, const std::vector<BodyWork>& work, in
   std::vector<BodyWork> of_block;
   for (const int body : whole.body)
     of_block.push_back(work.empty() ? BodyWork::all : work[static_cast<std::size_t>(body)]);
+  // Work of contact is that of nodes on surfaces that all processes have.
   std::vector<char> in_contact(static_cast<std::size_t>(n_used), 0);
   for (const NamedFaces& surface : whole.surfaces)
     for (const RawBlock& block : surface.blocks)
       for (const Index i : block.nodes)
         if (surface.replicated)
           in_contact[static_cast<std::size_t>(compact[static_cast<std::size_t>(i)])] = 1;
+  // The partition balances the work of nodes; then each process numbers its own ones.
   const std::vector<int> owner =
       assign_owners(graph, node_work(graph, pointers, of_block, in_contact), n_processes);
   const std::vector<GlobalIndex> number = number_nodes(graph, owner, n_processes);
@@ -76,6 +78,7 @@ void number_used_nodes(const RawMesh& raw, const std::vector<BodyWork>& work, in
 
 void collect_surfaces(const RawMesh& raw, const std::vector<std::string>& bodies,
                       const std::vector<std::string>& replicated, GlobalMesh& whole) {
+  // First all faces of surfaces, then the elements of bodies that own them.
   FaceOwners owners;
   for (const auto& [name, group] : raw.groups) {
     if (group.dimension != raw.dimension - 1) continue;
@@ -87,6 +90,7 @@ void collect_surfaces(const RawMesh& raw, const std::vector<std::string>& bodies
   }
   find_face_owners(raw, bodies, owners);
 
+  // Faces of one shape and body go into one block each.
   for (const auto& [name, group] : raw.groups) {
     if (group.dimension != raw.dimension - 1) continue;
     NamedFaces surface{

@@ -223,6 +223,7 @@ std::optional<Pores> pores_in(const mesh::Mesh& mesh, AnalysisKind kind, const F
   Largest densest;
   double volume = 0, whole = 0;
   std::size_t first = 0;
+  // Fractions weighted by volume, and the densest element; over all processes in the end.
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (bodies[static_cast<std::size_t>(block.body)] != 0) {
       const PackVector<Lane> integrals = mesh::basis_integrals(mesh, block, kind);

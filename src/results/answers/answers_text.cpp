@@ -246,6 +246,7 @@ const ValueAt* least_niyama_of_parts(const Answers& answers) {
 std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, const Answers& answers,
                            const Formatter& format) {
   std::string text;
+  // Fields that have an answer, in the order of the fields.
   for (const quantities::Quantity* field : coupling::all_fields()) {
     if (field->answer.empty()) continue;
     const std::string wanted = worst_of(*field);
@@ -263,6 +264,7 @@ std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, 
         of_parts && field == &criteria::fields::k_niyama)
       value = *of_parts;
     std::string answer = with_error(value.value, value.error, field->shown().factor, printed(field->shown()));
+    // The value, with its error, and where it is, unless it is the same everywhere.
     const auto other =
         std::ranges::find(found, low ? criteria::largest_of(*field) : criteria::least_of(*field),
                           &criteria::CriterionResult::name);
@@ -326,6 +328,7 @@ std::string feeding_lines(const std::vector<criteria::CriterionResult>& found, c
                     fmt::format("{} {}", format.volume(hole->value), format.place(hole->where)));
     return lines;
   };
+  // From what is seen first when the casting is cut: pipes, cavities, sinks, swelling, pores.
   std::string text;
   for (int k = 1; const criteria::CriterionResult* pipe = result(fmt::format("pipe_{}_volume", k)); ++k) {
     const auto of_pipe = [&](const char* what) { return result(fmt::format("pipe_{}_{}", k, what))->value; };

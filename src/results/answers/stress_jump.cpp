@@ -45,6 +45,8 @@ std::array<double, 2> sums_of_body(const mesh::Mesh& mesh, AnalysisKind kind, in
     if (block.body != body) continue;
     const PackVector<Lane> integrals = mesh::basis_integrals(mesh, block, kind);
     const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
+    // Each element adds its deviator to its nodes; what the nodal means do not explain is the jump between
+    // elements.
     for (Index e = 0; e < block.size(); ++e) {
       double volume = 0;
       for (std::size_t a = 0; a < n; ++a)

@@ -221,10 +221,12 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
     throw OutputError(path.string(), "is no checkpoint that this version of Solidus can read");
   compare(path, in, fingerprint);
   Checkpoint c;
+  // The state at the end has the layout of this mesh, into which the file's numbers go.
   c.state = layout;
   set_numbers(in, c);
   c.continuation.control.reason = in.text("reason");
   c.continuation.stage.name = in.text("stage");
+  // Nodal fields are found by the numbers of the nodes in the input.
   const Places nodes = places_of(mesh.input_node);
   take_nodes(in, "temperature", nodes, c.state.heat.temperature, k_temperatures);
   take_nodes(in, "enthalpy", nodes, c.state.heat.enthalpy);
@@ -241,6 +243,7 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
     c.continuation.stage.displacement.resize(c.state.mechanics.displacement.size());
     take_nodes(in, "stage_displacement", nodes, c.continuation.stage.displacement);
   }
+  // Rates that adaptive steps and first guesses go on from, as far as the run had them.
   if (in.text("rates") == k_known) {
     coupling::Rates& rates = c.continuation.rates;
     const bool flows = in.text("flows") == k_known;
@@ -275,6 +278,7 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   c.continuation.rates.creep.resize(creep.size());
   // A run that went on with backward Euler left no history before the last: the next step is one too.
   if (mechanics.before.empty()) mechanics.dt_before = 0;
+  // History of the elements of each block, as much of it as the time integration needs.
   for (std::size_t b = 0; b < mechanics.history.size(); ++b) {
     const std::string name = block_name(mesh, b);
     take_history(in, name, name + "/values", mesh.blocks[b], mechanics.history[b]);

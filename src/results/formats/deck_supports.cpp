@@ -25,7 +25,7 @@ class Held {
  public:
   /// Returns the part of a row that is orthogonal to the motions held already.
   Row rest(Row row) const {
-    for (int turn = 0; turn < 2; ++turn)  // a second time for rounding
+    for (int pass = 0; pass < 2; ++pass)  // a second time for rounding
       for (const Row& held : basis_) {
         const double part = dot(held, row);
         for (std::size_t i = 0; i < k_most_modes; ++i) row[i] -= part * held[i];

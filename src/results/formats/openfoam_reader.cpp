@@ -336,6 +336,7 @@ ReadField read_openfoam(const fs::path& time, const std::string& name, double le
   const PolyMesh poly = read_mesh(poly_mesh, length, where);
   const FoamField field = read_values(std::move(*file), poly);
 
+  // Each cell becomes tetrahedra between its centre and the triangles of its faces.
   ReadField read;
   read.unit = field.unit;
   read.cell_volumes.assign(poly.n_cells, 0.0);

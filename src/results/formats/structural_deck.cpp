@@ -169,6 +169,7 @@ class Writer {
         for (Index f = 0; f < faces.size(); ++f)
           visit(mesh::face_key(faces.element(f), mesh::vertex_count(faces.shape)));
     };
+    // The faces of all surfaces, then which element and which of its faces each is.
     for (const auto& [name, surface] : d_.mesh.surfaces)
       faces_of(surface, [&](const mesh::FaceKey& key) { behind[key] = {0, 0}; });
     for (std::size_t b = 0; b < d_.mesh.blocks.size(); ++b) {

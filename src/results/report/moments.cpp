@@ -237,6 +237,7 @@ PackedMoments pack_moments(Bodies& bodies, const std::vector<ReportMoment>& mome
       if (!columns[k].at_end) pack(values[k][b], trial);
   const double each = std::max(1.0, static_cast<double>(trial.size()));
   const double room = std::max(0.0, static_cast<double>(most) - static_cast<double>(blocks.size()));
+  // Every so many moments are kept as fit, and the last one.
   const auto n = static_cast<double>(moments.size());
   const auto stride = static_cast<std::size_t>(std::max(1.0, std::ceil(each * n / std::max(room, each))));
   packed = {};

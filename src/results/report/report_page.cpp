@@ -54,6 +54,7 @@ ReportText report_text(const std::vector<ReportedRun>& runs, const ReportOptions
   Json::Array all;
   const auto [head, middle, tail] = frame();
   const std::size_t room = options.most_bytes - std::min(options.most_bytes, viewer().size());
+  // The room is shared out so that each run may use what those before it have left.
   for (std::size_t i = 0; i < runs.size(); ++i)
     all.push_back(run_data(runs[i], options, room * (i + 1) / runs.size(), blocks, page.notes));
   meta.add("runs", std::move(all));
@@ -68,6 +69,7 @@ ReportText report_text(const std::vector<ReportedRun>& runs, const ReportOptions
                                                .string();
   std::string& text = page.text;
   text.reserve(viewer().size() + blocks.size() + (std::size_t{1} << 16));
+  // The page is one file: frame, data in blocks of text, and the viewer.
   text += head;
   text += fmt::format("<title>{} · Solidus</title>", results::xml_text(title));
   text += middle;

@@ -304,6 +304,7 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
   const Value document = load_document(case_file);
   std::vector<std::string> own;
   const fs::path whole = fs::absolute(folder / "").lexically_normal().parent_path();
+  // What the page says of the case, then its summary if the run has ended.
   Json out;
   out.add("name", whole.parent_path().filename().string() + "/" + whole.filename().string());
   out.add("title", text_at(document, "", "title"));
@@ -320,6 +321,7 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
       whole.filename() == "best" && fs::exists(ranks))
     out.add("uncertain_text", checked_summary(ranks));
   out.add("materials", run.materials);
+  // Tables with at most so many rows, and the fields as far as there is room.
   Json tables;
   for (const char* name : {"history", "steps", "pools", "shots"}) {
     const std::string file = std::string(name) + ".csv";

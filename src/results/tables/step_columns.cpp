@@ -26,6 +26,7 @@ void add_pair(const PairColumns& pair, const coupling::ContactSummary& sums, std
   const auto add = [&](const std::string& what, const char* unit, double value) {
     to.push_back({{pair.name + "_" + what, unit}, value});
   };
+  // Forces, then friction, then heat, as far as the pair has them.
   add("normal_force", "N", sums.force);
   if (pair.friction) {
     add("friction_force", "N", sums.friction);

@@ -185,7 +185,7 @@ TEST(AugmentedLagrangian, DoesNotEndEarlyWithPenetrationsThatBodiesWouldFeel) {
   const double face = run.pair.geometry().face_size();
   run.pair.update(moved(blocks, -2e-3 * face));
   EXPECT_FALSE(coupling::penetrations_small(run.phases, 60));
-  EXPECT_FALSE(coupling::take_back_turn(run.phases));
+  EXPECT_FALSE(coupling::restore_multipliers(run.phases));
 }
 
 TEST(AugmentedLagrangian, TakesBackATurnWithoutEquilibriumWhereShorterStepsHaveFailed) {
@@ -194,9 +194,9 @@ TEST(AugmentedLagrangian, TakesBackATurnWithoutEquilibriumWhereShorterStepsHaveF
     Rubbed& run = *blocks.run;
     run.pair.allow_early_end(allowed);
     const std::vector<contact::ContactPointState> before = run.pair.state().points;
-    EXPECT_FALSE(coupling::take_back_turn(run.phases)) << "there was no turn";
+    EXPECT_FALSE(coupling::restore_multipliers(run.phases)) << "there was no augmentation";
     ASSERT_FALSE(coupling::penetrations_small(run.phases, 1));
-    ASSERT_EQ(coupling::take_back_turn(run.phases), allowed);
+    ASSERT_EQ(coupling::restore_multipliers(run.phases), allowed);
     run.pair.update(blocks.next.displacement);
     if (!allowed) continue;
     for (std::size_t p = 0; p < before.size(); ++p) {
@@ -205,7 +205,7 @@ TEST(AugmentedLagrangian, TakesBackATurnWithoutEquilibriumWhereShorterStepsHaveF
     }
     EXPECT_TRUE(coupling::penetrations_small(run.phases, 2));
     EXPECT_GT(run.pair.left_penetration(), 0);
-    EXPECT_FALSE(coupling::take_back_turn(run.phases)) << "once in a step";
+    EXPECT_FALSE(coupling::restore_multipliers(run.phases)) << "once in a step";
   }
 }
 
