@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "check/finding_family.hpp"
 #include "system/alike_texts.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
@@ -17,37 +18,11 @@ bool share_a_stage(const std::vector<std::string>& a, const std::vector<std::str
 }
 
 Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
-  // Each room of findings adds to the list, in the order in which they are printed: from what the case says
-  // to what follows from its mesh.
+  // Families come in the order of their places, in which findings are printed: from what the case says to
+  // what follows from its mesh.
   Findings found;
-  find_in_interfaces(spec, a, found);
-  find_in_interface_laws(spec, a, m, found);
-  find_in_materials(spec, a, found);
-  find_in_alloys(spec, a, found);
-  find_in_pour(spec, a, found);
-  find_in_conditions(spec, a, m, found);
-  find_in_geometry(spec, a, m, found);
-  find_bare_skins(spec, a, m, found);
-  find_in_freezing(spec, a, m, found);
-  find_in_stages(spec, a, m, found);
-  find_in_leaving(spec, a, m, found);
-  find_in_stage_times(spec, a, m, found);
-  find_in_free_skins(spec, a, m, found);
-  find_in_elements(spec, a, found);
-  find_in_bending(spec, a, m, found);
-  find_in_mechanics(spec, a, m, found);
-  find_on_surfaces(spec, a, m, found);
-  find_partly_in_contact(spec, a, found);
-  find_in_numerics(spec, a, m, found);
-  find_in_roles(spec, a, m, found);
-  find_in_moulds(spec, a, m, found);
-  find_in_risers(spec, a, m, found);
-  find_in_open_risers(spec, a, m, found);
-  find_in_burning(spec, a, m, found);
-  find_in_probes(spec, a, m, found);
-  find_in_coupling(spec, a, m, found);
-  find_in_steady(spec, m, found);
-  find_in_effort(spec, m, found);
+  for (const FindingFamily& family : finding_families())
+    if (family.find != nullptr) family.find(spec, a, m, found);
   return found;
 }
 

@@ -156,6 +156,18 @@ class CommandLine(ProgramTest):
         for option, file in (("--json", "python/solidus_plots/fields.json"), ("--manual", "docs/reference/fields.md")):
             self.assertEqual(self.done("explain", "--fields", option), (SOURCES / file).read_text(encoding="utf-8"), file)
 
+    def test_the_page_of_findings_is_that_of_the_program(self):
+        """When this fails: ./dev docs, or its line that writes this page."""
+        self.assertEqual(self.done("explain", "--findings", "--manual"), (SOURCES / "docs/reference/findings.md").read_text(encoding="utf-8"))
+
+    def test_findings_are_listed_by_what_they_are_about(self):
+        listed = self.done("explain", "--findings", "contacts")
+        self.assertIn("two contacts join the same surfaces: in either order, at the same time (error)", listed)
+        self.assertNotIn("probe", listed)
+        result = solidus("explain", "--findings", "contact", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("did you mean 'contacts'?", result.stderr)
+
     def test_a_field_is_explained_and_one_that_is_not_there_is_refused(self):
         self.assertIn("called Von Mises stress, shown in MPa", self.done("explain", "--fields", "von_mises"))
         result = solidus("explain", "--fields", "von_mise", cwd=self.folder)

@@ -1,4 +1,5 @@
-/// The fields that a run can have, as a list, one by one, as a page and as JSON.
+/// The keys of the files that a user writes; the fields that a run can have, as a list, one by one, as a page
+/// and as JSON; the findings of `check`, as a list and as a page.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,6 +8,7 @@
 
 #include "app/case_arguments.hpp"
 #include "app/declared_files.hpp"
+#include "app/findings_page.hpp"
 #include "app/verb.hpp"
 #include "coupling/all_fields.hpp"
 #include "input/key_docs.hpp"
@@ -145,13 +147,22 @@ class Explain final : public Verb {
         command().add_flag("--fields", fields_, "Fields of results instead of keys; KEY is one of them");
     command().add_flag("--json", json_, "With --fields: for other programs")->needs(of_fields);
     file_.add_options(command());
-    for (const char* other : {"--material", "--point"}) of_fields->excludes(command().get_option(other));
+    CLI::Option* of_findings =
+        command().add_flag("--findings", findings_,
+                           "Findings of check instead of keys; KEY is what they are about, such as contacts");
+    of_findings->excludes(of_fields);
+    for (const char* other : {"--material", "--point"})
+      for (CLI::Option* option : {of_fields, of_findings}) option->excludes(command().get_option(other));
   }
   ExitCode run() override {
     if (fields_)
       return explain_fields(key_, json_     ? ExplainedAs::json
                                   : manual_ ? ExplainedAs::manual
                                             : ExplainedAs::text);
+    if (findings_) {
+      print(manual_ && key_.empty() ? page_of_findings() : list_of_findings(key_));
+      return k_done;
+    }
     const ChosenFile::Declared of = file_.declared();
     print(manual_ ? reference_manual(of.keys, of.reference) : solidus::explain(of.keys, key_));
     return k_done;
@@ -159,7 +170,7 @@ class Explain final : public Verb {
 
  private:
   std::string key_;
-  bool manual_ = false, fields_ = false, json_ = false;
+  bool manual_ = false, fields_ = false, findings_ = false, json_ = false;
   ChosenFile file_;
 };
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "material/laws/rate_law.hpp"
 #include "material/melt.hpp"
 #include "setup/body_input.hpp"
@@ -12,6 +12,21 @@
 namespace solidus::model {
 
 namespace {
+
+// Of metals; the comments of the functions say where each comes from.
+constexpr double k_silicon = 1.5e6;  // a latent heat that no metal has, but silicon [J/kg]
+constexpr double k_least_entropy = 0.3e6, k_most_entropy = 2.1e6, k_most_of_silicon = 2.7e6;  // [J/(m³ K)]
+constexpr double k_least_capacity = 1e6, k_most_capacity = 6e6;                               // [J/(m³ K)]
+constexpr double k_light = 3500, k_least_of_light = 30;                  // [kg/m³], [W/(m K)]
+constexpr double k_least_growth = 0.006;                                 // expansion times liquidus
+constexpr double k_least_stiffness = 0.018e9, k_most_stiffness = 0.3e9;  // over the liquidus [Pa/K]
+constexpr double k_next_to_none = 0.002;                                 // a change of volume
+constexpr double k_softened = 0.5, k_stiff = 0.9;                        // at the solidus, of when cold
+constexpr double k_rate = 1e-3, k_least_creep = 0.2, k_most_creep = 8;   // [1/s]; of the flow stress
+constexpr double k_finest = 1e-6, k_coarsest = 1e-3;                     // secondary arms [m]
+constexpr double k_thinnest = 2e-4, k_thickest = 3e-2;                   // viscosities of melts [Pa s]
+constexpr double k_first_coherent = 0.2;                                 // solid fraction
+constexpr double k_no_shear = 1e-3 * material::k_least_melt_share;       // of the bulk modulus
 
 void warn(const BodySpec& body, const std::string& what, const char* usual, Findings& findings) {
   findings.push_back({false, body.where,
@@ -23,11 +38,10 @@ void warn(const BodySpec& body, const std::string& what, const char* usual, Find
 /// aluminium, iron and zinc, 1.65 for aluminium with 12 % silicon and 2.5 for silicon itself, whose latent
 /// heat no metal has [MJ/(m³ K)].
 void compare_entropy_of_melting(const BodySpec& body, const material::Material& m, Findings& findings) {
-  constexpr double k_silicon = 1.5e6;  // [J/kg]
   const material::PhaseChange& freezing = *m.solidification();
-  const double k_least = 0.3e6, k_most = freezing.latent_heat > k_silicon ? 2.7e6 : 2.1e6;
+  const double most = freezing.latent_heat > k_silicon ? k_most_of_silicon : k_most_entropy;
   const double entropy = freezing.latent_heat * m.density / freezing.fraction.liquidus();
-  if (entropy >= k_least && entropy <= k_most) return;
+  if (entropy >= k_least_entropy && entropy <= most) return;
   warn(body,
        fmt::format("a latent heat of {:.4g} kJ/kg at {:.4g} kg/m3 and a liquidus of {:.4g} K: {:.3g} MJ/m3 "
                    "for each kelvin of it",
@@ -38,9 +52,9 @@ void compare_entropy_of_melting(const BodySpec& body, const material::Material& 
 /// Dulong and Petit's rule: a mole of any metal takes about 25 J/K, 7 to 15 cm³ of it. Per volume that is 1.5
 /// for lead, 1.8 for magnesium, 2.4 for aluminium, 3.5 for copper and iron, 4 for nickel [MJ/(m³ K)].
 void compare_heat_capacity(const BodySpec& body, const material::Material& m, Findings& findings) {
-  constexpr double k_cold = 293.15, k_least = 1e6, k_most = 6e6;  // [K], [J/(m³ K)]
+  constexpr double k_cold = 293.15;  // [K]
   const double capacity = m.density * m.specific_heat.value(k_cold);
-  if (capacity >= k_least && capacity <= k_most) return;
+  if (capacity >= k_least_capacity && capacity <= k_most_capacity) return;
   warn(body,
        fmt::format("a specific heat of {:.4g} J/kg/K at {:.4g} kg/m3: {:.3g} MJ/m3/K at 20 degC",
                    m.specific_heat.value(k_cold), m.density, 1e-6 * capacity),
@@ -52,9 +66,9 @@ void compare_heat_capacity(const BodySpec& body, const material::Material& m, Fi
 /// Aluminium, magnesium and their alloys, lighter than titanium, conduct 50 to 240 W/(m K).
 void compare_conductivity_of_light_metal(const BodySpec& body, const material::Material& m,
                                          Findings& findings) {
-  constexpr double k_light = 3500, k_least = 30;  // [kg/m³], [W/(m K)]
   const double solid = m.conductivity.value(m.solidification()->fraction.solidus());
-  if (m.density > k_light || solid >= k_least || solid < 3) return;  // below 3: findings_material.cpp
+  if (m.density > k_light || solid >= k_least_of_light || solid < 3)
+    return;  // below 3: findings/material.cpp
   warn(body, fmt::format("a conductivity of {:.3g} W/m/K at its solidus, at {:.4g} kg/m3", solid, m.density),
        "aluminium and magnesium conduct 50 to 240 W/m/K", findings);
 }
@@ -62,18 +76,18 @@ void compare_conductivity_of_light_metal(const BodySpec& body, const material::M
 /// Grüneisen's rule: up to their melting point metals gain about 7 % of volume, so that the expansion times
 /// the melting point is near 0.02, 0.011 for tin.
 void compare_expansion(const BodySpec& body, const material::Material& m, Findings& findings) {
-  constexpr double k_least = 0.006;
   const double liquidus = m.solidification()->fraction.liquidus(), most = m.expansion.max_value();
-  if (!(most > 1e-8) || most * liquidus >= k_least) return;  // below: findings_material.cpp, or none at all
+  if (!(most > 1e-8) || most * liquidus >= k_least_growth)
+    return;  // below: findings/material.cpp, or none at all
   warn(body, fmt::format("expansion of {:.3g} 1/K at most, with a liquidus of {:.4g} K", most, liquidus),
        "metals expand by about 0.02 over their liquidus in K: 1.1e-5 (iron) to 3e-5 1/K (zinc)", findings);
 }
 
 /// Young's modulus of a cold metal over its liquidus is 0.027 (lead) to 0.16 (zinc) GPa/K.
 void compare_stiffness_with_liquidus(const BodySpec& body, const material::Material& m, Findings& findings) {
-  constexpr double k_cold = 293.15, k_least = 0.018e9, k_most = 0.3e9;  // [K], [Pa/K]
+  constexpr double k_cold = 293.15;  // [K]
   const double liquidus = m.solidification()->fraction.liquidus(), cold = m.young_modulus.value(k_cold);
-  if (cold < 1e9 || (cold >= k_least * liquidus && cold <= k_most * liquidus)) return;
+  if (cold < 1e9 || (cold >= k_least_stiffness * liquidus && cold <= k_most_stiffness * liquidus)) return;
   warn(body,
        fmt::format("a young_modulus of {:.3g} GPa at 20 degC, with a liquidus of {:.4g} K", 1e-9 * cold,
                    liquidus),
@@ -83,7 +97,6 @@ void compare_stiffness_with_liquidus(const BodySpec& body, const material::Mater
 
 /// A change of volume that is next to none was perhaps meant as a percentage of a percentage.
 void compare_volume_change(const BodySpec& body, const material::Material& m, Findings& findings) {
-  constexpr double k_next_to_none = 0.002;
   const double change = m.solidification()->volume_change;
   if (change == 0 || std::abs(change) >= k_next_to_none) return;
   warn(body, fmt::format("'{}' changes the volume by {:.2g} %", m.solidification()->name, 100 * change),
@@ -94,7 +107,7 @@ void compare_volume_change(const BodySpec& body, const material::Material& m, Fi
 /// Metal at its solidus has next to nothing of its strength when cold.
 void compare_softening(const BodySpec& body, const material::Material& m, Findings& findings) {
   if (!m.flow) return;
-  constexpr double k_cold = 293.15, k_softened = 0.5;  // [K], [1]
+  constexpr double k_cold = 293.15;  // [K]
   const double cold = m.flow->flow_stress.value(k_cold),
                hot = m.flow->flow_stress.value(m.solidification()->fraction.solidus());
   if (hot <= k_softened * cold) return;
@@ -106,10 +119,10 @@ void compare_softening(const BodySpec& body, const material::Material& m, Findin
 
 /// Metal at its solidus is softer than when cold: 0.02 (steel) to 0.65 (tin) of its stiffness is left.
 void compare_stiffness(const BodySpec& body, const material::Material& m, Findings& findings) {
-  constexpr double k_cold = 293.15, k_left = 0.9;  // [K], [1]
+  constexpr double k_cold = 293.15;  // [K]
   const double cold = m.young_modulus.value(k_cold),
                hot = m.young_modulus.value(m.solidification()->fraction.solidus());
-  if (hot < k_left * cold || hot > 1.2 * cold) return;  // one that rises: findings_material.cpp
+  if (hot < k_stiff * cold || hot > 1.2 * cold) return;  // one that rises: findings/material.cpp
   warn(body,
        fmt::format("a young_modulus of {:.3g} GPa at 20 degC and of {:.3g} GPa at its solidus", 1e-9 * cold,
                    1e-9 * hot),
@@ -120,13 +133,12 @@ void compare_stiffness(const BodySpec& body, const material::Material& m, Findin
 /// from that, the viscosity is one of other units.
 void compare_creep(const BodySpec& body, const material::Material& m, Findings& findings) {
   if (!m.flow || m.flow->rate_independent()) return;
-  constexpr double k_rate = 1e-3, k_least = 0.2, k_most = 8;  // [1/s], [1], [1]
   const double solidus = m.solidification()->fraction.solidus(),
                strength = m.flow->flow_stress.value(solidus);
   const double stress = material::rate_law(m.flow->rate_dependence)
                             .overstress(material::flow_properties_at(*m.flow, solidus), k_rate)
                             .stress;
-  if (!(strength > 0) || (stress >= k_least * strength && stress <= k_most * strength)) return;
+  if (!(strength > 0) || (stress >= k_least_creep * strength && stress <= k_most_creep * strength)) return;
   warn(body,
        fmt::format("at its solidus a rate of 0.001 1/s adds {:.3g} MPa to a flow_stress of {:.3g} MPa",
                    1e-6 * stress, 1e-6 * strength),
@@ -142,9 +154,8 @@ void compare_melt_viscosity(const BodySpec& body, const material::Material& m, d
   const double young = m.young_modulus.value(solidus), poisson = m.poisson_ratio.value(solidus);
   const double shear = young / (1 + poisson), bulk = young / (3 * (1 - 2 * poisson));  // 2 G and k [Pa]
   const double viscosity = m.liquid_viscosity.max_value(), melt = viscosity / step;
-  constexpr double k_nothing = 1e-3 * material::k_least_melt_share;
   const char* usual = "no twice_shear_viscosity: the run chooses one by the weight of the melt and the step";
-  if (melt < k_nothing * bulk)
+  if (melt < k_no_shear * bulk)
     warn(body,
          fmt::format(
              "a twice_shear_viscosity of {:g} Pa s makes melt {:.1g} times as stiff in shear as under "
@@ -165,25 +176,21 @@ void compare_melt_viscosity(const BodySpec& body, const material::Material& m, d
 
 /// Data of the criteria.
 void compare_casting(const BodySpec& body, const material::Material& m, Findings& findings) {
-  constexpr double k_minute = 60, k_finest = 1e-6, k_coarsest = 1e-3;  // [s], [m], [m]
+  constexpr double k_minute = 60;  // [s]
   if (const auto arms = m.casting.secondary_arm_spacing(k_minute);
       arms && (*arms < k_finest || *arms > k_coarsest))
     warn(body, fmt::format("secondary arms are {:.3g} um apart where it freezes for a minute", 1e6 * *arms),
          "20 to 200 um; arm_spacing is that after one second, 7 to 50 um", findings);
-  constexpr double k_thinnest = 2e-4, k_thickest = 3e-2;  // [Pa s]
   if (const auto viscosity = m.casting.melt_viscosity;
       viscosity && (*viscosity < k_thinnest || *viscosity > k_thickest))
     warn(body, fmt::format("a melt_viscosity of {:.3g} mPa s", 1e3 * *viscosity),
          "melts of metals have 0.5 to 10 mPa s", findings);
-  constexpr double k_first = 0.2;
-  if (const double coherency = m.casting.coherency_fraction; coherency < k_first)
+  if (const double coherency = m.casting.coherency_fraction; coherency < k_first_coherent)
     warn(body, fmt::format("it carries load from {:.3g} % solid on", 100 * coherency),
          "metal is coherent from 60 to 90 % solid on, coherency_fraction = 0.6 to 0.9", findings);
 }
 
-}  // namespace
-
-void find_in_alloys(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings& findings) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::Material& m = a.materials[b];
     if (m.solidification() == nullptr) continue;
@@ -201,6 +208,52 @@ void find_in_alloys(const CaseSpec& spec, const Assembly& a, Findings& findings)
     compare_creep(spec.bodies[b], m, findings);
     compare_melt_viscosity(spec.bodies[b], m, spec.time.step.value_or(0), findings);
   }
+}
+
+}  // namespace
+
+FindingFamily findings_alloys() {
+  return {
+      .name = "alloys",
+      .place = 40,
+      .find = &find,
+      .rows = {
+          {Topic::materials, "latent heat of another metal",
+           fmt::format("the latent heat times the density, for each kelvin of the liquidus (Richards' rule), "
+                       "below {} or above {} MJ/m³K (silicon {}): one of a litre or of a mole, cal for J",
+                       number(1e-6 * k_least_entropy), number(1e-6 * k_most_entropy),
+                       number(1e-6 * k_most_of_silicon))},
+          {Topic::materials, "specific heat or density of another metal",
+           fmt::format("their product at 20 °C (Dulong and Petit's rule), of what freezes, below {} or above "
+                       "{} MJ/m³K",
+                       number(1e-6 * k_least_capacity), number(1e-6 * k_most_capacity))},
+          {Topic::materials, "conductivity of a light metal",
+           fmt::format("below {} W/m/K at the solidus, lighter than {} kg/m³", number(k_least_of_light),
+                       number(k_light))},
+          {Topic::materials, "expansion of what freezes",
+           fmt::format("times the liquidus (Grüneisen's rule) below {}", number(k_least_growth))},
+          {Topic::materials, "stiffness of another metal",
+           fmt::format("Young's modulus at 20 °C over the liquidus below {} or above {} GPa/K",
+                       number(1e-9 * k_least_stiffness), number(1e-9 * k_most_stiffness))},
+          {Topic::materials, "next to no change of volume",
+           fmt::format("not zero, below {}", percent(k_next_to_none))},
+          {Topic::materials, "a strength that does not fall",
+           fmt::format("a flow stress at the solidus of more than {} of that at 20 °C", percent(k_softened))},
+          {Topic::materials, "a stiffness that does not fall",
+           fmt::format("a Young's modulus at the solidus of more than {} of that at 20 °C",
+                       percent(k_stiff))},
+          {Topic::materials, "a rate that adds nothing, or all",
+           fmt::format("at the solidus less than {} or more than {} times the flow stress there, at {} 1/s",
+                       number(k_least_creep), number(k_most_creep), number(k_rate))},
+          {Topic::materials, "data of criteria",
+           fmt::format("secondary arms below {} µm or above {} mm apart after a minute of freezing; a "
+                       "viscosity of the melt below {} or above {} mPa s; `coherency_fraction` below {}",
+                       number(1e6 * k_finest), number(1e3 * k_coarsest), number(1e3 * k_thinnest),
+                       number(1e3 * k_thickest), number(k_first_coherent))},
+          {Topic::materials, "viscosity of a melt",
+           fmt::format("a `twice_shear_viscosity` that gives it in a first step a modulus above 2G at the "
+                       "solidus, where the material names no source for it, or below {} of the bulk modulus",
+                       number(k_no_shear))}}};
 }
 
 }  // namespace solidus::model

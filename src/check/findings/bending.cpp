@@ -6,12 +6,14 @@
 #include <map>
 
 #include "case/roles.hpp"
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::model {
 
 namespace {
+
+constexpr double k_slender = 10, k_most = 0.5;  // extent over thickness; elements from skin to skin
 
 bool of_first_order(const mesh::Mesh& mesh, int body) {
   return std::ranges::none_of(mesh.blocks, [&](const mesh::ElementBlock& block) {
@@ -52,12 +54,9 @@ std::vector<char> skin_nodes(const mesh::Mesh& mesh, int body) {
   return {on_skin.begin(), on_skin.end()};
 }
 
-}  // namespace
-
-// A plate or a strip of one element of first order through its thickness bends with a third (tetrahedra) to
-// four fifths (hexahedra) of its deflection, and its stress is even through the thickness.
-void find_in_bending(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_slender = 10, k_most = 0.5;
+/// A plate or a strip of one element of first order through its thickness bends with a third (tetrahedra) to
+/// four fifths (hexahedra) of its deflection, and its stress is even through the thickness.
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   // A strip of a disc or of a tube is one element high, and nothing bends there.
   if (!a.mechanics || spec.analysis.kind == AnalysisKind::axisymmetric) return;
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
@@ -82,6 +81,21 @@ void find_in_bending(const CaseSpec& spec, const Assembly& a, const CaseMeasures
                  "feed"
                : "elements of second order (mesh.order = 2), or four through a wall that bends"});
   }
+}
+
+}  // namespace
+
+FindingFamily findings_bending() {
+  return {
+      .name = "bending",
+      .place = 150,
+      .find = &find,
+      .rows = {{Topic::mesh, "a thin body that bends with one element",
+                fmt::format(
+                    "more than {} of a body that deforms, {} times as long as thick, are elements of first "
+                    "order that reach from skin to skin; at the end of a run a line says of bodies of first "
+                    "order whose stress jumps by more than half of its size from element to element",
+                    percent(k_most), number(k_slender))}}};
 }
 
 }  // namespace solidus::model

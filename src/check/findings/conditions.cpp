@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "input/units.hpp"
 #include "parallel/parallel.hpp"
 
@@ -14,10 +14,27 @@ namespace solidus::model {
 
 namespace {
 
+constexpr double k_coldest_argument = 150;                 // of a table of the surface's temperature [K]
+constexpr double k_coldest = 70, k_hottest = 1900;         // liquid nitrogen to furnaces [K]
+constexpr double k_coldest_body = 260;                     // [K]
+constexpr double k_most_source = 1e11, k_most_flux = 2e7;  // [W/m³], [W/m²]
+constexpr double k_least_emissivity = 0.02;
+constexpr double k_least_film = 0.5, k_most_film = 1e6, k_most_possible_film = 1e8;  // [W/(m² K)]
+constexpr double k_radiation = 4;                            // what radiation alone takes [W/(m² K)]
+constexpr double k_rise = 3000, k_rate = 20;                 // of induction [K], [K/s]
+constexpr double k_loose = 2e-3;                             // tolerances of iterations
+constexpr double k_least_period = 1e-3, k_most_period = 50;  // difference of rounds [K]
+constexpr double k_least_gravity = 1, k_most_gravity = 30;   // [m/s²]
+constexpr double k_second_point = 5, k_last_point = 20, k_over = 0.01;  // of tables of time, times the end
+constexpr double k_least_error = 1e-3;                                  // [K]
+constexpr double k_most_error = 0.1;                                    // of what the bodies start apart
+constexpr double k_most_of_step = 0.5;  // of a casting that freezes, of a skin that lets go
+constexpr double k_least_motion = 1e-8, k_most_motion = 5e-3;  // [m]
+constexpr double k_largest_mesh = 30, k_smallest_mesh = 1e-4;  // [m]
+
 /// A table that begins near 20 K was meant in degrees Celsius: surfaces are not so cold.
 void cold_arguments(const ThermalConditionSpec& t, const char* key, const Table& table, Findings& findings) {
-  constexpr double k_coldest = 150;  // [K]
-  if (const double first = table.x().front(); first < k_coldest)
+  if (const double first = table.x().front(); first < k_coldest_argument)
     findings.push_back({false, t.where,
                         fmt::format("the table of '{}' of '{}' begins at {:g} K ({:.0f} degC)", key, t.name,
                                     first, units::to_display(first, "K", "degC")),
@@ -29,7 +46,6 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
   // sources, emissivities, fluxes and films. Constants alone are judged, since a table may pass such values
   // for a moment. Each finding says what is usual.
   using Kind = ThermalConditionSpec::Kind;
-  constexpr double k_coldest = 70, k_hottest = 1900;  // [K]: liquid nitrogen to furnaces
   for (const ThermalConditionSpec& t : spec.thermal_conditions) {
     const bool surrounded = t.kind == Kind::film || t.kind == Kind::radiation;
     if (surrounded && is_number(t.ambient))
@@ -44,12 +60,12 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
                             fmt::format("'{}' holds '{}' at {:.0f} degC ({:.0f} K)", t.name, t.group,
                                         units::to_display(held, "K", "degC"), held),
                             "room temperature is 20 degC, 293 K"});
-    if (t.kind == Kind::source && is_number(t.power) && std::abs(t.power.table.value(0)) > 1e11)
+    if (t.kind == Kind::source && is_number(t.power) && std::abs(t.power.table.value(0)) > k_most_source)
       findings.push_back({false, t.where,
                           fmt::format("the source '{}' has {:g} W/m3", t.name, t.power.table.value(0)),
                           "usual are 1e3 to 1e9 W/m3, under a laser 1e11"});
     if (t.kind == Kind::radiation && is_number(t.emissivity) && is_number(t.factor) &&
-        t.emissivity.table.value(0) < 0.02)
+        t.emissivity.table.value(0) < k_least_emissivity)
       findings.push_back({false, t.where,
                           fmt::format("the emissivity of '{}' is {:g}", t.name, t.emissivity.table.value(0)),
                           "polished metal has 0.03 to 0.1, oxidised metal, sand and coatings 0.3 to 0.95"});
@@ -58,25 +74,26 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
          {std::pair(&t.coefficient, "coefficient"), std::pair(&t.emissivity, "emissivity")})
       if (surrounded && function->place == nullptr && function->of == Argument::temperature)
         cold_arguments(t, key, function->table, findings);
-    if (t.kind == Kind::flux && is_number(t.flux) && std::abs(t.flux.table.value(0)) > 2e7)
+    if (t.kind == Kind::flux && is_number(t.flux) && std::abs(t.flux.table.value(0)) > k_most_flux)
       findings.push_back({false, t.where,
                           fmt::format("the flux '{}' has {:g} W/m2", t.name, t.flux.table.value(0)),
                           "usual are 1e2 to 1e7 W/m2"});
     if (t.kind == Kind::film && is_number(t.coefficient) && is_number(t.factor) &&
-        t.coefficient.table.value(0) < 0.5)
+        t.coefficient.table.value(0) < k_least_film)
       findings.push_back({false, t.where,
                           fmt::format("the film '{}' has {:g} W/m2/K", t.name, t.coefficient.table.value(0)),
                           "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
     if (t.kind == Kind::film && t.coefficient.place == nullptr && !is_number(t.coefficient) &&
-        t.coefficient.table.max_value() > 1e8)
+        t.coefficient.table.max_value() > k_most_possible_film)
       findings.push_back(
           {true, t.where,
            fmt::format("the film '{}' comes to {:g} W/m2/K", t.name, t.coefficient.table.max_value()),
            "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
     // A film far beyond the usual holds the surface at the temperature of its surroundings.
     if (t.kind == Kind::film && is_number(t.coefficient) && is_number(t.factor))
-      if (const double h = t.coefficient.table.value(0); h > 1e6)
-        findings.push_back({h > 1e8, t.where, fmt::format("the film '{}' has {:g} W/m2/K", t.name, h),
+      if (const double h = t.coefficient.table.value(0); h > k_most_film)
+        findings.push_back({h > k_most_possible_film, t.where,
+                            fmt::format("the film '{}' has {:g} W/m2/K", t.name, h),
                             "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
   }
 }
@@ -84,7 +101,6 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
 /// Less than what radiation alone takes from any mould: 5 W/m²K of an emissivity of 0.85 at room temperature.
 void films_below_radiation(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   using Kind = ThermalConditionSpec::Kind;
-  constexpr double k_named_already = 0.5, k_least = 4;  // [W/m2/K]
   if (m.pours.empty()) return;
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
     const ThermalConditionSpec& film = spec.thermal_conditions[t];
@@ -95,7 +111,7 @@ void films_below_radiation(const CaseSpec& spec, const CaseMeasures& m, Findings
     });
     const int body = m.surfaces[t].body;
     // A cover on a riser may let as little pass.
-    if (h < k_named_already || h >= k_least || radiates || body < 0 ||
+    if (h < k_least_film || h >= k_radiation || radiates || body < 0 ||
         m.is_poured(static_cast<std::size_t>(body)))
       continue;
     findings.push_back(
@@ -127,7 +143,7 @@ void rooms_in_kelvins(const CaseSpec& spec, const Assembly& a, Findings& finding
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const std::string body = fmt::format("the body '{}' has an initial temperature", spec.bodies[b].name);
     compare(spec.bodies[b].where, body, a.start[b].low);
-    if (a.start[b].low < 260)
+    if (a.start[b].low < k_coldest_body)
       findings.push_back({false, spec.bodies[b].where,
                           fmt::format("{} of {:.0f} degC", body, a.start[b].low - k_zero_celsius),
                           "moulds start at 0 to 400 degC"});
@@ -156,7 +172,6 @@ void sinks(const CaseSpec& spec, const Assembly& a, Findings& findings) {
 
 /// Heat that no body survives.
 void heaters(const CaseSpec& spec, const Assembly& a, Findings& findings) {
-  constexpr double k_rise = 3000, k_rate = 20;  // [K], [K/s]: of induction
   if (spec.time.steady || !spec.time.end) return;
   for (const ThermalConditionSpec& t : spec.thermal_conditions) {
     if (t.kind != ThermalConditionSpec::Kind::source || !is_number(t.power) || !is_number(t.factor) ||
@@ -180,7 +195,6 @@ void heaters(const CaseSpec& spec, const Assembly& a, Findings& findings) {
 
 /// Residuals that are left in every step.
 void residuals(const CaseSpec& spec, Findings& findings) {
-  constexpr double k_loose = 2e-3;
   const auto compare = [&](const char* key, double tolerance, const char* of) {
     if (tolerance > k_loose)
       findings.push_back({false, spec.time.where,
@@ -194,7 +208,7 @@ void residuals(const CaseSpec& spec, Findings& findings) {
 
 void periodic_states(const CaseSpec& spec, Findings& findings) {
   for (const CycleSpec& cycle : spec.cycles)
-    if (cycle.periodic && (*cycle.periodic < 1e-3 || *cycle.periodic > 50))
+    if (cycle.periodic && (*cycle.periodic < k_least_period || *cycle.periodic > k_most_period))
       findings.push_back({false, cycle.where,
                           fmt::format("the cycle '{}' counts as periodic where its rounds differ by {:g} K",
                                       cycle.name, *cycle.periodic),
@@ -215,7 +229,7 @@ void outputs(const CaseSpec& spec, Findings& findings) {
 
 void gravity(const CaseSpec& spec, Findings& findings) {
   const double g = spec.analysis.gravity;
-  if (g != 0 && (g < 1 || g > 30))
+  if (g != 0 && (g < k_least_gravity || g > k_most_gravity))
     findings.push_back(
         {false, spec.analysis.where, fmt::format("gravity is {:g} m/s2", g), "9.81 m/s2 on earth"});
 }
@@ -243,8 +257,7 @@ void tables_of_other_times(const CaseSpec& spec, Findings& findings) {
   const auto compare = [&](const std::string& what, const Function& f, const SourceLocation& where,
                            bool may_end) {
     if (f.place != nullptr || f.of != Argument::time || f.table.constant()) return;
-    constexpr double k_second = 5, k_last = 20, k_over = 0.01;  // times the end
-    constexpr std::size_t k_ramp = 2;                           // points
+    constexpr std::size_t k_ramp = 2;  // points
     const double end = *spec.time.end;
     const auto say = [&](const char* what_it_does, double at) {
       findings.push_back(
@@ -255,9 +268,9 @@ void tables_of_other_times(const CaseSpec& spec, Findings& findings) {
     const auto x = f.table.x();
     if (x[0] >= end)
       say("begins at", x[0]);
-    else if (x[1] > k_second * end)
+    else if (x[1] > k_second_point * end)
       say("has its second point at", x[1]);
-    else if (x[x.size() - 1] > k_last * end)
+    else if (x[x.size() - 1] > k_last_point * end)
       say("goes on to", x[x.size() - 1]);
     else if (!may_end && x.size() > k_ramp && x[x.size() - 1] < k_over * end)
       say("ends at", x[x.size() - 1]);
@@ -280,26 +293,26 @@ void tolerance(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   double high = 0, low = std::numeric_limits<double>::max();
   for (const InitialTemperatureRange& r : a.start) high = std::max(high, r.high), low = std::min(low, r.low);
   if (const double allowed = spec.time.temperature_error.value_or(0);
-      high - low > 100 && allowed > 0.1 * (high - low))
+      high - low > 100 && allowed > k_most_error * (high - low))
     findings.push_back({false, spec.time.where,
                         fmt::format("each step may be wrong by {:g} K, where bodies start {:.0f} K apart",
                                     allowed, high - low),
                         "time.temperature_error of 0.5 to 10 K"});
-  if (const double change = spec.time.solid_fraction_change.value_or(0); spec.time.adaptive && change > 0.5)
+  if (const double change = spec.time.solid_fraction_change.value_or(0);
+      spec.time.adaptive && change > k_most_of_step)
     findings.push_back({false, spec.time.where,
                         fmt::format("{:.0f} % of the casting may freeze in one step", 100 * change),
                         "time.solid_fraction_change of 0.02 to 0.2"});
-  if (const double change = spec.time.skin_change.value_or(0); spec.time.adaptive && change > 0.5)
+  if (const double change = spec.time.skin_change.value_or(0); spec.time.adaptive && change > k_most_of_step)
     findings.push_back({false, spec.time.where,
                         fmt::format("{:.0f} % of a skin may let go of its wall in one step", 100 * change),
                         "time.skin_change of 0.02 to 0.2"});
-  constexpr double k_least_motion = 1e-8, k_most_motion = 5e-3;  // [m]
   if (const double allowed = spec.time.displacement_error.value_or(k_most_motion);
       allowed < k_least_motion || allowed > k_most_motion)
     findings.push_back({false, spec.time.where,
                         fmt::format("each step may be wrong by {:g} um of motion", 1e6 * allowed),
                         "time.displacement_error of 0.1 um to 1 mm"});
-  if (const double allowed = spec.time.temperature_error.value_or(1); allowed < 1e-3)
+  if (const double allowed = spec.time.temperature_error.value_or(1); allowed < k_least_error)
     findings.push_back({false, spec.time.where,
                         fmt::format("each step may be wrong by {:g} K alone", allowed),
                         "time.temperature_error of 0.5 to 10 K"});
@@ -312,7 +325,7 @@ void size(const CaseSpec& spec, const Assembly& a, Findings& findings) {
     for (const mesh::Point& x : a.mesh.x) low = std::min(low, x[i]), high = std::max(high, x[i]);
     largest = std::max(largest, parallel::global_max(high) - parallel::global_min(low));
   }
-  if (largest > 30 || largest < 1e-4)
+  if (largest > k_largest_mesh || largest < k_smallest_mesh)
     findings.push_back({false, spec.mesh.where, fmt::format("the mesh is {:.3g} m large", largest),
                         "is mesh.unit right? It is \"m\" unless the case says \"mm\""});
 }
@@ -332,9 +345,7 @@ void surfaces_on_the_axis(const CaseSpec& spec, const CaseMeasures& m, Findings&
   }
 }
 
-}  // namespace
-
-void find_in_conditions(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (spec.has_heat()) surfaces_on_the_axis(spec, m, findings);
   if (spec.has_heat()) surroundings(spec, findings);
   if (spec.has_heat()) films_below_radiation(spec, m, findings);
@@ -349,6 +360,63 @@ void find_in_conditions(const CaseSpec& spec, const Assembly& a, const CaseMeasu
   outputs(spec, findings);
   tables_of_other_times(spec, findings);
   size(spec, a, findings);
+}
+
+}  // namespace
+
+FindingFamily findings_conditions() {
+  return {
+      .name = "conditions",
+      .place = 60,
+      .find = &find,
+      .rows = {
+          {Topic::conditions, "surroundings",
+           fmt::format("below {} K or above {} K", number(k_coldest), number(k_hottest))},
+          {Topic::conditions, "a held temperature near zero", fmt::format("below {} K", number(k_coldest))},
+          {Topic::conditions, "rooms in K", "surroundings or bodies of 293 or 298 °C"},
+          {Topic::conditions, fmt::format("bodies that start below {} K", number(k_coldest_body))},
+          {Topic::conditions, "a film below what radiation takes",
+           fmt::format("{} to {} W/m²K of one number on a body that is not poured, where nothing radiates",
+                       number(k_least_film), number(k_radiation))},
+          {Topic::conditions, "film, flux, source",
+           fmt::format(
+               "below {} or above {} W/m²K (above {}, also in a table: error), above {} W/m², above {} W/m³",
+               number(k_least_film), number(k_most_film), number(k_most_possible_film), number(k_most_flux),
+               number(k_most_source)),
+           "warning, error"},
+          {Topic::conditions, "a source takes more heat than the body has", "within the run"},
+          {Topic::conditions, fmt::format("a source heats a body by more than {} K/s", number(k_rate)),
+           fmt::format("and by {} K in the run", number(k_rise))},
+          {Topic::conditions, "emissivity", fmt::format("below {}", number(k_least_emissivity))},
+          {Topic::conditions,
+           fmt::format("a table of the surface's temperature begins below {} K", number(k_coldest_argument)),
+           "of a film's coefficient or an emissivity"},
+          {Topic::conditions, "tolerances of the iterations",
+           fmt::format("`heat.tolerance` or `mechanics.tolerance` above {}", number(k_loose))},
+          {Topic::conditions, "outputs behind the end of the run; tables of time that begin there"},
+          {Topic::conditions, "tables of time of which the run sees next to nothing",
+           fmt::format(
+               "the second point lies beyond {} times the end, or the last one beyond {} times; the last of "
+               "three or more within {} of the run (thermal conditions that are on at all times)",
+               number(k_second_point), number(k_last_point), percent(k_over))},
+          {Topic::conditions, "a film, radiation or flux on the axis",
+           "its surface has no area in axisymmetry"},
+          {Topic::conditions, "outputs that cut fixed steps", "more than one a step"},
+          {Topic::conditions, "gravity",
+           fmt::format("not zero, below {} or above {} m/s²", number(k_least_gravity),
+                       number(k_most_gravity))},
+          {Topic::pour, "one step is the whole run", "of fixed steps, without stages"},
+          {Topic::pour, "a periodic state",
+           fmt::format("to less than {} mK or more than {} K", number(1e3 * k_least_period),
+                       number(k_most_period))},
+          {Topic::mesh, "size of the mesh",
+           fmt::format("above {} m or below {} mm", number(k_largest_mesh), number(1e3 * k_smallest_mesh))},
+          {Topic::effort, "the tolerance of steps",
+           fmt::format(
+               "below {} mK, below {} nm or above {} mm of motion, above {} of what the bodies start apart; "
+               "more than {} of the casting may freeze in a step, or of a skin let go of its wall",
+               number(1e3 * k_least_error), number(1e9 * k_least_motion), number(1e3 * k_most_motion),
+               percent(k_most_error), percent(k_most_of_step))}}};
 }
 
 }  // namespace solidus::model

@@ -4,15 +4,18 @@
 #include <algorithm>
 
 #include "check/coupling_estimate.hpp"
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "coupling/scheme_names.hpp"
 #include "setup/scheme_input.hpp"
 
 namespace solidus::model {
 
-// A scheme that conducts heat before deformation has taken up its share is late by δ_K steps.
-void find_in_coupling(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_late = 0.03;  // of what changes evenly over the run
+namespace {
+
+constexpr double k_late = 0.03;  // of what changes evenly over the run
+
+/// A scheme that conducts heat before deformation has taken up its share is late by δ_K steps.
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.exchanges_heat() || !(m.effort.steps > 0)) return;
   const std::vector<CouplingEstimate> estimates = coupling_estimates(spec, a.materials, a.mesh, a.start);
   const double steps = heat_lag(spec, estimates, keeps_strain(spec, a.materials, a.start));
@@ -34,6 +37,19 @@ void find_in_coupling(const CaseSpec& spec, const Assembly& a, const CaseMeasure
            coupling::names_of_schemes([](const coupling::SchemeTraits& t) {
              return t.mapping == mechanics::Mapping::simultaneous;
            }))});
+}
+
+}  // namespace
+
+FindingFamily findings_coupling() {
+  return {.name = "coupling",
+          .place = 300,
+          .find = &find,
+          .rows = {{Topic::mechanics, "temperatures lag",
+                    fmt::format("a scheme that conducts before deformation takes up its share of the heat, "
+                                "by {} and more of what changes evenly over the run "
+                                "([theory](../theory/coupling_stability.md#9-what-the-program-computes))",
+                                percent(k_late))}}};
 }
 
 }  // namespace solidus::model

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "case/roles.hpp"
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "mechanics/simplices.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/cast_bodies.hpp"
@@ -21,11 +21,9 @@ double shrinkage(const material::Material& metal) {
   return std::max(0.0, -freezing->volume_change);
 }
 
-}  // namespace
-
-// Metal that shrinks without pores and without flow through its mush draws in its walls instead, and elements
-// with one pressure each do not hold a melt at rest on a mesh that is not regular.
-void find_in_elements(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+/// Metal that shrinks without pores and without flow through its mush draws in its walls instead, and
+/// elements with one pressure each do not hold a melt at rest on a mesh that is not regular.
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings& findings) {
   if (!a.mechanics) return;
   for (const results::CastBody& cast : cast_bodies(spec, a.materials, a.start)) {
     const auto body = static_cast<std::size_t>(cast.body);
@@ -44,6 +42,17 @@ void find_in_elements(const CaseSpec& spec, const Assembly& a, Findings& finding
              cast.name, 100 * shrinks, spec.analysis.gravity > 0 ? ", and its melt does not rest" : ""),
          "mixed triangles or tetrahedra (element tri3 or tet4) do all of it"});
   }
+}
+
+}  // namespace
+
+FindingFamily findings_elements() {
+  return {.name = "elements",
+          .place = 140,
+          .find = &find,
+          .rows = {{Topic::mesh, "elements without pores",
+                    "a casting that deforms and shrinks as it freezes has elements that neither open pores "
+                    "nor feed; not where its material gives the viscosity of the melt"}}};
 }
 
 }  // namespace solidus::model

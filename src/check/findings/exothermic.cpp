@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "input/units.hpp"
 
 namespace solidus::model {
@@ -22,11 +22,12 @@ struct Burning {
   }
 };
 
+constexpr double k_least_heat = 1e7, k_most_heat = 2e10;  // [J/m³]
+constexpr double k_shortest = 1, k_longest = 3600;        // [s]
+
 /// Heat and duration of sleeves and of covers on risers.
 void amounts(const Burning& burning) {
   const ThermalConditionSpec& c = burning.condition;
-  constexpr double k_least_heat = 1e7, k_most_heat = 2e10;  // [J/m³]
-  constexpr double k_shortest = 1, k_longest = 3600;        // [s]
   if (c.heat < k_least_heat || c.heat > k_most_heat)
     burning.warn(fmt::format("releases {:g} J/m3", c.heat),
                  "exothermic sleeves release 2e8 to 3e9 J/m3: heat per mass times density, per volume");
@@ -38,9 +39,7 @@ void amounts(const Burning& burning) {
 /// Above it nothing ignites: what stands there was switched off [K].
 constexpr double k_switched_off = 3000;
 
-}  // namespace
-
-void find_in_burning(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   // A sleeve is judged by its amounts of heat, by the body it is in, and by whether anything there gets hot
   // enough to ignite it.
   if (!spec.has_heat()) return;
@@ -71,6 +70,21 @@ void find_in_burning(const CaseSpec& spec, const Assembly& a, const CaseMeasures
             "sleeves ignite at 200 to 900 degC");
     }
   }
+}
+
+}  // namespace
+
+FindingFamily findings_exothermic() {
+  return {
+      .name = "what burns",
+      .place = 280,
+      .find = &find,
+      .rows = {
+          {Topic::pour, "what burns",
+           fmt::format("in a body that is poured; an ignition above all starts (above {} K it is switched "
+                       "off), or below that of its body; below {} or above {} J/m³; below {} s or above {} s",
+                       number(k_switched_off), number(k_least_heat), number(k_most_heat), number(k_shortest),
+                       number(k_longest))}}};
 }
 
 }  // namespace solidus::model

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "mesh/body_faces.hpp"
 #include "mesh/surfaces/skin.hpp"
 #include "parallel/parallel.hpp"
@@ -20,6 +20,9 @@
 namespace solidus::model {
 
 namespace {
+
+constexpr double k_closed = 0.02, k_open = 0.25;  // of the skin that faces up, that faces down
+constexpr double k_least_share_of_skin = 0.02;    // of the skin
 
 bool in_contact(const CaseSpec& spec, const std::string& surface) {
   return std::ranges::any_of(spec.contacts, [&](const ContactSpec& contact) {
@@ -47,7 +50,7 @@ struct Facing {
 /// Melt stands in its mould with its free surface on top: one whose skin is closed above and open below has
 /// run out, or gravity points the wrong way. Collective.
 void melts_open_below(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_upright = 0.7, k_closed = 0.02, k_open = 0.25;  // of the normal; shares of the area
+  constexpr double k_upright = 0.7;  // of the normal
   const std::array<double, 3> g = gravity(spec.analysis);
   const double size = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
   if (!(size > 0) || m.pours.empty() || spec.contacts.empty()) return;
@@ -78,7 +81,6 @@ void melts_open_below(const CaseSpec& spec, const Assembly& a, const CaseMeasure
 
 /// A support of all directions on a free surface of a casting keeps it from shrinking there.
 void held_free_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_least_share_of_skin = 0.02;  // of the skin
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
     const bool all =
         c.kind == MechanicalConditionSpec::Kind::displacement &&
@@ -100,12 +102,24 @@ void held_free_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures
   }
 }
 
-}  // namespace
-
-void find_in_free_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_mechanics()) return;
   melts_open_below(spec, a, m, findings);
   held_free_skins(spec, a, m, findings);
+}
+
+}  // namespace
+
+FindingFamily findings_free_skins() {
+  return {.name = "free skins",
+          .place = 130,
+          .find = &find,
+          .rows = {{Topic::mechanics, "a free skin of the casting is held in all directions",
+                    fmt::format("more than {} of its skin, with no contact", percent(k_least_share_of_skin))},
+                   {Topic::mechanics, "a melt that is open below",
+                    fmt::format("{} of its skin that faces along gravity has neither contact, support, load "
+                                "nor held temperature, and all that faces up has one",
+                                percent(k_open))}}};
 }
 
 }  // namespace solidus::model

@@ -3,22 +3,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include "case/roles.hpp"
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "input/units.hpp"
-#include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
-#include "setup/mechanics_input.hpp"
 
 namespace solidus::model {
 
 namespace {
+
+// Of the estimated time to freeze, which is good to a factor of two.
+constexpr double k_early = 0.25, k_liquid = 0.4;   // the run ends, a casting leaves
+constexpr double k_fine = 4, k_least_steps = 20;   // steps, least steps: so many at least
+constexpr double k_many = 5e4;                     // steps that are too many
+constexpr double k_day = 86400, k_most_days = 15;  // [s], [days]
+constexpr double k_of_run = 0.5;                   // a largest step that limits nothing
+constexpr double k_hottest_air = 1900;             // hotter surroundings: findings/conditions.cpp [K]
 
 double celsius(double kelvin) {
   return kelvin - k_zero_celsius;
@@ -100,7 +105,6 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
     return;
   }
   // An estimate is good to a factor of two.
-  constexpr double k_early = 0.25, k_liquid = 0.4, k_fine = 4, k_least_steps = 20, k_days = 15 * 86400.0;
   const double time = *pour.freezing.time;
   // The run, or the stay of the casting in it, against the estimate; then the steps against it, from too long
   // to too many.
@@ -135,14 +139,13 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
                         fmt::format("steps of {} at least, but '{}' freezes within some {}", duration(least),
                                     name, duration(time)),
                         "a smaller time.min_step, or none"});
-  constexpr double k_many = 5e4;
   if (const double step = spec.time.adaptive ? spec.time.max_step.value_or(0) : fixed_step(spec, a);
       step > 0 && time > k_many * step && a.stages.empty())
     findings.push_back(
         {false, spec.time.where,
          fmt::format("steps of {:g} s: '{}' freezes in some {:.0f} of them", step, name, time / step),
          "some hundred steps while it freezes; time.adaptive chooses them"});
-  if (time > k_days)
+  if (time > k_most_days * k_day)
     findings.push_back({false, spec.mesh.where,
                         fmt::format("'{}' takes some {} to freeze", name, duration(time)),
                         "seconds to hours; are mesh.unit, the conductances and conductivities right?"});
@@ -150,9 +153,8 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
 
 /// Over all pours the same: a largest step that no step comes to.
 void largest_step(const CaseSpec& spec, Findings& findings) {
-  constexpr double k_half = 0.5;
   const double most = spec.time.adaptive ? spec.time.max_step.value_or(0) : 0;
-  if (spec.time.steady || most <= k_half * *spec.time.end) return;
+  if (spec.time.steady || most <= k_of_run * *spec.time.end) return;
   findings.push_back({false, spec.time.where,
                       fmt::format("time.max_step of {} limits nothing: the whole run takes {}",
                                   duration(most), duration(*spec.time.end)),
@@ -208,8 +210,8 @@ void heating(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, con
            fmt::format("the flux '{}' of {:g} W/m2 heats '{}'", c.name, c.flux.table.value(0), name),
            "a flux is positive into the body: cooling is negative"});
     if ((c.kind == Kind::film || c.kind == Kind::radiation) && is_number(c.ambient) &&
-        c.ambient.table.value(0) > solidus && c.ambient.table.value(0) < 1900 && is_number(c.coefficient) &&
-        is_number(c.factor))
+        c.ambient.table.value(0) > solidus && c.ambient.table.value(0) < k_hottest_air &&
+        is_number(c.coefficient) && is_number(c.factor))
       findings.push_back(
           {false, c.where,
            fmt::format("the surroundings of '{}' have {:.0f} degC, above the solidus of '{}' at "
@@ -330,71 +332,7 @@ void melts_side_by_side(const CaseSpec& spec, const Assembly& a, const CaseMeasu
              "one alloy for a casting and its risers"});
 }
 
-/// Feeders that touch no melt, or that lie where melt does not flow down from. Collective.
-void feeders(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  if (m.pours.empty()) return;
-  std::vector<int> poured(a.mesh.x.size(), -1);
-  for (const mesh::ElementBlock& block : a.mesh.blocks)
-    for (const Pour& pour : m.pours)
-      if (static_cast<int>(pour.body) == block.body)
-        for (const Index node : block.nodes) poured[static_cast<std::size_t>(node)] = block.body;
-  const std::array<double, 3> g = gravity(spec.analysis);
-  double all = 0;                             // nodes of all that is poured
-  double all_low = 1e300, all_high = -1e300;  // its ends, against gravity
-  const auto ends = [&](std::size_t body) {
-    double low = 0, high = 0;
-    for (std::size_t d = 0; d < 3; ++d) {
-      const double first = -g[d] * m.bodies[body].low[d], second = -g[d] * m.bodies[body].high[d];
-      low += std::min(first, second), high += std::max(first, second);
-    }
-    return std::pair(low, high);
-  };
-  for (const Pour& pour : m.pours) {
-    all += static_cast<double>(m.bodies[pour.body].nodes);
-    const auto [low, high] = ends(pour.body);
-    all_low = std::min(all_low, low), all_high = std::max(all_high, high);
-  }
-  for (const std::string& group : spec.criteria.feeders) {
-    double height = 0;                                  // sum over its nodes
-    std::vector<double> of_body(m.bodies.size(), 0.0);  // its nodes
-    if (const auto nodes = a.mesh.node_sets.find(group); nodes != a.mesh.node_sets.end())
-      for (const Index node : nodes->second) {
-        const auto i = static_cast<std::size_t>(node);
-        if (node >= a.mesh.n_owned_nodes || poured[i] < 0) continue;
-        of_body[static_cast<std::size_t>(poured[i])] += 1;
-        for (std::size_t d = 0; d < 3; ++d) height -= g[d] * a.mesh.x[i][d];
-      }
-    height = parallel::global_sum(height);
-    double n = 0, lowest = 0, highest = 0;
-    for (std::size_t body = 0; body < of_body.size(); ++body) {
-      const double nodes = parallel::global_sum(of_body[body]);
-      // A riser that is a body of its own is above or below what is poured with it, a part of a body within
-      // it.
-      const bool whole = nodes > 0.9 * static_cast<double>(m.bodies[body].nodes);
-      const auto [low, high] = whole ? std::pair(all_low, all_high) : ends(body);
-      n += nodes, lowest += nodes * low, highest += nodes * high;
-    }
-    if (n == 0)
-      findings.push_back({true, spec.criteria.where,
-                          fmt::format("the feeder '{}' has no node of a body that is poured", group),
-                          "a surface or volume of the casting: melt that it touches is fed"});
-    else if (n > 0.9 * all)
-      findings.push_back({false, spec.criteria.where,
-                          fmt::format("the feeder '{}' is all that is poured: no pore is looked for", group),
-                          "the riser, or the surface through which the casting is fed"});
-    else if (height < lowest + 0.25 * (highest - lowest))
-      findings.push_back(
-          {false, spec.criteria.where,
-           fmt::format("the feeder '{}' lies in the lowest quarter of its casting, by the direction "
-                       "of gravity",
-                       group),
-           "feeders above what they feed; is gravity_direction right?"});
-  }
-}
-
-}  // namespace
-
-void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat()) return;
   for (const Pour& pour : m.pours) {
     heating(spec, a, m, pour, findings);
@@ -406,7 +344,46 @@ void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   cold_castings(spec, a, m, findings);
   bodies_that_melt(spec, a, m, findings);
   melts_side_by_side(spec, a, m, findings);
-  feeders(spec, a, m, findings);
+}
+
+}  // namespace
+
+FindingFamily findings_freezing() {
+  return {
+      .name = "freezing",
+      .place = 90,
+      .find = &find,
+      .rows = {
+          {Topic::materials, "a second casting starts partly solid",
+           "between solidus and liquidus, where another body is hotter"},
+          {Topic::materials, "melt beside melt",
+           "a contact joins two bodies that are poured; two alloys that are poured share nodes"},
+          {Topic::materials, "a body melts",
+           "nothing is poured, and all bodies together, with no heat from or to elsewhere, come above its "
+           "solidus"},
+          {Topic::materials, "a chill counts as a casting",
+           "its material can freeze, it starts solid beside a body that is poured"},
+          {Topic::pour, "nothing cools it; it does not freeze", "by the estimate"},
+          {Topic::pour,
+           "its skin is held above the solidus; its surroundings are hotter than that, in whatever stage",
+           "conditions of one number"},
+          {Topic::pour, "a flux heats it", "a flux is positive into the body"},
+          {Topic::pour, "a run until all is solid, in which nothing is poured", "`until = \"solid\"`",
+           "error"},
+          {Topic::pour,
+           "the run ends before, or the casting leaves; a casting that comes in a later stage too",
+           fmt::format("the run at less than {} of the estimate, the casting at less than {} of it",
+                       percent(k_early), percent(k_liquid))},
+          {Topic::pour, "steps too long, too short",
+           fmt::format("fixed ones, or the first of adaptive ones, above 1/{} of the estimate, `min_step` "
+                       "above 1/{}; `max_step` above {} of the run; fixed ones, or `max_step`, of which the "
+                       "estimate takes more than {}",
+                       number(k_fine), number(k_least_steps), percent(k_of_run), number(k_many))},
+          {Topic::pour, fmt::format("it takes more than {} days", number(k_most_days))},
+          {Topic::pour, "a steady analysis of a body that is poured"},
+          {Topic::pour, "a cold riser", "a body with that role starts below its solidus"},
+          {Topic::pour, "a cycle without shots",
+           "it comes round more than once, and no body that is poured leaves in it"}}};
 }
 
 }  // namespace solidus::model

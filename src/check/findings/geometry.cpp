@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "case/roles.hpp"
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "input/units.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
@@ -17,6 +17,15 @@ namespace {
 
 /// Bodies whose temperatures differ by less may share nodes with good reason [K].
 constexpr double k_same_temperature = 50;
+constexpr double k_overlap = 0.15;                        // of a face
+constexpr double k_apart = 2e-3, k_apart_of_body = 0.02;  // [m]; of the size of the slave's body
+constexpr double k_spanned = 0.5;                         // share of elements from skin to skin
+constexpr double k_coarse = 2;                            // mean edge, of the depth
+constexpr double k_coarse_mould = 2;                      // shortest edge, of the depth that heat reaches
+// An edge over another one of its element. Layers of sand taper beside edges of a casting; nothing bends
+// there where a body conducts heat alone.
+constexpr double k_flat = 150, k_flat_in_layers = 300, k_flat_in_casting = 50;
+constexpr double k_small = 3e-3;  // a casting [m]
 
 /// In quotes.
 std::string name_of(const CaseSpec& spec, int body) {
@@ -26,11 +35,10 @@ std::string name_of(const CaseSpec& spec, int body) {
 
 /// Facets of two meshes on one curved skin overlap by a tenth of a face at most.
 void overlaps(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_of_face = 0.15;
   for (std::size_t c = 0; c < m.contacts.size(); ++c) {
     const ContactMeasures& contact = m.contacts[c];
     const double depth = -contact.least_start;
-    if (contact.paired > 0 && depth > k_of_face * contact.face_size)
+    if (contact.paired > 0 && depth > k_overlap * contact.face_size)
       findings.push_back({false, spec.contacts[c].where,
                           fmt::format("{} and {} of the contact '{}' overlap by up to {:.3g} mm at the start",
                                       name_of(spec, contact.slave_body), name_of(spec, contact.master_body),
@@ -45,7 +53,7 @@ void far_apart(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) 
     if (!(contact.paired > 0) || contact.slave_body < 0 || !spec.contacts[c].heat) continue;
     const BodyMeasures& body = m.bodies[static_cast<std::size_t>(contact.slave_body)];
     const double size = std::cbrt(body.volume);
-    if (contact.least_start > 2e-3 && contact.least_start > 0.02 * size)
+    if (contact.least_start > k_apart && contact.least_start > k_apart_of_body * size)
       findings.push_back(
           {false, spec.contacts[c].where,
            fmt::format("the surfaces '{}' and '{}' of the contact '{}' are {:.3g} mm apart or more",
@@ -111,7 +119,7 @@ void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& find
         spec.has_mechanics() ? "" : ", or two of second order",
         spec.mesh.sizes.empty() ? "mesh.element_size" : "smaller `size` and `smallest` of [[mesh.size]]");
     // Elements through the whole wall are worst, then those larger than the deepest place, then a single one.
-    if (pour.spanned > 0.5)
+    if (pour.spanned > k_spanned)
       findings.push_back(
           {false, spec.mesh.where,
            fmt::format(
@@ -119,7 +127,7 @@ void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& find
                "{:.3g} to {:.3g} mm; twice its volume over its cooled skin is {:.3g} mm",
                100 * pour.spanned, name, 1e3 * body.shortest_edge, 1e3 * body.longest_edge, 2e3 * modulus),
            usual});
-    else if (body.mean_edge > 2 * std::max(pour.depth, modulus))
+    else if (body.mean_edge > k_coarse * std::max(pour.depth, modulus))
       findings.push_back(
           {false, spec.mesh.where,
            fmt::format(
@@ -135,8 +143,6 @@ void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& find
 /// Elements whose edges differ so much that what crosses them and what runs along them cannot both be seen;
 /// castings so small that their unit is in doubt.
 void shapes_and_sizes(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  // Layers of sand taper beside edges of a casting; nothing bends there where a body conducts heat alone.
-  constexpr double k_flat = 150, k_flat_in_layers = 300, k_flat_in_casting = 50, k_small = 3e-3;
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
     const bool conducts = !spec.has_mechanics() || only_conducts(spec.bodies[b]);
     const double most = m.is_poured(b) ? k_flat_in_casting : conducts ? k_flat_in_layers : k_flat;
@@ -170,7 +176,7 @@ void coarse_moulds(const CaseSpec& spec, const CaseMeasures& m, Findings& findin
                                                       : -1;
       if (other < 0) continue;
       const BodyMeasures& mould = m.bodies[static_cast<std::size_t>(other)];
-      if (mould.shortest_edge < 2 * pour.freezing.mould_reach) continue;
+      if (mould.shortest_edge < k_coarse_mould * pour.freezing.mould_reach) continue;
       findings.push_back(
           {false, spec.mesh.where,
            fmt::format(
@@ -184,9 +190,7 @@ void coarse_moulds(const CaseSpec& spec, const CaseMeasures& m, Findings& findin
   }
 }
 
-}  // namespace
-
-void find_in_geometry(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   overlaps(spec, m, findings);
   far_apart(spec, m, findings);
   same_body(spec, m, findings);
@@ -194,6 +198,41 @@ void find_in_geometry(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   coarse_castings(spec, m, findings);
   coarse_moulds(spec, m, findings);
   shapes_and_sizes(spec, m, findings);
+}
+
+}  // namespace
+
+FindingFamily findings_geometry() {
+  return {
+      .name = "geometry",
+      .place = 70,
+      .find = &find,
+      .rows = {
+          {Topic::contacts, "bodies are glued together",
+           fmt::format(
+               "surfaces in contact share some nodes; bodies that start more than {} K apart share nodes",
+               number(k_same_temperature))},
+          {Topic::contacts, "bodies overlap",
+           fmt::format("contact begins with more than {} of a face of overlap, facets and what `touching` "
+                       "closes taken out",
+                       number(k_overlap))},
+          {Topic::contacts, "surfaces are far apart",
+           fmt::format(
+               "the least gap is above {} mm and {} of the body, facets and what `touching` closes taken out",
+               number(1e3 * k_apart), percent(k_apart_of_body))},
+          {Topic::contacts, "both surfaces belong to one body"},
+          {Topic::mesh, "elements too large for the wall",
+           fmt::format("{} of the casting are elements that reach from cooled skin to cooled skin, or their "
+                       "mean edge is {} times the depth, or it is one element",
+                       percent(k_spanned), number(k_coarse))},
+          {Topic::mesh, "elements too large for the mould",
+           fmt::format("the shortest is {} times what heat goes deep until the casting is solid",
+                       number(k_coarse_mould))},
+          {Topic::mesh, "a small casting", fmt::format("below {} mm", number(1e3 * k_small))},
+          {Topic::mesh, "flat elements",
+           fmt::format("an edge {} times as long as another of the element, in a casting {} times, in a body "
+                       "that only conducts heat {} times",
+                       number(k_flat), number(k_flat_in_casting), number(k_flat_in_layers))}}};
 }
 
 }  // namespace solidus::model

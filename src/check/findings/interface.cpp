@@ -6,9 +6,11 @@
 #include <numeric>
 #include <set>
 
-#include "check/findings.hpp"
-#include "contact/laws/contact_law.hpp"
-#include "contact/laws/gap_law.hpp"
+#include "check/finding_family.hpp"
+#include "contact/laws/gas_gap.hpp"
+#include "contact/laws/power_contact.hpp"
+#include "contact/laws/spots_contact.hpp"
+#include "contact/laws/tabulated.hpp"
 #include "coupling/scheme_names.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
@@ -20,6 +22,8 @@ namespace {
 
 /// Bodies whose temperatures differ by less need no way for heat [K].
 constexpr double k_same_temperature = 50;
+/// The heat capacity of an interface that stores more than a thin wall [J/(m² K)].
+constexpr double k_most_capacity = 1e6;
 
 /// Whether a condition holds while a contact is on: bodies come and leave. Collective.
 bool beside(const CaseSpec& spec, const Assembly& a, const std::vector<std::string>& stages,
@@ -148,7 +152,7 @@ void conductances(const CaseSpec& spec, Findings& findings) {
   for (const ContactSpec& contact : spec.contacts) {
     // Capacities and emissivities that are out of range or meaningless alone, then what each law remarks of
     // its own numbers.
-    if (const double capacity = contact.interface.heat_capacity; capacity > 1e6)
+    if (const double capacity = contact.interface.heat_capacity; capacity > k_most_capacity)
       findings.push_back({false, contact.where,
                           fmt::format("the interface of '{}' stores {:g} J/m2/K", contact.name, capacity),
                           "1000 J/m2/K is a skin of 0.3 mm of steel"});
@@ -192,15 +196,60 @@ void isentropic_friction(const CaseSpec& spec, Findings& findings) {
   }
 }
 
-}  // namespace
-
-void find_in_interfaces(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings& findings) {
   contacts_given_twice(spec, findings);
   if (!spec.has_heat()) return;
   bodies_without_a_way_for_heat(spec, a, findings);
   films_beside_contacts(spec, a, findings);
   conductances(spec, findings);
   isentropic_friction(spec, findings);
+}
+
+}  // namespace
+
+FindingFamily findings_interface() {
+  using contact::GasGap, contact::PowerContact, contact::SpotsContact, contact::TableContact,
+      contact::TableGap;
+  return {
+      .name = "interfaces",
+      .place = 10,
+      .find = &find,
+      .rows = {{Topic::contacts, "two contacts join the same surfaces", "in either order, at the same time",
+                "error"},
+               {Topic::contacts, "no heat passes between two bodies",
+                fmt::format("their starts differ by more than {} K, and neither a contact with "
+                            "`[contact.heat]` nor shared nodes join them, also not over others",
+                            number(k_same_temperature))},
+               {Topic::contacts, "one emissivity alone", "nothing radiates across the contact"},
+               {Topic::contacts, "a film lies on a surface in contact; two films on one surface",
+                "films that are one number; those of place or time take turns"},
+               {Topic::contacts, "conductance of a contact",
+                fmt::format("below {} or above {} W/m²K; above {} it is an error",
+                            number(PowerContact::k_least_usual), number(PowerContact::k_most_usual),
+                            number(PowerContact::k_most_possible)),
+                "warning, error"},
+               {Topic::contacts, "conductivity of the gas in a gap",
+                fmt::format("below {} or above {} W/m/K (law `gas`)", number(GasGap::k_least_usual),
+                            number(GasGap::k_most_usual))},
+               {Topic::contacts, "roughness and slope of asperities",
+                fmt::format("outside of {} to {} µm, a mean slope above {} (law `spots`)",
+                            number(1e6 * SpotsContact::k_smoothest), number(1e6 * SpotsContact::k_roughest),
+                            number(SpotsContact::k_steepest))},
+               {Topic::contacts, "an interface stores much heat",
+                fmt::format("above {} J/m²K", number(k_most_capacity))},
+               {Topic::contacts, "hardness of the softer side",
+                fmt::format("below {} MPa or above {} GPa, where the conductance follows the pressure",
+                            number(1e-6 * PowerContact::k_softest), number(1e-9 * PowerContact::k_hardest))},
+               {Topic::contacts, "a table of the gap",
+                fmt::format("goes beyond {} mm, or conducts more at its end than at zero",
+                            number(1e3 * TableGap::k_widest))},
+               {Topic::contacts, "a table of the gap, of the pressure",
+                fmt::format("ends at a gap below {} µm; at a pressure below {} kPa or above {} GPa",
+                            number(1e6 * TableGap::k_narrowest), number(1e-3 * TableContact::k_least_usual),
+                            number(1e-9 * TableContact::k_most_usual))},
+               {Topic::contacts, "friction that hardens with temperature",
+                "on an interface without heat capacity, in a scheme that holds entropies: there the "
+                "temperature is held"}}};
 }
 
 }  // namespace solidus::model

@@ -6,7 +6,7 @@
 
 #include "case/interface_library.hpp"
 #include "case/roles.hpp"
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "contact/interface/heat_transfer.hpp"
 
 namespace solidus::model {
@@ -31,10 +31,7 @@ bool particular(const InterfaceSide& side) {
   });
 }
 
-}  // namespace
-
-void find_in_interface_laws(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
-                            Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   // A law that a section names is compared with the one that the library would choose for these partners.
   // Only a particular card counts as better, and only where the conductances differ by a factor.
   const bool any = std::any_of(spec.contacts.begin(), spec.contacts.end(),
@@ -71,6 +68,18 @@ void find_in_interface_laws(const CaseSpec& spec, const Assembly& a, const CaseM
                                     two.material, name(two.role)),
                         fmt::format("without `law` it is '{}', {:.4g} W/m2/K", best->name, usual)});
   }
+}
+
+}  // namespace
+
+FindingFamily findings_interface_laws() {
+  return {.name = "interface laws",
+          .place = 20,
+          .find = &find,
+          .rows = {{Topic::contacts, "an interface law of other bodies",
+                    fmt::format("a card of the library that its name has chosen, is not for these materials "
+                                "and roles, and conducts {} times more or less than the one that is",
+                                number(k_alike))}}};
 }
 
 }  // namespace solidus::model

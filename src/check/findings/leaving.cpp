@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "case/roles.hpp"
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "setup/body_input.hpp"
 
 namespace solidus::model {
@@ -20,6 +20,8 @@ namespace {
 /// Castings are solid no sooner than after this share of the estimate: of the runs that findings.md compares,
 /// one with a burning sleeve is the soonest, at 1/1.35 of it.
 constexpr double k_solid_at_last = 0.7;
+/// Rounds that are too few for a search of a periodic state.
+constexpr int k_least_rounds = 3;
 
 bool is_there(const CaseSpec& spec, std::size_t body, const StageRun& stage) {
   return holds(spec.bodies[body].stages, &stage);
@@ -145,7 +147,6 @@ void cold_dies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, F
 
 /// Rounds that are too few for a search.
 void few_rounds(const CaseSpec& spec, Findings& findings) {
-  constexpr int k_least_rounds = 3;
   for (const CycleSpec& cycle : spec.cycles)
     if (cycle.periodic && cycle.repeat < k_least_rounds)
       findings.push_back({false, cycle.where,
@@ -154,9 +155,7 @@ void few_rounds(const CaseSpec& spec, Findings& findings) {
                           "a 'repeat' of 20 to 200: the search ends as soon as it has found"});
 }
 
-}  // namespace
-
-void find_in_leaving(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat() || a.stages.empty()) return;
   for (const Pour& pour : m.pours) {
     leave_melt(spec, a, m, pour, findings);
@@ -165,6 +164,26 @@ void find_in_leaving(const CaseSpec& spec, const Assembly& a, const CaseMeasures
   pour_nothing(spec, a, m, findings);
   cold_dies(spec, a, m, findings);
   few_rounds(spec, findings);
+}
+
+}  // namespace
+
+FindingFamily findings_leaving() {
+  return {.name = "leaving",
+          .place = 110,
+          .find = &find,
+          .rows = {{Topic::pour, "a mould, core or chill leaves melt",
+                    fmt::format("a stage frees a casting of it at less than {} of the estimate",
+                                percent(k_solid_at_last))},
+                   {Topic::pour, "a mould comes too late",
+                    "a body that has a contact with a casting comes, or comes back, in a stage before which "
+                    "the casting stood without it"},
+                   {Topic::pour, "a stage of pouring in which nothing is poured",
+                    "its name begins with `pour` or `fill`, and no casting comes"},
+                   {Topic::pour, "a die that is new in every round",
+                    "a body with the role of a die leaves and comes back in a cycle"},
+                   {Topic::pour, "a short search for a periodic state",
+                    fmt::format("in less than {} rounds", k_least_rounds)}}};
 }
 
 }  // namespace solidus::model

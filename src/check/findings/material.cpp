@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "case/roles.hpp"
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "material/laws/rate_law.hpp"
 #include "setup/body_input.hpp"
 
@@ -18,6 +18,29 @@ struct Usual {
   const char* unit;
   double low, high;
 };
+
+// Properties outside of these ranges are those of other units, with some room for materials of the
+// laboratory.
+constexpr double k_least_density = 10, k_least_of_metals = 1000, k_most_density = 25000;         // [kg/m³]
+constexpr double k_least_conductivity = 0.01, k_least_conductivity_of_metals = 3;                // [W/(m K)]
+constexpr double k_most_conductivity = 500, k_most_conductivity_with_flow = 1000;                // [W/(m K)]
+constexpr double k_least_heat = 80, k_most_heat = 20000;                                         // [J/(kg K)]
+constexpr double k_least_latent = 2e4, k_most_latent = 2e6;                                      // [J/kg]
+constexpr double k_least_modulus = 1e5, k_least_modulus_of_metals = 1e9, k_most_modulus = 2e12;  // [Pa]
+constexpr double k_dense = 5000, k_conducts = 8;  // what is denser and conducts more counts as metal
+constexpr double k_stiffening = 1.2;              // a modulus when hot, of that when cold
+constexpr double k_most_shrinking = -1e-5, k_most_expansion = 1.2e-4, k_least_expansion = 1e-8;  // [1/K]
+constexpr double k_most_expansion_of_metals = 5e-5;               // of zinc near its melting point [1/K]
+constexpr double k_most_change = 0.15, k_most_gain = 0.035;       // of the volume
+constexpr double k_least_strength = 1e6;                          // [Pa]
+constexpr double k_widest_range = 400;                            // from solidus to liquidus [K]
+constexpr double k_least_poisson = 0.12, k_most_hardening = 0.2;  // [1], of Young's modulus
+constexpr double k_rate = 1e-3;                                   // of castings [1/s]
+constexpr double k_least_rate_stress = 1e-5, k_most_rate_stress = 100;  // of the strength
+constexpr double k_hump = 2.5;           // of the specific heat around the freezing range
+constexpr double k_much_latent = 1.2e5;  // above all that changes in the solid [J/kg]
+constexpr double k_least_of_melt = 0.2;  // conductivity of the melt, of that of the solid
+constexpr double k_cold_table = 150, k_cold_table_end = 1800;  // of a table in °C that was read as K [K]
 
 /// Adds a warning that names body and material.
 void warn_of_material(const BodySpec& body, const std::string& what, const char* usual, Findings& findings) {
@@ -60,7 +83,7 @@ void compare_argument(const BodySpec& body, const material::Property& property, 
                      "goes down to {:.0f} degC",
                      body.name, body.material, property.name, celsius, coldest - k_zero_celsius),
          "are its temperatures in K? argument_unit = \"K\""});
-  if (first < 150 && last < 1800 && last > 300)
+  if (first < k_cold_table && last < k_cold_table_end && last > 300)
     findings.push_back(
         {false, body.where,
          fmt::format("body '{}', material '{}': the table of {} runs from {:.6g} K to {:.6g} K", body.name,
@@ -71,26 +94,26 @@ void compare_argument(const BodySpec& body, const material::Property& property, 
 /// Elastic properties and expansion.
 void compare_solid(const BodySpec& body, const material::Material& m, Findings& findings) {
   // A material as dense and conducting as metal counts as one, also where its card has no freezing.
-  const bool metal = m.solidification() != nullptr || (m.density > 5000 && m.conductivity.min_value() > 8);
-  if (const double stiffest = m.young_modulus.max_value(); metal && stiffest < 1e9)
+  const bool metal =
+      m.solidification() != nullptr || (m.density > k_dense && m.conductivity.min_value() > k_conducts);
+  if (const double stiffest = m.young_modulus.max_value(); metal && stiffest < k_least_modulus_of_metals)
     findings.push_back({false, body.where,
                         fmt::format("body '{}', material '{}': young_modulus of {:g} Pa at most", body.name,
                                     body.material, stiffest),
                         "cold metals have 10 to 400 GPa"});
-  compare(body, {"young_modulus", "Pa", 1e5, 2e12}, m.young_modulus.min_value(), m.young_modulus.max_value(),
-          findings);
-  compare(body, {"expansion", "1/K", -1e-5, 1.2e-4}, m.expansion.min_value(), m.expansion.max_value(),
-          findings);
+  compare(body, {"young_modulus", "Pa", k_least_modulus, k_most_modulus}, m.young_modulus.min_value(),
+          m.young_modulus.max_value(), findings);
+  compare(body, {"expansion", "1/K", k_most_shrinking, k_most_expansion}, m.expansion.min_value(),
+          m.expansion.max_value(), findings);
   const double largest = std::max(std::abs(m.expansion.min_value()), std::abs(m.expansion.max_value()));
-  constexpr double k_of_metals = 5e-5;  // zinc near its melting point
-  if (m.solidification() != nullptr && m.expansion.max_value() > k_of_metals &&
-      m.expansion.max_value() < 1.2e-4)
+  if (m.solidification() != nullptr && m.expansion.max_value() > k_most_expansion_of_metals &&
+      m.expansion.max_value() < k_most_expansion)
     findings.push_back(
         {false, body.where,
          fmt::format("body '{}', material '{}': expansion of {:g} 1/K", body.name, body.material,
                      m.expansion.max_value()),
          "metals expand by 0.5e-5 to 4e-5 1/K; is it that of the volume, three times as large?"});
-  if (largest > 0 && largest < 1e-8)
+  if (largest > 0 && largest < k_least_expansion)
     findings.push_back(
         {false, body.where,
          fmt::format("body '{}', material '{}': expansion of {:g} 1/K", body.name, body.material, largest),
@@ -104,16 +127,17 @@ void compare_strength(const BodySpec& body, const material::Material& m, Finding
                         fmt::format("body '{}', material '{}': {}", body.name, body.material, what), usual});
   };
   for (const material::PhaseChange& change : m.phase_changes)
-    if (std::abs(change.volume_change) > 0.15)
+    if (std::abs(change.volume_change) > k_most_change)
       say(fmt::format("'{}' changes the volume by {:.3g} %", change.name, 100 * change.volume_change),
           "metals shrink by 1 to 7 % as they freeze (-0.07 to -0.01), bismuth and silicon expand by up to 10 "
           "%");
-  if (m.flow && m.solidification() != nullptr && m.flow->flow_stress.max_value() < 1e6)
+  if (m.flow && m.solidification() != nullptr && m.flow->flow_stress.max_value() < k_least_strength)
     say(fmt::format("flow_stress of {:g} Pa at most", m.flow->flow_stress.max_value()),
         "cold metals have 10 to 2000 MPa");
   // Graphite and ceramics may stiffen.
   const Table& young = m.young_modulus;
-  if (m.solidification() != nullptr && !young.constant() && young.y().back() > 1.2 * young.y().front())
+  if (m.solidification() != nullptr && !young.constant() &&
+      young.y().back() > k_stiffening * young.y().front())
     say(fmt::format("young_modulus rises with temperature, from {:.3g} to {:.3g} GPa",
                     1e-9 * young.y().front(), 1e-9 * young.y().back()),
         "metals soften as they warm; are the columns of the table in their places?");
@@ -121,10 +145,11 @@ void compare_strength(const BodySpec& body, const material::Material& m, Finding
 
 /// Ratios of the elastic and plastic properties that no metal has.
 void compare_ratios(const BodySpec& body, const material::Material& m, Findings& findings) {
-  if (const double least = m.poisson_ratio.min_value(); m.solidification() != nullptr && least < 0.12)
+  if (const double least = m.poisson_ratio.min_value();
+      m.solidification() != nullptr && least < k_least_poisson)
     warn_of_material(body, fmt::format("poisson_ratio of {:g}", least), "metals have 0.2 to 0.45", findings);
   for (const material::PhaseChange& change : m.phase_changes)
-    if (change.solidification && change.volume_change > 0.035)
+    if (change.solidification && change.volume_change > k_most_gain)
       warn_of_material(
           body,
           fmt::format("'{}' makes the volume larger by {:.3g} %", change.name, 100 * change.volume_change),
@@ -133,7 +158,7 @@ void compare_ratios(const BodySpec& body, const material::Material& m, Findings&
           findings);
   if (!m.flow || m.flow->isotropic != material::IsotropicHardening::linear) return;
   const double stiff = m.young_modulus.max_value(), hardening = m.flow->hardening[0].max_value();
-  if (hardening > 0.2 * stiff)
+  if (hardening > k_most_hardening * stiff)
     warn_of_material(body,
                      fmt::format("hardening_modulus of {:.3g} GPa beside a young_modulus of {:.3g} GPa",
                                  1e-9 * hardening, 1e-9 * stiff),
@@ -143,13 +168,13 @@ void compare_ratios(const BodySpec& body, const material::Material& m, Findings&
 /// Compares the strength that viscosity adds at a casting's rates: other units are off by powers of ten.
 void compare_rate(const BodySpec& body, const material::Material& m, Findings& findings) {
   if (!m.flow || m.flow->rate_independent()) return;
-  constexpr double k_rate = 1e-3, k_cold = 293.15;  // of castings [1/s], [K]
-  constexpr double k_least = 1e-5, k_most = 100;    // of the strength
+  constexpr double k_cold = 293.15;  // [K]
   const double strength = m.flow->flow_stress.max_value();
   const double stress = material::rate_law(m.flow->rate_dependence)
                             .overstress(material::flow_properties_at(*m.flow, k_cold), k_rate)
                             .stress;
-  if (!(strength > 0) || (stress < k_most * strength && stress >= k_least * strength)) return;
+  if (!(strength > 0) || (stress < k_most_rate_stress * strength && stress >= k_least_rate_stress * strength))
+    return;
   warn_of_material(
       body,
       fmt::format("at 0.001 1/s its rate adds {:.3g} MPa to a flow_stress of {:.3g} MPa", 1e-6 * stress,
@@ -161,7 +186,7 @@ void compare_rate(const BodySpec& body, const material::Material& m, Findings& f
 /// A specific heat with a hump where the metal freezes holds the latent heat already.
 void compare_latent_heat(const BodySpec& body, const material::Material& m, Findings& findings) {
   const material::PhaseFraction& fraction = m.solidification()->fraction;
-  constexpr double k_beside = 5, k_hump = 2.5;  // [K], [1]
+  constexpr double k_beside = 5;  // [K]
   const double low = fraction.solidus() - k_beside, high = fraction.liquidus() + k_beside;
   const Table& c = m.specific_heat;
   const double around = std::max(c.value(c.x().front()), c.value(high + 100));
@@ -180,9 +205,8 @@ void compare_latent_heat(const BodySpec& body, const material::Material& m, Find
 /// Heat as of freezing that no solid fraction belongs to: of a body that is no casting by its role, or of a
 /// card that does not say that it freezes.
 void compare_phase_changes(const BodySpec& body, const material::Material& m, Findings& findings) {
-  constexpr double k_much = 1.2e5;  // [J/kg]: above all that changes in the solid
   for (const material::PhaseChange& change : m.phase_changes)
-    if (change.latent_heat > k_much && !change.solidification && body.role && !is_poured(*body.role))
+    if (change.latent_heat > k_much_latent && !change.solidification && body.role && !is_poured(*body.role))
       findings.push_back(
           {false, body.where,
            fmt::format("the {} '{}' is of '{}', which melts from {:.0f} degC on and takes up {:.4g} kJ/kg",
@@ -190,7 +214,7 @@ void compare_phase_changes(const BodySpec& body, const material::Material& m, Fi
                        1e-3 * change.latent_heat),
            "materials of moulds, cores and chills have no phase change: a sand, 'steel_mould', 'iron_chill', "
            "'copper_chill'"});
-    else if (change.latent_heat > k_much && !change.solidification)
+    else if (change.latent_heat > k_much_latent && !change.solidification)
       warn_of_material(body,
                        fmt::format("'{}' releases {:.4g} kJ/kg and is no solidification: nothing freezes",
                                    change.name, 1e-3 * change.latent_heat),
@@ -199,11 +223,11 @@ void compare_phase_changes(const BodySpec& body, const material::Material& m, Fi
 
 /// Metal conducts less as it melts, but not that much less.
 void compare_melt(const BodySpec& body, const material::Material& m, Findings& findings) {
-  constexpr double k_least = 0.2, k_beside = 1;  // [1], [K]
+  constexpr double k_beside = 1;  // [K]
   const material::PhaseFraction& fraction = m.solidification()->fraction;
   const double solid = m.conductivity.value(fraction.solidus() - k_beside),
                melt = m.conductivity.value(fraction.liquidus() + k_beside);
-  if (melt >= k_least * solid) return;
+  if (melt >= k_least_of_melt * solid) return;
   findings.push_back({false, body.where,
                       fmt::format("body '{}', material '{}': conductivity of {:g} W/m/K in the melt, {:g} "
                                   "W/m/K in the solid",
@@ -224,9 +248,7 @@ double coldest(const CaseSpec& spec, const Assembly& a) {
   return low;
 }
 
-}  // namespace
-
-void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings& findings) {
   const double low = coldest(spec, a);
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::Material& m = a.materials[b];
@@ -238,31 +260,85 @@ void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findin
     if (spec.has_mechanics() && m.mechanical() && !only_conducts(spec.bodies[b]))
       compare_solid(spec.bodies[b], m, findings), compare_strength(spec.bodies[b], m, findings),
           compare_ratios(spec.bodies[b], m, findings), compare_rate(spec.bodies[b], m, findings);
-    compare(spec.bodies[b], {"density", "kg/m3", metal ? 1000.0 : 10.0, 25000}, m.density, m.density,
-            findings);
+    compare(spec.bodies[b], {"density", "kg/m3", metal ? k_least_of_metals : k_least_density, k_most_density},
+            m.density, m.density, findings);
     if (!spec.has_heat()) continue;
     // Melts are given a larger conductivity by some, for their flow.
     const double solid = metal ? m.conductivity.value(m.solidification()->fraction.solidus()) : 0.0;
-    const bool as_melt = solid > 0 && solid <= 500;
-    compare(spec.bodies[b], {"conductivity", "W/m/K", metal ? 3 : 0.01, as_melt ? 1000.0 : 500.0},
+    const bool as_melt = solid > 0 && solid <= k_most_conductivity;
+    compare(spec.bodies[b],
+            {"conductivity", "W/m/K", metal ? k_least_conductivity_of_metals : k_least_conductivity,
+             as_melt ? k_most_conductivity_with_flow : k_most_conductivity},
             m.conductivity.min_value(), m.conductivity.max_value(), findings);
-    compare(spec.bodies[b], {"specific heat", "J/kg/K", 80, 20000}, m.specific_heat.min_value(),
-            m.specific_heat.max_value(), findings);
+    compare(spec.bodies[b], {"specific heat", "J/kg/K", k_least_heat, k_most_heat},
+            m.specific_heat.min_value(), m.specific_heat.max_value(), findings);
     compare_phase_changes(spec.bodies[b], m, findings);
     if (metal) compare_melt(spec.bodies[b], m, findings);
     if (metal) compare_latent_heat(spec.bodies[b], m, findings);
     if (metal)
-      compare(spec.bodies[b], {"latent heat", "J/kg", 2e4, 2e6}, m.solidification()->latent_heat,
-              m.solidification()->latent_heat, findings);
+      compare(spec.bodies[b], {"latent heat", "J/kg", k_least_latent, k_most_latent},
+              m.solidification()->latent_heat, m.solidification()->latent_heat, findings);
     if (metal)
       if (const double range =
               m.solidification()->fraction.liquidus() - m.solidification()->fraction.solidus();
-          range > 400)
+          range > k_widest_range)
         findings.push_back({false, spec.bodies[b].where,
                             fmt::format("body '{}', material '{}': it freezes over {:.0f} K",
                                         spec.bodies[b].name, spec.bodies[b].material, range),
                             "alloys freeze over 0 to 250 K; are solidus and liquidus right?"});
   }
+}
+
+}  // namespace
+
+FindingFamily findings_material() {
+  return {
+      .name = "materials",
+      .place = 30,
+      .find = &find,
+      .rows = {{Topic::materials,
+                fmt::format("a melt that conducts less than {} of what the solid does at its solidus",
+                            percent(k_least_of_melt))},
+               {Topic::materials, "density, conductivity, specific heat, latent heat",
+                fmt::format("outside of {} (metals {}) to {} kg/m³, {} (metals {}) to {} W/m/K, {} to {} "
+                            "J/kg/K, {} to {} kJ/kg",
+                            number(k_least_density), number(k_least_of_metals), number(k_most_density),
+                            number(k_least_conductivity), number(k_least_conductivity_of_metals),
+                            number(k_most_conductivity), number(k_least_heat), number(k_most_heat),
+                            number(1e-3 * k_least_latent), number(1e-3 * k_most_latent))},
+               {Topic::materials, "elastic modulus, expansion",
+                fmt::format("outside of {} to {} Pa, metals below {} GPa (what freezes, or is denser than {} "
+                            "kg/m³ and conducts more than {} W/m/K); a modulus that rises by {} with "
+                            "temperature; beyond {} 1/K (what freezes {}: that of the volume), below {} 1/K",
+                            number(k_least_modulus), number(k_most_modulus),
+                            number(1e-9 * k_least_modulus_of_metals), number(k_dense), number(k_conducts),
+                            percent(k_stiffening - 1), number(k_most_expansion),
+                            number(k_most_expansion_of_metals), number(k_least_expansion))},
+               {Topic::materials, "change of volume, strength, freezing range",
+                fmt::format("above {}; a flow stress below {} MPa at its highest; above {} K",
+                            percent(k_most_change), number(1e-6 * k_least_strength), number(k_widest_range))},
+               {Topic::materials, "sign of the change of volume",
+                fmt::format("metal gains more than {} as it freezes", percent(k_most_gain))},
+               {Topic::materials, "ratios of properties",
+                fmt::format(
+                    "a metal with a Poisson's ratio below {}; a `hardening_modulus` above {} of Young's "
+                    "modulus; a rate that adds less than {} or more than {} times the flow stress at {} 1/s",
+                    number(k_least_poisson), percent(k_most_hardening), number(k_least_rate_stress),
+                    number(k_most_rate_stress), number(k_rate))},
+               {Topic::materials, "a mould of an alloy",
+                fmt::format(
+                    "the role is neither casting nor riser, and a phase change takes up more than {} kJ/kg",
+                    number(1e-3 * k_much_latent))},
+               {Topic::materials, "latent heat counted twice, or not at all",
+                fmt::format("a specific heat that rises to {} times its values around where the metal "
+                            "freezes; more than {} kJ/kg in a phase change that is no `solidification`",
+                            number(k_hump), number(1e-3 * k_much_latent))},
+               {Topic::materials, "a table in K was read as °C",
+                "it begins at 273, 293 or 298 °C, or near 300 °C with a point at the kelvins of the solidus "
+                "or liquidus, and the case is colder"},
+               {Topic::materials, "a table in °C was read as K",
+                fmt::format("it begins below {} K and ends below {} K", number(k_cold_table),
+                            number(k_cold_table_end))}}};
 }
 
 }  // namespace solidus::model

@@ -6,13 +6,21 @@
 #include <numeric>
 #include <set>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 
 namespace solidus::model {
 
 namespace {
+
+constexpr double k_all_held = 0.9;                                  // of the nodes of a casting
+constexpr double k_softest_spring = 1e6, k_stiffest_spring = 1e17;  // [N/m³]
+constexpr double k_head = 5e4, k_free = 0.02;  // of some metres of melt [Pa]; of the skin
+constexpr double k_least_friction = 0.005, k_most_friction = 2;
+constexpr double k_least_wear = 1e-10, k_most_wear = 0.02, k_soft = 1e6, k_hard = 1e11;  // [1], [Pa]
+constexpr double k_most_pressure = 1e10;
+constexpr double k_nothing = 100;  // 4 mm of molten aluminium [Pa]
 
 /// Nodes of each body, and how many of them are held in all directions, in the first stage. Collective.
 struct Held {
@@ -62,7 +70,7 @@ void supports(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Fi
     if (only_conducts(body)) continue;
     const bool poured =
         std::any_of(m.pours.begin(), m.pours.end(), [&](const Pour& p) { return p.body == b; });
-    if (poured && m.bodies[b].elements > 1 && held[b].nodes > 0 && held[b].held > 0.9 * held[b].nodes)
+    if (poured && m.bodies[b].elements > 1 && held[b].nodes > 0 && held[b].held > k_all_held * held[b].nodes)
       findings.push_back(
           {false, body.where,
            fmt::format("{:.0f} % of the nodes of '{}' are held in all directions: it cannot shrink",
@@ -97,43 +105,11 @@ void held_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, 
   }
 }
 
-/// A support along one axis on a surface of the casting is a plane of symmetry: no heat crosses it.
-void films_on_planes_of_symmetry(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  using Film = ThermalConditionSpec::Kind;
-  for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
-    const ThermalConditionSpec& film = spec.thermal_conditions[t];
-    const bool poured = std::any_of(m.pours.begin(), m.pours.end(), [&](const Pour& p) {
-      return m.surfaces[t].body == static_cast<int>(p.body);
-    });
-    if (!poured || (film.kind != Film::film && film.kind != Film::radiation)) continue;
-    for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
-      const int held = (c.ux || c.ur ? 1 : 0) + (c.uy ? 1 : 0) + (c.uz ? 1 : 0);
-      if (c.kind != MechanicalConditionSpec::Kind::displacement || c.group != film.group || held != 1)
-        continue;
-      findings.push_back(
-          {false, film.where,
-           fmt::format("'{}' cools the surface '{}' of the casting, which '{}' holds along one axis, as on "
-                       "a plane of symmetry",
-                       film.name, film.group, c.name),
-           "no heat crosses a plane of symmetry: no condition there"});
-    }
-  }
-}
-
-/// Waves cross a casting in microseconds: inertia over steps so much longer only costs.
-void useless_inertia(const CaseSpec& spec, Findings& findings) {
-  constexpr double k_long = 0.1;  // [s]
-  if (!spec.dynamics || !spec.time.step || *spec.time.step < k_long) return;
-  findings.push_back({false, spec.time.where,
-                      fmt::format("inertia with steps of {:g} s: waves cross the bodies within a millisecond",
-                                  *spec.time.step),
-                      "no [dynamics]: castings freeze in equilibrium; inertia is for shocks and vibrations"});
-}
-
 /// Springs of contacts.
 void contact_numbers(const CaseSpec& spec, Findings& findings) {
   for (const ContactSpec& contact : spec.contacts)
-    if (const double penalty = contact.penalty.value_or(1e12); penalty < 1e6 || penalty > 1e17)
+    if (const double penalty = contact.penalty.value_or(1e12);
+        penalty < k_softest_spring || penalty > k_stiffest_spring)
       findings.push_back(
           {false, contact.where,
            fmt::format("the contact '{}' has a penalty of {:g} N/m3", contact.name, penalty),
@@ -143,7 +119,6 @@ void contact_numbers(const CaseSpec& spec, Findings& findings) {
 /// Melt gives way to a pressure wherever its skin has neither a mould nor a support. Collective.
 void pressed_melts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   using Kind = MechanicalConditionSpec::Kind;
-  constexpr double k_head = 5e4, k_free = 0.02;  // [Pa]: of some metres of melt; share of the skin
   const AnalysisKind kind = spec.analysis.kind;
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
     if (c.kind != Kind::pressure || !is_number(c.pressure) || c.pressure.table.value(0) < k_head) continue;
@@ -179,9 +154,9 @@ void friction_numbers(const CaseSpec& spec, Findings& findings) {
   for (const ContactSpec& contact : spec.contacts) {
     if (!contact.friction || contact.friction->coefficient.empty()) continue;
     const Function& mu = contact.friction->coefficient.front();
-    constexpr double k_least = 0.005, k_most = 2;  // a coefficient of zero is no slip
     const double most = mu.table.max_value();
-    if (mu.place != nullptr || most == 0 || (most >= k_least && most <= k_most)) continue;
+    // A coefficient of zero is meant.
+    if (mu.place != nullptr || most == 0 || (most >= k_least_friction && most <= k_most_friction)) continue;
     findings.push_back({false, contact.friction->where,
                         fmt::format("the coefficient of friction of '{}' is {:g}", contact.name, most),
                         "0.05 to 1; 0.3 is 30 %"});
@@ -190,10 +165,9 @@ void friction_numbers(const CaseSpec& spec, Findings& findings) {
 
 /// Depths of wear that no surface loses.
 void wear_numbers(const CaseSpec& spec, Findings& findings) {
-  constexpr double k_least = 1e-10, k_most = 0.02, k_soft = 1e6, k_hard = 1e11;  // [1], [Pa]
   for (const ContactSpec& contact : spec.contacts) {
     if (!contact.wear) continue;
-    if (const double k = contact.wear->archard; k < k_least || k > k_most)
+    if (const double k = contact.wear->archard; k < k_least_wear || k > k_most_wear)
       findings.push_back({false, contact.where,
                           fmt::format("the coefficient of wear of '{}' is {:g}", contact.name, k),
                           "1e-8 (lubricated) to 1e-3 (dry), without a unit"});
@@ -227,10 +201,9 @@ void loads(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
     if (c.kind == Kind::pressure && c.pressure.place == nullptr)
       if (const double p =
               std::max(std::abs(c.pressure.table.min_value()), std::abs(c.pressure.table.max_value()));
-          p > 1e10)
+          p > k_most_pressure)
         findings.push_back({false, c.where, fmt::format("the pressure '{}' is {:g} GPa", c.name, 1e-9 * p),
                             "usual are 0.1 bar of melt to 1 GPa of forging"});
-    constexpr double k_nothing = 100;  // [Pa]: 4 mm of molten aluminium
     if (c.kind == Kind::pressure && c.pressure.place == nullptr)
       if (const double p =
               std::max(std::abs(c.pressure.table.min_value()), std::abs(c.pressure.table.max_value()));
@@ -241,9 +214,7 @@ void loads(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   }
 }
 
-}  // namespace
-
-void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_mechanics()) return;
   supports(spec, a, m, findings);
   held_skins(spec, a, m, findings);
@@ -252,10 +223,35 @@ void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasur
   pressed_melts(spec, a, m, findings);
   friction_numbers(spec, findings);
   wear_numbers(spec, findings);
-  find_loose_bodies(spec, a, m, findings);
-  find_turning_bodies(spec, a, m, findings);
-  if (spec.has_heat()) films_on_planes_of_symmetry(spec, m, findings);
-  useless_inertia(spec, findings);
+}
+
+}  // namespace
+
+FindingFamily findings_mechanics() {
+  return {
+      .name = "supports and loads",
+      .place = 160,
+      .find = &find,
+      .rows = {
+          {Topic::mechanics, "a casting that cannot shrink",
+           fmt::format("{} of its nodes are held in all directions, or the skin in contact is",
+                       percent(k_all_held))},
+          {Topic::mechanics, "springs of contacts",
+           fmt::format("a penalty below {} or above {} N/m³", number(k_softest_spring),
+                       number(k_stiffest_spring))},
+          {Topic::mechanics, "supports and loads",
+           fmt::format("moved farther than the largest body is long; more than {} GPa, or less than {} Pa",
+                       number(1e-9 * k_most_pressure), number(k_nothing))},
+          {Topic::mechanics, "pressure on a melt that nothing holds",
+           fmt::format(
+               "above {} bar at the start, where more than {} of its skin has neither contact nor support",
+               number(1e-5 * k_head), percent(k_free))},
+          {Topic::mechanics, "coefficient of friction",
+           fmt::format("above {}, or between 0 and {}", number(k_most_friction), number(k_least_friction))},
+          {Topic::mechanics, "wear",
+           fmt::format("a coefficient below {} or above {}, a hardness below {} MPa or above {} GPa",
+                       number(k_least_wear), number(k_most_wear), number(1e-6 * k_soft),
+                       number(1e-9 * k_hard))}}};
 }
 
 }  // namespace solidus::model

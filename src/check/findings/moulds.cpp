@@ -9,13 +9,18 @@
 #include <string>
 
 #include "case/roles.hpp"
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "input/units.hpp"
 #include "mesh/locate.hpp"
 
 namespace solidus::model {
 
 namespace {
+
+constexpr double k_thickest = 5e-3;           // of a coating [m]
+constexpr double k_times = 4, k_least = 0.5;  // a wall, of the largest side of what is poured; [m]
+constexpr double k_sand = 3;                  // conducts less [W/(m K)]
+constexpr double k_coldest = 333.15;          // of the outside of sand [K]
 
 /// Whether the name of a body's material tells that it is sand.
 bool is_sand(const BodySpec& body) {
@@ -24,7 +29,6 @@ bool is_sand(const BodySpec& body) {
 
 /// Coatings and washes are layers, which interfaces carry as a conductance; a body of one is thin.
 void thick_coatings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_thickest = 5e-3;  // [m]
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const BodySpec& body = spec.bodies[b];
     const std::string file = std::filesystem::path(body.material).stem().string();
@@ -43,7 +47,6 @@ void thick_coatings(const CaseSpec& spec, const CaseMeasures& m, Findings& findi
 
 /// Heat of a casting does not reach the outside of such walls while it freezes.
 void walls_of_metres(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_times = 4, k_least = 0.5;  // of the largest side of what is poured; [m]
   if (m.pours.empty()) return;
   mesh::Point low, high;
   low.fill(std::numeric_limits<double>::max());
@@ -84,7 +87,6 @@ double distance_from_melt(const Assembly& a, const CaseMeasures& m, const Surfac
 /// Nothing keeps the outside of sand as cold as a room once heat has come through to it. Behind a wall that
 /// is thicker than that the condition has no effect, and a mould of metal may have channels. Collective.
 void cold_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_sand = 3, k_coldest = 333.15;  // [W/m/K], [K]
   double freezing = 0;
   for (const Pour& pour : m.pours) freezing = std::max(freezing, pour.freezing.time.value_or(0));
   if (!(freezing > 0)) return;
@@ -125,8 +127,7 @@ void thin_sand(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) 
     volume += m.bodies[b].volume;
     if (first == nullptr && is_sand(spec.bodies[b])) first = &spec.bodies[b];
   }
-  constexpr double k_reaches = 1;
-  if (first == nullptr || !(metal > 0) || volume / metal >= k_reaches * reach) return;
+  if (first == nullptr || !(metal > 0) || volume / metal >= reach) return;
   findings.push_back(
       {false, first->where,
        fmt::format(
@@ -151,15 +152,39 @@ void elastic_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   }
 }
 
-}  // namespace
-
-void find_in_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat()) return;
   thick_coatings(spec, m, findings);
   walls_of_metres(spec, m, findings);
   cold_sand(spec, a, m, findings);
   thin_sand(spec, m, findings);
   elastic_sand(spec, a, m, findings);
+}
+
+}  // namespace
+
+FindingFamily findings_moulds() {
+  return {
+      .name = "moulds",
+      .place = 250,
+      .find = &find,
+      .rows = {
+          {Topic::pour, "a body of coating",
+           fmt::format("its material has `wash` or `coating` in its name, and 2 V/A is {} mm or more",
+                       number(1e3 * k_thickest))},
+          {Topic::pour, "walls of metres",
+           fmt::format(
+               "a body reaches {} times the largest side of what is poured beyond it, and {} m or more",
+               number(k_times), number(k_least))},
+          {Topic::pour, "thin sand that is held cold",
+           fmt::format("a body that conducts less than {} W/m/K is held below {:.0f} °C at all times, nearer "
+                       "to the melt than 2 √(αt) in the estimated time to freeze",
+                       number(k_sand), k_coldest - k_zero_celsius)},
+          {Topic::pour, "thin sand",
+           "a body with the role of a mould and `sand` in its material's name, whose volume over the cooled "
+           "skin is thinner than heat goes deep until the casting is solid"},
+          {Topic::pour, "sand that never yields",
+           "a body that deforms, with `sand` in its material's name and no `[plasticity]`"}}};
 }
 
 }  // namespace solidus::model

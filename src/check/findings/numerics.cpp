@@ -5,14 +5,22 @@
 #include <cmath>
 #include <limits>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 
 namespace solidus::model {
 
 namespace {
 
+constexpr int k_least_iterations = 5;
+constexpr double k_hardly = 0.8;  // a cut of the step
+constexpr double k_least_search_distance = 2e-3,
+                 k_largest_search_distance =
+                     0.5;                // of the size of the slave's body: what castings shrink by; itself
+constexpr double k_much_touching = 0.2;  // of the shortest side of the slave's body
+constexpr double k_thinnest_air = 100, k_densest_air = 2e8;  // of vacuum furnaces, of die casting [Pa]
+constexpr double k_coarse_nodes = 1.5, k_coarse_points = 3;  // faces of the slave, of those of the melt
+
 void iterations(const CaseSpec& spec, Findings& findings) {
-  constexpr int k_least_iterations = 5;
   // Limits on iterations that would cut steps for no reason.
   const auto compare = [&](const char* key, int allowed, const char* usual) {
     if (allowed > 0 && allowed < k_least_iterations)
@@ -24,7 +32,6 @@ void iterations(const CaseSpec& spec, Findings& findings) {
     compare("heat.max_iterations", spec.heat.max_iterations, "30 to 200, or without the key");
   if (spec.has_mechanics())
     compare("mechanics.max_iterations", spec.mechanics.max_iterations, "20 to 100, or without the key");
-  constexpr double k_hardly = 0.8;
   if (spec.time.cut > k_hardly)
     findings.push_back(
         {false, spec.time.where,
@@ -35,9 +42,6 @@ void iterations(const CaseSpec& spec, Findings& findings) {
 
 /// Points look for partners no farther than that: beyond neither force nor heat passes.
 void search_distances(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_least_search_distance = 2e-3,
-                   k_largest_search_distance =
-                       0.5;  // of the size of the slave's body: what castings shrink by; itself
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
     const ContactSpec& contact = spec.contacts[c];
     if (!contact.search_distance || m.contacts[c].slave_body < 0) continue;
@@ -59,7 +63,6 @@ void search_distances(const CaseSpec& spec, const CaseMeasures& m, Findings& fin
 
 /// Gaps that the data take as closed.
 void touching_gaps(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_much = 0.2;  // of the shortest side of the slave's body
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
     const ContactSpec& contact = spec.contacts[c];
     if (m.contacts[c].slave_body < 0 || !contact.touching) continue;
@@ -67,7 +70,7 @@ void touching_gaps(const CaseSpec& spec, const CaseMeasures& m, Findings& findin
     double size = std::numeric_limits<double>::max();
     for (std::size_t d = 0; d < 3; ++d)
       if (const double side = body.high[d] - body.low[d]; side > 0) size = std::min(size, side);
-    if (*contact.touching > k_much * size)
+    if (*contact.touching > k_much_touching * size)
       findings.push_back({false, contact.where,
                           fmt::format("the contact '{}' takes gaps of up to {:g} mm as closed", contact.name,
                                       1e3 * *contact.touching),
@@ -99,10 +102,9 @@ void gaps_of_interfaces(const CaseSpec& spec, const CaseMeasures& m, Findings& f
 
 /// The pressure that holds melt on its wall.
 void atmospheres(const CaseSpec& spec, Findings& findings) {
-  constexpr double k_least = 100, k_most = 2e8;  // [Pa]: of vacuum furnaces, of die casting
   for (const ContactSpec& contact : spec.contacts)
     if (contact.wet && contact.atmosphere > 0 &&
-        (contact.atmosphere < k_least || contact.atmosphere > k_most))
+        (contact.atmosphere < k_thinnest_air || contact.atmosphere > k_densest_air))
       findings.push_back(
           {false, contact.where,
            fmt::format("melt is held on the wall of '{}' by {:g} Pa", contact.name, contact.atmosphere),
@@ -123,7 +125,7 @@ void coarse_slaves(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
     });
     if (!poured || !(nodal || gauss) || a.mesh.surfaces.count(measures.master) == 0) continue;
     const double ratio = measures.face_size / measures.master_face_size;
-    if (!(ratio > (nodal ? 1.5 : 3.0))) continue;
+    if (!(ratio > (nodal ? k_coarse_nodes : k_coarse_points))) continue;
     findings.push_back(
         {false, spec.contacts[c].where,
          fmt::format("the faces of the slave '{}' are {:.2g} times as large as those of the melt on "
@@ -133,9 +135,7 @@ void coarse_slaves(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   }
 }
 
-}  // namespace
-
-void find_in_numerics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   iterations(spec, findings);
   search_distances(spec, m, findings);
   touching_gaps(spec, m, findings);
@@ -143,6 +143,30 @@ void find_in_numerics(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   if (!spec.has_mechanics()) return;
   atmospheres(spec, findings);
   coarse_slaves(spec, a, m, findings);
+}
+
+}  // namespace
+
+FindingFamily findings_numerics() {
+  return {
+      .name = "numerics",
+      .place = 230,
+      .find = &find,
+      .rows = {{Topic::contacts, "an interface begins with gaps",
+                "bodies that an `[[interface]]` without `touching` has found are apart by more than "
+                "facets of curved faces explain"},
+               {Topic::contacts, "the slave is coarse",
+                fmt::format("where melt is the master, its faces are more than {} (nodes) or {} times "
+                            "(Gauss points) as large as those of the melt",
+                            number(k_coarse_nodes), number(k_coarse_points))},
+               {Topic::contacts, "`search_distance`, `touching`, `atmosphere`",
+                fmt::format("below {} or above {} of the slave's body; above {} of its shortest side; "
+                            "not zero, below {} Pa or above {} MPa",
+                            percent(k_least_search_distance), percent(k_largest_search_distance),
+                            percent(k_much_touching), number(k_thinnest_air), number(1e-6 * k_densest_air))},
+               {Topic::conditions, "iterations, cuts",
+                fmt::format("`max_iterations` of heat or mechanics below {}; `time.cut` above {}",
+                            k_least_iterations, number(k_hardly))}}};
 }
 
 }  // namespace solidus::model

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "mesh/body_faces.hpp"
 #include "mesh/surfaces/skin.hpp"
 #include "parallel/parallel.hpp"
@@ -19,6 +19,8 @@
 namespace solidus::model {
 
 namespace {
+
+constexpr double k_least_share_of_skin = 0.02;  // of the skin
 
 /// The skin of a riser as gravity acts, areas in m², or lengths in m of a plane mesh.
 struct OpenSkin {
@@ -72,10 +74,7 @@ std::map<std::size_t, OpenSkin> open_skins(const CaseSpec& spec, const Assembly&
   return skins;
 }
 
-}  // namespace
-
-void find_in_open_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_least_share_of_skin = 0.02;  // of the skin
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   const std::array<double, 3> g = gravity(spec.analysis);
   const double size = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
   if (!spec.has_heat() || !(size > 0)) return;
@@ -98,6 +97,23 @@ void find_in_open_risers(const CaseSpec& spec, const Assembly& a, const CaseMeas
                        riser.name, 100 * skin.beside / skin.all),
            "is gravity_direction right? A riser is open on top, or its mould closes it all round"});
   }
+}
+
+}  // namespace
+
+FindingFamily findings_open_risers() {
+  return {
+      .name = "open risers",
+      .place = 270,
+      .find = &find,
+      .rows = {{Topic::pour, "an open riser that nothing cools",
+                fmt::format("more than {} of its skin face up, against gravity, with neither a thermal "
+                            "condition nor a contact",
+                            percent(k_least_share_of_skin))},
+               {Topic::pour, "a riser on its side",
+                fmt::format(
+                    "where it deforms: none of its free skin faces up, and more than {} of it face sideways",
+                    percent(k_least_share_of_skin))}}};
 }
 
 }  // namespace solidus::model

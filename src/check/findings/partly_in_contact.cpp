@@ -1,7 +1,7 @@
 // Findings on conditions whose surface lies in a contact with a part of its faces. A rule for groups that
 // takes too much makes such surfaces, for instance all faces of a body, or those whose normal is nearly an
-// axis where a curved face begins. Conditions of a whole contact surface: findings_interface.cpp,
-// findings_surfaces.cpp.
+// axis where a curved face begins. Conditions of a whole contact surface: findings/interface.cpp,
+// findings/surfaces.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "mesh/body_faces.hpp"
 #include "parallel/parallel.hpp"
 
@@ -51,9 +51,7 @@ std::vector<Condition> conditions_of_surfaces(const CaseSpec& spec) {
   return conditions;
 }
 
-}  // namespace
-
-void find_partly_in_contact(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings& findings) {
   // A condition whose faces lie partly in a contact acts on what cannot be meant: the whole group or none.
   for (const Condition& condition : conditions_of_surfaces(spec)) {
     const auto faces = mesh::body_face_keys(a.mesh, {condition.group});
@@ -75,6 +73,18 @@ void find_partly_in_contact(const CaseSpec& spec, const Assembly& a, Findings& f
            "group of what faces no body (NAME_free)"});
     }
   }
+}
+
+}  // namespace
+
+FindingFamily findings_partly_in_contact() {
+  return {.name = "surfaces partly in contact",
+          .place = 220,
+          .find = &find,
+          .rows = {{Topic::conditions, "a condition on a surface of which a part lies in a contact",
+                    "films, fluxes, held temperatures, supports and loads of one number: a rule for a group "
+                    "that takes too much, such as all faces of a body, or a normal near that of a curved "
+                    "face in contact"}}};
 }
 
 }  // namespace solidus::model

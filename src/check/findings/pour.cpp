@@ -6,12 +6,17 @@
 #include <string>
 
 #include "case/roles.hpp"
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "input/units.hpp"
 
 namespace solidus::model {
 
 namespace {
+
+constexpr double k_apart = 100;           // of the hottest and the coldest body, where one is poured [K]
+constexpr double k_hot = 573.15;          // hot for a mould [K]
+constexpr double k_conducts = 5;          // more than sand, ceramics and insulation do [W/(m K)]
+constexpr double k_most_superheat = 270;  // less than what kelvins read as degrees Celsius add [K]
 
 double celsius(double kelvin) {
   return units::to_display(kelvin, "K", "degC");
@@ -19,7 +24,6 @@ double celsius(double kelvin) {
 
 /// The hottest body, where one is hotter than the others by a casting's measure; −1: none is.
 int hottest(const Assembly& a) {
-  constexpr double k_apart = 100;  // [K]
   const auto hot = std::max_element(a.start.begin(), a.start.end(),
                                     [](const auto& x, const auto& y) { return x.high < y.high; });
   const auto cold = std::min_element(a.start.begin(), a.start.end(),
@@ -54,8 +58,6 @@ void risers_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findings
 void castings_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   for (const material::Material& material : a.materials)
     if (material.solidification() != nullptr) return risers_that_do_not_freeze(spec, a, findings);
-  constexpr double k_hot = 573.15;  // [K]: hot for a mould
-  constexpr double k_conducts = 5;  // [W/m/K]: more than sand, ceramics and insulation do
   const auto hot = static_cast<std::size_t>(std::max(hottest(a), 0));
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const BodySpec& body = spec.bodies[b];
@@ -75,11 +77,8 @@ void castings_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findin
   }
 }
 
-}  // namespace
-
-void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings& findings) {
   if (spec.has_heat() && spec.criteria.follow) castings_that_do_not_freeze(spec, a, findings);
-  constexpr double k_most_superheat = 270;  // [K]: less than what kelvins read as degrees Celsius add
   // A case that switches the criteria of castings off states that nothing freezes in it.
   if (!spec.has_heat() || !spec.criteria.follow || hottest(a) < 0) return;
   // The hottest body is taken for the casting: its role, then its superheat, then whether it freezes at all.
@@ -126,6 +125,27 @@ void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings) {
                "liquid at {:.0f} degC, starts cold",
                body.name, body.material, spec.bodies[b].name, spec.bodies[b].material, celsius(start)),
            "are the materials of casting and mould swapped?"});
+}
+
+}  // namespace
+
+FindingFamily findings_pour() {
+  return {.name = "pour",
+          .place = 50,
+          .find = &find,
+          .rows = {{Topic::pour,
+                    fmt::format("the hottest body starts below its liquidus, or more than {} K above",
+                                number(k_most_superheat)),
+                    fmt::format("it can freeze, and is {} K hotter than the coldest body", number(k_apart))},
+                   {Topic::pour, "a casting of what does not freeze",
+                    fmt::format("a body has the role of a casting or riser, or nothing in the case freezes "
+                                "and the hottest one is of sand above {0:.0f} °C or starts above {0:.0f} °C "
+                                "without a role beside what is a mould, core or chill by role or name",
+                                k_hot - k_zero_celsius)},
+                   {Topic::pour, "roles swapped",
+                    "the hottest body is given another role than `casting` or `riser`, and a body that role"},
+                   {Topic::materials, "materials swapped",
+                    "the hottest body cannot freeze, and a cold one would be liquid at its temperature"}}};
 }
 
 }  // namespace solidus::model

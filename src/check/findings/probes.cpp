@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "case/roles.hpp"
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "coupling/all_fields.hpp"
 #include "mesh/locate.hpp"
 
@@ -54,9 +54,7 @@ void compare(const CaseSpec& spec, const Assembly& a, const ProbeSpec& probe, st
                         "a body that is poured"});
 }
 
-}  // namespace
-
-void find_in_probes(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   for (const ProbeSpec& probe : spec.probes) {
     if (probe.kind == ProbeSpec::Kind::difference || probe.kind == ProbeSpec::Kind::global) continue;
     if (probe.kind != ProbeSpec::Kind::point) {
@@ -84,6 +82,19 @@ void find_in_probes(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
                        spec.bodies[bodies[0]].name, spec.bodies[bodies[1]].name, spec.bodies[bodies[0]].name),
            "body = the one that is meant"});
   }
+}
+
+}  // namespace
+
+FindingFamily findings_probes() {
+  return {
+      .name = "probes",
+      .place = 290,
+      .find = &find,
+      .rows = {{Topic::probes, "a probe that measures nothing",
+                "a field of mechanics where the body only conducts heat, one of freezing where it does not "
+                "freeze"},
+               {Topic::probes, "a probe where two bodies touch", "without `body`; it measures the first"}}};
 }
 
 }  // namespace solidus::model

@@ -9,13 +9,19 @@
 #include <vector>
 
 #include "case/roles.hpp"
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "input/units.hpp"
 #include "setup/mechanics_input.hpp"
 
 namespace solidus::model {
 
 namespace {
+
+constexpr double k_early = 0.4;                                   // time of a riser, of that of its casting
+constexpr double k_large = 2;                                     // volume of risers, of that of castings
+constexpr double k_outside = 0.01, k_within = 0.5;                // of the box of a core, of a chill
+constexpr double k_hottest_sand = 673.15;                         // [K]
+constexpr double k_sand = 3, k_stands = 2e6, k_on_riser = 0.6e6;  // [W/(m K)], pressures [Pa]
 
 double celsius(double kelvin) {
   return units::to_display(kelvin, "K", "degC");
@@ -28,7 +34,6 @@ bool is_riser(const CaseSpec& spec, const Pour& pour) {
 /// A riser that freezes long before its casting feeds nothing. Compared are the times that both would take
 /// alone: where they meet they freeze together.
 void risers_that_freeze_first(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_early = 0.4;
   for (const Pour& riser : m.pours) {
     if (!is_riser(spec, riser) || !riser.alone_time) continue;
     for (const Pour& fed : m.pours) {
@@ -71,7 +76,6 @@ void risers_apart(const CaseSpec& spec, const CaseMeasures& m, Findings& finding
 }
 
 void risers_larger_than_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_much = 2;
   double castings = 0, risers = 0;
   const Pour* largest = nullptr;
   // Volumes of castings and of risers; a riser much larger than its casting is hardly meant.
@@ -80,7 +84,7 @@ void risers_larger_than_castings(const CaseSpec& spec, const CaseMeasures& m, Fi
     (is_riser(spec, pour) ? risers : castings) += volume;
     if (is_riser(spec, pour) && (!largest || volume > m.bodies[largest->body].volume)) largest = &pour;
   }
-  if (!largest || !(castings > 0) || risers < k_much * castings) return;
+  if (!largest || !(castings > 0) || risers < k_large * castings) return;
   findings.push_back({false, spec.bodies[largest->body].where,
                       fmt::format("what is poured as riser ('{}') is {:.2g} times as large as what it feeds",
                                   spec.bodies[largest->body].name, risers / castings),
@@ -103,7 +107,7 @@ Heights heights(const BodyMeasures& body, const std::array<double, 3>& gravity) 
 }
 
 /// Melt flows down out of a riser: one whose top is below the middle of all castings that it touches feeds
-/// nothing. Feeders that [criteria] names: findings_freezing.cpp.
+/// nothing. Feeders that [criteria] names: findings/feeders.cpp.
 void risers_below_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   const std::array<double, 3> g = gravity(spec.analysis);
   if (!(std::hypot(g[0], g[1], g[2]) > 0)) return;
@@ -154,7 +158,6 @@ double covered(const Box& box, const Box& by, int dimension) {
 /// A core that lies outside all castings, and a chill that lies within one.
 void swapped_cores_and_chills(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
                               Findings& findings) {
-  constexpr double k_outside = 0.01, k_within = 0.5;
   const auto most_covered = [&](std::size_t body) {
     double most = 0;
     for (const Pour& pour : m.pours)
@@ -195,11 +198,10 @@ void moulds_as_hot_as_melt(const CaseSpec& spec, const Assembly& a, const CaseMe
 
 /// The binder of sand burns or breaks long before it is as hot as a ceramic shell may be.
 void hot_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_hottest = 673.15;  // [K]
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const std::string file = std::filesystem::path(spec.bodies[b].material).stem().string();
     const bool sand = file.find("sand") != std::string::npos;
-    if (m.pours.empty() || m.is_poured(b) || !sand || a.start[b].low < k_hottest) continue;
+    if (m.pours.empty() || m.is_poured(b) || !sand || a.start[b].low < k_hottest_sand) continue;
     findings.push_back({false, spec.bodies[b].where,
                         fmt::format("the body '{}' of '{}' starts at {:.0f} degC", spec.bodies[b].name,
                                     spec.bodies[b].material, celsius(a.start[b].low)),
@@ -239,7 +241,6 @@ void castings_that_only_conduct(const CaseSpec& spec, const CaseMeasures& m, Fin
 
 /// Sand gives way to pressures that dies stand; a riser under pressure has less than a die has.
 void pressed_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_sand = 3, k_stands = 2e6, k_on_riser = 0.6e6;  // [W/m/K], [Pa], [Pa]
   if (!spec.has_mechanics()) return;
   const auto sand_around = [&](int body) {
     return std::ranges::any_of(m.contacts, [&](const ContactMeasures& contact) {
@@ -268,9 +269,7 @@ void pressed_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   }
 }
 
-}  // namespace
-
-void find_in_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat()) return;
   risers_that_freeze_first(spec, m, findings);
   risers_apart(spec, m, findings);
@@ -282,6 +281,43 @@ void find_in_risers(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
   moulds_in_kelvins(spec, a, m, findings);
   castings_that_only_conduct(spec, m, findings);
   pressed_sand(spec, a, m, findings);
+}
+
+}  // namespace
+
+FindingFamily findings_risers() {
+  return {
+      .name = "risers",
+      .place = 260,
+      .find = &find,
+      .rows = {
+          {Topic::pour, "a riser that freezes first",
+           fmt::format("alone, without the heat that metal gives metal, it takes less than {} of the time of "
+                       "a casting with which it shares nodes",
+                       percent(k_early))},
+          {Topic::pour, "a riser that stands apart",
+           "it shares no node, and has no contact, with another body that is poured, where a casting is"},
+          {Topic::pour, "risers larger than castings",
+           fmt::format("{} times as large as all that is poured beside them: groups are swapped",
+                       number(k_large))},
+          {Topic::pour, "a riser below its casting",
+           "its top is below the middle of every casting with which it shares nodes, as gravity acts; where "
+           "`criteria.feeders` does not name it"},
+          {Topic::pour, "core and chill swapped",
+           fmt::format("the box of a core lies outside what is poured, and {} of that of a chill within it",
+                       percent(k_within))},
+          {Topic::pour, "a core or mould as hot as melt", "it starts above the liquidus of what is poured"},
+          {Topic::pour, "sand as hot as a shell",
+           fmt::format("a body whose material has `sand` in its name starts above {:.0f} °C, where something "
+                       "is poured",
+                       k_hottest_sand - k_zero_celsius)},
+          {Topic::pour, "a mould, core or chill in K",
+           "it starts at 373, 473 or 573 °C (or .15 more): 100, 200 or 300 °C in kelvins"},
+          {Topic::pour, "melt that only conducts beside melt that deforms", "they share nodes"},
+          {Topic::mechanics, "a pressure of a die on melt in sand",
+           fmt::format(
+               "above {} MPa, on a riser above {} MPa, where a body in contact conducts less than {} W/m/K",
+               number(1e-6 * k_stands), number(1e-6 * k_on_riser), number(k_sand))}}};
 }
 
 }  // namespace solidus::model

@@ -6,13 +6,20 @@
 #include <cmath>
 
 #include "case/roles.hpp"
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "input/units.hpp"
 #include "setup/mechanics_input.hpp"
 
 namespace solidus::model {
 
 namespace {
+
+constexpr double k_hot_chill = 673.15, k_conducts = 8;  // [K]; less than any metal, more than sand [W/(m K)]
+constexpr double k_insulates = 450;  // √(kρc), less than plaster and loose sand, 570 and 600 [W √s/(m² K)]
+constexpr double k_sand = 3, k_on_sand = 500, k_on_riser = 300;  // [W/(m K)], films [W/(m² K)]
+constexpr double k_hottest_air = 1900;                     // hotter surroundings: findings/conditions.cpp [K]
+constexpr double k_air = 0.99e5, k_air_at_most = 1.016e5;  // pressures of the air [Pa]
+constexpr double k_least_feeding = 0.3, k_most_evaluation = 0.5;  // criteria
 
 using Kind = ThermalConditionSpec::Kind;
 
@@ -22,12 +29,10 @@ double celsius(double kelvin) {
 
 /// A chill takes heat up because it is cold and conducts.
 void chills(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_hot = 673.15;    // [K]
-  constexpr double k_conducts = 8.0;  // [W/m/K]: less than any metal, more than sand
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const BodySpec& body = spec.bodies[b];
     if (m.is_poured(b) || role_of(body, a.materials[b]) != Role::chill) continue;
-    if (a.start[b].high > k_hot)
+    if (a.start[b].high > k_hot_chill)
       findings.push_back(
           {false, body.where,
            fmt::format("the chill '{}' starts at {:.0f} degC", body.name, celsius(a.start[b].high)),
@@ -42,7 +47,6 @@ void chills(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Find
 
 /// A mould takes up what the metal gives off; insulation on the metal is a sleeve.
 void insulating_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_insulates = 450;  // √(kρc) [W √s/(m² K)]: less than plaster and loose sand, 570 and 600
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const BodySpec& body = spec.bodies[b];
     if (body.role != Role::mould || m.is_poured(b)) continue;
@@ -93,7 +97,6 @@ void swapped(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Fin
 
 /// Films that water makes, on sand and on risers.
 void strong_films(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  constexpr double k_sand = 3, k_on_sand = 500, k_on_riser = 300;  // [W/m/K], [W/m²/K]
   for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
     const ThermalConditionSpec& c = spec.thermal_conditions[i];
     if (c.kind != Kind::film || m.surfaces[i].body < 0 || !is_number(c.coefficient) || !is_number(c.factor))
@@ -129,7 +132,7 @@ void heated_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
     const Function& temperature = surrounded ? c.ambient : c.temperature;
     if (m.is_poured(b) || !is_number(temperature)) continue;
     const double level = temperature.table.value(0);
-    if (level > solidus && level < 1900)
+    if (level > solidus && level < k_hottest_air)
       findings.push_back(
           {false, c.where,
            fmt::format("'{}' {} '{}' at {:.0f} degC, above the solidus of what is poured, {:.0f} degC",
@@ -151,7 +154,7 @@ void weight(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
                           "gravity = \"9.81 m/s2\" in [analysis]"});
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
     if (c.kind != MechanicalConditionSpec::Kind::pressure || !is_number(c.pressure)) continue;
-    if (const double p = c.pressure.table.value(0); p > 0.99e5 && p < 1.016e5)
+    if (const double p = c.pressure.table.value(0); p > k_air && p < k_air_at_most)
       findings.push_back(
           {false, c.where,
            fmt::format("'{}' presses with {:g} Pa, as the air does, which acts on all sides already", c.name,
@@ -168,18 +171,16 @@ void criteria(const CaseSpec& spec, Findings& findings) {
   if (!c.follow && !c.feeders.empty())
     warn(fmt::format("the feeder '{}' has no effect: criteria.follow = false", c.feeders.front()),
          "without criteria.follow, which is true then");
-  if (c.follow && c.feeding_limit < 0.3)
+  if (c.follow && c.feeding_limit < k_least_feeding)
     warn(fmt::format("criteria.feeding_limit = {:g}: melt that is {:.0f} % liquid feeds no more",
                      c.feeding_limit, 100 * (1 - c.feeding_limit)),
          "0.5 to 0.9, a fraction of solid");
-  if (c.follow && c.evaluation > 0.5)
+  if (c.follow && c.evaluation > k_most_evaluation)
     warn(fmt::format("criteria.evaluation = {:g}: gradients are taken near the liquidus", c.evaluation),
          "0 to 0.2, a share of the freezing range above the solidus");
 }
 
-}  // namespace
-
-void find_in_roles(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat()) return;
   chills(spec, a, m, findings);
   insulating_moulds(spec, a, m, findings);
@@ -188,6 +189,39 @@ void find_in_roles(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   heated_moulds(spec, a, m, findings);
   weight(spec, m, findings);
   criteria(spec, findings);
+}
+
+}  // namespace
+
+FindingFamily findings_roles() {
+  return {.name = "roles",
+          .place = 240,
+          .find = &find,
+          .rows = {{Topic::pour, "a chill that takes up no heat",
+                    fmt::format("it starts above {:.0f} °C, or conducts less than {} W/m/K",
+                                k_hot_chill - k_zero_celsius, number(k_conducts))},
+                   {Topic::pour, "a mould of insulation",
+                    fmt::format("a body with the role of a mould, on metal, of √(kρc) below {} W√s/(m²K): "
+                                "plaster and loose sand have 570 and 600",
+                                number(k_insulates))},
+                   {Topic::pour, "a mould within its casting",
+                    "every mould or die lies in the casting's bounding box: groups or roles are swapped"},
+                   {Topic::pour, "a riser without weight, or cooled",
+                    fmt::format("gravity is zero where a riser deforms; a film above {} W/m²K on it",
+                                number(k_on_riser))},
+                   {Topic::pour, "criteria that follow nothing",
+                    fmt::format(
+                        "feeders with `follow = false`; a `feeding_limit` below {}, an `evaluation` above {}",
+                        number(k_least_feeding), number(k_most_evaluation))},
+                   {Topic::conditions, "a mould that is kept above the solidus",
+                    "surroundings or a temperature of one number, at all times"},
+                   {Topic::conditions, "water on sand",
+                    fmt::format("a film above {} W/m²K on what conducts less than {} W/m/K and is not poured",
+                                number(k_on_sand), number(k_sand))},
+                   {Topic::conditions, "a film whose factor is 0", "of one number"},
+                   {Topic::mechanics, "the pressure of the air as a load",
+                    fmt::format("{} to {} bar: pressures are counted from it", number(1e-5 * k_air),
+                                number(1e-5 * k_air_at_most))}}};
 }
 
 }  // namespace solidus::model

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "numbers/symmetric_eigen.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
@@ -114,9 +114,7 @@ class RigidMotions {
   Eigen::MatrixXd form_;
 };
 
-}  // namespace
-
-void find_turning_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   // A group that nothing else holds turns if its supports hold no more than a point or a line. Inertia
   // resists turning, and around an axis there is none.
   if (!spec.has_mechanics() || spec.dynamics || spec.analysis.kind == AnalysisKind::axisymmetric) return;
@@ -156,6 +154,17 @@ void find_turning_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeas
                      spec.bodies[first].name),
          "supports on three planes (in the plane on two lines), or on nodes that do not lie on one line"});
   }
+}
+
+}  // namespace
+
+FindingFamily findings_rotation() {
+  return {.name = "bodies that can turn",
+          .place = 180,
+          .find = &find,
+          .rows = {{Topic::mechanics, "nothing keeps a body from turning",
+                    "its supports hold a point or a line of it (nodes with names of their own; bodies in "
+                    "contact count as one)"}}};
 }
 
 }  // namespace solidus::model

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "mesh/body_faces.hpp"
 #include "mesh/surfaces/skin.hpp"
 #include "parallel/parallel.hpp"
@@ -17,6 +17,9 @@
 namespace solidus::model {
 
 namespace {
+
+constexpr double k_near = 0.1;                  // a face on another body, of its size
+constexpr double k_least_share_of_skin = 0.05;  // of the skin of the smaller body
 
 using Key = std::array<GlobalIndex, 4>;
 
@@ -86,7 +89,6 @@ std::vector<mesh::SkinFace> gather_near(const std::vector<mesh::SkinFace>& faces
 /// The area of faces that lie on faces of another body: nearer than a tenth of their size. Collective.
 double area_on(const std::vector<mesh::SkinFace>& faces, const std::vector<mesh::SkinFace>& others,
                double largest, int dimension) {
-  constexpr double k_near = 0.1;
   if (others.empty()) return 0;
   const mesh::SkinSearch search(others, k_near * largest);
   double area = 0;
@@ -104,7 +106,7 @@ double total_area(const std::vector<mesh::SkinFace>& faces) {
   return parallel::global_sum(area);
 }
 
-/// Whether a contact or a node joins a body to any other one; where none does, findings_interface.cpp says
+/// Whether a contact or a node joins a body to any other one; where none does, findings/interface.cpp says
 /// it.
 bool is_joined(const CaseMeasures& m, std::size_t body) {
   return std::ranges::any_of(m.bodies[body].shared_nodes, [](GlobalIndex n) { return n > 0; }) ||
@@ -115,14 +117,11 @@ bool is_joined(const CaseMeasures& m, std::size_t body) {
          });
 }
 
-}  // namespace
-
-void find_bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   // Bare faces of a poured body that lie on another body without contact or shared nodes pass no heat. Both
   // skins are compared where they come near each other; the size of the largest face is the distance that
   // counts.
-  constexpr double k_least_share_of_skin = 0.05;  // of the skin of the smaller one
-  constexpr double k_same_temperature = 50;       // [K]: as in findings_interface.cpp
+  constexpr double k_same_temperature = 50;  // [K]: as in findings/interface.cpp
   if (!spec.has_heat() || spec.bodies.size() < 2 || m.pours.empty()) return;
   const Skins bare_faces = bare_skins(spec, a, m);
   if (!parallel::any_process(
@@ -161,6 +160,20 @@ void find_bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures
                 : "a [[contact]] for all faces that touch, as [[interface]] with bodies = \"all\" makes"});
     }
   }
+}
+
+}  // namespace
+
+FindingFamily findings_skins() {
+  return {
+      .name = "bare skins",
+      .place = 80,
+      .find = &find,
+      .rows = {
+          {Topic::contacts, "a casting lies on a body to which nothing joins it there",
+           fmt::format("on more than {} of the smaller skin, nearer than {} of a face, with neither contact, "
+                       "condition nor shared nodes: a forgotten side, a riser that was meshed apart",
+                       percent(k_least_share_of_skin), number(k_near))}}};
 }
 
 }  // namespace solidus::model

@@ -9,12 +9,18 @@
 #include <string>
 #include <vector>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "setup/body_input.hpp"
 
 namespace solidus::model {
 
 namespace {
+
+constexpr double k_fine = 4,
+                 k_least_steps_to_freeze =
+                     20;        // steps, least steps, in the estimated time to freeze: so many at least
+constexpr double k_many = 5e4;  // steps of a stage that are too many
+constexpr double k_least_share_of_range = 0.2;  // of the range of a table
 
 /// Stages of which a casting sees something while it freezes, as they first come.
 std::vector<const StageRun*> freezing_stages(const CaseSpec& spec, const Assembly& a, const Pour& pour) {
@@ -34,7 +40,6 @@ std::vector<const StageRun*> freezing_stages(const CaseSpec& spec, const Assembl
 /// The first stage has the rule of runs without stages where steps are fixed; all others have theirs here.
 void steps_of_freezing(const CaseSpec& spec, const Assembly& a, const Pour& pour, Findings& findings) {
   if (!pour.freezing.time) return;
-  constexpr double k_fine = 4, k_least_steps_to_freeze = 20;
   const double time = *pour.freezing.time;
   const std::string& name = spec.bodies[pour.body].name;
   // One finding is enough: later stages would repeat it.
@@ -66,7 +71,6 @@ void steps_of_freezing(const CaseSpec& spec, const Assembly& a, const Pour& pour
 
 /// Steps of a stage by themselves.
 void steps_of_stages(const CaseSpec& spec, Findings& findings) {
-  constexpr double k_many = 5e4;
   for (const StageSpec& stage : spec.stages) {
     if (const double most = stage.max_step.value_or(0); most > stage.duration)
       findings.push_back({false, stage.where,
@@ -154,7 +158,7 @@ double share_of_range(const Table& table, double seconds) {
 /// A table that counts from the start of its stage, and changes when that is over, or begins where the stage
 /// begins in the run.
 void tables_of_the_stage(const Assembly& a, const TimeTable& t, Findings& findings) {
-  constexpr double k_same = 0.01, k_least_share_of_range = 0.2;
+  constexpr double k_same = 0.01;
   double longest = 0;
   const StageRun* begins_there = nullptr;
   const double first = t.table.x().front(), last = t.table.x().back();
@@ -204,9 +208,7 @@ void late_supports(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   }
 }
 
-}  // namespace
-
-void find_in_stage_times(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (a.stages.empty()) return;
   for (const TimeTable& table : time_tables(spec))
     table.clock == TimeOrigin::run ? tables_of_the_run(a, table, findings)
@@ -215,6 +217,27 @@ void find_in_stage_times(const CaseSpec& spec, const Assembly& a, const CaseMeas
   for (const Pour& pour : m.pours) steps_of_freezing(spec, a, pour, findings);
   steps_of_stages(spec, findings);
   if (spec.has_mechanics()) late_supports(spec, a, m, findings);
+}
+
+}  // namespace
+
+FindingFamily findings_stage_times() {
+  return {.name = "times of stages",
+          .place = 120,
+          .find = &find,
+          .rows = {
+              {Topic::pour, "steps of a stage",
+               fmt::format("while the casting freezes: fixed ones, or the first of adaptive ones, above 1/{} "
+                           "of the estimate, `min_step` above 1/{}; `max_step` above the stage; more than {} "
+                           "fixed steps, or of `max_step`, in one stage of a case where something is poured",
+                           number(k_fine), number(k_least_steps_to_freeze), number(k_many))},
+              {Topic::conditions, "tables of time on another clock than their stage",
+               fmt::format("one with `time = \"run\"` that is over when its stage begins, or in the first of "
+                           "several rounds; one with `time = \"stage\"` that begins when the stage does in "
+                           "the run, or of whose range the stage sees less than {}",
+                           percent(k_least_share_of_range))},
+              {Topic::mechanics, "a support that begins later",
+               "on a surface of a casting that was there before, of one number and not `relative`"}}};
 }
 
 }  // namespace solidus::model

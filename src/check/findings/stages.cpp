@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "mesh/body_faces.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
@@ -90,9 +90,7 @@ double share_left_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasu
   return n > 0 ? left / n : 0;
 }
 
-}  // namespace
-
-void find_in_stages(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   // After the shake-out the surface of a casting needs a condition of its own. For each poured body and later
   // stage the share of the skin is found that a contact cooled before and nothing cools now.
   if (!spec.has_heat()) return;
@@ -133,6 +131,22 @@ void find_in_stages(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
            "after the shake-out a film of 5 to 30 W/m2/K and radiation, with the stage among its 'stages'"});
     }
   }
+}
+
+}  // namespace
+
+FindingFamily findings_stages() {
+  return {.name = "stages",
+          .place = 100,
+          .find = &find,
+          .rows = {{Topic::pour, "nothing cools a casting in a later stage",
+                    fmt::format("neither a condition nor a contact acts on it, for more than {} of the time "
+                                "that it takes to freeze",
+                                percent(k_short))},
+                   {Topic::pour, "a freed skin that nothing cools",
+                    fmt::format("in such a stage, more than {} of the faces that contacts cooled before have "
+                                "neither a contact nor a condition",
+                                percent(k_small))}}};
 }
 
 }  // namespace solidus::model

@@ -9,11 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 
 namespace solidus::model {
 
 namespace {
+
+constexpr double k_balanced = 1e-3;  // of the heat that passes
 
 using Kind = ThermalConditionSpec::Kind;
 
@@ -95,12 +97,9 @@ std::optional<Supply> supply_of(const CaseSpec& spec, const CaseMeasures& m,
   return supply;
 }
 
-}  // namespace
-
-void find_in_steady(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly&, const CaseMeasures& m, Findings& findings) {
   // A steady state needs something that holds a temperature in each group of bodies that exchange heat.
   // Without it there is none, if more heat comes in than goes out, or one up to a constant.
-  constexpr double k_balanced = 1e-3;  // of the heat that passes
   if (!spec.time.steady || !spec.has_heat()) return;
   const std::vector<std::size_t> group = groups_of(spec, m);
   const std::vector<char> held = held_groups(spec, m, group);
@@ -128,6 +127,20 @@ void find_in_steady(const CaseSpec& spec, const CaseMeasures& m, Findings& findi
                bodies),
            "a film, radiation or a temperature on a surface"});
   }
+}
+
+}  // namespace
+
+FindingFamily findings_steady() {
+  return {.name = "steady",
+          .place = 310,
+          .find = &find,
+          .rows = {
+              {Topic::pour, "a steady state that nothing holds",
+               fmt::format("no film, radiation or temperature acts on bodies that exchange heat with each "
+                           "other; fluxes and sources that are numbers and do not balance to {} are an error",
+                           percent(k_balanced)),
+               "warning, error"}}};
 }
 
 }  // namespace solidus::model

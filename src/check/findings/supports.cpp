@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "numbers/symmetric_eigen.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
@@ -318,9 +318,7 @@ void lifted_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   }
 }
 
-}  // namespace
-
-void find_loose_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_mechanics() || spec.dynamics) return;
   // The first stage in full, then what becomes loose in later ones; each body is told once.
   const Translations translations(spec, a, m, a.first_stage());
@@ -334,6 +332,22 @@ void find_loose_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasur
     loose_groups(spec, then, when, told, findings);
     falling_bodies(spec, then, when, told, findings);
   }
+}
+
+}  // namespace
+
+FindingFamily findings_supports() {
+  return {.name = "bodies that nothing holds",
+          .place = 170,
+          .find = &find,
+          .rows = {{Topic::mechanics, "nothing holds a body, or several that touch",
+                    "along a direction in which none of their supports acts, at the start or in a later "
+                    "stage (translations, without inertia)"},
+                   {Topic::mechanics, "nothing holds a body against its weight",
+                    "neither a support nor a normal or the friction of a contact acts along gravity"},
+                   {Topic::mechanics, "gravity takes a body off what it lies on",
+                    "no surface in contact lies below it, nor beside it with friction, and neither a support "
+                    "along gravity nor a load acts"}}};
 }
 
 }  // namespace solidus::model

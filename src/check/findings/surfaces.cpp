@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "check/findings.hpp"
+#include "check/finding_family.hpp"
 #include "input/units.hpp"
 #include "mesh/body_faces.hpp"
 #include "parallel/parallel.hpp"
@@ -19,6 +19,8 @@ namespace solidus::model {
 
 namespace {
 
+constexpr double k_least_ratio_of_films = 0.2;  // a film, of the other one on its face
+
 using Heat = ThermalConditionSpec::Kind;
 using Motion = MechanicalConditionSpec::Kind;
 
@@ -27,7 +29,7 @@ bool lies_on(const ContactSpec& contact, const std::string& group) {
   return std::find(sides.begin(), sides.end(), group) != sides.end();
 }
 
-/// A surface in contact gives its heat to its partner. Films beside contacts: findings_interface.cpp.
+/// A surface in contact gives its heat to its partner. Films beside contacts: findings/interface.cpp.
 void heat_beside_contacts(const CaseSpec& spec, Findings& findings) {
   for (const ThermalConditionSpec& c : spec.thermal_conditions)
     for (const ContactSpec& contact : spec.contacts) {
@@ -75,7 +77,7 @@ void beside_held_temperatures(const CaseSpec& spec, Findings& findings) {
 }
 
 /// Two films on one face add up, as one of a channel and one of the whole outside around it. One of less than
-/// a fifth of the other changes little. Films of one surface: findings_interface.cpp. Collective.
+/// a fifth of the other changes little. Films of one surface: findings/interface.cpp. Collective.
 void films_in_one_place(const CaseSpec& spec, const mesh::Mesh& mesh, Findings& findings) {
   std::vector<const ThermalConditionSpec*> films;
   for (const ThermalConditionSpec& c : spec.thermal_conditions)
@@ -88,7 +90,6 @@ void films_in_one_place(const CaseSpec& spec, const mesh::Mesh& mesh, Findings& 
     const double all = parallel::global_sum(static_cast<double>(faces.size()));
     for (std::size_t k = 0; k < i; ++k) {
       const double one = strength(*films[i]), other = strength(*films[k]);
-      constexpr double k_least_ratio_of_films = 0.2;
       if (films[i]->group == films[k]->group || !share_a_stage(films[i]->stages, films[k]->stages) ||
           std::min(one, other) < k_least_ratio_of_films * std::max(one, other))
         continue;
@@ -234,9 +235,7 @@ void clamped_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   }
 }
 
-}  // namespace
-
-void find_on_surfaces(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (spec.has_heat()) {
     heat_beside_contacts(spec, findings);
     beside_held_temperatures(spec, findings);
@@ -247,6 +246,26 @@ void find_on_surfaces(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   pressures(spec, findings);
   opposed_supports(spec, findings);
   clamped_castings(spec, a, m, findings);
+}
+
+}  // namespace
+
+FindingFamily findings_surfaces() {
+  return {
+      .name = "conditions of one surface",
+      .place = 210,
+      .find = &find,
+      .rows = {
+          {Topic::conditions, "two films on some faces of two surfaces",
+           fmt::format("of one number each, the weaker one at least {} of the other",
+                       percent(k_least_ratio_of_films))},
+          {Topic::conditions, "a temperature, radiation or flux on a surface in contact", "of one number"},
+          {Topic::conditions, "a held temperature beside another condition",
+           "on the same surface, at the same time"},
+          {Topic::conditions, "a body that is held at one temperature", "all of it"},
+          {Topic::mechanics, "a pressure that pulls; a pressure on a surface in contact", "of one number"},
+          {Topic::mechanics, "a casting between two supports", "they hold all ends along one axis"},
+          {Topic::mechanics, "two motions of one surface along one axis", "of different size"}}};
 }
 
 }  // namespace solidus::model

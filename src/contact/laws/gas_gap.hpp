@@ -62,8 +62,10 @@ struct GasGap {
       return Objection{"the gap law 'gas' needs a conductance at zero gap", "above zero"};
     return std::nullopt;
   }
+  /// Beyond these numbers `check` says something [W/(m K)].
+  static constexpr double k_least_usual = 0.005, k_most_usual = 0.6;
   std::vector<Remark> remarks(std::string_view contact) const {
-    if (conductivity >= 0.005 && conductivity <= 0.6) return {};
+    if (conductivity >= k_least_usual && conductivity <= k_most_usual) return {};
     return {{false, fmt::format("the gas in the gap of '{}' conducts {:g} W/m/K", contact, conductivity),
              "air conducts 0.03 to 0.1 W/m/K, hydrogen 0.2 to 0.6"}};
   }

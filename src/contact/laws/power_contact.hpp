@@ -64,14 +64,17 @@ struct PowerContact {
                        "a hardness above zero"};
     return std::nullopt;
   }
+  /// Beyond these numbers `check` says something [W/(m² K)], [Pa].
+  static constexpr double k_least_usual = 20, k_most_usual = 1e6, k_most_possible = 1e8;
+  static constexpr double k_softest = 1e5, k_hardest = 1e11;
   std::vector<Remark> remarks(std::string_view contact) const {
     std::vector<Remark> remarks;
-    if (conductance < 20 || conductance > 1e6)
+    if (conductance < k_least_usual || conductance > k_most_usual)
       remarks.push_back(
-          {conductance > 1e8,
+          {conductance > k_most_possible,
            fmt::format("the contact '{}' conducts {:g} W/m2/K where it is closed", contact, conductance),
            "usual are 100 to 50000 W/m2/K between casting and mould"});
-    if (exponent > 0 && hardness && (*hardness < 1e5 || *hardness > 1e11))
+    if (exponent > 0 && hardness && (*hardness < k_softest || *hardness > k_hardest))
       remarks.push_back({false,
                          fmt::format("the softer side of the contact '{}' has a hardness of {:g} MPa",
                                      contact, 1e-6 * *hardness),

@@ -48,14 +48,16 @@ struct SpotsContact {
       return Objection{"the gas between spots needs the hardness", "a hardness above zero"};
     return std::nullopt;
   }
+  /// Beyond these numbers `check` says something [m], [1].
+  static constexpr double k_smoothest = 1e-8, k_roughest = 2e-4, k_steepest = 1;
   std::vector<Remark> remarks(std::string_view contact) const {
     std::vector<Remark> remarks;
-    if (asperities.roughness < 1e-8 || asperities.roughness > 2e-4)
+    if (asperities.roughness < k_smoothest || asperities.roughness > k_roughest)
       remarks.push_back({false,
                          fmt::format("the surfaces of the contact '{}' have a roughness of {:g} um", contact,
                                      1e6 * asperities.roughness),
                          "usual are 0.1 um of polished to 100 um of cast surfaces"});
-    if (asperities.slope > 1)
+    if (asperities.slope > k_steepest)
       remarks.push_back({false,
                          fmt::format("the asperities of the contact '{}' have a mean slope of {:g}", contact,
                                      asperities.slope),

@@ -61,8 +61,9 @@ struct TableGap : Tabulated {
     table = gap_conductance;
     return read(std::move(tables), "gap_law", "gap_conductance");
   }
+  /// Beyond these gaps `check` says something [m]; the narrowest is less than roughness.
+  static constexpr double k_widest = 0.05, k_narrowest = 2e-6;
   std::vector<Remark> remarks(std::string_view contact) const {
-    constexpr double k_widest = 0.05;  // [m]
     std::vector<Remark> remarks;
     if (!gap_conductance || gap_conductance->constant()) return remarks;
     if (const double gap = gap_conductance->x().back(); gap > k_widest)
@@ -71,7 +72,6 @@ struct TableGap : Tabulated {
            fmt::format("'gap_conductance' of the contact '{}' goes up to a gap of {:g} mm", contact,
                        1e3 * gap),
            "castings shrink off their moulds by less than some millimetres; is argument_unit right?"});
-    constexpr double k_narrowest = 2e-6;  // [m]: less than roughness
     if (const double gap = gap_conductance->x().back(); gap < k_narrowest)
       remarks.push_back(
           {false,
@@ -104,11 +104,12 @@ struct TableContact : Tabulated {
     table = contact_conductance;
     return read(std::move(tables), "contact_law", "contact_conductance");
   }
+  /// Beyond these pressures `check` says something [Pa]: under a few centimetres of metal; in a forging.
+  static constexpr double k_least_usual = 1e3, k_most_usual = 1e10;
   std::vector<Remark> remarks(std::string_view contact) const {
-    constexpr double k_least = 1e3, k_most = 1e10;  // [Pa]: under a few centimetres of metal; in a forging
     if (!contact_conductance || contact_conductance->constant()) return {};
     const double pressure = contact_conductance->x().back();
-    if (pressure >= k_least && pressure <= k_most) return {};
+    if (pressure >= k_least_usual && pressure <= k_most_usual) return {};
     return {{false,
              fmt::format("'contact_conductance' of the contact '{}' ends at a pressure of {:g} MPa", contact,
                          1e-6 * pressure),

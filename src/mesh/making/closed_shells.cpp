@@ -78,21 +78,21 @@ class Welder {
   std::unordered_map<Cell, std::vector<Index>, Hash> cells_;
 };
 
-struct Triangle {
+struct Facet {
   std::array<Index, 3> nodes{};
   std::size_t part = 0;
 };
 
 using Edge = std::pair<Index, Index>;
 
-Edge edge_of(const Triangle& t, std::size_t k) {
+Edge edge_of(const Facet& t, std::size_t k) {
   return std::minmax(t.nodes[k], t.nodes[(k + 1) % 3]);
 }
 
 /// Two triangles at every edge.
 class Neighbours {
  public:
-  Neighbours(const std::vector<Triangle>& triangles, const std::vector<Point>& points,
+  Neighbours(const std::vector<Facet>& triangles, const std::vector<Point>& points,
              const std::string& path)
       : points_(points) {
     for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -133,14 +133,14 @@ class Neighbours {
   std::map<Edge, std::vector<std::size_t>> of_;
 };
 
-bool has_edge(const Triangle& t, Index from, Index to) {
+bool has_edge(const Facet& t, Index from, Index to) {
   for (std::size_t k = 0; k < 3; ++k)
     if (t.nodes[k] == from && t.nodes[(k + 1) % 3] == to) return true;
   return false;
 }
 
 /// The shell of all triangles that hang together with one, all looking to the same side.
-Shell shell_from(std::size_t first, std::vector<Triangle>& triangles, const Neighbours& neighbours,
+Shell shell_from(std::size_t first, std::vector<Facet>& triangles, const Neighbours& neighbours,
                  std::vector<char>& taken, const std::vector<Facets>& parts, const std::string& path) {
   Shell shell;
   shell.name = parts[triangles[first].part].name;
@@ -233,11 +233,11 @@ ClosedShells closed_shells(const std::vector<Facets>& parts, const std::string& 
   const double extent = extent_of(parts);
   if (!(extent > 0)) throw UnusableGeometry({path}, "the skin has no triangles, or no extent");
   Welder welder(k_weld * extent);
-  std::vector<Triangle> triangles;
+  std::vector<Facet> triangles;
   // Corners within the tolerance are one node; triangles that lose a side by this go.
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (const auto& corners : parts[p].triangles) {
-      Triangle t{{welder.number(corners[0]), welder.number(corners[1]), welder.number(corners[2])}, p};
+      Facet t{{welder.number(corners[0]), welder.number(corners[1]), welder.number(corners[2])}, p};
       if (t.nodes[0] != t.nodes[1] && t.nodes[1] != t.nodes[2] && t.nodes[2] != t.nodes[0])
         triangles.push_back(t);
     }

@@ -1,0 +1,30 @@
+// Findings on inertia that only costs.
+#include <fmt/format.h>
+
+#include "check/finding_family.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+constexpr double k_long = 0.1;  // steps [s]
+
+/// Waves cross a casting in microseconds: inertia over steps so much longer only costs.
+void find(const CaseSpec& spec, const Assembly&, const CaseMeasures&, Findings& findings) {
+  if (!spec.has_mechanics() || !spec.dynamics || !spec.time.step || *spec.time.step < k_long) return;
+  findings.push_back({false, spec.time.where,
+                      fmt::format("inertia with steps of {:g} s: waves cross the bodies within a millisecond",
+                                  *spec.time.step),
+                      "no [dynamics]: castings freeze in equilibrium; inertia is for shocks and vibrations"});
+}
+
+}  // namespace
+
+FindingFamily findings_inertia() {
+  return {.name = "inertia",
+          .place = 200,
+          .find = &find,
+          .rows = {{Topic::mechanics, "inertia", fmt::format("with steps above {} s", number(k_long))}}};
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,46 @@
+// Findings on planes of symmetry that a condition cools.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "check/finding_family.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// A support along one axis on a surface of the casting is a plane of symmetry: no heat crosses it.
+void find(const CaseSpec& spec, const Assembly&, const CaseMeasures& m, Findings& findings) {
+  if (!spec.has_heat() || !spec.has_mechanics()) return;
+  using Film = ThermalConditionSpec::Kind;
+  for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
+    const ThermalConditionSpec& film = spec.thermal_conditions[t];
+    const bool poured = std::any_of(m.pours.begin(), m.pours.end(), [&](const Pour& p) {
+      return m.surfaces[t].body == static_cast<int>(p.body);
+    });
+    if (!poured || (film.kind != Film::film && film.kind != Film::radiation)) continue;
+    for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+      const int held = (c.ux || c.ur ? 1 : 0) + (c.uy ? 1 : 0) + (c.uz ? 1 : 0);
+      if (c.kind != MechanicalConditionSpec::Kind::displacement || c.group != film.group || held != 1)
+        continue;
+      findings.push_back(
+          {false, film.where,
+           fmt::format("'{}' cools the surface '{}' of the casting, which '{}' holds along one axis, as on "
+                       "a plane of symmetry",
+                       film.name, film.group, c.name),
+           "no heat crosses a plane of symmetry: no condition there"});
+    }
+  }
+}
+
+}  // namespace
+
+FindingFamily findings_symmetry_planes() {
+  return {.name = "planes of symmetry",
+          .place = 190,
+          .find = &find,
+          .rows = {{Topic::mechanics, "a film on a plane of symmetry",
+                    "on a surface of the casting that is held along one axis"}}};
+}
+
+}  // namespace solidus::model
