@@ -188,7 +188,7 @@ ExportReport export_history(const CaseSpec& spec, const Assembly& a, const Expor
   ExportReport report{deck.history.back().time, 0, 0, deck.history.size(), deck.supports.size()};
   for (const mesh::ElementBlock& block : a.mesh.blocks)
     if (active.body(block.body)) report.elements += static_cast<std::size_t>(block.size());
-  results::write_file(options.file, results::structural_deck(deck, options.dialect));
+  results::write_file(options.file, options.deck(deck));
   return report;
 }
 
@@ -270,7 +270,7 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
     report.elements += deck.stress[b].size();
   }
   if (spec.analysis.kind == AnalysisKind::axisymmetric) balance_triangles(deck);
-  results::write_file(options.file, results::structural_deck(deck, options.dialect));
+  results::write_file(options.file, options.deck(deck));
   return report;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "results/formats/structural_deck.hpp"
 #include "setup/case_file.hpp"
@@ -9,10 +10,10 @@
 namespace solidus::model {
 
 struct ExportOptions {
-  std::filesystem::path folder;  ///< of the run: its checkpoint
-  std::filesystem::path file;    ///< to write
-  results::Dialect dialect = results::Dialect::calculix;
-  bool deformed = false;  ///< coordinates with the displacement
+  std::filesystem::path folder;                                        ///< of the run: its checkpoint
+  std::filesystem::path file;                                          ///< to write
+  std::string (*deck)(const results::StructuralDeck& deck) = nullptr;  ///< the text of the file
+  bool deformed = false;                                               ///< coordinates with the displacement
   /// Not the end, but the temperatures of all times for which there are fields, as the load of the analysis.
   bool temperature_history = false;
 };

@@ -11,11 +11,14 @@
 
 namespace solidus::testing {
 
-/// Exports the last moment of a run of `here` to a file.
+/// Exports the last moment of a run of `here` to a file for CalculiX.
 inline model::ExportReport exported(const CaseFolder& here, const std::string& run,
                                     const std::filesystem::path& file) {
-  return model::export_state(model::load_case(here.root() / run / "case.toml"),
-                             {.folder = here.root() / run, .file = file});
+  return model::export_state(
+      model::load_case(here.root() / run / "case.toml"),
+      {.folder = here.root() / run, .file = file, .deck = [](const results::StructuralDeck& deck) {
+         return results::structural_deck(deck, results::Dialect::calculix);
+       }});
 }
 
 /// The numbers of every line below a keyword of the file, up to the next one.
