@@ -108,8 +108,8 @@ void announce_isothermal(const CaseSpec& spec, const std::vector<CouplingEstimat
   const CouplingEstimate& worst = *std::max_element(
       estimates.begin(), estimates.end(),
       [](const CouplingEstimate& a, const CouplingEstimate& b) { return a.decisive() < b.decisive(); });
-  // By the criterion for stability of the isothermal split: from inertia with Newmark's method no bound is
-  // known, weak coupling is stable, strong coupling needs short steps or is unstable.
+  // By the criterion for stability of the isothermal split: with inertia by other methods than backward Euler
+  // no bound is known, weak coupling is stable, strong coupling needs short steps or is unstable.
   const std::string advice =
       fmt::format("scheme = \"{}\" in [coupling] has no such limit", coupling::k_stable_scheme);
   if (spec.dynamics && spec.dynamics->method != DynamicsSpec::Method::backward_euler) {

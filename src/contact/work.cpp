@@ -87,7 +87,8 @@ double work(const ContactView& pair, double share) {
 double rigid_work(const ContactView& pair, double share) {
   if (!pair.spec.rigid_master) return 0;
   const std::vector<double> increment = increment_of(pair);
-  // Forces at start and end times the way of the rigid surface, minus the work of the points themselves.
+  // Forces times ways relative to the rigid surface are its work and that of the pair together; less the work
+  // of the pair that of the surface is left.
   double work_and_rigid_work = 0;
   if (share != 1) work_and_rigid_work += (1 - share) * force_times_relative_way(pair, End::start, increment);
   if (share != 0) work_and_rigid_work += share * force_times_relative_way(pair, End::finish, increment);

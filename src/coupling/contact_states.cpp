@@ -227,7 +227,7 @@ bool penetrations_small(const Phases& phases, int augmentation, int earlier) {
       "allowed",
       worst->spec().name, augmentation + earlier, excess);
   // After many augmentations points may alternate for good: what is nearly small enough is accepted, else
-  // pairs end early, at last the step fails.
+  // pairs end early, and at last all augmentations end.
   const bool enough = augmentation + earlier >= k_augmentations_by_means;
   if (enough && excess <= k_tolerable) {
     logging::warn(

@@ -114,7 +114,7 @@ LocalError ErrorEstimate::doubling(const State& old, const State& whole, const S
 
 Rates ErrorEstimate::rates_of(const State& old, const State& now, double dt,
                               const heat::StageFlows& flows) const {
-  // Heat flow is smoother than temperature where metal freezes, so that it is preferred.
+  // Rates of heat where the thermal phase knows its flows, else of temperature.
   Rates rates;
   if (measures(flows))
     rates.heat_flow = phases_->heat->flow_at_end(flows);

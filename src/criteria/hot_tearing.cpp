@@ -91,7 +91,7 @@ double root_of(const Curve& curve) {
 double kou_index(const Curve& curve, double from, double to) {
   const Curve mush = mush_of(curve);
   if (mush.size() < 2 || mush.front().second <= from) return 0;
-  // The steepest gradient of temperature by the root of the fraction, between both fractions.
+  // The slope of temperature over the root of the fraction, between both fractions.
   to = std::min(to, mush.front().second);
   const auto temperature = [&](double fraction) {
     const auto above = std::partition_point(mush.begin() + 1, mush.end() - 1,

@@ -220,7 +220,8 @@ MechanicalReport MechanicalPhase::solve(const MechanicalState& old, MechanicalSt
     if (!report.newton.converged) report.newton.reason = failed.reason + ", nor in a second attempt";
     report.newton.add_solves(failed);
   }
-  // Converged pressures may open or fill pores, which changes the equations: solve again until none changes.
+  // Further elements may have filled with pores, which changes the equations: they are solved again until
+  // none has.
   for (int iteration = 1;
        report.newton.converged && pressure_ &&
        pressure_->fill_pores(std::span<const double>(x).subspan(n_displacements()), iteration);

@@ -43,7 +43,7 @@ template <int rows, int columns, bool add>
 void multiply_rows(std::span<const std::int64_t> start, const Index* column, const float* value,
                    const float* x, float* y) {
   using Type = typename Vector<rows>::Type;
-  // Columns of a block are loaded as vectors, so that each entry of x is used once.
+  // Columns of a block are loaded as vectors, so that each entry of x multiplies a whole column.
   for (std::size_t row = 0; row + 1 < start.size(); ++row) {
     Type sum{};
     const float* a = value + start[row] * rows * columns;

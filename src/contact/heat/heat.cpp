@@ -195,8 +195,8 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
 void ContactHeat::take_slip(std::span<const double> temperature, const ContactStep& step,
                             std::vector<ContactPointState>& now) {
   const std::vector<std::optional<FrictionResponse>> found = term_.keep_slip(temperature);
-  // Where temperatures were solved along, the slip that goes with them replaces the one before; the traction
-  // keeps its direction.
+  // Slip that the thermal phase has found again replaces that of the mechanical one; the traction keeps its
+  // direction.
   for (std::size_t p = 0; p < found.size(); ++p) {
     if (!found[p]) continue;
     const FrictionResponse& slip = *found[p];

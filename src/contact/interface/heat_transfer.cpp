@@ -77,8 +77,9 @@ double HeatTransferLaw::radiation_by_area(double area_ratio) const {
 
 void HeatTransferLaw::prepare_laws() {
   using At = HeatTransferSpec::AtTemperature;
-  // Without laws the interface conducts in contact only. Each law is told what it needs of the other: whether
-  // gas fills the roughness, and the conductance without pressure at which the gap begins.
+  // Without laws contact follows a power of the pressure and the gap keeps one conductance. Each law is told
+  // what it needs of the other: whether gas fills the roughness, and the conductance without pressure at
+  // which the gap begins.
   if (spec_.contact_law == nullptr) spec_.contact_law = contact::contact_law(PowerContact{});
   if (spec_.gap_law == nullptr) spec_.gap_law = contact::gap_law(ConstantGap{});
   const bool fills = spec_.gap_law->fills_roughness();
@@ -98,7 +99,7 @@ void HeatTransferLaw::prepare_laws() {
 }
 
 void HeatTransferLaw::check_continuity() const {
-  // The conductance may not jump as the gap opens, or no iteration on it would settle.
+  // The conductance must not jump as the gap opens.
   for (const double temperature : temperatures_) {
     const double shut = closed(0, temperature).value, opened = open(0, temperature).value;
     if (!(shut >= 0 && opened >= 0 && std::isfinite(shut) && std::isfinite(opened)))

@@ -138,8 +138,8 @@ InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionI
   const double stored =
       law.stores() ? coefficient.point(in.internal_variable, in.temperature).stored_theta : 0;
   InterfaceReturn r;
-  // Without capacity or exchange the interface has nothing to balance: its heat is that of friction at the
-  // temperature it has.
+  // Without capacity and without exchange there is nothing to balance: its heat is that of friction at the
+  // temperature that it has.
   if (isolated(law.heat_capacity(), sides)) {
     r.friction = law.update(in);
     r.heat = shared_heat(

@@ -176,7 +176,7 @@ void HeatSystem::scale_by_slopes(std::span<const double> slopes) {
 
 void HeatSystem::add_kept_conduction(std::span<const double> temperature, std::span<const double> slopes,
                                      SharedNodes shared) {
-  // Where all nodes have one curve of one body the kept matrix is added as it is.
+  // With one body, or where shared nodes are taken as plain ones, the kept matrix is added as it is.
   double* values = matrix_->block(0);
   if (nodal_->identity() || node_body_.empty() || shared == SharedNodes::plain) {
     for (std::size_t s = 0; s < kept_conduction_.size(); ++s) values[s] += kept_conduction_[s];

@@ -356,7 +356,7 @@ void SurfaceHeat::add_supply(std::span<const double> temperature, std::span<doub
     for (std::size_t i = 0; i < heat.size(); ++i) (heat[i] > 0 ? gain : loss)[i] += std::abs(heat[i]);
     return;
   }
-  // Gains and losses apart, as bounds on temperatures weigh them differently.
+  // Gains and losses are kept apart.
   for (std::size_t s = 0; s < supplied_nodes_.size(); ++s) {
     const auto i = static_cast<std::size_t>(supplied_nodes_[s]);
     const double heat = supply_weight_[s] * at_node(temperature, supplied_nodes_[s]).q;

@@ -17,7 +17,7 @@ void ConsistentHeat::begin_stage(const linear::RungeKuttaStage& stage, std::span
   const bool first = stage.carried == 0;
   dt_ = stage.dt;
   on_ = true;
-  // The excess over the lumped heat starts at the state before, or from the extrapolated first stage.
+  // Heat at points and at nodes counts from the state before, or from the extrapolated first stage.
   for (const auto& block : points_) {
     if (first)
       block->start(before, stage.dt);

@@ -234,7 +234,8 @@ double metres_of_unit(const std::string& path, const std::string& told, const st
   } catch (const InputError&) {  // NOLINT: the reader says what is wrong with the file
   }
   constexpr double k_mm = 1e-3;
-  // What the user says, unless the file says otherwise; without both mm for geometries of CAD.
+  // What the file says, which the user must not contradict; else what the user says, else mm for geometries
+  // of CAD.
   if (!own) return units::convert(1, !told.empty() ? told : in_mm ? "mm" : otherwise, "m");
   if (!told.empty()) {
     constexpr double k_rounding = 1e-5;

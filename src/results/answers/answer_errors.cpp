@@ -183,7 +183,7 @@ std::optional<ErrorBand> ErrorFinder::of_criterion(const criteria::CriterionResu
 }
 
 void ErrorFinder::find(Answers& answers, const std::vector<criteria::CriterionResult>& criteria) {
-  // Freezing comes first, since the errors of flow in it are those of pores.
+  // Freezing comes first: the worst error of flow among the castings, which others use, is found with it.
   std::vector<char> cast(mesh_.bodies.size(), 0);
   for (CastAnswer& body : answers.castings) {
     cast[static_cast<std::size_t>(body.cast.body)] = 1;

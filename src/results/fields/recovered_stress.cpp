@@ -95,7 +95,7 @@ void StressRecovery::measure_cells(AnalysisKind kind) {
 StressRecovery::StressRecovery(const mesh::Mesh& mesh, AnalysisKind kind) : mesh_(mesh), ghosts_(mesh) {
   measure_cells(kind);
   const std::vector<ElementOfCell> cells = cells_of(mesh);
-  // Around each node of each body the cells that have it; a patch too small takes more of them.
+  // Around each node of each body the cells that have it, and the directions in which their centroids spread.
   std::map<std::pair<int, Index>, std::vector<std::size_t>> around;  // of body and owned node
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (int a = 0; a < mesh::node_count(cells[c].block->shape); ++a) {
