@@ -46,6 +46,8 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings
 
 }  // namespace
 
+// The place of the family among the others, its search, and the rows of the reference page, whose numbers are
+// the thresholds that the search compares with.
 FindingFamily findings_elements() {
   return {.name = "elements",
           .place = 140,

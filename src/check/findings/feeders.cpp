@@ -82,6 +82,8 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
 
 }  // namespace
 
+// The place of the family among the others, its search, and the rows of the reference page, whose numbers are
+// the thresholds that the search compares with.
 FindingFamily findings_feeders() {
   return {
       .name = "feeders",

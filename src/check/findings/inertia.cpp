@@ -20,6 +20,8 @@ void find(const CaseSpec& spec, const Assembly&, const CaseMeasures&, Findings& 
 
 }  // namespace
 
+// The place of the family among the others, its search, and the rows of the reference page, whose numbers are
+// the thresholds that the search compares with.
 FindingFamily findings_inertia() {
   return {.name = "inertia",
           .place = 200,

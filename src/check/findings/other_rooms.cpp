@@ -4,6 +4,8 @@
 
 namespace solidus::model {
 
+// The place of the family among the others, its search, and the rows of the reference page, whose numbers are
+// the thresholds that the search compares with.
 FindingFamily findings_other_rooms() {
   return {
       .name = "other rooms",

@@ -221,6 +221,8 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
 
 }  // namespace
 
+// The place of the family among the others, its search, and the rows of the reference page, whose numbers are
+// the thresholds that the search compares with.
 FindingFamily findings_stage_times() {
   return {.name = "times of stages",
           .place = 120,
