@@ -86,7 +86,7 @@ TEST(Check, EstimatesWhenCastingsAreSolid) {
                             {"hot_spots/case.toml", 272},
                             {"crankshaft/case.toml", 551}}) {
     const fs::path file = fs::path(SOLIDUS_SOURCE_DIR) / "cases" / m.file;
-    const model::CheckedRun checked = model::check_run(model::load_case(file));
+    const model::CheckedRun checked = model::check_run(model::load_case(file, overrides(file)));
     ASSERT_EQ(checked.overview.pours.size(), 1u) << m.file;
     ASSERT_TRUE(checked.overview.pours[0].freezing_time) << m.file;
     const double ratio = *checked.overview.pours[0].freezing_time / m.seconds;
