@@ -37,8 +37,8 @@ PartMeasures measure_part(const NewCaseOptions& options) {
   mesh::check_readable(path);
   mesh::MeshSource source{path, mesh::metres_of_unit(path, options.unit, "mm", {"--unit"})};
   m.file_unit = mesh::unit_of_file(path);
-  const mesh::FileFormat format = mesh::file_format(source.path);
-  const bool solids = mesh::is_cad(format), meshed = !solids && format != mesh::FileFormat::stl;
+  const mesh::FileHolds holds = mesh::file_format(source.path).holds;
+  const bool solids = holds == mesh::FileHolds::shapes, meshed = !solids && holds != mesh::FileHolds::skin;
   refuse_cuts(options, solids);
   mesh::KeptMesh kept;
   m.mesh = meshed ? mesh::read_mesh(source) : mesh::mesh_casting(source, {}, 0);

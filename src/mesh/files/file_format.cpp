@@ -4,109 +4,53 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <string_view>
-#include <vector>
+#include <stdexcept>
 
+#include "mesh/files/built_in_formats.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
 
 namespace {
 
-using Test = bool (*)(std::string_view head);
-
-std::string_view without_blanks(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first == std::string_view::npos ? std::string_view() : text.substr(first);
+bool share_an_ending(const FileFormat& one, const FileFormat& other) {
+  return std::ranges::any_of(one.endings, [&](std::string_view ending) {
+    return std::ranges::find(other.endings, ending) != other.endings.end();
+  });
 }
 
-bool is_text(std::string_view head) {
-  return head.find('\0') == std::string_view::npos;
+void insert(std::vector<FileFormat>& formats, FileFormat format) {
+  if (format.read == nullptr && format.read_skin == nullptr && !format.by_gmsh && !format.by_library)
+    throw std::logic_error("nothing reads the mesh format '" + std::string(format.name) + "'");
+  for (const FileFormat& other : formats)
+    if (other.name == format.name || other.place == format.place || share_an_ending(other, format))
+      throw std::logic_error("the mesh formats '" + std::string(format.name) + "' and '" +
+                             std::string(other.name) + "' share a name, a place or an ending");
+  const auto next = std::ranges::upper_bound(formats, format.place, {}, &FileFormat::place);
+  formats.insert(next, std::move(format));
 }
 
-// The first lines by which Gmsh itself knows a mesh (GModel::readMSH); anything else it would run.
-bool begins_as_gmsh_mesh(std::string_view head) {
-  return head.starts_with("$MeshFormat") || head.starts_with("$NOD") || head.starts_with("$Comments");
-}
-bool begins_as_script(std::string_view head) {
-  return is_text(head) && !head.starts_with('$');
-}
-bool begins_as_step(std::string_view head) {
-  return is_text(head) && head.find("ISO-10303-21") != std::string_view::npos;
-}
-bool begins_as_brep(std::string_view head) {
-  return head.find("CASCADE Topology") != std::string_view::npos ||
-         head.find("DBRep_DrawableShape") != std::string_view::npos;
-}
-// Column 73 of an IGES line names its section: S (start), or C and B of the compressed and binary forms.
-bool begins_as_iges(std::string_view head) {
-  return head.size() > 72 && (head[72] == 'S' || head[72] == 'C' || head[72] == 'B');
-}
-bool begins_as_universal(std::string_view head) {
-  return is_text(head) && without_blanks(head).starts_with("-1");
-}
-bool begins_as_hdf5(std::string_view head) {
-  return head.starts_with("\x89HDF\r\n\x1a\n");
-}
-bool begins_as_medit(std::string_view head) {
-  return is_text(head) && head.find("MeshVersionFormatted") != std::string_view::npos;
-}
-bool begins_as_vtk(std::string_view head) {
-  return head.starts_with("# vtk DataFile");
-}
-
-bool begins_as_vtk_xml(std::string_view head) {
-  return head.find("<VTKFile") != std::string_view::npos;
-}
-
-bool begins_as_stl(std::string_view head) {
-  constexpr std::size_t k_binary = 84;  // a title, and the number of triangles
-  return head.starts_with("solid") || head.size() >= k_binary;
-}
-
-struct Known {
-  FileFormat format;
-  /// Endings as Gmsh compares them: ".Step" is none of a CAD file to it, so it is none here.
-  std::vector<std::string_view> endings;
-  Test begins;
-  const char* begins_with;  ///< description of the sign tested for, for a message
-};
-
-const std::vector<Known>& known_formats() {
-  static const std::vector<Known> known = {
-      {FileFormat::gmsh_mesh, {".msh"}, begins_as_gmsh_mesh, "'$MeshFormat'"},
-      {FileFormat::gmsh_script, {".geo"}, begins_as_script, "text"},
-      {FileFormat::step, {".step", ".STEP", ".stp", ".STP"}, begins_as_step, "'ISO-10303-21'"},
-      {FileFormat::brep,
-       {".brep", ".brp", ".BRP"},
-       begins_as_brep,
-       "'CASCADE Topology' or 'DBRep_DrawableShape'"},
-      {FileFormat::iges,
-       {".iges", ".IGES", ".igs", ".IGS"},
-       begins_as_iges,
-       "lines of 80 columns, the 73rd an 'S'"},
-      {FileFormat::abaqus, {".inp", ".INP", ".Inp"}, is_text, "text"},
-      {FileFormat::universal, {".unv", ".UNV"}, begins_as_universal, "'-1'"},
-      {FileFormat::med, {".med", ".MED", ".rmed"}, begins_as_hdf5, "the signature of HDF5"},
-      {FileFormat::nastran, {".bdf", ".BDF", ".nas", ".NAS"}, is_text, "text"},
-      {FileFormat::medit, {".mesh", ".MESH"}, begins_as_medit, "'MeshVersionFormatted'"},
-      {FileFormat::vtk, {".vtk", ".VTK"}, begins_as_vtk, "'# vtk DataFile'"},
-      {FileFormat::vtu, {".vtu"}, begins_as_vtk_xml, "'<VTKFile'"},
-      {FileFormat::stl, {".stl", ".STL"}, begins_as_stl, "'solid', or 80 bytes and the number of triangles"}};
-  return known;
+/// Made when it is first asked for: objects at namespace scope add to it before main() begins.
+std::vector<FileFormat>& formats() {
+  static std::vector<FileFormat> all = [] {
+    std::vector<FileFormat> built_in;
+    for (FileFormat& format : built_in_formats()) insert(built_in, std::move(format));
+    return built_in;
+  }();
+  return all;
 }
 
 /// Null where no format has this ending.
-const Known* known_by_ending(const std::string& ending) {
-  for (const Known& known : known_formats())
-    if (std::ranges::find(known.endings, ending) != known.endings.end()) return &known;
+const FileFormat* known_by_ending(const std::string& ending) {
+  for (const FileFormat& format : formats())
+    if (std::ranges::find(format.endings, ending) != format.endings.end()) return &format;
   return nullptr;
 }
 
 std::string all_endings() {
   std::string text;
-  for (const Known& known : known_formats())
-    for (const std::string_view ending : known.endings)
+  for (const FileFormat& format : formats())
+    for (const std::string_view ending : format.endings)
       if (std::none_of(ending.begin(), ending.end(), [](char c) { return c >= 'A' && c <= 'Z'; }))
         text += (text.empty() ? "" : ", ") + std::string(ending);
   return text;
@@ -121,6 +65,14 @@ std::string head_of(const std::string& path) {
 
 }  // namespace
 
+const std::vector<FileFormat>& file_formats() {
+  return formats();
+}
+
+void add_file_format(FileFormat format) {
+  insert(formats(), std::move(format));
+}
+
 void check_readable(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError({path}, "the mesh file does not exist");
@@ -133,9 +85,9 @@ bool is_mesh_name(const std::string& path) {
   return known_by_ending(std::filesystem::path(path).extension().string()) != nullptr;
 }
 
-FileFormat file_format(const std::string& path) {
+const FileFormat& file_format(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
-  const Known* known = known_by_ending(ending);
+  const FileFormat* known = known_by_ending(ending);
   if (known == nullptr)
     throw InputError({path},
                      ending.empty()
@@ -145,19 +97,18 @@ FileFormat file_format(const std::string& path) {
   if (!known->begins(head_of(path)))
     throw InputError({path}, "the file is not what its name says: a " + ending + " file begins with " +
                                  std::string(known->begins_with));
-  return known->format;
+  return *known;
 }
 
-const char* mesh_formats() {
-  return ".msh 2.2 or 4.1, .geo, .step, Abaqus .inp, .vtu, .unv, .med, .bdf, …";
+std::string common_formats() {
+  std::string text;
+  for (const FileFormat& format : formats())
+    if (!format.told.empty()) text += std::string(format.told) + ", ";
+  return text + "…";
 }
 
-bool is_cad(FileFormat format) {
-  return format == FileFormat::step || format == FileFormat::brep || format == FileFormat::iges;
-}
-
-bool is_geometry(FileFormat format) {
-  return format == FileFormat::gmsh_script || is_cad(format);
+bool is_geometry(FileHolds holds) {
+  return holds == FileHolds::script || holds == FileHolds::shapes;
 }
 
 }  // namespace solidus::mesh

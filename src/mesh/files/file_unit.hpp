@@ -14,9 +14,9 @@ struct LengthUnit {
   bool operator==(const LengthUnit&) const = default;
 };
 
-/// The unit that a STEP or an IGES file says its lengths are in; nothing for other files and where the file
-/// says none. Where parts of a STEP file have different ones their names are joined, and `metres` is 0.
-/// Throws InputError for a file that is not what its name says.
+/// The unit that a file says its lengths are in, of the formats that name one (STEP and IGES); nothing where
+/// the file says none. Where parts of a STEP file have different ones their names are joined, and `metres` is
+/// 0. Throws InputError for a file that is not what its name says.
 std::optional<LengthUnit> unit_of_file(const std::string& path);
 
 /// How many metres a unit of length of a mesh or geometry file is, as its reader hands lengths over: those of

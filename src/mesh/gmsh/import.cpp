@@ -6,17 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "mesh/files/abaqus_input.hpp"
 #include "mesh/files/body_partition.hpp"
 #include "mesh/files/file_format.hpp"
-#include "mesh/files/gmsh_mesh_file.hpp"
 #include "mesh/files/gmsh_script.hpp"
-#include "mesh/files/nastran_input.hpp"
 #include "mesh/files/split_cells.hpp"
-#include "mesh/files/stl_file.hpp"
-#include "mesh/files/universal_file.hpp"
-#include "mesh/files/vtk_legacy.hpp"
-#include "mesh/files/vtu_mesh.hpp"
 #include "mesh/gmsh/faceted_casting.hpp"
 #include "mesh/gmsh/session.hpp"
 #include "mesh/making/casting_geometry.hpp"
@@ -28,9 +21,10 @@ namespace solidus::mesh {
 
 namespace {
 
-/// Meshes what the skins of an STL file or of the bodies of a mesh enclose, and a mould around them.
-RawMesh mesh_skins(const MeshSource& source, FileFormat format, const CastingGeometry& casting) {
-  if (format == FileFormat::stl) return mesh_faceted_casting(source, casting, read_stl(source.path));
+/// Meshes what the skins of a file of triangles or of the bodies of a mesh enclose, and a mould around them.
+RawMesh mesh_skins(const MeshSource& source, const FileFormat& format, const CastingGeometry& casting) {
+  if (format.read_skin != nullptr)
+    return mesh_faceted_casting(source, casting, format.read_skin(source.path));
   RawMesh mesh = read_mesh_here(source);
   if (mesh.dimension != 3)
     throw InputError({source.path}, "[[mesh.size]] and [mesh.mould] are for solids, this mesh is plane",
@@ -45,19 +39,14 @@ RawMesh mesh_skins(const MeshSource& source, FileFormat format, const CastingGeo
 }
 
 /// What the file holds, by the reader of its format; wedges and pyramids are whole.
-RawMesh read_format(const MeshSource& source, FileFormat format, const CastingGeometry* casting) {
-  const std::string& path = source.path;
-  const double unit = source.unit_in_metres;
-  if (format == FileFormat::abaqus) return read_abaqus_input(path, unit);
-  if (format == FileFormat::nastran) return read_nastran(path, unit);
-  if (format == FileFormat::universal) return read_universal_file(path, unit);
-  if (format == FileFormat::vtu) return read_vtu_mesh(path, unit);
-  if (format == FileFormat::med) return read_med_file(path, unit);
-  if (format == FileFormat::vtk)
-    if (std::optional<RawMesh> mesh = read_legacy_vtk(path, unit)) return std::move(*mesh);
-  if (format == FileFormat::gmsh_mesh)
-    if (std::optional<RawMesh> mesh = read_gmsh_mesh_file(path, unit)) return std::move(*mesh);
-  return read_with_gmsh(source, format, casting);
+RawMesh read_format(const MeshSource& source, const FileFormat& format, const CastingGeometry* casting) {
+  if (format.by_library) return read_med_file(source.path, source.unit_in_metres);
+  if (format.read != nullptr)
+    if (std::optional<RawMesh> mesh = format.read(source.path, source.unit_in_metres))
+      return std::move(*mesh);
+  if (!format.by_gmsh)
+    throw InputError({source.path}, "the file holds no mesh that is read", common_formats());
+  return read_with_gmsh(source, format.holds, casting);
 }
 
 }  // namespace
@@ -65,22 +54,24 @@ RawMesh read_format(const MeshSource& source, FileFormat format, const CastingGe
 RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting) {
   const std::string& path = source.path;
   check_readable(path);
-  // What the format cannot have is refused before the file is opened.
-  const FileFormat format = file_format(path);
-  if (casting != nullptr && !is_cad(format)) return mesh_skins(source, format, *casting);
-  if (format == FileFormat::stl)
-    throw InputError({path}, "an STL file holds a skin of triangles and no elements of a body",
-                     "[[mesh.size]] for each body: then what it encloses is meshed");
-  if (!source.geometry.groups.empty() && !is_geometry(format))
+  const FileFormat& format = file_format(path);
+  const bool shapes = format.holds == FileHolds::shapes, script = format.holds == FileHolds::script;
+  if (casting != nullptr && !shapes) return mesh_skins(source, format, *casting);
+  if (format.holds == FileHolds::skin)
+    throw InputError(
+        {path},
+        "an " + std::string(format.name) + " file holds a skin of triangles and no elements of a body",
+        "[[mesh.size]] for each body: then what it encloses is meshed");
+  if (!source.geometry.groups.empty() && !is_geometry(format.holds))
     throw InputError({path}, "the file holds a mesh, whose groups are its own",
                      "a STEP, BREP, IGES or .geo file");
-  if (source.geometry.conforming && !is_cad(format))
+  if (source.geometry.conforming && !shapes)
     throw InputError({path}, "'conforming' is for geometries of CAD programs", "a STEP, BREP or IGES file");
   if (!source.trust_script) {
     refuse_options_file(path);
-    if (format == FileFormat::gmsh_script) check_gmsh_script(path);
+    if (script) check_gmsh_script(path);
   }
-  if (!source.constants.empty() && format != FileFormat::gmsh_script)
+  if (!source.constants.empty() && !script)
     throw InputError({path}, "the mesh file is no .geo script and has no constants");
   RawMesh mesh = read_format(source, format, casting);
   split_cells(mesh, path);

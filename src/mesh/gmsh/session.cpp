@@ -109,18 +109,18 @@ bool has_open_line(const std::string& path) {
   return last != '\n' && last != '\r';
 }
 
-void open_in_gmsh(const std::string& path, FileFormat format) {
-  if (format != FileFormat::gmsh_script || !has_open_line(path)) return gmsh::open(path);
+void open_in_gmsh(const std::string& path, FileHolds holds) {
+  if (holds != FileHolds::script || !has_open_line(path)) return gmsh::open(path);
   const std::string whole = std::filesystem::absolute(path).string();
   const char quote = whole.find('"') == std::string::npos ? '"' : '\'';
   const MemoryFile around("Include " + (quote + whole) + quote + ";\n");
   gmsh::open(around.path());
 }
 
-void open(const std::string& path, FileFormat format) {
-  const std::string advice = mesh_formats();
+void open(const std::string& path, FileHolds holds) {
+  const std::string advice = common_formats();
   try {
-    open_in_gmsh(path, format);
+    open_in_gmsh(path, holds);
   } catch (const std::string& complaint) {
     throw InputError({path}, "the mesh cannot be read: " + complaint, advice);
   } catch (const std::bad_alloc&) {
@@ -138,7 +138,7 @@ void open(const std::string& path, FileFormat format) {
 /// The constants that a .geo script declares: DefineConstant[ size = {8, Name "size"} ].
 std::vector<std::string> declared_constants(const std::string& path) {
   const Session session;
-  open(path, FileFormat::gmsh_script);
+  open(path, FileHolds::script);
   std::vector<std::string> names;
   gmsh::onelab::getNames(names);
   std::erase_if(names, [](const std::string& name) {
@@ -160,7 +160,7 @@ void check_constants(const std::string& path, const std::map<std::string, double
 
 /// The outlook on a mesh of the geometry that Gmsh has. Throws std::string where Gmsh complains. The
 /// sizes of a script are its own, and then nothing is expected of the number of nodes.
-MeshingOutlook outlook_of(const MeshSource& source, FileFormat format) {
+MeshingOutlook outlook_of(const MeshSource& source, FileHolds holds) {
   namespace occ = gmsh::model::occ;
   MeshingOutlook o;
   const double unit = source.unit_in_metres;
@@ -169,7 +169,7 @@ MeshingOutlook outlook_of(const MeshSource& source, FileFormat format) {
   for (std::size_t i = 0; i < 3; ++i)
     if (high[i] > low[i] && std::isfinite(high[i] - low[i])) o.sides[i] = unit * (high[i] - low[i]);
   gmsh::vectorpair volumes;
-  if (is_cad(format)) occ::getEntities(volumes, 3);
+  if (holds == FileHolds::shapes) occ::getEntities(volumes, 3);
   for (const auto& [dimension, tag] : volumes) {
     double volume = 0, area = 0;
     occ::getMass(dimension, tag, volume);
@@ -320,10 +320,10 @@ int mesh_dimension() {
   return 0;
 }
 
-void name_groups(const MeshSource& source, FileFormat format) {
+void name_groups(const MeshSource& source, FileHolds holds) {
   try {
-    if (is_cad(format)) close_to_solids_unless_plane(source);
-    make_geometry_groups(source.path, source.geometry, source.unit_in_metres, is_cad(format));
+    if (holds == FileHolds::shapes) close_to_solids_unless_plane(source);
+    make_geometry_groups(source.path, source.geometry, source.unit_in_metres, holds == FileHolds::shapes);
   } catch (const std::exception&) {
     throw;
   } catch (const std::string& complaint) {
@@ -355,7 +355,7 @@ RawMesh mesh_of_session(const MeshSource& source, bool has_geometry) {
     throw InputError(
         {source.path},
         "the mesh has no triangles, quads, tetrahedra or hexahedra: empty, cut off or not a mesh",
-        mesh_formats());
+        common_formats());
   const auto index = read_nodes(source.unit_in_metres, mesh);
   read_groups(source.path, index, mesh);
   if (has_geometry && mesh.dimension == 3 && source.element_order == 1)
@@ -400,26 +400,25 @@ RawMesh mesh_in_gmsh(const MeshSource& source, const std::function<void()>& make
   return mesh_of_session(source, false);
 }
 
-RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const CastingGeometry* casting) {
+RawMesh read_with_gmsh(const MeshSource& source, FileHolds holds, const CastingGeometry* casting) {
   const std::string& path = source.path;
   check_constants(path, source.constants);
   const Session session(source.constants);
-  // A casting is meshed by its own sizes, another geometry by one, and a mesh is read as it is.
-  open(path, format);
+  open(path, holds);
   if (casting != nullptr) {
     make_casting(source, [&] { make_casting_mesh(source, *casting); });
-  } else if (is_geometry(format)) {
-    name_groups(source, format);
+  } else if (is_geometry(holds)) {
+    name_groups(source, holds);
     try {
-      tell_outlook(outlook_of(source, format));
+      tell_outlook(outlook_of(source, holds));
     } catch (const std::string&) {  // NOLINT: a geometry that cannot be measured can perhaps be meshed
     }
     generate(path, source.element_size / source.unit_in_metres, source.element_order);
   }
-  RawMesh mesh = mesh_of_session(source, casting != nullptr || is_geometry(format));
-  if (format == FileFormat::gmsh_script)
+  RawMesh mesh = mesh_of_session(source, casting != nullptr || is_geometry(holds));
+  if (holds == FileHolds::script)
     for (std::string& note : notes_of_options(source)) mesh.notes.push_back(std::move(note));
-  if (is_cad(format)) mesh.centre_of_volume = centre_of_solids(source.unit_in_metres);
+  if (holds == FileHolds::shapes) mesh.centre_of_volume = centre_of_solids(source.unit_in_metres);
   return mesh;
 }
 

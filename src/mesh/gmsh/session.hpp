@@ -14,7 +14,7 @@ namespace solidus::mesh {
 /// Reads a mesh of a format that Solidus does not read by itself, or meshes a geometry, in this process.
 /// @param casting  makes mould and riser around the parts of a file of CAD; may be null
 /// Throws InputError; without Gmsh always.
-RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const CastingGeometry* casting);
+RawMesh read_with_gmsh(const MeshSource& source, FileHolds holds, const CastingGeometry* casting);
 
 /// Opens an empty model in Gmsh, lets `make` fill and mesh it, and takes the mesh. Throws InputError, also
 /// for what Gmsh complains of.

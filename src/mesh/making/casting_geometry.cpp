@@ -57,7 +57,7 @@ class MeshingInTurn {
         geometry_(std::move(geometry)),
         enough_(enough),
         kept_(kept),
-        solids_(is_cad(file_format(source.path))) {
+        solids_(file_format(source.path).holds == FileHolds::shapes) {
     if (kept != nullptr) direct_time_ = kept->time_of_direct_ways();
     for (std::size_t way = 0; solids_ && way < solid_ways().size(); ++way)
       order_.push_back(static_cast<int>(way));

@@ -394,7 +394,7 @@ double seconds_of(const std::string& text) {
 /// Whether a regular file is none that Gmsh would have to mesh.
 bool holds_mesh(const std::string& path) {
   try {
-    return !is_geometry(file_format(path));
+    return !is_geometry(file_format(path).holds);
   } catch (const InputError&) {  // the reader says what is wrong with it
     return true;
   }

@@ -195,8 +195,8 @@ TEST_F(MeshFiles, OurReaderOfMshGivesWhatGmshReads) {
                          (named ? ", named" : ""));
             const auto ours = read_gmsh_mesh_file(file, 0.001);
             ASSERT_TRUE(ours);
-            expect_same(*ours, read_with_gmsh({.path = file, .unit_in_metres = 0.001}, FileFormat::gmsh_mesh,
-                                              nullptr));
+            expect_same(*ours,
+                        read_with_gmsh({.path = file, .unit_in_metres = 0.001}, FileHolds::mesh, nullptr));
           }
 }
 
