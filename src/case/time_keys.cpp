@@ -66,7 +66,7 @@ Section<TimeSpec> time_keys() {
       .doc(
           "Share of a skin in contact that may become coherent in an adaptive step, where bodies deform; "
           "without "
-          "it 0.08.");
+          "it 0.04.");
   s.quantity("min_step", &TimeSpec::min_step, "s")
       .positive()
       .doc(

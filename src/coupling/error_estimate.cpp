@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cstddef>
 
+#include "parallel/parallel.hpp"
+
 namespace solidus::coupling {
 
 namespace {
@@ -74,6 +76,19 @@ double ErrorEstimate::skin_change(const State& old, const State& now) const {
   return phases_->skin->change(coherency(old), coherency(now));
 }
 
+double ErrorEstimate::skin_opening(const State& old, const State& now) const {
+  double widest = 0;
+  for (std::size_t c = 0; c < std::min(old.contacts.size(), now.contacts.size()); ++c) {
+    const std::vector<contact::ContactPointState>&before = old.contacts[c].points,
+          &after = now.contacts[c].points;
+    for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i)
+      if (before[i].suction > 0 && after[i].suction == 0)
+        widest =
+            std::max(widest, std::max(-after[i].penetration, 0.0) - std::max(-before[i].penetration, 0.0));
+  }
+  return parallel::global_max(widest);
+}
+
 double ErrorEstimate::displacement_predictor(const State& old, const State& now, double dt,
                                              const Rates& rates) const {
   return size_of_displacement(
@@ -109,7 +124,7 @@ LocalError ErrorEstimate::doubling(const State& old, const State& whole, const S
   return {in_heat,
           size_of_displacement(difference(whole.mechanics.displacement, halves.mechanics.displacement),
                                casting(coherency(old))),
-          in_stress, skin_change(old, halves)};
+          in_stress, skin_change(old, halves), skin_opening(old, halves)};
 }
 
 Rates ErrorEstimate::rates_of(const State& old, const State& now, double dt,

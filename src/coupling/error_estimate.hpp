@@ -54,6 +54,7 @@ struct LocalError {
   double displacement = 0;  ///< [m]
   double stress = 0;        ///< of the deviatoric stress of a body [1]
   double skin = 0;          ///< the change of the coherent share of a skin (SkinShare), which is no error [1]
+  double opening = 0;       ///< ErrorEstimate::skin_opening(), which is no error either [m]
 };
 
 /// Whether the error of a displacement is that of the distortion of bodies, or of their whole motion.
@@ -82,6 +83,10 @@ class ErrorEstimate {
   /// The change of the coherent share of skins in contact from `old` to `now` [1]; zero where none melts or
   /// no heat is exchanged. `now` need not be deformed yet.
   double skin_change(const State& old, const State& now) const;
+  /// The widest gap that opens in the step at a point that liquid metal wets at its start and not at its end
+  /// [m]. A skin that lets go in a long step is drawn in while the mean of the step is still soft, and keeps
+  /// that gap.
+  double skin_opening(const State& old, const State& now) const;
   /// That of the stress of what creeps, as a share [1]; zero where nothing does or the rate is not known.
   double stress_predictor(const State& old, const State& now, double dt, const Rates& rates) const;
   /// The error of the two `halves` of a step, by comparison with the `whole`. Both start from `old` and take

@@ -33,6 +33,7 @@ MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double ti
   const heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
   taken.error.displacement = estimate_->displacement_predictor(old, trial, dt, rates_);
   taken.error.stress = estimate_->stress_predictor(old, trial, dt, rates_);
+  taken.error.opening = estimate_->skin_opening(old, trial);
   // Schemes that do not conduct first are judged for their heat now.
   if (!conducted) {
     taken.error.temperature = estimate_->temperature_predictor(old, trial, dt, rates_, flows);

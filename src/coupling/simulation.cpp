@@ -21,10 +21,13 @@ constexpr double k_same_time = 1e-9;
 // Solid by volume, but for the rounding of its sum.
 constexpr double k_solid = 1 - 1e-12;
 
+// The least step, as a share of the first one, to which the last melt holds a run.
+constexpr double k_least_before_solid = 0.25;
+
 /// A state whose change cannot be measured is none to go on from. The same on every process.
 void require_numbers(const StepMeasure& measure) {
   if (std::isfinite(measure.temperature_error + measure.displacement_error + measure.stress_error +
-                    measure.solid_fraction_change + measure.skin_change))
+                    measure.solid_fraction_change + measure.skin_change + measure.skin_opening))
     return;
   throw StepRejected("coupling: the error of the step is not a number", {}, Failure::divergence);
 }
@@ -339,10 +342,18 @@ std::size_t Simulation::stage() const {
 
 PlannedStep Simulation::plan(const Progress& p) const {
   const double time = p.committed.time;
-  const PlannedStep step = p.control->plan(time);
-  if (loads_ == nullptr || !options_.stages[p.stage].step.adaptive) return step;
-  const double longest = loads_->lasting_loads(time, step.time);
-  return longest < step.dt ? p.control->plan(time, longest) : step;
+  const StepOptions& options = options_.stages[p.stage].step;
+  LongestStep longest;
+  // A casting is solid somewhere in the step in which its last melt freezes, and contracts fast then. A run
+  // that begins with little melt begins with the step asked for, so that this bounds no first step by far.
+  if (options.limits.last_melt && p.solid_fraction < k_solid)
+    longest = {std::max(longest_before_solid(1 - p.solid_fraction, time - p.committed.poured),
+                        k_least_before_solid * options.step),
+               "last melt"};
+  const PlannedStep step = p.control->plan(time, longest);
+  if (loads_ == nullptr || !options.adaptive) return step;
+  const double moves = loads_->lasting_loads(time, step.time);
+  return moves < step.dt ? p.control->plan(time, {moves, "load moves"}) : step;
 }
 
 // The committed state is not touched before the step is known to be good: a step that is repeated starts from
@@ -360,6 +371,7 @@ Simulation::Try Simulation::try_step(Progress& p) {
       of_error.displacement_error = error.displacement;
       of_error.stress_error = error.stress;
       of_error.skin_change = error.skin;
+      of_error.skin_opening = error.opening;
       return of_error;
     };
     const MeasuredStep::Taken taken =

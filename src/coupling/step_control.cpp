@@ -82,11 +82,11 @@ bool StepControl::jumps_at(double time) const {
   return std::find(jumps_.begin(), jumps_.end(), time) != jumps_.end();
 }
 
-PlannedStep StepControl::plan(double time, double at_most) const {
+PlannedStep StepControl::plan(double time, const LongestStep& longest) const {
   const double least = std::min(smallest_of_errors(options_), state_.size);
-  const bool held = options_.adaptive && std::max(at_most, least) < state_.size;
-  const double size = held ? std::max(at_most, least) : state_.size;
-  const std::string reason = held ? "load moves" : state_.reason;
+  const bool held = options_.adaptive && std::max(longest.dt, least) < state_.size;
+  const double size = held ? std::max(longest.dt, least) : state_.size;
+  const std::string reason = held ? longest.reason : state_.reason;
   const double beyond = time + k_same_time * state_.size;
   const auto next = std::upper_bound(landings_.begin(), landings_.end(), beyond);
   double landing = next == landings_.end() ? end_ : *next;

@@ -39,6 +39,12 @@ struct PlannedStep {
   std::string reason;  ///< why this size, for steps.csv
 };
 
+/// The longest step that something else than the step limits allows.
+struct LongestStep {
+  double dt = HUGE_VAL;  ///< [s]
+  std::string reason;    ///< what asks for it, for steps.csv
+};
+
 /// State of the step control between steps, for checkpoints.
 struct ControlState {
   double size = 0;                  ///< the step wanted next, before landing [s]
@@ -61,8 +67,8 @@ class StepControl {
 
   bool finished(double time) const { return time >= end_; }
   double end() const { return end_; }
-  /// @param at_most  the longest step that the loads allow; a fixed step does not ask for it
-  PlannedStep plan(double time, double at_most = HUGE_VAL) const;
+  /// @param longest  what bounds an adaptive step besides; a fixed one does not ask for it
+  PlannedStep plan(double time, const LongestStep& longest = {}) const;
   /// Whether a condition jumps at this end of a step, so that what has gone before tells nothing of what
   /// follows.
   bool jumps_at(double time) const;

@@ -43,8 +43,15 @@ Strictest strictest(const StepLimits& limits, const StepMeasure& measure) {
     look("stress error", "", measure.stress_error, limits.stress, 2, k_tolerated);
   }
   look("coherent skin", "", measure.skin_change, limits.skin, 1, k_tolerated);
+  if (limits.opening > 0) look("opening skin", " m", measure.skin_opening, limits.opening, 1, k_tolerated);
   look("solid fraction", "", measure.solid_fraction_change, limits.solid_fraction, 1, k_tolerated);
   return result;
+}
+
+double longest_before_solid(double melt, double elapsed) {
+  constexpr double k_most_melt = 0.2, k_of_what_is_left = 0.5, k_least = 0.01;
+  if (!(melt > 0) || melt >= k_most_melt || !(elapsed > 0)) return std::numeric_limits<double>::infinity();
+  return std::max(k_of_what_is_left * melt, k_least) * elapsed;
 }
 
 }  // namespace solidus::coupling

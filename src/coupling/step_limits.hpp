@@ -16,7 +16,9 @@ struct StepLimits {
   bool inertia = false;         ///< displacements are integrated in time, as temperatures are
   double stress = 0.005;        ///< local error per step, as a share of the stress [1]
 
-  double skin = 0.08;  ///< change per step of the coherent share of a skin in contact [1]
+  double skin = 0.04;      ///< change per step of the coherent share of a skin in contact [1]
+  double opening = 0;      ///< of a skin that lets go in a step [m]; zero: any
+  bool last_melt = false;  ///< steps get shorter while the last melt freezes (longest_before_solid())
 
   bool operator==(const StepLimits&) const = default;
 };
@@ -28,6 +30,7 @@ struct StepMeasure {
   double stress_error = 0;                               ///< [1]; zero where nothing creeps
   double solid_fraction_change = 0;
   double skin_change = 0;    ///< largest change of the coherent share of a skin (coupling/skin_share.hpp)
+  double skin_opening = 0;   ///< ErrorEstimate::skin_opening() [m]
   bool ended_early = false;  ///< augmentations did not converge (contact/forces/augmented_lagrangian.hpp)
 };
 
@@ -43,5 +46,12 @@ struct Strictest {
 };
 
 Strictest strictest(const StepLimits& limits, const StepMeasure& measure);
+
+/// The longest step [s] that still tells when a casting is solid: half of what is left at the mean rate since
+/// it was poured, and not less than a hundredth of the time since. Endless while a fifth is melt, and where
+/// nothing is.
+/// @param melt     liquid share of all bodies that can melt [1]
+/// @param elapsed  since the casting was poured [s]
+double longest_before_solid(double melt, double elapsed);
 
 }  // namespace solidus::coupling

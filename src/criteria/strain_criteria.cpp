@@ -12,7 +12,7 @@ namespace solidus::criteria {
 
 namespace {
 
-enum Columns : std::size_t { k_at_coherency, k_brittle, k_displacement };
+enum Columns : std::size_t { k_at_coherency, k_brittle, k_displacement, k_coherent_for };
 Lane equivalent(const Sym<Lane>& strain) {
   return sqrt(Lane(2.0 / 3.0) * dot(dev(strain), dev(strain)));
 }
@@ -72,12 +72,13 @@ double StrainCriteria::solid_fraction(const material::PhaseChange& freezing, con
 }
 
 CriterionRecord StrainCriteria::initial(const CriterionInput& /*start*/) const {
-  return {"strain",
-          {make_column(mesh_, "at_coherency", mesh::FieldPlace::cell, k_tensor),
-           make_column(mesh_, "brittle", mesh::FieldPlace::cell, k_tensor),
-           make_column(mesh_, "displacement_at_coherency", mesh::FieldPlace::node,
-                       static_cast<int>(components_))},
-          {}};
+  return {
+      "strain",
+      {make_column(mesh_, "at_coherency", mesh::FieldPlace::cell, k_tensor),
+       make_column(mesh_, "brittle", mesh::FieldPlace::cell, k_tensor),
+       make_column(mesh_, "displacement_at_coherency", mesh::FieldPlace::node, static_cast<int>(components_)),
+       make_column(mesh_, "coherent_for", mesh::FieldPlace::node)},
+      {}};
 }
 
 void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) {
@@ -128,15 +129,28 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
       store_tensors(sum, k_tensor, first, count, brittle);
     }
   }
-  // Displacements of melt are those at coherency, until it is coherent.
-  std::vector<double>& displacement = record.columns[k_displacement].values;
-  // Melt moves fast where it feeds or is pressed out: a node that becomes coherent within a step has its
-  // displacement of that moment, not of the end of the step.
-  for (std::size_t node = 0; node < mesh_.x.size(); ++node)
-    if (soft[node] > 0)
-      for (std::size_t i = node * components_; i < (node + 1) * components_; ++i)
-        displacement[i] = old_u[i] + soft[node] * (u[i] - old_u[i]);
+  follow_displacement(old, next, soft, record);
+}
+
+/// Metal that becomes coherent within a step goes with the melt until its end: melt that feeds or is pressed
+/// out moves far in a step, and stops. What it does after that moment is the motion of the next step, of
+/// metal, which is carried back to it.
+/// @param soft  the share of the step in which a node has an element that is melt, [local node]
+void StrainCriteria::follow_displacement(const CriterionInput& old, const CriterionInput& next,
+                                         const std::vector<double>& soft, CriterionRecord& record) const {
+  std::vector<double>&displacement = record.columns[k_displacement].values,
+  &coherent_for = record.columns[k_coherent_for].values;
+  const std::vector<double>&old_u = old.mechanics.displacement, &u = next.mechanics.displacement;
+  const double dt = next.time - old.time;
+  for (std::size_t node = 0; node < mesh_.x.size(); ++node) {
+    if (soft[node] == 0 && coherent_for[node] == 0) continue;
+    const double back = coherent_for[node] / dt;
+    for (std::size_t i = node * components_; i < (node + 1) * components_; ++i)
+      displacement[i] = soft[node] > 0 ? u[i] : displacement[i] - back * (u[i] - old_u[i]);
+    coherent_for[node] = soft[node] > 0 ? (1 - soft[node]) * dt : 0.0;
+  }
   ghosts_.update(displacement, static_cast<int>(components_));
+  ghosts_.update(coherent_for, 1);
 }
 
 std::span<const quantities::Quantity* const> StrainCriteria::fields() const {

@@ -12,7 +12,8 @@
 ///                           solid fraction runs through the brittle range
 ///   distortion              the displacement since coherency without the best rigid motion of each body [m];
 ///                           a node is coherent from the moment, on a straight line through the step, at
-///                           which all its elements are (coupling/coherency.hpp)
+///                           which all its elements are (coupling/coherency.hpp); until the end of that
+///                           step it moves at the rate of the next one
 ///
 /// Strains are measured by their deviators: thermal strain and the shrinkage of freezing are volumetric, so a
 /// body that shrinks freely has none. Metal that melts again forgets. The solid fraction is the mean over the
@@ -62,6 +63,8 @@ class StrainCriteria : public Criterion {
     }
   };
   std::span<const double> temperature(const CriterionInput& moment) const;
+  void follow_displacement(const CriterionInput& old, const CriterionInput& next,
+                           const std::vector<double>& soft, CriterionRecord& record) const;
   double solid_fraction(const material::PhaseChange& freezing, const CriterionInput& moment,
                         std::size_t node) const;
 

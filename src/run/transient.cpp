@@ -9,6 +9,7 @@
 #include "run/advice.hpp"
 #include "run/diagnose.hpp"
 #include "run/recording.hpp"
+#include "setup/cast_bodies.hpp"
 #include "setup/event_input.hpp"
 #include "setup/heat_input.hpp"
 #include "setup/mechanics_input.hpp"
@@ -43,9 +44,13 @@ coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
   if (!spec.time.steady) {
     coupling::BodyNorm norm(a.mesh, spec.analysis.kind);
     const double error = displacement_error(spec.time, sections_of(spec, a.mesh));
+    const bool cast = !cast_bodies(spec, a.materials, a.start).empty();
     const auto limit = [&](coupling::StepLimits& limits) {
       limits.displacement = error;
       limits.inertia = spec.dynamics.has_value();
+      limits.last_melt = spec.has_mechanics() && cast;
+      // A gap is between two displacements.
+      if (spec.has_mechanics()) limits.opening = 2 * error;
     };
     limit(times.step.limits);
     for (coupling::Stage& stage : times.stages) limit(stage.step.limits);

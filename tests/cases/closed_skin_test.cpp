@@ -282,7 +282,7 @@ TEST(ClosedSkinRun, GoesOnFromACheckpointWithTheSameBits) {
   k_here.write("plate.geo", k_plate);
   k_here.write("range.toml", k_range);
   k_here.expect_exact_restart("restart", casting(false, "range.toml"), 4,
-                              {"time.adaptive=true", "time.end=4 s",
+                              {"time.adaptive=true", "time.skin_change=0.05", "time.end=4 s",
                                "contact.wall.normal=augmented_lagrangian", "output.checkpoint_every=1"});
 }
 

@@ -306,6 +306,8 @@ void expect_converged(const Sweep& s, double solid_after, double gap, double por
     EXPECT_NEAR(a.centre, s.fixed.back().centre, 0.01 * s.fixed.back().centre);
   }
   near(s.by_default, 0.02, 0.05, 1e-3);
+  // The step in which the last melt froze is at most a hundredth of the time.
+  EXPECT_LT(s.by_default.half_step, 0.0051 * s.by_default.solid_after);
   EXPECT_NEAR(s.by_default.centre, s.fixed.back().centre, 0.01 * s.fixed.back().centre);
 }
 
@@ -384,9 +386,10 @@ TEST(CoupledSteps, AQuarterOfABarIsTheWholeBar) {
   }
 }
 
-TEST(CoupledSteps, AMouldThatOnlyConductsDoesNotDecideHowLongStepsAre) {
-  // The die reaches to 60 and to 200 mm; the heat of a minute stays far within either.
-  k_here.write("near.msh", testing::square_bar(Piece::quarter, 4, 20, 60));
+TEST(CoupledSteps, AMouldThatOnlyConductsMayBeOfAnySize) {
+  // The die reaches to 140 and to 200 mm; the heat of a minute stays far within either, whose elements are
+  // the same there: nothing in the metal knows how large its mould is.
+  k_here.write("near.msh", testing::square_bar(Piece::quarter, 4, 20, 140));
   k_here.write("far.msh", testing::square_bar(Piece::quarter, 4, 20, 200));
   std::vector<CaseRun> runs;
   for (const char* mesh : {"near.msh", "far.msh"}) {
@@ -396,10 +399,10 @@ TEST(CoupledSteps, AMouldThatOnlyConductsDoesNotDecideHowLongStepsAre) {
     ASSERT_TRUE(runs.back().finished) << runs.back().reason;
   }
   const auto steps = [&](std::size_t i) { return static_cast<double>(runs[i].steps.at("dt[s]").size()); };
-  EXPECT_NEAR(steps(1), steps(0), 0.1 * steps(0));
+  EXPECT_NEAR(steps(1), steps(0), 0.02 * steps(0));
   for (const double time : {20.0, 40.0, 60.0}) {
     const double near = testing::at(runs[0].history, "gap_corner[um]", time);
-    EXPECT_NEAR(testing::at(runs[1].history, "gap_corner[um]", time), near, 0.02 * near) << time;
+    EXPECT_NEAR(testing::at(runs[1].history, "gap_corner[um]", time), near, 1e-3 * near) << time;
   }
 }
 

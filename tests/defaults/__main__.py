@@ -28,13 +28,15 @@ LIMIT = 3600  # [s] of a run
 
 HEAD = """\
 # What the defaults are worth
-Made by `./dev defaults`; every folder of `cases/` has a row. Each case as it stands against itself with tolerances that
+Made by `./dev defaults` of cases in `cases/`. Each case as it stands against itself with tolerances that
 do not matter (1e-10 of the forces, 1e-7 of the motion, 1e-11 of the heat), and with steps, or their error limits, a
 quarter as large besides. The largest difference of any probe of the case at any time of the run, as a part of the range
 of that probe, and the probe's at the last time that both runs reach; without probes of the case the hottest node, solid
 fraction, heat and force of the contact, or the values of its profile at the end. A run that goes on until all is solid
 also has the difference of that time. Where steps adapt, other tolerances lead to other steps, and a probe that jumps
 shows it. Tests at a point of a material have no tolerance to choose; their steps are those of all curves together.
+*Answers* are those of the run as it stands with the errors of step and mesh that it states ([what they
+are](../theory/step_and_mesh.md#the-error-of-an-answer)); in brackets the same with the shorter steps.
 """
 
 LAST = ("Next: [when a step has converged](../decisions/0017-when-a-step-has-converged.md) · "
@@ -66,6 +68,13 @@ def cell(row, reference, default):
     return text
 
 
+def answers(row, default, finer):
+    """The answers with the errors that the run states, beside those with shorter steps."""
+    others = samples.answers(finer, row.kind)
+    return "; ".join(f"{name} {value:.4g} ± {error:.2g} {samples.UNITS[name]} ({others[name][0]:.4g})"
+                     for name, (value, error, *_) in samples.answers(default, row.kind).items() if name in others)
+
+
 def measure(program, row):
     tight = TIGHT.get(row.kind)
     runs = [("default", {})]
@@ -77,11 +86,12 @@ def measure(program, row):
             good, text = run(program, row, pathlib.Path(scratch) / name, keys)
             if not good:
                 last = text.splitlines()[-1] if text else ""
-                return f"| {title(row)} | the run with {name} settings ended: {last} | | |"
+                return f"| {title(row)} | the run with {name} settings ended: {last} | | | |"
             found[name] = pathlib.Path(scratch) / name
         cells = [cell(row, found[name], found["default"]) if name in found else "none to choose"
                  for name in ("tight", "finer")]
-        return f"| {title(row)} | {samples.steps(found['default'], row.kind)} | {cells[0]} | {cells[1]} |"
+        told = answers(row, found["default"], found["finer"])
+        return f"| {title(row)} | {samples.steps(found['default'], row.kind)} | {cells[0]} | {cells[1]} | {told} |"
 
 
 def title(row):
@@ -109,7 +119,8 @@ def main():
     parser.add_argument("-o", "--output", type=pathlib.Path)
     parser.add_argument("cases", nargs="*")
     asked = parser.parse_intermixed_args()
-    lines = [*HEAD.splitlines(), "", "| case | steps | tolerances | and steps a quarter as long |", "|---|---|---|---|"]
+    lines = [*HEAD.splitlines(), "", "| case | steps | tolerances | and steps a quarter as long | answers |",
+             "|---|---|---|---|---|"]
     rows, notes = kept(asked.output)
     for row in ROWS:
         if asked.cases and not any(row.case.startswith(c) for c in asked.cases):

@@ -3,7 +3,12 @@ import bisect
 import csv
 import json
 import math
+import pathlib
 import re
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "program"))
+import castings_with_errors  # noqa: E402
 
 # Columns of the program's own in history.csv; the probes of a case stand before them.
 OWN = ("T_min", "solid_fraction", "stored_heat", "work", "contact_heat", "contact_force")
@@ -81,6 +86,17 @@ def frozen_at(folder, kind):
         return None
     ends = re.search(r'^until = "(\w+)"', (folder / "case.toml").read_text(encoding="utf-8"), re.MULTILINE)
     return table(folder / "history.csv")[1][-1][0] if ends and ends[1] == "solid" else None
+
+
+UNITS = {"solid after": "s", "largest gap": "µm", "largest distortion": "µm", "largest von Mises": "MPa", "pores": "%"}
+
+
+def answers(folder, kind):
+    """The answers of a run by name with the errors that it states, in UNITS; none of a run that has no castings."""
+    if kind == "point":
+        return {}
+    given = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    return castings_with_errors.answers(given) if given.get("answers", {}).get("castings") else {}
 
 
 def steps(folder, kind):

@@ -29,7 +29,7 @@ namespace {
 /// Characters that stand for a pair in State::steady_gaps.
 constexpr char k_steady = 's', k_unsteady = '-';
 constexpr char k_creeps = 'c', k_no_creep = '-';
-constexpr const char* k_format = "Solidus checkpoint 28";
+constexpr const char* k_format = "Solidus checkpoint 29";
 constexpr const char* k_known = "known";
 /// Above absolute zero, and no hotter than a case may ask for [K].
 constexpr AllowedValues k_temperatures{std::numeric_limits<double>::min(), 1e6};
@@ -54,7 +54,7 @@ void each_number(C& c, const Visit& visit) {
       k.control.failures, k.rates.changed);
   all(o.step, o.adaptive, o.min_step, o.max_step, o.growth, o.cut, o.easy_iterations);
   all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.stress, o.limits.solid_fraction,
-      o.limits.inertia);
+      o.limits.inertia, o.limits.skin, o.limits.opening, o.limits.last_melt);
   all(e.stored_heat, e.structural, e.contact, e.kinetic, e.friction, e.frictional_heat, e.numerical, e.work,
       e.heat_in, e.entropy_in, e.heat_exchanged, e.viscous_dissipation, e.plastic_dissipation, e.plastic_work,
       e.inelastic_entropy, e.internal_at_start);

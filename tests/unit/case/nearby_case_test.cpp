@@ -56,7 +56,7 @@ TEST(LongerSteps, MayCommitFourTimesTheErrorWhereTheyAreChosen) {
   EXPECT_EQ(made.time.temperature_error, 2.0);
   EXPECT_DOUBLE_EQ(*made.time.displacement_error, 12e-6);
   EXPECT_EQ(made.time.solid_fraction_change, 0.2);
-  EXPECT_EQ(made.time.skin_change, 0.16);
+  EXPECT_EQ(made.time.skin_change, 0.08);
   EXPECT_EQ(made.time.step, 1.0);
   EXPECT_EQ(made.time.max_step, 20.0);
   EXPECT_EQ(made.output.every, 10.0);  // no step ends early for an output

@@ -76,7 +76,7 @@ TEST(TimeKeys, WhatIsNotGivenHasItsDefault) {
   EXPECT_EQ(limits.control, coupling::ErrorControl::predictor);
   EXPECT_DOUBLE_EQ(limits.temperature, 1.0);
   EXPECT_DOUBLE_EQ(limits.solid_fraction, 0.1);
-  EXPECT_DOUBLE_EQ(limits.skin, 0.08);
+  EXPECT_DOUBLE_EQ(limits.skin, 0.04);
   EXPECT_DOUBLE_EQ(time_options(spec("adaptive = true\nskin_change = 0.3")).step.limits.skin, 0.3);
   EXPECT_DOUBLE_EQ(displacement_error(c.time, std::vector<double>{0.0, 0.2, 0.5}), 6e-5);
   EXPECT_GT(displacement_error(c.time, std::vector<double>{0.0}), 1);  // heat alone

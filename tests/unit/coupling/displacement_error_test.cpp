@@ -98,6 +98,24 @@ TEST(BodyNorm, OfADistortionTakesRigidMotionsAway) {
     EXPECT_LT(in_space.of_distortion(space, alone_counts(block, i)), 1e-6) << i;
 }
 
+TEST(SkinOpening, IsTheWidestGapOfAPointThatLetsGoOfItsWallInTheStep) {
+  const mesh::Mesh mesh = test::make_mesh({.shape = mesh::Shape::quad4, .cells = {1, 1, 1}});
+  const coupling::ErrorEstimate estimate(coupling::BodyNorm(mesh, AnalysisKind::plane_strain));
+  // Points whose gaps open by 7, 30 and 50 µm: wet before and dry behind the step, dry, and wet throughout.
+  const auto point = [](double gap, double suction) {
+    contact::ContactPointState p;
+    p.penetration = -gap;
+    p.suction = suction;
+    return p;
+  };
+  State old, now;
+  old.contacts = {{{point(1e-6, 1e5), point(0, 0), point(0, 1e5)}, {}}};
+  now.contacts = {{{point(8e-6, 0), point(30e-6, 0), point(50e-6, 1e5)}, {}}};
+  EXPECT_NEAR(estimate.skin_opening(old, now), 7e-6, 1e-18);
+  EXPECT_EQ(estimate.skin_opening(now, now), 0);
+  EXPECT_EQ(estimate.skin_opening(State{}, now), 0);  // bodies that have not moved yet
+}
+
 /// A body on (0, 2) × (0, 1) without a thermal phase that is melt where x > 1.
 struct HalfMolten {
   mesh::Mesh mesh = test::make_mesh({.shape = mesh::Shape::quad4, .cells = {8, 2, 1}, .size = {2, 1, 1}});

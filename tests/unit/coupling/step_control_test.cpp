@@ -94,10 +94,10 @@ TEST(StepControl, ARunThatGoesOnFromAnOutputHasTheEventsOfOneThatHasNotStopped) 
 
 TEST(StepControl, ALoadThatMovesShortensAdaptiveStepsAlone) {
   const StepControl fixed(step_of(1), 0, {5.0}), control(adaptive(1, 10), 0, {5.0});
-  EXPECT_EQ(fixed.plan(0, 0.25).dt, 1);
-  EXPECT_EQ(control.plan(0, 0.25).dt, 0.25);
-  EXPECT_EQ(control.plan(0, 0.25).reason, "load moves");
-  EXPECT_EQ(control.plan(0, 1e-9).dt, 1.0 / 1024);
+  EXPECT_EQ(fixed.plan(0, {0.25, "load moves"}).dt, 1);
+  EXPECT_EQ(control.plan(0, {0.25, "load moves"}).dt, 0.25);
+  EXPECT_EQ(control.plan(0, {0.25, "load moves"}).reason, "load moves");
+  EXPECT_EQ(control.plan(0, {1e-9, "load moves"}).dt, 1.0 / 1024);
 }
 
 TEST(StepControl, FixedStepsMeetTheEndExactly) {
@@ -170,6 +170,27 @@ TEST(StepLimits, ASkinThatLetsGoBoundsAStepInProportion) {
   EXPECT_DOUBLE_EQ(worst.factor, 0.4);  // a fifth below the limit
   measure.skin_change = 0.1;
   EXPECT_FALSE(strictest(limits, measure).exceeded);
+}
+
+TEST(StepLimits, TheGapThatASkinOpensAsItLetsGoBoundsAStepInProportion) {
+  StepMeasure measure;
+  measure.skin_opening = 20e-6;
+  solidus::coupling::StepLimits limits;
+  EXPECT_FALSE(strictest(limits, measure).exceeded);  // unless a displacement bounds it
+  limits.opening = 5e-6;
+  EXPECT_TRUE(strictest(limits, measure).exceeded);
+  EXPECT_EQ(strictest(limits, measure).name, "opening skin");
+  EXPECT_DOUBLE_EQ(strictest(limits, measure).factor, 0.2);
+}
+
+TEST(StepLimits, TheLastMeltFreezesInStepsOfAHundredthOfItsTime) {
+  using solidus::coupling::longest_before_solid;
+  EXPECT_EQ(longest_before_solid(0.2, 30), HUGE_VAL);
+  EXPECT_DOUBLE_EQ(longest_before_solid(0.1, 30), 1.5);  // half of what is left at the mean rate
+  EXPECT_DOUBLE_EQ(longest_before_solid(0.02, 30), 0.3);
+  EXPECT_DOUBLE_EQ(longest_before_solid(1e-9, 30), 0.3);
+  EXPECT_EQ(longest_before_solid(0, 30), HUGE_VAL);
+  EXPECT_EQ(longest_before_solid(0.1, 0), HUGE_VAL);  // what begins as mush has no rate yet
 }
 
 TEST(StepLimits, ADisplacementThatIsNotIntegratedInTimeMayMissMoreBeforeItsStepIsRepeated) {

@@ -231,7 +231,7 @@ TEST(Distortion, OfARigidMotionIsNothing) {
 // A bend about the middle of a symmetric body holds no rigid motion but its mean.
 TEST(Distortion, LeavesWhatIsNotRigid) {
   Bar bar({AnalysisKind::axisymmetric, Shape::quad4});
-  bar.step(k_cold, [](const Point&) { return Point{}; });
+  for (int i = 0; i < 2; ++i) bar.step(k_cold, [](const Point&) { return Point{}; });
   bar.step(k_cold, [](const Point& x) { return Point{0.01 * x[0], 0.07, 0}; });
   const Bar::Fields f = bar.fields();
   for (std::size_t node = 0; node < bar.mesh().x.size(); ++node) {
@@ -244,12 +244,15 @@ TEST(Distortion, CountsFromCoherencyOn) {
   Bar bar({AnalysisKind::axisymmetric, Shape::quad4});
   bar.step(k_hot, [](const Point& x) { return Point{0.3 * x[0], 0.4 * x[1], 0}; });
   expect_all(bar.fields().distortion, 0);
-  // It is coherent at three quarters of this step, on a straight line, so that a quarter of it counts.
-  bar.step(k_cold, [](const Point& x) { return Point{0.34 * x[0], 0.4 * x[1], 0}; });
-  bar.step(k_cold, [](const Point& x) { return Point{0.36 * x[0], 0.4 * x[1], 0}; });
+  // It is coherent at three quarters of this step, on a straight line, and goes with the melt to its end.
+  bar.step(k_cold, [](const Point& x) { return Point{0.35 * x[0], 0.4 * x[1], 0}; });
+  expect_all(bar.fields().distortion, 0);
+  // The last quarter of that step is as one of this.
+  bar.step(k_cold, [](const Point& x) { return Point{0.37 * x[0], 0.4 * x[1], 0}; });
+  bar.step(k_cold, [](const Point& x) { return Point{0.38 * x[0], 0.4 * x[1], 0}; });
   const Bar::Fields f = bar.fields();
   for (std::size_t node = 0; node < bar.mesh().x.size(); ++node)
-    EXPECT_NEAR(f.distortion[2 * node], 0.03 * bar.mesh().x[node][0], k_rounding);
+    EXPECT_NEAR(f.distortion[2 * node], 0.035 * bar.mesh().x[node][0], k_rounding);
 }
 
 // A wall that is solid stands beside melt that sinks. The nodes between them are solid, their elements on one
