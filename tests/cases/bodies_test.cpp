@@ -333,8 +333,8 @@ TEST_F(Bodies, OnTwoProcessesAreTheSame) {
   const std::string command =
       "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
       "OMPI_ALLOW_RUN_AS_ROOT=1 "
-      "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun -n 2 --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR
-      "/solidus' run '" +
+      "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 mpirun -n 2 --bind-to none "
+      "--oversubscribe '" SOLIDUS_BINARY_DIR "/solidus' run '" +
       file + "' -o '" + (k_here.root() / "parallel").string() + "' >/dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0);
   const auto two = solidus::testing::read_csv(k_here.root() / "parallel/history.csv");

@@ -120,7 +120,7 @@ TEST(Check, EstimatesWhenCastingsWithRisersAreSolid) {
 std::string table(int processes) {
   const std::string command =
       "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
-      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun -n " +
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 mpirun -n " +
       std::to_string(processes) +
       " --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR "/solidus' check '" SOLIDUS_SOURCE_DIR
       "/cases/bracket' 2>/dev/null";

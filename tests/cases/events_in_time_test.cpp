@@ -332,7 +332,7 @@ TEST_F(EventsInTime, TwoProcessesTakeTheSameStepsAndGiveTheSameHeat) {
     const std::string folder = (folder_.root() / ("on" + std::to_string(processes))).string();
     const testing::Outcome outcome = testing::shell(
         "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
-        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 "
         "mpirun -n " +
         std::to_string(processes) + " --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR "/solidus' run '" +
         file + "' --no-progress -o '" + folder + "'");

@@ -81,12 +81,12 @@ class Places : public ::testing::Test {
   std::string run(const std::string& name, const std::string& text, int processes = 1,
                   const std::string& more = {}) const {
     const std::string file = folder_.write(name + ".toml", text);
-    const std::string launcher = processes == 1
-                                     ? ""
-                                     : "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 "
-                                       "OPENBLAS_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 "
-                                       "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun -n " +
-                                           std::to_string(processes) + " --bind-to none --oversubscribe ";
+    const std::string launcher =
+        processes == 1 ? ""
+                       : "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 "
+                         "OPENBLAS_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 "
+                         "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 mpirun -n " +
+                             std::to_string(processes) + " --bind-to none --oversubscribe ";
     const std::string command = launcher + "'" SOLIDUS_BINARY_DIR "/solidus' run '" + file +
                                 "' --no-progress -o '" + (folder_.root() / name).string() +
                                 std::to_string(processes) + "' " + more + " 2>&1";

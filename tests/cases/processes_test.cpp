@@ -45,7 +45,7 @@ class Processes : public ::testing::Test {
                   const std::string& of = std::string("cases/aluminium_cylinder'") + k_case) {
     const std::string command = fmt::format(
         "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
-        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 "
         "mpirun -n {} --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR
         "/solidus' run -o '{}' --no-progress '" SOLIDUS_SOURCE_DIR "/{} {} 2>&1",
         processes, (root() / folder).string(), of, more);

@@ -64,7 +64,8 @@ class RestartedRun : public ::testing::Test {
     const std::string launcher =
         processes == 1 ? ""
                        : "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
-                         "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun -n " +
+                         "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+                         "OMPI_MCA_mpi_yield_when_idle=1 mpirun -n " +
                              std::to_string(processes) + " --bind-to none --oversubscribe ";
     return launcher + command(folder, more);
   }

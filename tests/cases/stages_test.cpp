@@ -387,8 +387,8 @@ TEST(Stages, TwoProcessesAgree) {
     const std::string command =
         "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
         "OMPI_ALLOW_RUN_AS_ROOT=1 "
-        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun -n 2 --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR
-        "/solidus' run '" +
+        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 mpirun -n 2 --bind-to none "
+        "--oversubscribe '" SOLIDUS_BINARY_DIR "/solidus' run '" +
         k_here.write(name + std::string(".toml"), c) + "' -o '" + folder.string() + "' > '" +
         folder.string() + ".log' 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0) << read_text(folder.string() + ".log");

@@ -78,7 +78,7 @@ uz = "0 m"
     // The signal comes once hundreds of iterations of the first solve have been told.
     const Outcome stopped = shell(
         "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
-        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " +
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 " +
         std::string(launcher) + "'" SOLIDUS_BINARY_DIR "/solidus' run '" + (root() / "beam.toml").string() +
         "' -o '" + (root() / "beam").string() +
         "' -- -mechanics_ksp_max_it 10000000 -mechanics_ksp_monitor > " + log +
