@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "coupling/finite_measure.hpp"
 #include "heat/thermal_phase.hpp"
 #include "linear/interruption.hpp"
 #include "parallel/parallel.hpp"
@@ -17,20 +18,7 @@ namespace {
 
 // Output times this close to the end of a stage, as a share of its step, are that end.
 constexpr double k_same_time = 1e-9;
-
-// Solid by volume, but for the rounding of its sum.
-constexpr double k_solid = 1 - 1e-12;
-
-// The least step, as a share of the first one, to which the last melt holds a run.
-constexpr double k_least_before_solid = 0.25;
-
-/// A state whose change cannot be measured is none to go on from. The same on every process.
-void require_numbers(const StepMeasure& measure) {
-  if (std::isfinite(measure.temperature_error + measure.displacement_error + measure.stress_error +
-                    measure.solid_fraction_change + measure.skin_change + measure.skin_opening))
-    return;
-  throw StepRejected("coupling: the error of the step is not a number", {}, Failure::divergence);
-}
+constexpr double k_solid = 1 - 1e-12;  // solid by volume, but for the rounding of its sum
 
 }  // namespace
 
@@ -152,7 +140,7 @@ std::vector<TimeEvent> Simulation::events(const Progress& p) const {
 }
 
 /// Gives the phases the conditions of the stage.
-/// @param again            the stage begins at the committed time
+/// @param anew            the stage begins at the committed time
 /// @param changed_before  the state has been changed for it: a run that was stopped before the first step
 /// goes on
 void Simulation::begin_bodies(Progress& p, bool anew, bool changed_before) {
@@ -345,11 +333,11 @@ PlannedStep Simulation::plan(const Progress& p) const {
   const StepOptions& options = options_.stages[p.stage].step;
   LongestStep longest;
   // A casting is solid somewhere in the step in which its last melt freezes, and contracts fast then. A run
-  // that begins with little melt begins with the step asked for, so that this bounds no first step by far.
+  // that begins with little melt begins with the step asked for: it is no less than a quarter of that.
   if (options.limits.last_melt && p.solid_fraction < k_solid)
-    longest = {std::max(longest_before_solid(1 - p.solid_fraction, time - p.committed.poured),
-                        k_least_before_solid * options.step),
-               "last melt"};
+    longest = {
+        std::max(longest_before_solid(1 - p.solid_fraction, time - p.committed.poured), 0.25 * options.step),
+        "last melt"};
   const PlannedStep step = p.control->plan(time, longest);
   if (loads_ == nullptr || !options.adaptive) return step;
   const double moves = loads_->lasting_loads(time, step.time);
@@ -384,7 +372,7 @@ Simulation::Try Simulation::try_step(Progress& p) {
       measure.ended_early = std::ranges::any_of(
           taken.effort->contacts, [](const ContactSummary& pair) { return pair.left_penetration > 0; });
     }
-    require_numbers(measure);
+    require_finite(measure);
     if (!taken.effort || p.control->too_long(step, measure)) {
       ++(taken.effort ? p.record.rejected : p.record.shortened);
       p.record.rejection = strictest(options_.stages[p.stage].step.limits, measure).excess;
