@@ -18,7 +18,7 @@
 
 namespace solidus::app {
 
-/// What the command line asks for.
+/// One export as the command line asks for it.
 struct ExportRequest {
   std::filesystem::path folder;      ///< of a run
   std::filesystem::path file;        ///< to write

@@ -1,5 +1,4 @@
-/// What `check` looks for, from the rows that the families of findings bring: as a list and as the reference
-/// page.
+/// Writes the rows that the families of findings bring, as a list for the terminal and as the reference page.
 #pragma once
 
 #include <string>

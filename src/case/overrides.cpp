@@ -84,7 +84,7 @@ void apply_override(Value& base, const std::string& assignment) {
     return text;
   };
   const std::string path = trimmed(assignment.substr(0, equals));
-  // What cannot be an assignment is refused before anything is changed.
+  // A text that is no assignment is refused before anything is changed.
   if (equals == std::string::npos || path.empty())
     throw InputError(where, "this is no assignment",
                      "--set path=value, for example --set time.step=\"0.5 s\"");

@@ -18,7 +18,7 @@
 
 namespace solidus::model {
 
-/// What a finding is about: the sections of the reference page, in their order.
+/// The subjects of findings, which are the sections of the reference page in their order.
 enum class Topic { contacts, materials, pour, mesh, conditions, mechanics, probes, effort };
 
 constexpr std::string_view name(Topic topic) {

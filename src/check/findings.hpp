@@ -27,7 +27,7 @@ inline bool is_number(const Function& f) {
 /// Whether two lists of stages have one in common; an empty list means all stages.
 bool share_a_stage(const std::vector<std::string>& a, const std::vector<std::string>& b);
 
-/// What all families (finding_family.hpp) find in a case that is built, in the order of their places.
+/// The findings of all families (finding_family.hpp) in a case that is built, in the order of their places.
 /// Collective.
 Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
 

@@ -1,4 +1,4 @@
-/// What `solidus export` says of the fields that it has gathered in one file.
+/// Tells the user how many fields, times, points and cells an export has written.
 #pragma once
 
 #include <fmt/format.h>
