@@ -92,13 +92,13 @@ TEST(DieChannels, AreAsWideAsChannelsAreMade) {
   const int block = occ::addBox(0, 0, 0, 100, 60, 60);
   gmsh::vectorpair cut, bores;
   std::vector<gmsh::vectorpair> map;
-  for (const auto& [x, diameter] : {std::pair{10, 3.0}, {25, 5.0}, {45, 24.0}, {80, 28.0}})
+  for (const auto& [x, diameter] : {std::pair{10, 3.8}, {25, 5.0}, {45, 24.0}, {80, 28.0}})
     bores.emplace_back(3, occ::addCylinder(x, 0, 30, 0, 60, 0, diameter / 2));
   occ::cut({{3, block}}, bores, cut, map);
   occ::synchronize();
   gmsh::write(file);
   gmsh::finalize();
-  mesh::RawMesh mesh = mesh::read_mesh(file, k_mm, 6e-3);
+  mesh::RawMesh mesh = mesh::read_mesh(file, k_mm, 3e-3);
   mesh::validate_and_orient(mesh, file);
   mesh::add_faces_by_rule(mesh, {"body_1"}, {.name = "free", .owner = "body_1"}, file);
   std::vector<double> widths;
