@@ -97,6 +97,14 @@ struct MouldBlockSpec {
   std::string name;
   std::vector<double> walls;  ///< [m], one, or six: x lowest, x highest, y …, z …
   std::string core;           ///< name of the mould in closed cavities of the parts
+  bool bed = false;           ///< with coats: what lies beyond them stays
+  SourceLocation where;
+};
+
+/// A coat of a shell around what the geometry holds (mesh/making/coats.hpp).
+struct MeshCoatSpec {
+  std::string name;
+  double thickness = 0;  ///< [m]
   SourceLocation where;
 };
 
@@ -137,6 +145,7 @@ struct MeshSpec {
   std::vector<MeshSizeSpec> sizes;
   int way = 0;  ///< of meshing solids and skins: the only one that is tried, from one; 0: one after the other
   std::optional<MouldBlockSpec> mould;
+  std::vector<MeshCoatSpec> coats;  ///< from the metal outward
   std::optional<RiserBlockSpec> riser;
   std::optional<SymmetrySpec> symmetry;
   /// Run a .geo script without checks. This is never a key of a case file: the user who runs a case decides

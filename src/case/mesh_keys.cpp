@@ -168,7 +168,28 @@ Section<MouldBlockSpec> mould_keys() {
   s.key("core", &M::core)
       .initially("core")
       .doc("What is mould in closed cavities of the parts gets this name, several core_1, core_2, ...");
+  s.key("bed", &M::bed)
+      .initially(false)
+      .doc(
+          "With [[mesh.coat]]: what of the block lies beyond the coats stays, as a bed of sand around the "
+          "shell; "
+          "else nothing is there.");
   s.place(&M::where);
+  return s;
+}
+
+/// Keys of a coat of an investment shell.
+Section<MeshCoatSpec> coat_keys() {
+  using C = MeshCoatSpec;
+  Section<C> s("coat",
+               "A coat of a shell around everything that the geometry holds, as it is dipped for investment "
+               "casting: what of the block [mesh.mould] is no farther from the skin than this coat and those "
+               "before it are thick. Coats stand from the metal outward. Shells of neighbouring parts run "
+               "together, narrow holes are filled, and where the block ends with the parts (a wall of 0) the "
+               "shell is open.");
+  s.key("name", &C::name).doc("Its name, as a group of the mesh: a body.");
+  s.quantity("thickness", &C::thickness, "m").positive().doc("Its thickness, normal to the skin.");
+  s.place(&C::where);
   return s;
 }
 
@@ -272,6 +293,7 @@ Section<MeshSpec> mesh_keys() {
           "elements is; 0: one way after the other. `solidus new` writes it where several had to be tried.");
   s.sections("size", &MeshSpec::sizes, size_keys());
   s.section("mould", &MeshSpec::mould, mould_keys());
+  s.sections("coat", &MeshSpec::coats, coat_keys());
   s.section("riser", &MeshSpec::riser, riser_keys());
   s.section("symmetry", &MeshSpec::symmetry, symmetry_keys());
   s.section("cylinder_in_mould", &MeshSpec::cylinder_in_mould, cylinder_in_mould_keys())

@@ -13,8 +13,8 @@ namespace solidus::model {
 
 const std::vector<CastingProcess>& casting_processes() {
   // For each process: mould materials from the best known on, role and temperature of the mould, superheat
-  // [K], walls and allowances, the interface law, films outside with their source, and for dies the times of
-  // a shot.
+  // [K], walls and allowances, the interface law, films outside with their source, for dies the times of a
+  // shot, and for a shell its thickness and how hot it is.
   static const std::vector<CastingProcess> list = {
       {"sand",
        {"green_sand"},
@@ -27,15 +27,24 @@ const std::vector<CastingProcess>& casting_processes() {
        10,
        "still air, 5 to 15 W/(m2 K) with radiation"},
       {"shell",
-       {"furan_sand", "dry_silica_sand", "green_sand"},
+       {"ceramic_shell"},
        Role::mould,
        20,
        80,
-       0.012,
+       0.0,
        0.0,
        "",
-       15,
-       "air and radiation of a warm shell, 10 to 25 W/(m2 K)"},
+       10,
+       "still air around a hot shell, beside its radiation",
+       0,
+       0,
+       0,
+       0,
+       0,
+       0,
+       "",
+       0.008,
+       0.6},
       {"gravity_die",
        {"h13_tool_steel", "steel_mould"},
        Role::die,

@@ -22,7 +22,13 @@ struct CastingProcess {
   /// Shots have stages besides solidify [s], and a spray with its film [W/(m² K)] and the source of that.
   double pour = 0, open = 0, eject = 0, spray = 0, close = 0, spray_film = 0;
   const char* spray_source = "";
+  /// Of a shell: its thickness [m] and its temperature as a share of the alloy's liquidus, both in °C. A
+  /// mould of this kind is an offset of the skin; `walls`, `least_wall` and `mould_start` are not used.
+  double shell = 0, preheat = 0;
 };
+
+/// A dipped and stuccoed coat in the mean [m]: 6 to 10 mm in six to nine of them.
+inline constexpr double k_coat_of_shell = 1.1e-3;
 
 const std::vector<CastingProcess>& casting_processes();
 /// Throws InputError with the nearest name where there is none of this name.

@@ -148,7 +148,10 @@ class Choice {
     // theirs.
     constexpr double k_small_part = 4;
     const double least = std::min(process_.least_wall, k_small_part * thickest_);
-    const double wall = of_wall(std::max(least, process_.walls * thickest_));
+    constexpr double k_room_of_shell = 1.25;
+    const double shell = options_.shell > 0 ? options_.shell : process_.shell;
+    const double wall =
+        of_wall(shell > 0 ? k_room_of_shell * shell : std::max(least, process_.walls * thickest_));
     mould.walls.fill(wall);
     if (draft_.symmetry) mould.walls[2 * static_cast<std::size_t>(draft_.symmetry->axis) + 1] = 0;
     if (draft_.riser || ends_in_a_riser()) mould.walls[5] = 0;  // open at the top
@@ -158,16 +161,28 @@ class Choice {
     body.role = process_.mould;
     describe(draft_, process_, body);
     draft_.law = process_.law;
+    if (shell > 0) choose_shell(shell, body);
     // Away from the metal elements grow with the wall that they fill, not with the part.
-    draft_.mould_size = std::clamp(draft_.mould_size, two_digits(wall / 4),
-                                   two_digits(std::max(wall / 1.5, std::max(draft_.size, wall / 4))));
+    if (!draft_.shell)
+      draft_.mould_size = std::clamp(draft_.mould_size, two_digits(wall / 4),
+                                     two_digits(std::max(wall / 1.5, std::max(draft_.size, wall / 4))));
   }
 
-  /// Whether a riser of the file is what reaches highest of all metal; under pressure nothing is open.
+  /// The shell is cut out of the block, whose elements are no thicker than it is.
+  void choose_shell(double thickness, DraftBody& body) {
+    constexpr double k_elements_through = 1.3;
+    draft_.shell = {.thickness = thickness};
+    draft_.mould->name = "block";
+    body.name = body.group = draft_.shell->name;
+    draft_.mould_size = two_digits(thickness / k_elements_through);
+  }
+
+  /// Whether a riser or the gating of the file is what reaches highest of all metal: a pouring cup is open;
+  /// under pressure nothing is.
   bool ends_in_a_riser() const {
     double riser = -1e300, other = -1e300;
     for (const GeometryBody& body : part_.bodies) {
-      double& high = body.role == Role::riser ? riser : other;
+      double& high = body.role == Role::riser || body.role == Role::gating ? riser : other;
       if (is_poured(body.role)) high = std::max(high, body.extent.high[2]);
     }
     const double top = part_.high[2], near = 1e-3 * (top - part_.low[2]);
@@ -181,6 +196,12 @@ class Choice {
   double thickest_ = 0;  ///< diameter of the largest sphere in the metal [m]
   Draft draft_;
 };
+
+/// Shells are poured hot, some 350 degC for aluminium and 900 degC for steel.
+double shell_start(const Draft& draft, const CastingProcess& process) {
+  constexpr double k_step = 50;
+  return k_step * std::round(process.preheat * draft.liquidus / k_step);
+}
 
 }  // namespace
 
@@ -209,11 +230,16 @@ void describe(const Draft& draft, const CastingProcess& process, DraftBody& body
     case Role::core:
       body.material = first_known({"furan_sand", "green_sand"});
       body.start = process.mould == Role::die ? 80 : 20;
+      if (process.shell > 0) {  // a core that is fired with the shell
+        body.material = first_known(process.materials);
+        body.start = shell_start(draft, process);
+      }
       break;
     case Role::mould:
     case Role::die:
       body.material = first_known(process.materials);
-      body.start = process.mould_start;
+      body.start = process.shell > 0 ? shell_start(draft, process) : process.mould_start;
+      if (process.shell > 0) body.comment = "poured hot from the furnace: an estimate, by the liquidus";
       body.heat_only = process.mould == Role::die;
       if (body.heat_only) body.comment = "physics = \"all\" gives its stresses too, at the price of time";
       break;

@@ -39,6 +39,9 @@ material::Material alloy_of(const NewCaseOptions& options, const CastingProcess&
     throw InputError({"--shots"},
                      fmt::format("the mould of the process '{}' is lost with its casting", process.name),
                      "--process gravity_die or high_pressure, or no --shots");
+  if (options.shell > 0 && process.shell <= 0)
+    throw InputError({"--shell"}, fmt::format("the process '{}' has no shell", process.name),
+                     "--process shell, or no --shell and --coats");
   return alloy;
 }
 

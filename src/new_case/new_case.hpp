@@ -21,6 +21,7 @@ struct NewCaseOptions {
   std::filesystem::path folder;    ///< for the case; empty: the file's name, here
   double fineness = 1;             ///< so many times as many elements along each edge
   int shots = 0;                   ///< castings in a row, in a die; zero: one casting, without stages
+  double shell = 0;                ///< thickness of an investment shell [m]; zero: that of the process
 };
 
 /// The names of the processes.

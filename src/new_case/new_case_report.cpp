@@ -170,10 +170,13 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
   if (draft.symmetry)
     out += fmt::format("\n  symmetry    the half below {} = {:.4g} mm is computed",
                        "xyz"[draft.symmetry->axis], 1e3 * draft.symmetry->at);
-  if (draft.mould)
-    out += fmt::format("\n  {:<10}  walls of {:.3g} mm{}", draft.mould->name,
-                       1e3 * *std::ranges::max_element(draft.mould->walls),
-                       draft.mould->walls[5] == 0 ? ", open at the top, where the riser ends" : "");
+  if (draft.mould) {
+    const std::string open = draft.mould->walls[5] == 0 ? ", open at the top, where the metal ends" : "";
+    out += draft.shell ? fmt::format("\n  {:<10}  {:.3g} mm thick, on all of the skin{}", draft.shell->name,
+                                     1e3 * draft.shell->thickness, open)
+                       : fmt::format("\n  {:<10}  walls of {:.3g} mm{}", draft.mould->name,
+                                     1e3 * *std::ranges::max_element(draft.mould->walls), open);
+  }
   out += fmt::format("\n  mesh        {:.0f} nodes, {:.0f} of them in metal; {}", estimate.nodes,
                      estimate.metal_nodes,
                      draft.meshed ? std::string("elements as the file has them")
@@ -199,8 +202,6 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
   out += doubtful_unit_text(options, part);
   out += unknown_bodies_text(draft, options.as);
   if (!draft.meshed) out += thin_walls_text(draft, part);
-  if (draft.process == "shell" && draft.mould)
-    out += "\n  note        the shell is a block around the part with thin walls, not an offset of its skin";
   return out;
 }
 

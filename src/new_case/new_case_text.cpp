@@ -49,18 +49,25 @@ std::string mesh_text(const Draft& d) {
     else
       t += fmt::format(
           "[[mesh.size]]\nbody = {}\nsize = {}\nacross = 0\ngrowth = {}  # away from the metal\n\n",
-          quoted(b.group), mm(d.mould_size), has_layers(b.role) ? k_growth_of_sand : k_growth);
+          quoted(d.shell && b.group == d.shell->name ? d.mould->name : b.group), mm(d.mould_size),
+          has_layers(b.role) ? k_growth_of_sand : k_growth);
   }
   // Block, riser, symmetry and layers, as far as the draft has them.
   if (d.mould) {
     const auto& w = d.mould->walls;
     const bool even = std::all_of(w.begin(), w.end(), [&](double x) { return x == w[0]; });
-    t += fmt::format("[mesh.mould]   # a block around the parts\nname = {}\nwalls = ", quoted(d.mould->name));
+    t += fmt::format("[mesh.mould]   # a block around the parts{}\nname = {}\nwalls = ",
+                     d.shell ? ", out of which the shell is cut" : "", quoted(d.mould->name));
     t += even ? mm(w[0]) + "\n\n"
               : fmt::format(
                     "[{}, {}, {}, {}, {}, {}]   # lowest and highest x, y, z; 0: the parts end there\n\n",
                     mm(w[0]), mm(w[1]), mm(w[2]), mm(w[3]), mm(w[4]), mm(w[5]));
   }
+  if (d.shell)
+    t += fmt::format(
+        "[[mesh.coat]]   # more of them from the metal outward: a face coat of another ceramic, a back-up\n"
+        "name = {}\nthickness = {}\n\n",
+        quoted(d.shell->name), mm(d.shell->thickness));
   if (d.riser)
     t += fmt::format(
         "[mesh.riser]   # 1.2 times the modulus of the thickest place, on top of it\nname = {}\n"
@@ -166,6 +173,18 @@ std::string channel_films_text(const Draft& d) {
   return t;
 }
 
+/// Radiation of the free skin of a body to a room; a skin that sees itself is taken to see the room alone.
+std::string radiation_text(const Draft& d, const std::string& body) {
+  const bool is_shell = body == d.shell->name;
+  return fmt::format(
+      "[[thermal_condition]]   # {1}\nname = \"radiation_of_{0}\"\ngroup = \"{0}_free\"\n"
+      "kind = \"radiation\"\nemissivity = {2:g}\nambient = \"20 degC\"\n\n",
+      body,
+      is_shell ? "a fired shell in a room; beside others on one tree it sees less of it: an estimate"
+               : "metal under its skin of oxide: an estimate",
+      is_shell ? 0.8 : 0.4);
+}
+
 /// The film on the free skin of a body: that of the air, or for a die that casts shot after shot that of its
 /// channels.
 std::string film_text(const Draft& d, const std::string& body) {
@@ -184,9 +203,10 @@ std::string film_text(const Draft& d, const std::string& body) {
                    found->start)
              : d.film_source;
   return fmt::format(
-      "[[thermal_condition]]   # {}\nname = \"{}_{}\"\ngroup = \"{}_free\"\nkind = \"film\"\n"
-      "coefficient = \"{:g} W/m2/K\"\nambient = \"20 degC\"\n\n",
-      source, cooled ? "cooling_of" : "air_on", body, body, cooled ? d.shots->cooling : d.film);
+             "[[thermal_condition]]   # {}\nname = \"{}_{}\"\ngroup = \"{}_free\"\nkind = \"film\"\n"
+             "coefficient = \"{:g} W/m2/K\"\nambient = \"20 degC\"\n\n",
+             source, cooled ? "cooling_of" : "air_on", body, body, cooled ? d.shots->cooling : d.film) +
+         (d.shell ? radiation_text(d, body) : std::string());
 }
 
 std::string body_text(const DraftBody& b, bool shots) {

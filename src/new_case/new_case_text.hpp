@@ -25,6 +25,12 @@ struct DraftMould {
   std::array<double, 6> walls{};  ///< [m]
 };
 
+/// An investment shell, cut out of the mould's block.
+struct DraftShell {
+  std::string name = "shell";
+  double thickness = 0;  ///< [m]
+};
+
 /// Shots in a die: the casting freezes, leaves, and the next one comes.
 struct DraftShots {
   int number = 0;
@@ -69,6 +75,7 @@ struct Draft {
   double size = 0, smallest = 0, mould_size = 0;
   std::vector<DraftBody> bodies;
   std::optional<DraftMould> mould;
+  std::optional<DraftShell> shell;
   std::optional<DraftRiser> riser;
   std::optional<DraftSymmetry> symmetry;
   std::vector<DraftLayers> layers;

@@ -87,6 +87,29 @@ void check_face_rule(const MeshGroupSpec& g) {
     refuse("'normal' has no length", "a direction");
 }
 
+/// Coats are cut out of a block that is thick enough for all of them.
+void check_coats(const MeshSpec& m) {
+  if (m.coats.empty()) {
+    if (m.mould && m.mould->bed)
+      throw InputError(m.mould->where, "'bed' is what lies beyond coats, and there is no [[mesh.coat]]",
+                       "[[mesh.coat]], or no 'bed'");
+    return;
+  }
+  const SourceLocation& where = m.coats.front().where;
+  if (!m.mould)
+    throw InputError(where, "[[mesh.coat]] is cut out of a block of mould, and there is no [mesh.mould]",
+                     "[mesh.mould] with walls thicker than all coats together");
+  check_names(m.coats, "[[mesh.coat]]");
+  double whole = 0;
+  for (const MeshCoatSpec& coat : m.coats) whole += coat.thickness;
+  for (const double wall : m.mould->walls)
+    if (wall > 0 && wall <= whole)
+      throw InputError(m.mould->where,
+                       fmt::format("a wall of {:g} mm has no room for coats that are {:g} mm thick together",
+                                   1e3 * wall, 1e3 * whole),
+                       fmt::format("more than {:g} mm, or 0 where the shell is open", 1e3 * whole));
+}
+
 /// Names of bodies, and that a friction has heat.
 void check_interfaces(const CaseSpec& spec) {
   const std::vector<std::string> bodies = names_of(spec.bodies);
@@ -129,6 +152,7 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
   if (m.mould && m.mould->walls.size() != 1 && m.mould->walls.size() != 6)
     throw InputError(m.mould->where, fmt::format("'walls' has {} lengths", m.mould->walls.size()),
                      "one, or six: lowest and highest x, y and z");
+  check_coats(m);
   // Sizes, mould, riser and symmetry make the mesh of a casting from a geometry, and exclude what sizes
   // elements otherwise.
   const bool of_casting = !m.sizes.empty() || m.mould || m.riser || m.symmetry;

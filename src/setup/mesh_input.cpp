@@ -10,6 +10,7 @@
 
 #include "mesh/files/file_unit.hpp"
 #include "mesh/making/casting_geometry.hpp"
+#include "mesh/making/coats.hpp"
 #include "mesh/making/parametric_meshes.hpp"
 #include "mesh/making/wall_layers.hpp"
 #include "mesh/message.hpp"
@@ -94,6 +95,17 @@ mesh::CastingGeometry casting_geometry(const MeshSpec& m) {
   return geometry;
 }
 
+/// Cuts the coats of a shell out of the block of mould.
+void add_coats(const MeshSpec& m, const std::string& source, mesh::RawMesh& mesh) {
+  if (m.coats.empty()) return;
+  std::vector<mesh::Coat> coats;
+  for (const MeshCoatSpec& coat : m.coats) coats.push_back({coat.name, coat.thickness});
+  const auto reports = mesh::make_coats(mesh, m.mould->name, coats, m.mould->bed, source);
+  for (std::size_t i = 0; i < reports.size(); ++i)
+    logging::info("coat '{}': {:.3g} mm thick, {:.4g} cm3, {} elements", reports[i].name,
+                  1e3 * coats[i].thickness, 1e6 * reports[i].volume, reports[i].elements);
+}
+
 /// Sections of one body with as many layers of equal growth are made together, so that layers of neighbours
 /// meet.
 void add_layers(const std::vector<MeshLayersSpec>& sections, const std::string& source, mesh::RawMesh& mesh) {
@@ -142,6 +154,7 @@ mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) 
     result = m.sizes.empty() && !m.mould && !m.riser && !m.symmetry
                  ? mesh::read_mesh(source)
                  : mesh::mesh_casting(source, casting_geometry(m));
+    add_coats(m, name, result);
   } else {
     try {
       result = built_in_shape(m);

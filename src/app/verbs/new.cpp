@@ -3,6 +3,8 @@
 
 #include "app/case_arguments.hpp"
 #include "app/verb.hpp"
+#include "input/units.hpp"
+#include "new_case/casting_processes.hpp"
 #include "new_case/new_case.hpp"
 
 namespace solidus::app {
@@ -14,8 +16,27 @@ struct NewArguments {
   std::string process = "sand", unit;
   std::vector<std::string> as;  ///< "NAME=role"
   double fineness = 1;
-  int shots = 0;  ///< zero: not given
+  int shots = 0;      ///< zero: not given
+  std::string shell;  ///< thickness, with its unit
+  int coats = 0;      ///< zero: not given
 };
+
+/// Thickness of the shell [m]; zero where none is asked for. Throws InputError.
+double shell_of(const NewArguments& arguments) {
+  if (arguments.shell.empty()) return arguments.coats * model::k_coat_of_shell;
+  if (arguments.coats > 0)
+    throw InputError({"--coats"}, "--shell says how thick the shell is already", "one of the two");
+  double thickness = 0;
+  try {
+    thickness = units::parse_quantity(arguments.shell, "m");
+  } catch (const std::exception& error) {
+    throw InputError({"--shell"}, error.what(), "a length with its unit, \"8 mm\"");
+  }
+  if (!(thickness > 0 && thickness <= 0.1))
+    throw InputError({"--shell"}, fmt::format("a shell of {:g} mm", 1e3 * thickness),
+                     "up to 100 mm; 6 to 10 are usual");
+  return thickness;
+}
 
 ExitCode new_case(const NewArguments& arguments) {
   model::NewCaseOptions options;
@@ -28,6 +49,7 @@ ExitCode new_case(const NewArguments& arguments) {
   options.folder = arguments.folder;
   options.fineness = arguments.fineness;
   options.shots = arguments.shots;
+  options.shell = shell_of(arguments);
   // Options that only some values make sense of are checked before the geometry is read.
   if (!arguments.riser.empty() && arguments.riser != "auto")
     throw InputError({"--riser"}, fmt::format("'{}' is no riser", arguments.riser), "--riser auto");
@@ -54,6 +76,11 @@ class New final : public Verb {
         .add_option("--shots", a.shots,
                     "Castings in a row into one die, which stays warm; for gravity_die and high_pressure")
         ->check(CLI::Range(1, 10000))
+        ->type_name("N");
+    command().add_option("--shell", a.shell, "With --process shell: its thickness, default \"8 mm\"");
+    command()
+        .add_option("--coats", a.coats, "With --process shell: its thickness as dipped coats of 1.1 mm each")
+        ->check(CLI::Range(1, 40))
         ->type_name("N");
     command().add_option("--riser", a.riser, "auto: put a riser on the thickest place");
     command().add_option("--symmetry", a.symmetry, "x, y or z: keep half of the part, below its middle");

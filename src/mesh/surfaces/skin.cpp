@@ -160,6 +160,17 @@ std::optional<SkinSearch::Found> SkinSearch::facing(const Point& point, const Po
   return best;
 }
 
+std::optional<SkinSearch::Found> SkinSearch::nearest(const Point& point) const {
+  const auto here = cells_.find(cell(point));
+  if (here == cells_.end()) return {};
+  std::optional<Found> best;
+  for (const std::size_t f : here->second) {
+    const double distance = length(nearest_on_face(faces_[f], point) - point);
+    if (distance <= reach_ && (!best || distance < best->distance)) best = Found{f, distance};
+  }
+  return best;
+}
+
 std::vector<Point> sample_points(const SkinFace& face) {
   const std::vector<Point>& x = face.corners;
   const auto towards = [&](const Point& corner, double share) {

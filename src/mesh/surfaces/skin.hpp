@@ -45,6 +45,8 @@ class SkinSearch {
   /// The nearest face within reach that looks the other way: its normal and `normal` have a product below
   /// −`opposed`. Nothing where there is none.
   std::optional<Found> facing(const Point& point, const Point& normal, double opposed = 0.3) const;
+  /// The nearest face within reach, whichever way it looks. Nothing where there is none.
+  std::optional<Found> nearest(const Point& point) const;
 
  private:
   using Cell = std::array<long, 3>;

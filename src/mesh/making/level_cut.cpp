@@ -1,0 +1,376 @@
+#include "mesh/making/level_cut.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "mesh/making/unused_parts.hpp"
+#include "mesh/making/wall_topology.hpp"
+#include "mesh/tetrahedra.hpp"
+#include "system/errors.hpp"
+
+namespace solidus::mesh {
+
+namespace {
+
+using Corners = std::array<Index, 4>;
+using Prism = std::array<Index, 6>;
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+Point between(const Point& a, const Point& b, double share) {
+  return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])};
+}
+
+/// The six vertices of a prism in an order in which the least one comes first, and each of the upper triangle
+/// stands over its own of the lower one.
+Prism turned(const Prism& prism) {
+  constexpr std::array<std::array<std::size_t, 6>, 6> k_order = {{{0, 1, 2, 3, 4, 5},
+                                                                  {1, 2, 0, 4, 5, 3},
+                                                                  {2, 0, 1, 5, 3, 4},
+                                                                  {3, 5, 4, 0, 2, 1},
+                                                                  {4, 3, 5, 1, 0, 2},
+                                                                  {5, 4, 3, 2, 1, 0}}};
+  const auto least = static_cast<std::size_t>(std::ranges::min_element(prism) - prism.begin());
+  Prism result;
+  for (std::size_t i = 0; i < 6; ++i) result[i] = prism[k_order[least][i]];
+  return result;
+}
+
+/// Three tetrahedra for a prism: the diagonal of each of its quadrilaterals begins at the vertex of the least
+/// number, so that the element on the other side draws the same one.
+std::array<Corners, 3> split(const Prism& prism) {
+  const Prism p = turned(prism);
+  if (std::min(p[1], p[5]) < std::min(p[2], p[4]))
+    return {{{p[0], p[1], p[2], p[5]}, {p[0], p[1], p[5], p[4]}, {p[0], p[4], p[5], p[3]}}};
+  return {{{p[0], p[1], p[2], p[4]}, {p[0], p[4], p[2], p[5]}, {p[0], p[4], p[5], p[3]}}};
+}
+
+class LevelCut {
+ public:
+  LevelCut(RawMesh& mesh, const std::string& body, const LevelFunction& level, const std::string& source)
+      : mesh_(mesh), body_(mesh.groups.at(body)), level_(level) {
+    for (const RawBlock& block : body_.blocks) {
+      if (block.shape != Shape::tet4 && block.shape != Shape::tet10)
+        throw InputError({source},
+                         "the body '" + body + "' has elements of " + std::string(mesh::name(block.shape)) +
+                             ", which cannot be cut into coats",
+                         "tetrahedra");
+      order_ = block.shape == Shape::tet10 ? 2 : order_;
+    }
+    read_tetrahedra();
+    find_held_nodes(body);
+  }
+
+  void cut(RawGroup& below) {
+    for (std::size_t i = 0; i < mesh_.x.size(); ++i)
+      if (!around_[i].empty()) value_[i] = level_(mesh_.x[i]);
+    split_edges_across();
+    find_planes();
+    draw_nodes_onto_surface();
+    std::vector<Corners> lower, upper;
+    for (const Corners& tet : tets_) cut(tet, lower, upper);
+    find_middles();
+    write(below, lower, true);
+    write(body_, upper, false);
+  }
+
+ private:
+  void read_tetrahedra() {
+    around_.resize(mesh_.x.size());
+    value_.assign(mesh_.x.size(), 0);
+    for (const RawBlock& block : body_.blocks) {
+      const auto n = static_cast<std::size_t>(node_count(block.shape));
+      for (std::size_t e = 0; e < block.nodes.size(); e += n) {
+        Corners tet;
+        std::copy_n(block.nodes.begin() + static_cast<std::ptrdiff_t>(e), 4, tet.begin());
+        for (const Index node : tet) around_[at(node)].push_back(tets_.size());
+        tets_.push_back(upright(tet));
+      }
+    }
+    last_node_ = *std::ranges::max_element(mesh_.input_node);
+    for (const auto& [name, group] : mesh_.groups)
+      for (const RawBlock& block : group.blocks)
+        for (const GlobalIndex number : block.input_element) last_element_ = std::max(last_element_, number);
+  }
+
+  double volume(const Corners& t) const {
+    return volume_6(mesh_.x[at(t[0])], mesh_.x[at(t[1])], mesh_.x[at(t[2])], mesh_.x[at(t[3])]);
+  }
+  double quality(const Corners& t) const {
+    return mean_ratio(mesh_.x[at(t[0])], mesh_.x[at(t[1])], mesh_.x[at(t[2])], mesh_.x[at(t[3])]);
+  }
+  Corners upright(Corners tet) const {
+    if (volume(tet) < 0) std::swap(tet[2], tet[3]);
+    return tet;
+  }
+
+  /// Nodes of other groups stay where they are, and so do the edges between them that these groups have.
+  void find_held_nodes(const std::string& body) {
+    held_.assign(mesh_.x.size(), 0);
+    for (const auto& [name, group] : mesh_.groups) {
+      if (name == body) continue;
+      for (const RawBlock& block : group.blocks) {
+        const auto n = static_cast<std::size_t>(node_count(block.shape));
+        const std::vector<LocalEdge> edges = edges_of(block.shape);
+        for (std::size_t e = 0; e < block.nodes.size(); e += n) {
+          for (std::size_t a = 0; a < n; ++a) held_[at(block.nodes[e + a])] = 1;
+          for (const LocalEdge& edge : edges) {
+            const Index a = block.nodes[e + static_cast<std::size_t>(edge.a)],
+                        b = block.nodes[e + static_cast<std::size_t>(edge.b)];
+            if (!around_[at(a)].empty() && !around_[at(b)].empty()) held_edges_.insert(edge_key(a, b));
+          }
+        }
+      }
+    }
+  }
+
+  /// Edges both of whose ends lie on one side of the surface and the middle well on the other get a node
+  /// there: elements that reach across a narrow space between two parts of the surface would fill it.
+  void split_edges_across() {
+    constexpr int k_passes = 3;
+    constexpr double k_well = 0.1;  // of the edge
+    for (int pass = 0; pass < k_passes; ++pass) {
+      std::set<Edge> across;
+      for (const Corners& tet : tets_)
+        for (const auto& e : k_edges) {
+          const Edge edge = edge_key(tet[e[0]], tet[e[1]]);
+          if (value_[at(edge.first)] * value_[at(edge.second)] <= 0 || held_edges_.contains(edge)) continue;
+          const Point &a = mesh_.x[at(edge.first)], &b = mesh_.x[at(edge.second)];
+          const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+          // The function changes by no more than the distance: most edges need no further look.
+          if (std::abs(value_[at(edge.first)]) > length) continue;
+          const double middle = level_(between(a, b, 0.5));
+          if (middle * value_[at(edge.first)] < 0 && std::abs(middle) > k_well * length) across.insert(edge);
+        }
+      if (across.empty()) return;
+      for (const Edge& edge : across) split_edge(edge);
+    }
+  }
+  void split_edge(const Edge& edge) {
+    const auto [a, b] = edge;
+    const Index middle = add_node(between(mesh_.x[at(a)], mesh_.x[at(b)], 0.5));
+    value_.push_back(level_(mesh_.x.back()));
+    held_.push_back(0);
+    around_.emplace_back();
+    const std::vector<std::size_t> with_a = around_[at(a)];
+    for (const std::size_t t : with_a) {
+      if (std::ranges::find(tets_[t], b) == tets_[t].end()) continue;
+      Corners other = tets_[t];
+      std::ranges::replace(tets_[t], b, middle);
+      std::ranges::replace(other, a, middle);
+      std::erase(around_[at(b)], t);
+      around_[at(middle)].push_back(t);
+      for (const Index node : other) around_[at(node)].push_back(tets_.size());
+      tets_.push_back(other);
+    }
+  }
+
+  /// Nodes on the outside of the mesh stay in the planes of the faces that they are in.
+  void find_planes() {
+    std::map<std::array<Index, 3>, int> count;
+    constexpr std::array<std::array<std::size_t, 3>, 4> k_faces = {
+        {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+    for (const Corners& tet : tets_)
+      for (const auto& f : k_faces) {
+        std::array<Index, 3> face = {tet[f[0]], tet[f[1]], tet[f[2]]};
+        std::ranges::sort(face);
+        ++count[face];
+      }
+    for (const auto& [face, n] : count) {
+      if (n > 1) continue;
+      const Point &a = mesh_.x[at(face[0])], &b = mesh_.x[at(face[1])], &c = mesh_.x[at(face[2])];
+      const Point u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+      Point normal = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+      const double length = std::hypot(normal[0], normal[1], normal[2]);
+      for (double& component : normal) component /= length;
+      for (const Index node : face) planes_[node].push_back(normal);
+    }
+  }
+
+  bool may_go(Index node, const Point& along) const {
+    constexpr double k_in_plane = 1e-9;
+    if (held_[at(node)] != 0) return false;
+    const auto planes = planes_.find(node);
+    if (planes == planes_.end()) return true;
+    const double length = std::hypot(along[0], along[1], along[2]);
+    return std::ranges::all_of(planes->second, [&](const Point& n) {
+      return std::abs(n[0] * along[0] + n[1] * along[1] + n[2] * along[2]) <= k_in_plane * length;
+    });
+  }
+
+  /// How far along the edge from a node below to one above the surface it is crossed, as a share, by halving.
+  double crossing(Index below, Index above) const {
+    constexpr int k_halvings = 20;
+    double low = 0, high = 1;
+    for (int i = 0; i < k_halvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (level_(between(mesh_.x[at(below)], mesh_.x[at(above)], middle)) < 0 ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  }
+
+  /// Each node goes along the edge on which the surface is nearest, in the order of the nodes, unless an
+  /// element around it would become poor by it.
+  void draw_nodes_onto_surface() {
+    constexpr double k_near = 0.3, k_least_quality = 0.2;
+    for (std::size_t i = 0; i < mesh_.x.size(); ++i) {
+      const auto node = static_cast<Index>(i);
+      if (around_[i].empty() || held_[i] != 0 || value_[i] == 0) continue;
+      double nearest = k_near;
+      Point place = mesh_.x[i];
+      std::set<Index> seen;
+      for (const std::size_t t : around_[i])
+        for (const Index other : tets_[t]) {
+          if (value_[at(other)] * value_[i] >= 0 || !seen.insert(other).second) continue;
+          const bool is_below = value_[i] < 0;
+          const double t_below = is_below ? crossing(node, other) : crossing(other, node);
+          const double share = is_below ? t_below : 1 - t_below;
+          const Point there = between(mesh_.x[i], mesh_.x[at(other)], share);
+          const Point along = {there[0] - mesh_.x[i][0], there[1] - mesh_.x[i][1], there[2] - mesh_.x[i][2]};
+          if (share < nearest && may_go(node, along)) nearest = share, place = there;
+        }
+      if (nearest == k_near) continue;
+      const Point before = std::exchange(mesh_.x[i], place);
+      const bool sound = std::ranges::all_of(
+          around_[i], [&](std::size_t t) { return quality(tets_[t]) >= k_least_quality; });
+      if (sound)
+        value_[i] = 0;
+      else
+        mesh_.x[i] = before;
+    }
+  }
+
+  /// The node in which the surface crosses an edge: the lower end where that lies on it.
+  Index cut_node(Index below, Index above) {
+    if (value_[at(below)] == 0) return below;
+    const auto [place, is_new] = cut_nodes_.emplace(edge_key(below, above), -1);
+    if (is_new) {
+      place->second = static_cast<Index>(mesh_.x.size());
+      const Point x = between(mesh_.x[at(below)], mesh_.x[at(above)], crossing(below, above));
+      add_node(x);
+    }
+    return place->second;
+  }
+  Index add_node(const Point& x) {
+    mesh_.x.push_back(x);
+    mesh_.input_node.push_back(++last_node_);
+    return static_cast<Index>(mesh_.x.size()) - 1;
+  }
+
+  void cut(const Corners& tet, std::vector<Corners>& lower, std::vector<Corners>& upper) {
+    std::vector<Index> below, above;
+    bool any_below = false;
+    for (const Index node : tet) {
+      any_below = any_below || value_[at(node)] < 0;
+      (value_[at(node)] <= 0 ? below : above).push_back(node);
+    }
+    // An element all of whose nodes lie on the surface goes to the side of its middle.
+    if (above.empty() || !any_below) {
+      bool is_below = any_below;
+      if (above.empty() && !any_below) {
+        Point middle{};
+        for (const Index node : tet)
+          for (std::size_t i = 0; i < 3; ++i) middle[i] += mesh_.x[at(node)][i] / 4;
+        is_below = level_(middle) < 0;
+      }
+      (is_below ? lower : upper).push_back(tet);
+      return;
+    }
+    // One vertex alone on its side is a tetrahedron and leaves a prism; two and two are two prisms.
+    if (below.size() == 1) {
+      const Index a = cut_node(below[0], above[0]), b = cut_node(below[0], above[1]),
+                  c = cut_node(below[0], above[2]);
+      keep(lower, Corners{below[0], a, b, c});
+      keep(upper, Prism{a, b, c, above[0], above[1], above[2]});
+    } else if (above.size() == 1) {
+      const Index a = cut_node(below[0], above[0]), b = cut_node(below[1], above[0]),
+                  c = cut_node(below[2], above[0]);
+      keep(upper, Corners{above[0], a, b, c});
+      keep(lower, Prism{below[0], below[1], below[2], a, b, c});
+    } else {
+      const Index ik = cut_node(below[0], above[0]), il = cut_node(below[0], above[1]),
+                  jk = cut_node(below[1], above[0]), jl = cut_node(below[1], above[1]);
+      keep(lower, Prism{below[0], ik, il, below[1], jk, jl});
+      keep(upper, Prism{above[0], ik, jk, above[1], il, jl});
+    }
+  }
+  /// Elements of which two vertices are one have no volume.
+  void keep(std::vector<Corners>& side, const Corners& tet) {
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (tet[a] == tet[b]) return;
+    side.push_back(upright(tet));
+  }
+  void keep(std::vector<Corners>& side, const Prism& prism) {
+    for (const Corners& tet : split(prism)) keep(side, tet);
+  }
+
+  /// The nodes in the middles of the edges of all second-order tetrahedra, as they were.
+  void find_middles() {
+    if (order_ == 1) return;
+    for (const auto& [name, group] : mesh_.groups)
+      for (const RawBlock& block : group.blocks) {
+        if (block.shape != Shape::tet10) continue;
+        for (std::size_t e = 0; e < block.nodes.size(); e += 10)
+          for (std::size_t k = 0; k < 6; ++k)
+            middles_.emplace(edge_key(block.nodes[e + k_edges[k][0]], block.nodes[e + k_edges[k][1]]),
+                             block.nodes[e + 4 + k]);
+      }
+    // Edges whose ends have been drawn onto the surface are straight.
+    for (const auto& [edge, node] : middles_)
+      if (held_[at(node)] == 0)
+        mesh_.x[at(node)] = between(mesh_.x[at(edge.first)], mesh_.x[at(edge.second)], 0.5);
+  }
+  Index middle(Index a, Index b) {
+    const auto [place, is_new] = middles_.emplace(edge_key(a, b), -1);
+    if (is_new) place->second = add_node(between(mesh_.x[at(a)], mesh_.x[at(b)], 0.5));
+    return place->second;
+  }
+
+  void write(RawGroup& group, const std::vector<Corners>& tets, bool adds) {
+    RawBlock block{order_ == 2 ? Shape::tet10 : Shape::tet4, {}, {}};
+    for (const Corners& tet : tets) {
+      block.nodes.insert(block.nodes.end(), tet.begin(), tet.end());
+      for (std::size_t k = 0; order_ == 2 && k < 6; ++k)
+        block.nodes.push_back(middle(tet[k_edges[k][0]], tet[k_edges[k][1]]));
+      block.input_element.push_back(++last_element_);
+    }
+    if (!adds) group.blocks.clear();
+    group.dimension = 3;
+    if (!block.nodes.empty()) group.blocks.push_back(std::move(block));
+  }
+
+  /// Of a second-order tetrahedron, in Gmsh's order.
+  static constexpr std::array<std::array<std::size_t, 2>, 6> k_edges = {
+      {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {3, 2}, {3, 1}}};
+
+  RawMesh& mesh_;
+  RawGroup& body_;
+  const LevelFunction& level_;
+  int order_ = 1;
+  std::vector<Corners> tets_;                     ///< of the body, with positive volumes
+  std::vector<std::vector<std::size_t>> around_;  ///< [node]: which of them it is in
+  std::vector<double> value_;                   ///< [node] of the function; zero where drawn onto the surface
+  std::vector<char> held_;                      ///< [node]: of other groups too
+  std::set<Edge> held_edges_;                   ///< that other groups have
+  std::map<Index, std::vector<Point>> planes_;  ///< normals of the outside at its nodes
+  std::map<Edge, Index> cut_nodes_, middles_;
+  GlobalIndex last_node_ = 0, last_element_ = 0;
+};
+
+}  // namespace
+
+void cut_at_level(RawMesh& mesh, const std::string& body, const std::string& below,
+                  const LevelFunction& level, const std::string& source) {
+  LevelCut(mesh, body, level, source).cut(mesh.groups[below]);
+  leave_out_unused(mesh);
+}
+
+}  // namespace solidus::mesh
