@@ -169,7 +169,7 @@ class NewCase(ProgramTest):
         self.assertEqual(roles, {"bearing_block": "casting", "riser": "riser", "sleeve": "sleeve", "chill": "chill", "mould": "mould"})
         # The riser is the highest of all: the sand is open over it.
         self.assertEqual(case["mesh"]["mould"]["walls"][5], "0 mm")
-        self.assertIn("open at the top, where the riser ends", text)
+        self.assertIn("open at the top, where the metal ends", text)
         # By heat alone the riser is solid after 675 s.
         estimate = float(re.search(r"freezes +in about ([\d.e+]+) s", text)[1])
         self.assertTrue(340 < estimate < 1350, text)
