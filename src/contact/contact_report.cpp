@@ -31,12 +31,15 @@ bool seems_left(const ContactView& pair, Index point) {
 /// The area that has left its wall and the largest gap, where the surfaces really are: melt that has slid
 /// along a wall of flat faces has not. Collective.
 void measure_left(const ContactView& pair, const ContactKinematics& kinematics, ContactSums& sums) {
+  // The distance to the true surface of the wall needs a search, which only a meshed master has; a
+  // rigid surface is exact, so that its penetration is the distance.
   std::optional<WallDistance> wall;
   if (!pair.spec.rigid_master)
     wall.emplace(ContactSurface(pair.geometry.mesh(), pair.spec.master), pair.end.displacement,
                  pair.geometry.components());
   double points = 0, area = 0, gap = 0;
   for (Index p = 0; p < kinematics.n_points(); ++p) {
+    // Cheap tests come first: most points of a casting in its mould have not left the wall at all.
     const ContactKinematics::Particle particle = kinematics.particle(p);
     if (!particle.counted || !seems_left(pair, p)) continue;
     const double along = -pair.end.state.points[at(p)].penetration,
@@ -47,6 +50,8 @@ void measure_left(const ContactView& pair, const ContactKinematics& kinematics, 
     area += particle.weight;
     gap = std::max(gap, opened);
   }
+  // Sums go over processes once, after the loop; each point is counted by the process that owns its
+  // slave face.
   sums.left_points = std::llround(parallel::global_sum(points));
   sums.left_area = parallel::global_sum(area);
   sums.left_gap = parallel::global_max(gap);
@@ -56,6 +61,8 @@ void measure_left(const ContactView& pair, const ContactKinematics& kinematics, 
 double interface_energy_here(const ContactView& pair) {
   const ContactKinematics& kinematics =
       pair.geometry.at(pair.end.time, pair.end.displacement, ContactKinematics::Points::own);
+  // Only points with a temperature of their own store heat: those whose interface has a heat
+  // capacity.
   double energy = 0;
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactKinematics::Particle particle = kinematics.particle(p);

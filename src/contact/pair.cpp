@@ -96,6 +96,7 @@ void ContactPair::hold(const ContactState& old, double time, double dt, std::spa
 }
 
 const ContactState& ContactPair::update(std::span<const double> displacement) {
+  // The end of the step is copied first: wear and heat below refer to it.
   end_.displacement.assign(displacement.begin(), displacement.end());
   end_.time = step_.time;
   const ContactKinematics& kinematics = geometry_->at(end_.time, end_.displacement);
@@ -106,6 +107,8 @@ const ContactState& ContactPair::update(std::span<const double> displacement) {
   const bool fixed = !kinematics.partners_change() && partners_.n_points() > 0;
   if (!fixed) partners_.clear();
   if (heat_) {
+    // The heat term is filled point by point along with the forces: what it needs of the motion is
+    // then at hand.
     heat_->term().set_tool_temperature(tool_temperature());
     heat_->clear(points.size());
   }
@@ -114,8 +117,11 @@ const ContactState& ContactPair::update(std::span<const double> displacement) {
     const ContactPointState& from = step_.from[at(p)];
     ContactPointState& now = points[at(p)];
     const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::motion);
+    // Forces depend on the state at the start of the step alone, so that a call at another
+    // displacement begins from the same state.
     const PointForces forces = forces_->at(motion, p);
     now = forces_->law().next(motion, from, forces);
+    // A pair that is not active keeps no anchors: it starts without slip when it becomes active.
     if (!active_) now.anchored = false;
     history_->wear_master(motion, now, forces, end_.state.master);
     if (!fixed) partners_.add(motion, kinematics.particle(p).counted);
@@ -130,6 +136,7 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
   step_.time = step_.begun = time;
   step_.dt = 0;
   step_.coupled = {};
+  // All that belongs to a step under way is dropped: its coupling, its iterates and its heat.
   step_.iterate.clear();
   if (heat_) heat_->reset();
   step_.displacement.assign(displacement.begin(), displacement.end());
@@ -137,6 +144,8 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
   // Gaps and the points of the heat term follow from the motion alone: what the last step did is in the
   // state.
   std::vector<ContactPointState>& points = end_.state.points;
+  // The points are as the checkpoint has them, so that a restart has the same bits; only the
+  // penetration is that of the motion.
   for (std::size_t p = 0; p < points.size(); ++p) {
     const double penetration = points[p].penetration;
     points[p] = step_.from[p];
@@ -179,11 +188,14 @@ std::vector<HeatGap> ContactPair::heat_gaps_ahead(std::span<const double> displa
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     HeatGap& gap = gaps[at(p)];
     if (!gap.partnered || !(gap.penetration < 0)) continue;
+    // Points with a partner are taken by the motion at that place; they can come back to touching
+    // but not be pressed.
     const PointMotion motion =
         kinematics.motion(p, end_.state.points[at(p)], ContactKinematics::Asked::motion);
     gap.partnered = motion.partnered;
     if (motion.partnered) gap.penetration = std::min(motion.penetration + step_.from[at(p)].offset, 0.0);
   }
+  // The geometry is put back to the end of the step, which others refer to.
   geometry_->at(end_.time, end_.displacement);
   return gaps;
 }

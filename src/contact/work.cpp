@@ -36,6 +36,8 @@ double force_times_increment(const ContactView& pair, End end, std::span<const d
   const auto n = static_cast<std::size_t>(pair.geometry.components());
   double work = 0;
   for (Index p = 0; p < kinematics.n_points(); ++p) {
+    // Each point once, by the process that owns its slave face; open ones without pressure do no
+    // work.
     if (!kinematics.particle(p).counted) continue;
     const ContactPointState state = start ? pair.step.at_start(at(p)) : pair.end.state.points[at(p)];
     if (state.balance_pressure == 0 && state.status == PointStatus::open) continue;
@@ -59,11 +61,14 @@ double force_times_relative_way(const ContactView& pair, End end, std::span<cons
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactKinematics::Particle particle = kinematics.particle(p);
     const ContactPointState from = pair.step.at_start(at(p)), &to = pair.end.state.points[at(p)];
+    // Points that keep their partner are summed by force_times_increment; only those that met or
+    // left it within the step are left here.
     if (!particle.counted || from.anchored == to.anchored) continue;
     const ContactPointState& state = start ? from : to;
     if (!state.anchored || (state.balance_pressure == 0 && state.status == PointStatus::open)) continue;
     const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
     const Point force = force_on_master(motion, state, state.balance_pressure);
+    // The way of the slave's particle relative to the rigid master's.
     Point way = scale(-1, kinematics.master_way(p, pair.step.begun, pair.end.time));
     for (std::size_t b = 0; b < particle.nodes.size(); ++b)
       for (std::size_t i = 0; i < n; ++i)

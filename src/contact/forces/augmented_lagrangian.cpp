@@ -43,6 +43,8 @@ std::vector<double> AugmentedLagrangian::nodal_penetration(const ContactState& n
 
 void AugmentedLagrangian::accelerate(const std::vector<double>& penetration) {
   constexpr double k_longest = 30;
+  // At the first augmentation of a step nothing is known of how penetrations fall: every node takes
+  // the plain step.
   if (last_penetration_.size() != penetration.size()) {
     step_factor_.assign(penetration.size(), 1.0);
   } else {
@@ -96,12 +98,15 @@ std::vector<double> AugmentedLagrangian::step_of_points(const ContactState& now,
 
 void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, AugmentedBy by) {
   if (!acts() || ended_) return;
+  // The state before is kept for take_back(), by which the last augmentation ends without effect.
   if (may_end_) {
     left_ = largest(now).penetration;
     before_.clear();
     for (const ContactPointState& from : step.from) before_.push_back({from.multiplier, from.traction});
   }
   const bool by_means = by == AugmentedBy::means;
+  // Where steps of points are chosen by means around nodes, a point takes what its nodes say, so
+  // that pressures stay smooth along a face; by points each one follows its own penetration.
   std::vector<double> penetration;
   if (by_means) {
     penetration = nodal_penetration(now);
@@ -126,10 +131,13 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, Au
       step_of_point[at(p)] = from.multiplier - before;
       continue;
     }
+    // The mean penetration at the point is interpolated from its nodes, each with the factor of its
+    // own sequence.
     double grown = 0;
     const ContactKinematics::Particle particle = kinematics.particle(p);
     for (std::size_t b = 0; b < particle.nodes.size(); ++b)
       grown += particle.share[b] * step_factor_[at(particle.nodes[b])] * penetration[at(particle.nodes[b])];
+    // An open point keeps no pressure: it would hold the surfaces together when they touch again.
     if (now.points[at(p)].status == PointStatus::open)
       from.multiplier = least_multiplier(from);
     else

@@ -95,6 +95,8 @@ void ContactHistory::set_out_from(const ContactState& state, ContactStep& step) 
 }
 
 void ContactHistory::find_skins(const Solidity& of_nodes, ContactStep& step) const {
+  // A search for partners costs more than all the rest here, so it is left out where no skin can be
+  // molten, mushy or wetting.
   const auto molten = [](double c) { return c < k_coherent; };
   const bool wets = spec_.atmosphere > 0, rubs = law_.friction.has_value(), stiffens = law_.stiffening > 1;
   const bool any = (wets || rubs) && std::ranges::any_of(of_nodes.coherency, molten);
@@ -105,6 +107,8 @@ void ContactHistory::find_skins(const Solidity& of_nodes, ContactStep& step) con
   // A molten skin may be held by the pressure of the atmosphere and rubs as a liquid; a mushy one has a share
   // of the penalty.
   for (Index p = 0; p < kinematics.n_points(); ++p) {
+    // The point has touched if it was closed at the start of the step, or is held by the atmosphere
+    // that pressed it there before.
     ContactPointState& from = step.from[at(p)];
     const bool touched = from.status != PointStatus::open || from.suction > 0;
     from.suction = 0;
@@ -113,6 +117,8 @@ void ContactHistory::find_skins(const Solidity& of_nodes, ContactStep& step) con
     if (mushy || (any && (touched || rubs))) {
       const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::motion);
       const ContactKinematics::Particle slave = kinematics.particle(p);
+      // With a partner the skin is that of both sides together, since either may be the one that
+      // melts; without one it is the slave's.
       skin = motion.partnered ? skin_at(motion.nodes, motion.share, at(motion.n_slave), of_nodes)
                               : skin_at(slave.nodes, slave.share, slave.nodes.size(), of_nodes);
       from.molten = motion.partnered && skin.molten;

@@ -124,6 +124,8 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
   const ContactPointState& from = step_.from[at(point)];
   const PointForces f = law_.forces(motion, from, step_.coupled.around(motion), step_.iterate_of(point));
   if (!f.normal.closed && f.normal.balance_pressure == 0 && stabilisation_ == 0) return;
+  // An open point without stabilisation adds nothing; all others add w (B_b ⊗ dF) for every pair of
+  // their nodes.
   const std::size_t n = motion.nodes.size();
   const double w = motion.weight;
   const bool frictional = law_.friction.has_value() && f.normal.closed;
@@ -194,6 +196,7 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
 template <int dim>
 void MechanicsTerm::flush(Run& run, linear::BlockMatrix& matrix) {
   const std::size_t n = run.nodes.size();
+  // Blocks lie [b][c][i][j], so that one (b, c) is contiguous and is added to the matrix as it is.
   const auto entry = [&](std::size_t b, std::size_t c, std::size_t i, std::size_t j) -> double& {
     return run.k[((b * n + c) * dim + i) * dim + j];
   };
@@ -220,6 +223,8 @@ void MechanicsTerm::add_tangents(linear::BlockMatrix& matrix) {
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
     if (!kinematics_.concerns(p)) continue;
     const ContactPointState& from = step_.from[at(p)];
+    // Points of which no node is owned here have rows on other processes only, which compute them
+    // too.
     const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::rates);
     if (!motion.partnered || std::none_of(motion.nodes.begin(), motion.nodes.end(),
                                           [this](Index node) { return node < n_owned_; }))
@@ -250,6 +255,8 @@ void MechanicsTerm::add_temperature_tangent(linear::CoupledMatrix& matrix) {
     const PointMotion motion = kinematics_.motion(p, step_.from[at(p)], ContactKinematics::Asked::motion);
     const std::optional<Surroundings> around = step_.coupled.around(motion);
     if (!around) continue;
+    // Without a joint solution, or without traction, temperature changes no force: friction acts
+    // along the traction.
     const PointForces f = law_.forces(motion, step_.from[at(p)], around);
     if (!f.joint || !(norm(f.traction) > 0)) continue;
     // Θ_c by the sides, at fixed h and through h at their mean.
@@ -258,6 +265,8 @@ void MechanicsTerm::add_temperature_tangent(linear::CoupledMatrix& matrix) {
     by_side[0] += around->master_takes_heat ? 0.5 * by_mean : by_mean;
     by_side[1] += 0.5 * by_mean;
     if (by_side[0] == 0 && by_side[1] == 0) continue;
+    // The traction's size alone depends on temperature; its direction is that of the trial
+    // traction.
     const Point along = scale(1 / norm(f.traction), f.traction);
     const std::size_t n = motion.nodes.size();
     const auto slots = coupled_slots_.slots(p, motion.nodes);

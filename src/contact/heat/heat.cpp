@@ -77,6 +77,8 @@ void ContactHeat::hold(const ContactStep& step, std::span<const ContactPointStat
 
 HeatPoint ContactHeat::point(const ContactStep& step, const ContactPointState& from,
                              const ContactPointState& now, const PointForces& forces) const {
+  // What heat sees of the mechanics: the gap in which melt held by the atmosphere counts as closed,
+  // the pressure with its slope by penetration, and the heat made by friction.
   HeatPoint point{.penetration = seen_by_heat(now.penetration, now.pressure, now.suction),
                   .pressure = now.pressure,
                   .pressure_slope = now.pressure >= 0 ? forces.normal.tangent : 0.0,
@@ -212,6 +214,7 @@ void ContactHeat::add_displacement_tangent(const ContactKinematics& kinematics, 
                                            std::span<const ContactPointState> now,
                                            std::span<const double> temperature,
                                            linear::CoupledMatrix& matrix) {
+  // Both are scratch of one point that the rates returned refer to until the next call.
   std::vector<Point> trial, share;
   const auto rates_of = [&](Index p) -> HeatRates {
     const ContactPointState& from = step.from[at(p)];
@@ -224,6 +227,8 @@ void ContactHeat::add_displacement_tangent(const ContactKinematics& kinematics, 
     kinematics.add_share_rates(p, share);
     trial.clear();
     if (point_law_.friction && now[at(p)].status != PointStatus::open) {
+      // The trial traction is T_n carried along plus ε_T times the slip; its size changes along its
+      // own direction.
       const double spring = point_law_.tangential_penalty(from);
       const Point whole = add_scaled(motion.carried, spring, motion.slip);
       const double size = norm(whole);

@@ -149,11 +149,15 @@ void HeatTerm::begin_phase(const HeatSpan& span) {
 // Θ* of S^e_c* = S^e_c,n + carried (S^e_c − S^e_c,n); of the slip every stage has its part.
 void HeatTerm::begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> before) {
   if (!phase_) return;
+  // A later stage starts from where the stage before it has led: temperature by the entropy carried
+  // over, and the heat and dissipation that were exchanged on the way.
   if (stage.carried != 0) {
     std::vector<double> start(points_.size(), 0.0), flux(points_.size(), 0.0), made(points_.size(), 0.0);
     for (Index p = 0; p < partners_.n_points(); ++p) {
       const HeatPoint& point = points_[at(p)];
       start[at(p)] = point.step.temperature;
+      // A point that stores nothing has no history to carry: its temperature follows from the
+      // fluxes of the stage.
       if (!active_ || !point.has_temperature || partners_.partnered[at(p)] == 0) continue;
       const AtPoint s = see(p, before);
       start[at(p)] *= std::pow(s.interface.temperature / point.step.temperature, stage.carried);
@@ -269,6 +273,9 @@ void HeatTerm::add_exchange(const AtPoint& s, std::span<const double> temperatur
                             double weight_e, std::span<double> heat) const {
   if (!s.master_takes_heat) return;
   for (std::size_t a = 0; a < s.nodes.size(); ++a) {
+    // By nodes (closed integration) each node exchanges at its own temperature with the mean of the
+    // other side; otherwise all nodes of the point exchange at the two means, in which a node may
+    // give off heat although it is the colder one.
     const double t = temperature[at(s.nodes[a])];
     double q = 0;
     if (!s.nodal) {
@@ -380,6 +387,8 @@ void HeatTerm::add_tangent(std::span<const double> x, linear::BlockMatrix& matri
   if (!active_) return;
   Run run;
   std::vector<double> per_h;
+  // Entries go to the matrix run by run: neighbouring points share their nodes, and a sum in a
+  // small array is cheaper than one in the matrix.
   const auto flush = [&] {
     if (run.first < 0) return;
     const auto slots = slots_.slots(run.first, run.nodes);

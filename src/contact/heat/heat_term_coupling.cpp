@@ -27,17 +27,23 @@ void HeatTerm::add_gap_slope(const AtPoint& s, std::span<const double> temperatu
                              std::span<double> heat) const {
   const HeatPoint& point = points_[at(s.point)];
   const double w = partners_.weight[at(s.point)];
+  // Conductance depends on the gap directly and, where the point is closed, on pressure, which the
+  // penetration changes by the slope of the contact law.
   const Conductance h = conductance(s.point, 0.5 * (s.slave + s.master));
   const double slope = w * (h.by_pressure * point.pressure_slope + h.by_penetration);
   // By the penetration, which is minus the gap.
   if (s.radiation > 0) add_exchange(s, temperature, 0, -w * radiation_[at(s.point)].by_gap, heat);
   if (slope != 0) {
     add_exchange(s, temperature, slope, 0, heat);
+    // An interface with a temperature of its own exchanges with each side by a flux that the
+    // conductance changes too.
     if (s.has_temperature) {
       const std::array<double, 2> flux = flux_by_conductance(s);
       add_sides(s, {slope * flux[0], slope * flux[1]}, heat);
     }
   }
+  // Where friction and temperature are solved together, pressure also changes the heat that slip
+  // makes.
   if (!point.joint) return;
   const double source = -w * point.joint->source_by_pressure * point.pressure_slope;
   add_sides(s, {s.interface.by_side[0] * source, s.interface.by_side[1] * source}, heat);
@@ -46,6 +52,8 @@ void HeatTerm::add_gap_slope(const AtPoint& s, std::span<const double> temperatu
 // B of the master is in Θ_m = −Σ B_b Θ_b, and says which node takes the heat.
 void HeatTerm::add_share_slope(const AtPoint& s, std::span<const double> temperature, std::size_t b,
                                std::span<double> heat) const {
+  // A share B_b multiplies nodal temperature: the mean of the master moves by −Θ_b, and with it
+  // both exchanges.
   const double w = partners_.weight[at(s.point)], t = temperature[at(s.nodes[b])];
   const double across = w * (s.h.value * t + s.radiation * fourth(t));
   for (std::size_t a = 0; a < (s.nodal ? s.n_slave : s.nodes.size()); ++a) heat[a] += s.b[a] * across;
@@ -55,12 +63,16 @@ void HeatTerm::add_share_slope(const AtPoint& s, std::span<const double> tempera
                  : w * (s.h.value * (s.slave - s.master) + s.radiation * (s.slave_fourth - s.master_fourth));
   std::array<double, 2> by_mean{};
   if (s.has_temperature) {
+    // The two sides of an interface with a temperature of its own do not balance by conduction
+    // alone: the difference is what it stores and what friction gives.
     const double conducted = s.h.value * (s.slave - s.master);
     heat[b] -= w * (s.interface.flux[1] + conducted);
     const auto& slope = s.interface.flux_slope;
     add_sides(s, {-w * t * (slope[0][1] + s.h.value), -w * t * (slope[1][1] - s.h.value)}, heat);
     by_mean = flux_by_conductance(s);
   }
+  // The conductance of some laws depends on the mean temperature, in which the share takes part by
+  // a half.
   if (s.h.by_temperature == 0) return;
   const double by_share = -0.5 * t * w * s.h.by_temperature;
   add_exchange(s, temperature, by_share, 0, heat);
@@ -108,26 +120,33 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
     const std::size_t n = s.nodes.size();
     if (!run.holds(s.nodes)) run.start(p, s.nodes, n * n * components);
     std::fill(run.values.begin(), run.values.end(), 0.0);
+    // Adds the outer product of a derivative of the heat and a rate by every node's displacement.
     const auto add = [&](std::span<const double> heat, const auto& rate_of) {
       for (std::size_t row = 0; row < n; ++row)
         for (std::size_t b = 0; b < n; ++b)
           for (std::size_t c = 0; c < components; ++c)
             run.values[(row * n + b) * components + c] += heat[row] * rate_of(b)[c];
     };
+    // First the gap, through conductance and radiation.
     per_gap.assign(n, 0.0);
     add_gap_slope(s, temperature, per_gap);
     add(per_gap, [&](std::size_t b) -> const Point& { return rates.penetration[b]; });
+    // Then the weight of the point, where segments are cut anew as bodies slide: the heat itself is
+    // proportional to it.
     if (!rates.weight.empty()) {
       per_weight.assign(n, 0.0);
       add_point_heat(s, temperature, 1.0, per_weight);
       add(per_weight, [&](std::size_t b) -> const Point& { return rates.weight[b]; });
     }
+    // Then the trial traction, which sets the heat of friction where both are solved together.
     if (const auto& joint = points_[at(p)].joint; joint && !rates.trial.empty()) {
       per_trial.assign(n, 0.0);
       const double source = -partners_.weight[at(p)] * joint->source_by_trial;
       add_sides(s, {s.interface.by_side[0] * source, s.interface.by_side[1] * source}, per_trial);
       add(per_trial, [&](std::size_t b) -> const Point& { return rates.trial[b]; });
     }
+    // Last the place on the master, by the rates of the shares of its nodes: most points of a step
+    // do not move along it, and their (costlier) slopes are not computed.
     const auto moves_of = [&](std::size_t a) { return rates.share.subspan(a * n, n); };
     const auto at_rest = [&](std::size_t a) {
       const auto moves = moves_of(a);

@@ -22,6 +22,8 @@ std::vector<InterfaceHeatFlux> HeatTerm::surface_heat(std::span<const double> te
   // Heat by friction goes to both sides; what is conducted and radiated goes from one to the other.
   for (Index p = 0; p < partners_.n_points(); ++p) {
     if (partners_.partnered[at(p)] == 0) continue;
+    // Signs: heat counts as positive that goes into a side, by_friction[0] into the slave and
+    // by_friction[1] into the master.
     const AtPoint s = see(p, temperature);
     const double conducted = s.master_takes_heat ? s.h.value * (s.slave - s.master) : 0.0;
     const double across = conducted + s.radiation * (s.slave_fourth - s.master_fourth);
@@ -131,7 +133,11 @@ InterfaceHeat HeatTerm::interface_heat(std::span<const double> temperature) cons
       continue;
     }
     const AtPoint s = see(p, temperature);
+    // A stage of a Runge-Kutta step covers a part of the step: what the stage before exchanged is
+    // added.
     const double dt = phase_ ? phase_->stage_dt : point.step.time_step;
+    // Fluxes count from the sides into the interface, which stores what it takes from them and what
+    // friction makes.
     double taken = dt * (s.interface.flux[0] + s.interface.flux[1]);
     if (phase_ && phase_->staged) taken += phase_->first_flux[at(p)];
     const double made = dissipated(s);
@@ -152,6 +158,8 @@ std::vector<std::optional<FrictionResponse>> HeatTerm::keep_slip(std::span<const
   // Points that have a temperature keep the friction of the solution with its dissipation.
   for (Index p = 0; p < partners_.n_points(); ++p) {
     HeatPoint& point = points_[at(p)];
+    // A point whose slip was not part of the thermal phase has nothing new: the mechanical phase's
+    // result stands.
     if (point.friction == nullptr || !point.has_temperature || partners_.partnered[at(p)] == 0) continue;
     const AtPoint s = see(p, temperature);
     slip[at(p)] = s.friction;

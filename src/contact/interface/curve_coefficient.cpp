@@ -13,6 +13,8 @@ CurveCoefficient::CurveCoefficient(std::vector<FrictionCurve> curves) : curves_(
 }
 
 std::optional<Objection> CurveCoefficient::objection() const {
+  // Each curve by itself: it begins at an unused surface and is above zero, since friction without
+  // a coefficient has no cone to return to.
   for (const FrictionCurve& curve : curves_) {
     if (!curve.coefficient.constant() && curve.coefficient.x().front() != 0)
       return Objection{fmt::format("a friction curve starts at {:.6g}", curve.coefficient.x().front()),
@@ -94,6 +96,7 @@ CoefficientBounds CurveCoefficient::slopes(double from, double to, double theta)
     }
     return t;
   };
+  // Between two curves everything is linear in temperature, so the bounds of slopes are too.
   const Between at = between(theta);
   const CoefficientBounds first = of_table(*at.first), second = of_table(*at.second);
   return {first.low + at.share * (second.low - first.low),

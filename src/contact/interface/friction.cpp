@@ -20,6 +20,7 @@ constexpr int k_halvings = 8;
 }  // namespace
 
 const char* reason(FrictionStatus status) {
+  // Each text says what happened and which of the user's inputs changes it.
   switch (status) {
     case FrictionStatus::coefficient_vanishes:
       return "the coefficient of friction falls to zero within the step: the internal variable has left the "
@@ -56,25 +57,32 @@ FrictionLaw::FrictionLaw(const FrictionParameters& spec, double tangential_penal
 template <class Radius>
 FrictionLaw::Slip FrictionLaw::find_slip(const FrictionInput& in, Radius radius, double first) const {
   const double penalty = tangential_penalty(in);
+  // Slip ends at the latest where the trial traction is used up: γ = ‖T^trial‖/ε_T.
   double low = 0, high = in.trial / penalty, step = high, older_step = high;
   bool vanishes = false;
   Slip s{FrictionStatus::not_converged, first, {}, {}};
   for (int i = 0; i < k_max_iterations; ++i) {
     s.at = growth(in, s.gamma);
     s.mu = radius(s.at.zeta);
+    // Φ_c = ‖T^trial‖ − ε_T γ − μ(ζ) t_N, the yield function of friction after slip γ.
     const double value = in.trial - penalty * s.gamma - s.mu.value * in.pressure;
+    // Rounding is measured against the terms that Φ_c is the difference of, not against Φ_c.
     const double reach = s.at.zeta + s.at.trial * in.trial;  // what ζ is made of
     const double terms = in.trial + in.pressure * (std::abs(s.mu.value) + std::abs(s.mu.zeta) * reach);
     if (s.mu.value > 0 && std::isfinite(value) && std::abs(value) <= k_rounding * terms) {
       s.status = FrictionStatus::converged;
       return s;
     }
+    // Φ_c > 0 with a coefficient above zero says that more slip is needed; anything else that there
+    // is too much.
     if (value > 0 && s.mu.value > 0) {
       low = s.gamma;
     } else {
       high = s.gamma;
       vanishes = !(s.mu.value > 0);
     }
+    // A bracket without width is the root, unless its upper end is where the coefficient falls to
+    // zero.
     if (high - low <= std::numeric_limits<double>::epsilon() * high) {
       s.status = vanishes ? FrictionStatus::coefficient_vanishes : FrictionStatus::converged;
       return s;
@@ -92,6 +100,8 @@ FrictionLaw::Slip FrictionLaw::find_slip(const FrictionInput& in, Radius radius,
 
 template <class Radius>
 FrictionResponse FrictionLaw::solve(const FrictionInput& in, Radius radius) const {
+  // The trial state: the point sticks, and its internal variable and temperature are those it is
+  // held at.
   FrictionResponse r;
   r.traction = in.trial;
   r.internal_variable = in.internal_variable;
@@ -101,11 +111,13 @@ FrictionResponse FrictionLaw::solve(const FrictionInput& in, Radius radius) cons
     r.status = FrictionStatus::coefficient_vanishes;
     return r;
   }
+  // Inside the cone (or on it) the trial state is the solution.
   const double overstress = in.trial - r.coefficient * in.pressure;
   if (overstress <= 0) return r;
   const double penalty = tangential_penalty(in);
 
   const Slip s = find_slip(in, radius, overstress / penalty);
+  // Beyond it slip is found; the slopes follow from dΦ_c = 0 there.
   const double hardening = s.mu.zeta * in.pressure;
   r.status = s.status;
   r.sticks = false;
@@ -171,6 +183,8 @@ FrictionResponse FrictionLaw::update(const FrictionInput& in) const {
 FrictionResponse FrictionLaw::isentropic(const FrictionInput& in) const {
   if (!entropy_changes_ || heat_capacity_ == 0) return update(in);
   const FrictionInput::Iterate held = in.held();
+  // Where nothing depends on temperature, or no capacity keeps an entropy, the phase at fixed
+  // entropy is the plain one.
   const double start = coefficient_.point(held.internal_variable, held.temperature).stored_theta;
   // C_co ln(Θ/Θ_n) = K_Θ(ζ) − K_Θ(ζ_n): 5.24, second row, with 3.42c; with an iterate from that one.
   const auto temperature = [&](double stored_theta) {
@@ -185,6 +199,8 @@ FrictionResponse FrictionLaw::isentropic(const FrictionInput& in) const {
         at.zeta + at.zeta_theta * change + at.theta * at.theta * theta / heat_capacity_};
   });
   r.temperature = temperature(coefficient_.point(r.internal_variable, held.temperature).stored_theta);
+  // A factor of two in one step is beyond what the linearisation by Θ is good for: the step is
+  // rejected.
   const double ratio = r.temperature / held.temperature;
   if (r.status == FrictionStatus::converged && !(ratio < k_largest_ratio && ratio * k_largest_ratio > 1))
     r.status = FrictionStatus::temperature_runs_off;

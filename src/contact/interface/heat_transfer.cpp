@@ -41,11 +41,14 @@ HeatTransferSpec without_bodies(HeatTransferSpec spec) {
 }
 
 HeatTransferLaw::HeatTransferLaw(HeatTransferSpec spec) : spec_(std::move(spec)) {
+  // Widths only mean something to the smoothed law: given without it they are an oversight, which
+  // is better told.
   if (!spec_.smooth && (spec_.transition_gap || spec_.transition_pressure))
     throw InputError(spec_.where, "a width of transition is given, but the law is not smooth",
                      "smooth = true, or no width");
   transition_gap_ = spec_.transition_gap.value_or(transition_gap_);
   transition_pressure_ = spec_.transition_pressure.value_or(transition_pressure_);
+  // Laws come first, since the checks below evaluate them.
   prepare_laws();
   check_continuity();
   if (spec_.smooth) check_transition();
@@ -141,7 +144,10 @@ void HeatTransferLaw::check_transition() const {
 }
 
 Conductance HeatTransferLaw::at(double penetration, double pressure, double temperature) const {
+  // The factors vary the two branches of the law for studies of uncertainty: one multiplies the
+  // conductance of contact, the other what a gap conducts by itself.
   const double closed_factor = spec_.conductance_factor, gap_factor = spec_.gap_factor;
+  // Without either factor the law is as given.
   Conductance h = given(penetration, pressure, temperature);
   if (closed_factor == 1 && gap_factor == 1) return h;
   const Conductance contact = given(0, 0, temperature);
@@ -150,6 +156,8 @@ Conductance HeatTransferLaw::at(double penetration, double pressure, double temp
   if (penetration >= 0 || closed_factor == gap_factor || !resists)
     return {closed_factor * h.value, closed_factor * h.by_penetration, closed_factor * h.by_pressure,
             closed_factor * h.by_temperature};
+  // An open gap is two resistances in series, contact's and the gap's own; each is varied by its
+  // factor.
   const double shared = 1 / closed_factor - 1 / gap_factor;
   const double varied = 1 / (shared / contact.value + 1 / (gap_factor * h.value));
   const double by_given = varied / h.value * varied / h.value / gap_factor;

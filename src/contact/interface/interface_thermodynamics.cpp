@@ -104,8 +104,11 @@ double resting_temperature(const InterfaceSides& sides) {
 
 InterfaceResponse interface_balance(const InterfaceStep& step, const InterfaceSides& sides) {
   if (isolated(step.heat_capacity, sides)) return shared_heat(step, sides);
+  // The balance of the interface (5.33, 5.34, 5.42), divided by the time step.
   const double rate = 1 / step.time_step, conductance = sum(sides.conductance);
   const double heat = supply(sides) + step.dissipation * rate;
+  // Without capacity the balance is linear in Θ_c, with the structural entropy as an additional
+  // conductance.
   if (step.heat_capacity == 0) {
     const double stiffness = step.structural_entropy * rate + conductance;
     auto r = interface_response(sides, heat / stiffness, stiffness);
@@ -130,6 +133,8 @@ InterfaceResponse interface_balance(const InterfaceStep& step, const InterfaceSi
 InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionInput& in, double time_step,
                                          const InterfaceSides& sides,
                                          const std::optional<InterfaceStage>& stage) {
+  // A stage of a Runge-Kutta step stores over its own length, while slip makes its heat over the
+  // whole step.
   const double rate = 1 / time_step, conductance = sum(sides.conductance), source = supply(sides);
   const InterfaceStage from = stage.value_or(InterfaceStage{time_step, in.temperature});
   const double capacity = law.heat_capacity() / from.time_step;
@@ -137,6 +142,7 @@ InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionI
   const auto& coefficient = law.coefficient();
   const double stored =
       law.stores() ? coefficient.point(in.internal_variable, in.temperature).stored_theta : 0;
+  // K_Θ at the start, from which the structural entropy of hardening is counted.
   InterfaceReturn r;
   // Without capacity and without exchange there is nothing to balance: its heat is that of friction at the
   // temperature that it has.
@@ -151,13 +157,18 @@ InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionI
   // γ(Θ) from Φ_c = 0 at the temperature Θ (5.41), then the balance in Θ alone (5.42); dγ/dΘ = −t_N μ_Θ/Φ_γ.
   double slope = 0;
   const auto balance = [&](double theta) {
+    // The slip of this temperature, with its traction, from the cone (5.41).
     r.friction =
         law.update({in.trial, in.pressure, in.internal_variable, theta, /*iterate=*/{}, in.stiffening});
     FrictionResponse& f = r.friction;
     double entropy = 0, entropy_slip = 0, heat_theta = 0, slip_theta = 0, heat_slip = 0;
+    // A point that slips changes its slip with temperature, and by it entropy and heat; one that
+    // sticks does not.
     if (!f.sticks) {
       const auto now = coefficient.point(f.internal_variable, theta);
       slip_theta = -in.pressure * (now.theta + now.initial_theta) / f.stiffness;
+      // A law that stores energy of hardening splits the work into what is stored and what is heat;
+      // without storage all of T γ is heat.
       if (law.stores()) {
         const auto along = coefficient.point(f.internal_variable, in.temperature);
         entropy = stored - along.stored_theta;
@@ -170,6 +181,7 @@ InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionI
     }
     f.structural_entropy = entropy;
     const double gained = capacity * std::log(theta / from.temperature) + entropy * rate;
+    // The derivative of the balance by Θ, at γ(Θ).
     slope = gained + capacity + conductance - heat_theta * rate +
             (theta * entropy_slip - heat_slip) * slip_theta * rate;
     return theta * (gained + conductance) - source - f.dissipation * rate;

@@ -39,6 +39,7 @@ CoefficientValue PolynomialCoefficient::value(const InternalValue& at, double th
 
 CoefficientPoint PolynomialCoefficient::point(const InternalValue& at, double theta) const {
   const double z = at.z;
+  // The coefficient without use, which is linear in temperature.
   CoefficientPoint r;
   const auto initial = terms_.front().line(theta);
   r.initial = initial.value;
@@ -55,6 +56,8 @@ CoefficientPoint PolynomialCoefficient::point(const InternalValue& at, double th
     stored = stored * z + c.value * share;
     stored_theta = stored_theta * z + c.slope * share;
   }
+  // Values by ζ: the polynomial is in z = ζ/unit, hence the factor at.per_unit of each derivative
+  // and ζ of each integral.
   r.value = r.initial + value * z;
   r.zeta = (slope * z + value) * at.per_unit;
   r.theta = theta_value * z;

@@ -19,6 +19,7 @@ TableFamily::TableFamily(std::vector<double> temperature, std::vector<Table> tab
 }
 
 TableFamily::Value TableFamily::at(double argument, double temperature) const {
+  // The first table that is hotter; the other neighbour is the one before it.
   const auto next = static_cast<std::size_t>(
       std::upper_bound(temperature_.begin(), temperature_.end(), temperature) - temperature_.begin());
   // Beyond the temperatures the nearest table holds; between two everything is linear.

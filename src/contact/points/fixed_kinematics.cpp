@@ -32,10 +32,13 @@ FixedKinematics::FixedKinematics(ContactPoints points, int components)
 
 FixedKinematics::Particle FixedKinematics::particle(Index point) const {
   const auto p = static_cast<std::size_t>(point);
+  // Points of one pairing lie one after the other, each with the shape functions of all its nodes.
   const Pairing& pairing = points_.pairings[static_cast<std::size_t>(pairing_[p])];
   const auto n_slave = static_cast<std::size_t>(pairing.n_slave);
   const std::size_t shape = pairing.first_shape + static_cast<std::size_t>(point - pairing.first_point) *
                                                       static_cast<std::size_t>(pairing.n_nodes());
+  // Means around nodes show their values at the node alone, with the share one; other points at
+  // their face.
   const bool of_a_node = pairing.n_shown == 1;
   return {points_.number[p],
           pairing.counted,

@@ -33,6 +33,8 @@ ContactPoints find_points(const mesh::Mesh& mesh, AnalysisKind kind, const Conta
   options.gauss_degree = spec.gauss_degree;
   options.search_distance = reach;
   ContactPoints points = integrate(mesh, kind, slave, master, options);
+  // A pair that meets nowhere is a slip of the input, by a wrong name or a gap that is wider than
+  // the search.
   if (points.paired_measure <= 0)
     throw InputError(spec.where,
                      fmt::format("contact '{}': no part of surface '{}' faces surface '{}' within {:.3g} m",
@@ -55,12 +57,14 @@ void require_apart(const mesh::Mesh& mesh, const ContactParameters& spec, const 
                      "two surfaces that have no node in common: contact of a surface with itself is not "
                      "computed, and bodies that touch have nodes of their own ([[interface]] splits them)");
   };
+  // Two names of one surface first, since the common nodes of that would be all of them.
   if (spec.slave == spec.master)
     refuse(fmt::format("slave and master are the same surface '{}'", spec.slave));
   const std::vector<Index>&of_slave = slave.all_nodes(), &of_master = master.all_nodes();
   std::vector<Index> both;
   std::set_intersection(of_slave.begin(), of_slave.end(), of_master.begin(), of_master.end(),
                         std::back_inserter(both));
+  // Each shared node is counted by its owner, so that the number does not depend on the processes.
   const double shared = parallel::global_sum(static_cast<double>(
       std::ranges::count_if(both, [&](Index node) { return node < mesh.n_owned_nodes; })));
   if (shared > 0)
@@ -98,6 +102,8 @@ ContactParameters with_roles(const mesh::Mesh& mesh, ContactParameters spec,
   constexpr double k_alike = 0.05;  // sizes of faces
   const ContactSurface first(mesh, spec.slave), second(mesh, spec.master);
   const double ratio = first.mean_face_size() / second.mean_face_size();
+  // Faces of a size decide before stiffness: pressures oscillate where the coarser side is the
+  // slave.
   bool swap = ratio > 1 + k_alike;
   if (std::abs(ratio - 1) <= k_alike && body_modulus.size() == mesh.bodies.size())
     swap = local_stiffness(mesh, first, body_modulus) >
@@ -105,6 +111,7 @@ ContactParameters with_roles(const mesh::Mesh& mesh, ContactParameters spec,
   if (!swap) return spec;
   std::swap(spec.slave, spec.master);
   if (!spec.heat) return spec;
+  // The share of the resistance that lies on the slave's side becomes that of the master's.
   if (spec.heat->slave_resistance) spec.heat->slave_resistance = 1 - *spec.heat->slave_resistance;
   if (spec.heat->contact_law != nullptr)
     if (std::shared_ptr<const ContactLaw> law = spec.heat->contact_law->swapped())
@@ -124,6 +131,8 @@ ContactGeometry::ContactGeometry(const mesh::Mesh& mesh, AnalysisKind kind, cons
   configuration_ = std::make_unique<CurrentConfiguration>(*kinematics_);
   graph_ = std::make_unique<ContactGraph>(*kinematics_);
   if (!facets_close_) return;
+  // The bound over all points whose facets fit each other: below it a gap is rounding of the mesh,
+  // not a gap of the bodies.
   double bound = 0;
   for (Index p = 0; p < n_points(); ++p)
     if (const FacetGap facets = kinematics_->facets(p); facets.fits > k_mostly)
@@ -142,6 +151,7 @@ double ContactGeometry::initial_offset(Index point, double penetration) const {
 void ContactGeometry::make_kinematics(AnalysisKind kind, const ContactParameters& spec,
                                       const PairSurfaces& surfaces) {
   const bool slides = spec.formulation == Formulation::large_sliding;
+  // Combinations that no kinematics has are refused here, before anything is built.
   if (!surfaces.master && !slides)
     throw InputError(spec.where, fmt::format("contact '{}': a rigid surface with small sliding", spec.name),
                      "formulation = \"large_sliding\"");
@@ -149,6 +159,7 @@ void ContactGeometry::make_kinematics(AnalysisKind kind, const ContactParameters
     throw InputError(
         spec.where, fmt::format("contact '{}': integration = \"mortar\" with large sliding", spec.name),
         "formulation = \"small_sliding\", or integration = \"segments\", \"gauss\" or \"nodal\"");
+  // Without a distance of the user's, partners are searched up to a tenth of the slave's extent.
   const ContactSurface& slave = surfaces.slave;
   const double reach = spec.search_distance.value_or(0.1 * slave.extent());
   // Small sliding finds all partners once, in the reference configuration.
@@ -202,6 +213,7 @@ std::vector<SurfaceCurvature> ContactGeometry::master_curvatures(AnalysisKind ki
   if (!surfaces.master) return {};
   const std::vector<SurfaceCurvature> of_face =
       surface_curvatures(*surfaces.master, kind, MeshMasterOptions{}.feature_angle);
+  // Plane surfaces need no table at all.
   if (std::ranges::all_of(of_face, [](const auto& c) { return c.first == 0 && c.second == 0; })) return {};
   std::vector<SurfaceCurvature> at_node(mesh_.x.size());
   std::vector<double> faces(mesh_.x.size(), 0.0);

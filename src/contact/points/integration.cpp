@@ -127,6 +127,7 @@ class Builder {
     const Index master_face = found.front().master_face;
     const auto s = slave_.nodes(slave_face), m = master_.nodes(master_face);
     if (!everything_ && !owns_any(s) && !owns_any(m)) return;
+    // The pairing says where its nodes, points and shape functions begin in the common arrays.
     Pairing p;
     p.slave_face = slave_face;
     p.master_face = master_face;
@@ -139,6 +140,8 @@ class Builder {
     p.counted = s[0] < mesh_.n_owned_nodes;
     points_.nodes.insert(points_.nodes.end(), s.begin(), s.end());
     points_.nodes.insert(points_.nodes.end(), m.begin(), m.end());
+    // Shape functions of the slave count with plus, those of the master with minus, so that Σ B_b
+    // u_b is the relative displacement.
     const Face& partner = search_.face(master_face);
     std::array<double, k_max_face_nodes> values, master_values;
     for (const PairedPoint& point : found) {
@@ -153,11 +156,14 @@ class Builder {
       // The other rules' measures hold the circumference already.
       const bool placed = options_.rule == IntegrationRule::gauss || options_.rule == IntegrationRule::nodal;
       const double w = point.measure * (placed ? 1.0 : circumference(kind_, x));
+      // A point's number is that of its face and its place on it: the same on every number of
+      // processes.
       points_.number.push_back(slave_face * k_points_of_a_face + static_cast<GlobalIndex>(place++));
       points_.weight.push_back(w);
       points_.normal.push_back(n);
       points_.position.push_back(x);
       points_.initial_penetration.push_back(dot(subtract(x, partner.at(point.master_xi)), n));
+      // The area is summed by the owner of the face, once for all processes.
       if (p.counted) points_.paired_measure += w;
     }
     points_.pairings.push_back(p);

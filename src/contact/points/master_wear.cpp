@@ -30,6 +30,8 @@ MasterWear::MasterWear(const mesh::Mesh& mesh, AnalysisKind kind, const ContactS
     : mesh_(mesh), nodes_(master.all_nodes()), area_(nodes_.size(), 0.0) {
   std::array<double, k_max_face_nodes> shares;
   for (Index f = 0; f < master.n_faces(); ++f) {
+    // Wear of the master is kept at its nodes, as a volume: a slave point moves on, the groove does
+    // not.
     const Face face = master.reference_face(f);
     const auto nodes = master.nodes(f);
     // The area that belongs to each node, with positive shares.
@@ -56,6 +58,7 @@ void MasterWear::add(const PointMotion& motion, double depth, double dissipation
   const auto first = static_cast<std::size_t>(motion.n_slave);
   // Nodes take part with positive shares, which are made to sum to one.
   const auto share = [&](std::size_t b) { return std::max(-motion.share[b], 0.0); };
+  // The sum is that of the positive parts; it is never zero, since shape functions sum to one.
   double sum = 0;
   for (std::size_t b = first; b < motion.nodes.size(); ++b) sum += share(b);
   for (std::size_t b = first; b < motion.nodes.size(); ++b) {

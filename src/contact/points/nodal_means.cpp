@@ -42,6 +42,8 @@ ContactPoints means_around_nodes(const mesh::Mesh& mesh, const ContactSurface& s
                                  const ContactPoints& pieces) {
   std::map<Index, Mean> means;  // by node
   std::vector<Index> order;     // of their appearance, the same on all processes
+  // First pass: every piece adds to the means of the vertices of its slave face, weighted by the
+  // vertex functions.
   for (const Pairing& pairing : pieces.pairings) {
     const std::span<const Index> nodes = std::span(pieces.nodes).subspan(pairing.first_node);
     const auto n_slave = static_cast<std::size_t>(pairing.n_slave),
@@ -54,6 +56,8 @@ ContactPoints means_around_nodes(const mesh::Mesh& mesh, const ContactSurface& s
               .subspan(pairing.first_shape + static_cast<std::size_t>(p - pairing.first_point) * n_nodes,
                        n_nodes);
       const auto functions = vertex_functions(shape.first(n_slave), n_vertices);
+      // Quadratic faces share out by the functions of their vertices alone, which are never
+      // negative.
       for (std::size_t v = 0; v < static_cast<std::size_t>(n_vertices); ++v) {
         const double w = pieces.weight[i] * functions[v];
         if (!(w > 0)) continue;
@@ -74,6 +78,8 @@ ContactPoints means_around_nodes(const mesh::Mesh& mesh, const ContactSurface& s
         mean.normal = add_scaled(mean.normal, w, pieces.normal[i]);
         mean.position = add_scaled(mean.position, w, pieces.position[i]);
         mean.linear = mean.linear && mesh::order(slave.shape(pairing.slave_face)) == 1;
+        // Nodes of either side are collected by their numbers in the input, so that the order of
+        // sums does not depend on the partition.
         for (std::size_t b = 0; b < n_nodes; ++b) {
           Mean::Share& share =
               mean.share[b < n_slave ? 0 : 1][mesh.input_node[static_cast<std::size_t>(nodes[b])]];
@@ -84,12 +90,14 @@ ContactPoints means_around_nodes(const mesh::Mesh& mesh, const ContactSurface& s
     }
   }
 
+  // Second pass: each mean becomes a pairing of one point with the nodes that take part in it.
   ContactPoints points;
   points.slave_measure = pieces.slave_measure;
   points.paired_measure = pieces.paired_measure;
   for (const Index node : order) {
     const Mean& mean = means.at(node);
     const auto owned = [&](const auto& share) { return share.second.node < mesh.n_owned_nodes; };
+    // Those that touch no own node are other processes' business.
     if (!std::ranges::any_of(mean.share[0], owned) && !std::ranges::any_of(mean.share[1], owned)) continue;
     Pairing pairing;
     pairing.slave_face = mean.face;
@@ -108,6 +116,8 @@ ContactPoints means_around_nodes(const mesh::Mesh& mesh, const ContactSurface& s
       points.shape.push_back(share / mean.weight);
     };
     add(node, mean.share[0].at(mesh.input_node[static_cast<std::size_t>(node)]).value);
+    // The others follow in the order of their numbers; shares of the master have their minus
+    // already.
     for (const auto& [number, share] : mean.share[0])
       if (share.node != node) add(share.node, share.value);
     for (const auto& [number, share] : mean.share[1]) add(share.node, share.value);

@@ -108,6 +108,7 @@ ContactPointState PointLaw::next(const PointMotion& motion, const ContactPointSt
   // changes.
   if (!f.normal.closed)
     to.multiplier = normal.kind == NormalKind::augmented_lagrangian ? least_multiplier(from) : 0.0;
+  // The anchor is where the point now meets the master: the next step's slip is counted from there.
   to.traction = f.traction;
   to.anchored = motion.partnered;
   if (motion.partnered) {
@@ -115,10 +116,13 @@ ContactPointState PointLaw::next(const PointMotion& motion, const ContactPointSt
     to.anchor = motion.anchor;
     to.master_normal = motion.master_normal;
   }
+  // Open points and points without friction keep temperature, slip and wear as they are.
   if (!friction || f.status == PointStatus::open) return to;
   to.temperature = f.friction.temperature;
   to.covered = motion.covered;
   take_slip(f.friction, from, to);
+  // The slave's own part of the wear; the master's is added by MasterWear at the nodes of the
+  // master.
   if (wear)
     to.wear_depth += motion.covered * (1 - wear->master_share) *
                      wear->depth_increment(rubbing_pressure(f.normal.pressure, from.molten), f.friction.slip,

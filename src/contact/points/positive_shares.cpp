@@ -77,12 +77,16 @@ FaceShares shares_of_triangle(std::span<const double> n) {
       {{1, 0, 0, 0.5, 0, 0.5}, {0, 1, 0, 0.5, 0.5, 0}, {0, 0, 1, 0, 0.5, 0.5}}};
   std::array<ShareValue, 3> lambda;
   double total = 0;
+  // Barycentric coordinates of the place, from the values of the shape functions; beyond the face
+  // they are clamped and made to sum to one.
   for (std::size_t i = 0; i < 3; ++i) {
     lambda[i] = clamped(weighted_sum(n, at[i]), 0, 1);
     total += lambda[i].v;
   }
   for (ShareValue& value : lambda) value = (1 / total) * value;
   FaceShares l;
+  // Each of the four parts of the triangle (three at the corners, one in the middle) has the linear
+  // functions of its own three nodes.
   for (std::size_t i = 0; i < 3; ++i) {
     if (lambda[i].v <= 0.5) continue;
     const std::size_t next = (i + 1) % 3, last = (i + 2) % 3;
@@ -98,9 +102,12 @@ FaceShares shares_of_triangle(std::span<const double> n) {
 // Node 4 lies between the corners 0 and 1, at η = −1, then on round the face.
 FaceShares shares_of_quadrangle(std::span<const double> n) {
   constexpr std::array<double, 8> at_xi{-1, 1, 1, -1, 0, 1, 0, -1}, at_eta{-1, -1, 1, 1, -1, 0, 1, 0};
+  // The place (ξ, η) from the values of the shape functions, clamped to the face.
   const ShareValue xi = clamped(weighted_sum(n, at_xi), -1, 1), eta = clamped(weighted_sum(n, at_eta), -1, 1);
   const ShareValue across = magnitude(xi), along = magnitude(eta);
   FaceShares l;
+  // Near a corner, beyond the square of the middle nodes, the corner and its two middle nodes share
+  // linearly.
   if (across.v + along.v >= 1) {
     const bool right = xi.v >= 0, up = eta.v >= 0;
     l[up ? (right ? 2 : 3) : (right ? 1 : 0)] = -1.0 + (across + along);
@@ -108,6 +115,7 @@ FaceShares shares_of_quadrangle(std::span<const double> n) {
     l[right ? 5 : 7] = 1.0 + -1.0 * along;
     return l;
   }
+  // Within that square, which stands on its corner, the four middle nodes share bilinearly.
   const ShareValue p = xi + eta, q = xi + -1.0 * eta;
   l[4] = 0.25 * ((1.0 + -1.0 * p) * (1.0 + q));
   l[5] = 0.25 * ((1.0 + p) * (1.0 + q));
@@ -130,6 +138,7 @@ void positive_shares(int dimension, std::span<const double> n, std::span<double>
   const FaceShares found = size == 8   ? shares_of_quadrangle(n)
                            : size == 6 ? shares_of_triangle(n)
                                        : shares_of_line(n);
+  // Values below zero are rounding; the slope is kept, so that the derivative does not jump there.
   for (std::size_t a = 0; a < size; ++a) {
     l[a] = std::max(found[a].v, 0.0);
     if (slope.empty()) continue;

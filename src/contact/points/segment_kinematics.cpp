@@ -30,6 +30,7 @@ SegmentKinematics::SegmentKinematics(const mesh::Mesh& mesh, AnalysisKind kind, 
       degree_(degree_of_pieces(master)),
       places_(mesh, kind, slave, std::move(met), {.graph_rings = 1, .meets_several = true}),
       n_owned_(mesh.n_owned_nodes) {
+  // Cells are laid on the reference faces once; pieces are cut whenever bodies move.
   add_cells();
   place(std::vector<double>(mesh.x.size() * components_, 0.0));
   // The share of the slave's area that faces the master.
@@ -65,6 +66,7 @@ void SegmentKinematics::add_cells() {
     for (const std::vector<Point>& cell : face_cells(face.shape)) {
       face_.push_back(f);
       number_.push_back(number++);
+      // Pressure is constant on a cell, so that its motion is the mean over the cell's pieces.
       double& whole = whole_.emplace_back(0.0);
       Point& position = position_.emplace_back();
       auto& mean = shape_.emplace_back();
@@ -74,6 +76,7 @@ void SegmentKinematics::add_cells() {
         position = contact::add_scaled(position, q.weight, face.at(q.xi));
         for (std::size_t a = 0; a < at(face.n_nodes); ++a) mean[a] += q.weight * shape[a];
       }
+      // Means instead of integrals over the cell.
       position = scale(1 / whole, position);
       for (double& value : mean) value /= whole;
     }
@@ -97,6 +100,7 @@ SegmentKinematics::Particle SegmentKinematics::particle(Index point) const {
 }
 
 void SegmentKinematics::cut(Index slave_face, const Face& now, const FaceSearch& master) {
+  // Only faces of the master within reach of the present face are cut against it.
   const Face reference = slave_.reference_face(slave_face);
   const std::vector<Index> candidates = faces_within(now, master, reach_);
   std::vector<PairedPoint> pieces;
@@ -106,6 +110,8 @@ void SegmentKinematics::cut(Index slave_face, const Face& now, const FaceSearch&
   // Pieces in order of their cells, with weights of the undeformed slave.
   std::ranges::stable_sort(pieces, {}, cell);
   std::size_t next = 0;
+  // The loop fills the range of each cell of the face in turn, empty ones included, so that cell c
+  // has the places [first_place_[c], first_place_[c + 1]).
   for (const Index last = first_cell_[at(slave_face) + 1]; static_cast<Index>(first_place_.size()) <= last;) {
     const std::size_t number = at(number_[first_place_.size() - 1]);
     for (; next < pieces.size() && cell(pieces[next]) == number; ++next) {
@@ -122,6 +128,7 @@ void SegmentKinematics::cut(Index slave_face, const Face& now, const FaceSearch&
 
 void SegmentKinematics::place(std::span<const double> displacement, Points) {
   const int components = static_cast<int>(components_);
+  // Faces of the master as they lie now; a tree over them finds the candidates of each slave face.
   std::vector<Face> faces;
   for (Index f = 0; f < master_.n_faces(); ++f)
     faces.push_back(master_.current_face(f, displacement, components));
@@ -133,6 +140,8 @@ void SegmentKinematics::place(std::span<const double> displacement, Points) {
   places_.set_places(found_);
   // All of them: a mean needs every place of its cell.
   places_.place(displacement, Points::all);
+  // A cell that is covered in a sliver alone has no stable mean: it counts as one without a
+  // partner.
   for (std::size_t c = 0; c < face_.size(); ++c) {
     covered_[c] = 0;
     for (Index s = first_place_[c]; s < first_place_[c + 1]; ++s)
@@ -249,12 +258,16 @@ void SegmentKinematics::add_rates(Index place, double share, const PointMotion& 
 // ΔG = P (W − W_n) with W the mean way and P = 1 − ν ⊗ ν of the mean normal; T_n is carried to its plane.
 void SegmentKinematics::find_slip(const ContactPointState& old, const Point& way, Asked asked,
                                   PointMotion& m) const {
+  // The slip is the way of the mean partner since the step's start, without its part along the
+  // normal.
   const Point& nu = m.master_normal;
   const Point gone = old.anchored ? subtract(way, old.anchor) : Point{};
   const double along = dot(nu, gone);
   const bool carries = old.anchored && norm(old.traction) > 0;
   m.slip = contact::add_scaled(gone, -along, nu);
   if (carries) m.carried = rotate(old.master_normal, nu, old.traction);
+  // Rates are needed of tangents only; those of the normal enter through the projection P and the
+  // rotation of T_n.
   if (asked == Asked::motion) return;
   const Tensor turn = carries ? rotation_rates(old.master_normal, nu, old.traction).by_to : Tensor{};
   slip_rate_.assign(nodes_.size(), Tensor{});

@@ -45,6 +45,8 @@ int product_degree(const Face& slave, const Face& master) {
 
 void cut_line(const Face& slave, const FaceSearch& master, const std::vector<Index>& candidates,
               const CutOptions& options, std::vector<PairedPoint>& points) {
+  // Cuts lie at the ends of the slave's face, at its middle where pressure has two cells, and where
+  // an end of a master face projects onto it.
   std::vector<double> cuts{-1, 1};
   if (options.cells) cuts.push_back(0);
   for (Index m : candidates)
@@ -54,6 +56,7 @@ void cut_line(const Face& slave, const FaceSearch& master, const std::vector<Ind
     }
   std::sort(cuts.begin(), cuts.end());
   for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
+    // Between two cuts the partner is one and the same face, found from the middle of the piece.
     const double length = cuts[c + 1] - cuts[c], middle = 0.5 * (cuts[c] + cuts[c + 1]);
     if (length < 2 * k_least_piece) continue;
     const Point centre{middle, 0, 0};
@@ -63,6 +66,7 @@ void cut_line(const Face& slave, const FaceSearch& master, const std::vector<Ind
     const Face& partner_face = master.face(partner.face);
     // One degree more than the product for the radius of axisymmetric bodies.
     const int degree = options.degree > 0 ? options.degree : product_degree(slave, partner_face) + 1;
+    // Gauss's rule then meets smooth functions only.
     for (const auto& q : mesh::gauss_rule(mesh::Shape::line2, degree)) {
       const Point xi{middle + 0.5 * length * q.xi[0], 0, 0};
       const Projection projection =

@@ -10,6 +10,7 @@ namespace solidus::contact {
 FacetGap SlidingKinematics::facets(Index point) const {
   const auto p = static_cast<std::size_t>(point);
   const Partner& partner = partner_[p];
+  // Heights matter where the master has facets; an analytic surface has none.
   if (partner.face < 0) return {};
   const auto n_slave = slave_.nodes(face_[p]).size();
   std::array<double, k_max_face_nodes> values{};

@@ -165,10 +165,12 @@ Point clamp(Shape shape, Point xi) {
   }
   // Beyond the hypotenuse a point goes back along its normal, then onto the legs.
   if (const double excess = xi[0] + xi[1] - 1; excess > 0) {
+    // Half of the excess on each axis is the step along the normal of the hypotenuse.
     xi[0] -= excess / 2;
     xi[1] -= excess / 2;
   }
   for (std::size_t i = 0; i < 2; ++i) xi[i] = std::clamp(xi[i], 0.0, 1.0);
+  // Clamping one coordinate may lead beyond the hypotenuse again.
   if (const double sum = xi[0] + xi[1]; sum > 1) {
     xi[0] /= sum;
     xi[1] /= sum;

@@ -11,6 +11,7 @@ std::vector<std::vector<Point>> face_cells(mesh::Shape shape) {
   if (n == 2) return {{v[0], Point{}}, {Point{}, v[1]}};
   std::vector<std::vector<Point>> result;
   std::vector<Point> middle(n);
+  // The middles of the edges bound the cells; a quadrangle's cells meet in its centre as well.
   for (std::size_t e = 0; e < n; ++e) middle[e] = scale(0.5, add(v[e], v[(e + 1) % n]));
   for (std::size_t i = 0; i < n; ++i) {
     result.push_back({v[i], middle[i], middle[(i + n - 1) % n]});
@@ -37,6 +38,7 @@ std::size_t cell_of(mesh::Shape shape, const Point& xi) {
 std::vector<SlaveRulePoint> cell_rule(const Face& face, AnalysisKind kind, const std::vector<Point>& cell,
                                       int degree) {
   using mesh::Shape;
+  // The rule of the cell's own shape, by its corners in the space of ξ.
   Face part;  // the cell as a face in the space of ξ
   part.n_nodes = static_cast<int>(cell.size());
   part.shape = cell.size() == 2 ? Shape::line2 : cell.size() == 3 ? Shape::tri3 : Shape::quad4;

@@ -16,9 +16,13 @@ FacetHeights::FacetHeights(const ContactSurface& surface) {
     largest_.push_back(0);
     outward_.push_back(0);
     const Face face = surface.reference_face(f);
+    // Quadratic faces follow the curved surface themselves: facets are those of linear faces.
     if (mesh::order(face.shape) > 1) continue;
     const ShapeOperator& shape = shapes[static_cast<std::size_t>(f)];
     const auto n = static_cast<std::size_t>(face.n_nodes);
+    // The true surface over the edge of two nodes bulges by an eighth of its length squared times
+    // the curvature; pairs of nodes carry it, so that any place on the face is interpolated by
+    // products of shape functions.
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = a + 1; b < n; ++b) {
         pair_.push_back(0.5 * shape.agreement * shape.turn_along(subtract(face.x[b], face.x[a])));
@@ -32,6 +36,7 @@ FacetHeights::FacetHeights(const ContactSurface& surface) {
 }
 
 void FacetHeights::measure_turns(const ContactSurface& surface, double feature_angle) {
+  // Normals at the centres of the faces, and the faces that share a node.
   std::unordered_map<Index, std::vector<Index>> at_node;
   std::vector<Point> normal;
   for (Index f = 0; f < surface.n_faces(); ++f) {
@@ -40,6 +45,8 @@ void FacetHeights::measure_turns(const ContactSurface& surface, double feature_a
     for (const Index node : surface.nodes(f)) at_node[node].push_back(f);
   }
   turn_.assign(normal.size(), 0.0);
+  // The largest angle to a neighbour; above the feature angle it is an edge of the drawing, not a
+  // facet of a round.
   for (const auto& [node, faces] : at_node)
     for (const Index f : faces)
       for (const Index g : faces) {

@@ -48,6 +48,8 @@ Partner AnalyticMaster::find(const Point& x, const Point& slave_normal, Index) c
   // In the body's own frame: X = c + Qᵀ (x − d − c).
   const Point& c = surface_.motion.centre;
   const Point here = add(c, transposed_times(turn_, subtract(subtract(x, shift_), c)));
+  // Distance and normal in closed form: along the plane's normal, or radially from the axis or
+  // centre.
   Point from = subtract(here, surface_.point);
   Partner p;
   Point normal = surface_.direction;
@@ -66,6 +68,7 @@ Partner AnalyticMaster::find(const Point& x, const Point& slave_normal, Index) c
   // However deep a point has come into a rigid body, it is pushed out.
   if (!(p.penetration >= -search_distance_)) return {};
   if (!(dot(p.normal, slave_normal) < k_facing_cosine)) return {};
+  // The place is stored in the body's frame, so that slip along a moving tool is relative to it.
   p.xi = contact::add_scaled(here, p.penetration, normal);
   p.face = 0;
   return p;
@@ -83,6 +86,7 @@ Point AnalyticMaster::curvature(const Point& radial, const Point& tangent) const
 void AnalyticMaster::frame(const Partner& partner, bool, MasterFrame& frame) const {
   frame.n_face_nodes = 0;
   frame.nodes = {};
+  // Everything is built in the body's frame and moved to the present place at the end.
   const Point nu = transposed_times(turn_, partner.normal);
   Point e1, e2;
   if (planar_) {

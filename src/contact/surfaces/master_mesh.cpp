@@ -39,6 +39,7 @@ struct Basis {
 
 Basis basis_at(const Face& face, const Point& xi) {
   Basis b;
+  // The tangents and their derivatives by ξ are those of the shape functions (monograph, 3.1.4).
   b.tau = face.tangents(xi);
   b.tau_xi = face.curvatures(xi);
   const Point n = cross(b.tau[0], b.tau[1]);
@@ -63,13 +64,17 @@ MeshMaster::MeshMaster(int components, const ContactSurface& surface, const Mesh
       topology_(surface_),
       heights_(surface),
       search_(faces_, 0.25 * mean_diagonal(faces_)) {
+  // Smoothed normals are kept for the reference too: slip is measured there.
   if (options.smoothing) {
     reference_normals_.emplace(surface, options.feature_angle);
     normals_.emplace(surface, options.feature_angle);
     reference_normals_->place(reference_);
     normals_->place(faces_);
   }
+  // The tree of boxes is built for the undeformed faces; it serves until they have moved by its
+  // margin.
   search_.move(faces_);
+  // Where the normal varies along a face, the traction turns as its point slides.
   turns_ = options.smoothing;
   for (Index f = 0; f < surface.n_faces(); ++f) {
     max_nodes_ = std::max(max_nodes_, nodes(f).size());
@@ -154,14 +159,18 @@ void MeshMaster::cover(Partner& partner, double outside) const {
 Partner MeshMaster::beyond_rim(const SurfacePoint& closest, const Feature& feature, const Point& x) const {
   double least = options_.rim;
   Partner best;
+  // A corner of the boundary belongs to several faces, each of which may be continued.
   for (Index f : feature.faces) {
     const Point start = f == closest.face ? closest.projection.xi : closest_point(face(f), x).xi;
     const Projection foot = closest_point_extended(face(f), x, start);
     if (!foot.found) continue;
     const double outside = outside_by(face(f).shape, foot.xi);
+    // Of equally near faces the first stays, whatever the order of rounding.
     if (outside > least || (best.face >= 0 && outside == least)) continue;
     least = outside;
     best = on_face(f, foot.xi, x);
+    // The contribution fades with the distance beyond the boundary, so that a point which slides
+    // off loses its force gradually.
     cover(best, outside);
   }
   return best;
@@ -170,16 +179,19 @@ Partner MeshMaster::beyond_rim(const SurfacePoint& closest, const Feature& featu
 // At a vertex of the free boundary: the edges between faces that end there, continued a little.
 Partner MeshMaster::along_edge(const Feature& vertex, const Point& x) const {
   for (Index f : vertex.faces)
+    // Only edges between two faces continue; the rim's own edges are handled by beyond_rim.
     for (int e = 0; e < topology_.n_edges(f); ++e) {
       const auto faces = topology_.at_edge(f, e);
       if (faces.size() != 2) continue;
       const auto i = static_cast<std::size_t>(e);
       const auto vertices = reference_vertices(face(f).shape);
+      // The edge is continued in space as a line, on which the foot of the point is found.
       const Face line = edge_of(face(f), i);
       const Projection foot = closest_point_extended(line, x, closest_point(line, x).xi);
       if (!foot.found) continue;
       const double outside = outside_by(line.shape, foot.xi);
       if (outside > options_.rim) continue;
+      // Back from the line's coordinate in [−1, 1] to the place on the face.
       const double s = 0.5 * (1 + foot.xi[0]);
       const Point xi = add_scaled(vertices[i], s, edge_direction(face(f).shape, e));
       const Feature edge{Feature::Kind::edge, e, faces, false};
@@ -239,6 +251,8 @@ Partner MeshMaster::smooth_on(Index f, const Point& start, const Point& x, doubl
 
 // On the face of the closest point, else on the one around it that is nearest. None across a sharp edge.
 Partner MeshMaster::smooth(const SurfacePoint& closest, const Point& x) const {
+  // With averaged normals the partner is where the interpolated normal points at x, mostly on the
+  // closest face.
   Partner best = smooth_on(closest.face, closest.projection.xi, x, k_flat);
   if (best.face >= 0) return best;
   for (Index f : topology_.around(closest.face)) {
@@ -247,6 +261,8 @@ Partner MeshMaster::smooth(const SurfacePoint& closest, const Point& x) const {
     if (p.face >= 0 && (best.face < 0 || std::abs(p.penetration) < std::abs(best.penetration))) best = p;
   }
   if (best.face >= 0) return best;
+  // On neither: the point may lie beyond the free boundary, within the strip in which contact
+  // fades.
   const Feature feature = topology_.feature(closest.face, closest.projection.xi);
   double least = options_.rim;
   for (Index f : feature.faces) {

@@ -96,6 +96,7 @@ Point AveragedNormals::mean_of(Index face, mesh::Shape shape, const Point& xi) c
 }
 
 AveragedNormals::Director AveragedNormals::at(Index face, mesh::Shape shape, const Point& xi) const {
+  // The interpolated sum is not of unit length; the normal is its direction.
   const Point sum = mean_of(face, shape, xi);
   const double length = norm(sum);
   Director d;
@@ -105,6 +106,7 @@ AveragedNormals::Director AveragedNormals::at(Index face, mesh::Shape shape, con
   const auto dim = static_cast<std::size_t>(mesh::dimension(shape));
   // The derivative of the interpolated normal, across itself.
   for (std::size_t alpha = 0; alpha < dim; ++alpha) {
+    // Only the part across the normal changes its direction; the other changes its length.
     Point slope{};
     for (std::size_t a = 0; a < static_cast<std::size_t>(mesh::node_count(shape)); ++a)
       slope = add_scaled(slope, g[a * dim + alpha], mean_[first(face) + a]);
@@ -115,6 +117,8 @@ AveragedNormals::Director AveragedNormals::at(Index face, mesh::Shape shape, con
 
 void AveragedNormals::rates(Index face, std::span<const Face> faces, const Point& xi,
                             std::span<Tensor> nu_rate) const {
+  // The chain goes from nodes of neighbouring faces to their own normals, from these to the mean at
+  // a node, from there to the interpolated normal and its direction.
   const Face& here = faces[static_cast<std::size_t>(face)];
   const Point sum = mean_of(face, here.shape, xi);
   const double length = norm(sum);

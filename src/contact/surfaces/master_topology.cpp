@@ -116,6 +116,7 @@ Feature MasterTopology::feature(Index face, const Point& xi) const {
       return {Feature::Kind::vertex, local, row(at_vertex_, first_at_vertex_, r),
               free_vertex_[static_cast<std::size_t>(r)] != 0};
     }
+  // Not at a vertex: on the one edge that ξ lies on, or inside.
   for (int e = 0; e < n_edges(face); ++e)
     if (off_edge(shape, xi, static_cast<std::size_t>(e)) <= k_on_rim) {
       const auto faces = at_edge(face, e);

@@ -27,6 +27,7 @@ PlanePoint centroid(const Polygon& polygon) {
 }
 
 Polygon clip(const Polygon& subject, const Polygon& window, double tolerance) {
+  // The window's edges cut one after the other: what is left of the polygon goes to the next edge.
   Polygon current = subject, next;
   for (std::size_t e = 0; e < window.size() && !current.empty(); ++e) {
     const PlanePoint& a = window[e];
@@ -38,6 +39,7 @@ Polygon clip(const Polygon& subject, const Polygon& window, double tolerance) {
       return std::abs(h) <= tolerance ? 0.0 : h;
     };
     next.clear();
+    // Corners inside stay, and every side that crosses the edge adds the point where it does.
     for (std::size_t i = 0; i < current.size(); ++i) {
       const PlanePoint& p = current[i];
       const PlanePoint& q = current[(i + 1) % current.size()];
@@ -50,6 +52,7 @@ Polygon clip(const Polygon& subject, const Polygon& window, double tolerance) {
     }
     current.swap(next);
   }
+  // Fewer than three corners have no area.
   return current.size() < 3 ? Polygon{} : current;
 }
 

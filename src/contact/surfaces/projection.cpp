@@ -124,6 +124,7 @@ Face edge_of(const Face& face, std::size_t e) {
 
 Projection closest_point(const Face& face, const Point& p) {
   Best best;
+  // A line has no edges: its ends are tried along with its interior.
   if (face.dimension() == 1) {
     try_line(face, p, best);
   } else {
@@ -136,6 +137,8 @@ Projection closest_point(const Face& face, const Point& p) {
     if (!one)
       for (const Point& v : vertices)
         try_interior(face, p, scale(0.5, add(v, reference_centre(face.shape))), best);
+    // The minimum may lie on the boundary of the face, so each edge is searched as a line and its ξ
+    // mapped back.
     for (std::size_t e = 0; e < vertices.size() && !done; ++e) {
       Best on_edge;
       try_line(edge_of(face, e), p, on_edge);
@@ -199,6 +202,8 @@ Projection project_along_extended(const Face& face, const Point& p, const Point&
 }
 
 Projection project_along(const Face& face, const Point& p, const Point& d, double tolerance) {
+  // The face is continued first; whether the point lies on it is decided afterwards, with the
+  // tolerance.
   Projection result = project_along_extended(face, p, d);
   if (!result.found) return result;
   const double outside = outside_by(face.shape, result.xi);

@@ -62,11 +62,16 @@ SurfacePoint FaceSearch::closest(const Point& p, double max_distance, const Poin
   // Boxes come in the order of their distance, which bounds that of their face from below.
   for (auto it = tree_->boxes.qbegin(bgi::nearest(query, n)); it != tree_->boxes.qend(); ++it) {
     const double bound = bg::distance(query, it->first);
+    // Once the next box is farther than the best face, all others are farther too.
     if (bound > max_distance || (best.face >= 0 && bound > best.projection.distance * (1 + k_same))) break;
     const Face& candidate = face(it->second);
     const Projection projection = closest_point(candidate, p);
+    // The exact distance decides; a face that looks the same way as the slave is the back of a thin
+    // wall.
     if (projection.distance > max_distance) continue;
     if (facing && !faces_against(candidate, projection.xi, *facing)) continue;
+    // Two faces that meet at an edge are equally near but for rounding: the lower number wins, so
+    // that the choice is the same on all processes.
     const double margin = k_same * std::max(projection.distance, 1e-3 * candidate.size());
     const bool nearer = best.face < 0 || projection.distance < best.projection.distance - margin;
     const bool equal = best.face >= 0 && !nearer && projection.distance <= best.projection.distance + margin;

@@ -14,6 +14,7 @@ namespace {
 // the ratio of ∫ N_a² dA (Hinton, Rock, Zienkiewicz 1976).
 std::vector<double> nodal_measures(const Face& face, AnalysisKind kind) {
   const auto n = static_cast<std::size_t>(face.n_nodes);
+  // First and second moments of the shape functions over the face.
   std::vector<double> first(n, 0), second(n, 0), values(n);
   double total = 0;
   for (const auto& q : mesh::gauss_rule(face.shape, 8)) {
@@ -25,10 +26,12 @@ std::vector<double> nodal_measures(const Face& face, AnalysisKind kind) {
       second[a] += w * values[a] * values[a];
     }
   }
+  // Where all areas are positive they are the consistent ones; values of rounding count as zero.
   if (std::all_of(first.begin(), first.end(), [&](double f) { return f > -1e-12 * total; })) {
     for (double& f : first) f = std::abs(f) <= 1e-12 * total ? 0 : f;
     return first;
   }
+  // Otherwise the diagonal of the mass matrix, scaled to the whole area, which is positive.
   double sum = 0;
   for (double s : second) sum += s;
   for (double& s : second) s *= total / sum;

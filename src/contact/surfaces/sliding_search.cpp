@@ -58,6 +58,7 @@ void SlidingSearch::build() {
   built_at_.clear();
   // Boxes are wider than faces by a margin, so that the tree serves until a node has moved by that.
   for (std::size_t f = 0; f < faces_.size(); ++f) {
+    // A process also keeps a smaller tree of the faces that may concern it.
     const auto [low, high] = faces_[f].box();
     entries.emplace_back(box_around(low, high, margin_), static_cast<Index>(f));
     if (!marked_.empty() && marked_[f] != 0) watched.push_back(entries.back());
@@ -132,6 +133,8 @@ SurfacePoint SlidingSearch::closest(const Point& p, double max_distance, const P
     known.projection = closest_point(faces_[static_cast<std::size_t>(hint)], p);
     radius = known.projection.distance * (1 + 4 * k_same) + 4e-3 * k_same * size_;
   }
+  // The radius grows by factors of four until a face is found whose distance lies within it: then
+  // no face outside can be nearer.
   for (;; radius *= 4) {
     const bool last = radius >= max_distance;
     collect(p, last ? max_distance : radius, facing, known);
@@ -139,6 +142,7 @@ SurfacePoint SlidingSearch::closest(const Point& p, double max_distance, const P
       if (last) return {};
       continue;
     }
+    // The smallest distance, and of all faces that have it within rounding the lowest number.
     double best = max_distance;
     for (const SurfacePoint& s : near_) best = std::min(best, s.projection.distance);
     const double same = best + k_same * (best + 1e-3 * size_);

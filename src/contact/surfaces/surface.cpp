@@ -25,6 +25,7 @@ ContactSurface::ContactSurface(const mesh::Mesh& mesh, const std::string& name) 
   for (const mesh::ElementBlock& block : surface.faces)
     for (Index f = 0; f < block.size(); ++f) entries.push_back({block.shape, block.element(f)});
   if (entries.empty()) throw InputError({}, "surface '" + name + "' has no faces for contact");
+  // The key is the list of a face's nodes by their numbers in the file, which no partition changes.
   const auto key = [&](const Entry& e, std::vector<GlobalIndex>& k) {
     k.clear();
     for (int a = 0; a < mesh::node_count(e.shape); ++a)
@@ -80,6 +81,7 @@ std::vector<Point> ContactSurface::averaged_normals(std::span<const double> disp
     const auto v = reference_vertices(shape);
     return a < v.size() ? v[a] : scale(0.5, add(v[a - v.size()], v[(a - v.size() + 1) % v.size()]));
   };
+  // Every face's own normal at each of its nodes, and which of them meet at a node.
   std::vector<Point> own(nodes_.size());
   std::map<Index, std::vector<std::size_t>> at_node;
   for (Index f = 0; f < n_faces(); ++f) {
@@ -90,6 +92,8 @@ std::vector<Point> ContactSurface::averaged_normals(std::span<const double> disp
       at_node[nodes_[i]].push_back(i);
     }
   }
+  // At a node those normals are averaged that differ by less than the feature angle, always the own
+  // one too.
   const double least_cosine = std::cos(feature_angle);
   std::vector<Point> mean(nodes_.size());
   for (const auto& [node, entries] : at_node)

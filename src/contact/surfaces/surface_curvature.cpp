@@ -42,6 +42,8 @@ double agreement(const Facet& here, const std::vector<const Facet*>& neighbours,
 
 /// S of n_j − n_i ≈ S (x_j − x_i) over the neighbours j, by least squares.
 ShapeOperator fitted(const Facet& here, const std::vector<const Facet*>& neighbours) {
+  // Differences of place and normal are measured in the tangent plane, with the axes `along` and
+  // `across`.
   const Point across = cross(here.normal, here.along);
   double a11 = 0, a12 = 0, a22 = 0, b11 = 0, b12 = 0, b22 = 0;  // Σ dx_α dx_β, Σ dn_α dx_β symmetric
   for (const Facet* there : neighbours) {
@@ -59,6 +61,7 @@ ShapeOperator fitted(const Facet& here, const std::vector<const Facet*>& neighbo
   const double ridge = k_untold * (a11 + a22);
   const double m[3][3] = {{a11 + ridge, a12, 0}, {a12, a11 + a22 + ridge, a12}, {0, a12, a22 + ridge}};
   const double rhs[3] = {b11, b12, b22};
+  // Cramer's rule for the three unknowns.
   const auto determinant = [&](int column) {
     double c[3][3];
     for (int i = 0; i < 3; ++i)
