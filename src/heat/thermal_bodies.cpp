@@ -75,9 +75,12 @@ double ThermalPhase::put_in(const linear::ActiveSet& before, const std::function
       return fresh(i, body);
     });
     if (!any) continue;
+    // Carried in is the heat of the new bodies above what they would have at the temperature that
+    // balances count from.
     carried += heat - storage_->sum_of_bodies(i, [&](int body) {
       return before.body(body) ? 0.0 : storage_->body_enthalpy(body, k_counted_from);
     });
+    // The node's temperature is that of the heat of all its bodies together.
     const double all = heat + (state.enthalpy.empty() ? kept : state.enthalpy[at(i)]);
     if (!state.enthalpy.empty()) state.enthalpy[at(i)] = all;
     state.temperature[at(i)] = storage_->temperature(i, all);

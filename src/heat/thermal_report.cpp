@@ -33,6 +33,7 @@ HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& n
     for (const auto& block : points_) stored += block->stored(next.temperature);
   }
   balance.stored = parallel::global_sum(stored);
+  // `moved` is a power: heat that went from one place to another in the step.
   balance.exchanged = moved * dt;
   return balance;
 }
@@ -58,6 +59,8 @@ HeatBalance ThermalPhase::measure(std::span<const double> temperature, std::span
   // Reactions are heat at prescribed temperatures; each kind of condition is listed with its heat.
   std::vector<double> reactions(residual.size());  // where the temperature is prescribed
   for (std::size_t i = 0; i < reactions.size(); ++i) reactions[i] = system_->fixed()[i] ? residual[i] : 0.0;
+  // Entropy comes in with the heat at its temperature, q/Θ; reactions are heat at a prescribed
+  // temperature.
   double entropy = system_->entropy_power(temperature);
   for (std::size_t i = 0; i < reactions.size(); ++i) entropy += reactions[i] / temperature[i];
   balance.entropy_in = parallel::global_sum(entropy) * dt;
@@ -102,6 +105,7 @@ double ThermalPhase::mean_solid_fraction(const ThermalState& state, int body) co
 }
 
 double ThermalPhase::mean_solid_fraction(const ThermalState& state) const {
+  // Volumes of bodies that can melt, by their nodal shares.
   double solid = 0, volume = 0;
   for (std::size_t b = 0; b < materials_.size(); ++b) {
     const auto body = static_cast<int>(b);

@@ -38,6 +38,8 @@ std::size_t at(Index i) {
 
 /// Adds the last stage: total = last + carried × first, of all that counts in joules.
 void add_stage(ThermalReport& report, double carried, ThermalReport& last) {
+  // Stages after the first are extrapolated from it, so that the first counts with the share
+  // `carried` (decision 0016).
   HeatBalance& first = report.balance;
   HeatBalance& sum = last.balance;
   sum.stored += carried * first.stored;
@@ -83,8 +85,11 @@ ThermalReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, 
 /// SDIRK2; its second stage is backward Euler over the rest of the step where SDIRK2 would overshoot.
 ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const ThermalPass& pass,
                                              ThermalState& next) {
+  // SDIRK2 has two stages with one coefficient; its second one starts from H_n + carried (H_1 −
+  // H_n).
   const linear::RungeKuttaStage first{k_sdirk_share * pass.dt, 0}, extrapolated{first.dt, k_sdirk_carried},
       rest{pass.dt - first.dt, 1};
+  // Flows of the stages are kept for estimates of the error in time.
   const bool flows = nodal() && !pass.adiabatic;
   // The first stage, backward Euler over its share of the step.
   ThermalState middle;
@@ -110,6 +115,7 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
     guard.emplace(*system_, *storage_, old, middle);
     second_order = !pass.within_range || !guard->extrapolates_too_far(around);
   }
+  // The second stage takes the means of loads over its own part of the step.
   ThermalPass to_end{.time = pass.time,
                      .dt = pass.dt,
                      .iterate = pass.iterate,
@@ -124,6 +130,7 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   if (second_order && guard && overshoots()) {
     second_order = false;
     to_end.loads = last_loads(pass.time, pass.dt, false);
+    // The history of the first stage is built again, because the second one has overwritten it.
     begin_stage(first, old.temperature);
     ThermalReport again = solve_stage(old, middle, rest, to_end, next);
     again.newton.add_solves(last.newton);
@@ -137,6 +144,7 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   stage_flows.second_order = second_order;
   stage_flows.share = k_sdirk_share;
   stage_flows.last_share = stage.dt / pass.dt;
+  // Sums of both stages are the step's.
   add_stage(report, stage.carried, last);
   report.flows = std::move(stage_flows);
   return report;
@@ -152,6 +160,7 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
   next = start(pass.iterate != nullptr ? *pass.iterate : before, pass.window(), !half_way);
   ThermalReport report;
   if (!nodal()) {
+    // By the open rule points keep the heats; the unknown is temperature.
     for (const auto& block : points_) {
       block->start(old.temperature, stage.dt);
       if (stage.carried != 0) block->extrapolate(before.temperature, stage.carried);
@@ -163,6 +172,7 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
     report.balance = balance(old, next, residual, temperature_system_->moved(), stage.dt);
     return report;
   }
+  // The sources of a stage: nodal heats H* from which it stores.
   std::vector<double> from = stage_start(old, before, stage).enthalpy;
   if (half_way) start_from(stage_start(old, before, {stage.dt, 0.5 * (1 + stage.carried)}).enthalpy, next);
   const ConductionBounds bounds = limit_conduction(before, old, pass.keeps_limits);
@@ -171,6 +181,8 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
   report.hardest = report.newton.effort;
   const std::vector<double> residual = truncated_newton_->take_residual();
   require_positive(next.temperature);
+  // After the iteration what is left of the residual is booked into the nodal heats, so that the
+  // balance is exact whatever the tolerance.
   if (!may_end(report.newton, pass.newton_steps)) require(report.newton, residual, next.temperature);
   book(residual, stage.dt, next.enthalpy);
   report.balance =

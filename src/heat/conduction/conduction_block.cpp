@@ -35,14 +35,20 @@ PackVector<Lane> integrated_gradients(const mesh::BlockGeometry& g) {
 mesh::BlockGeometry nodal_geometry(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                    AnalysisKind kind) {
   constexpr double k_rounding = 1e-13;
+  // Points lie at the nodes; their weights are replaced, since those of the rule are of the
+  // reference shape.
   mesh::BlockGeometry g(mesh, block, kind, mesh::nodal_rule(block.shape));
   const mesh::BlockGeometry gauss(mesh, block, kind, mesh::gauss_rule(block.shape, 3));
   g.weight = mesh::nodal_weights(mesh, block, kind);
+  // ∫ ∇N_a dV by Gauss's rule is exact; the same by the nodal rule is not where elements are
+  // distorted.
   const PackVector<Lane> exact = integrated_gradients(gauss);
   PackVector<Lane> shift = integrated_gradients(g);
   const auto stride = static_cast<std::size_t>(g.n_nodes * g.dim);
   double largest_shift = 0;
   for (Index batch = 0; batch < g.n_batches; ++batch) {
+    // Both means are taken over the volume of their own rule. Padding lanes have no volume and are
+    // kept at zero, so that no lane divides by it.
     Lane volume(0.0), gauss_volume(0.0);
     for (int q = 0; q < g.n_points; ++q) volume += g.weight_at(batch, q);
     for (int q = 0; q < gauss.n_points; ++q) gauss_volume += gauss.weight_at(batch, q);
@@ -56,6 +62,7 @@ mesh::BlockGeometry nodal_geometry(const mesh::Mesh& mesh, const mesh::ElementBl
       largest = max(largest, abs(shift[at]));
       size = max(size, abs(g.gradients_at(batch, 0)[i]));
     }
+    // The shift counts relative to the gradient itself: a length has no scale of its own.
     for (int lane = 0; lane < k_lanes; ++lane)
       largest_shift = std::max(largest_shift, largest[lane] / size[lane]);
   }
@@ -125,6 +132,8 @@ class Conduction final : public ConductionBlock {
 
   /// m −= w ∇N_a · loss ∇N_b.
   static void subtract(const Loss& loss, const Lane* g, Lane w, ConductionMatrix<n_nodes>& m) {
+    // Of each column the flux that is lost, w loss ∇N_b, then its product with every ∇N_a of the
+    // lower triangle.
     for (std::size_t b = 0; b < n_nodes; ++b) {
       std::array<Lane, dim> lost{};
       for (std::size_t i = 0; i < dim; ++i) {

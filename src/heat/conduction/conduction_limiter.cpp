@@ -116,6 +116,7 @@ void ConductionLimiter::find_factors() {
     ++count[at(i) + 1];
     if (owned(j)) ++count[at(j) + 1];
   });
+  // Rows of neighbours in one array: counts become starts, then the pairs are filled in.
   for (std::size_t i = 1; i <= n; ++i) count[i] += count[i - 1];
   std::vector<Index> neighbours(static_cast<std::size_t>(count[n]));
   std::vector<std::int64_t> next(count.begin(), count.end() - 1);
@@ -123,6 +124,7 @@ void ConductionLimiter::find_factors() {
     neighbours[static_cast<std::size_t>(next[at(i)]++)] = j;
     if (owned(j)) neighbours[static_cast<std::size_t>(next[at(j)]++)] = i;
   });
+  // Flows of the pairs at the reference conductivity, and the diagonal that bounds them.
   std::vector<std::vector<std::pair<Index, double>>> partners(n);
   std::vector<double> diagonal(n, 0.0);
   for (const Body& body : bodies_) {
@@ -150,6 +152,8 @@ void ConductionLimiter::find_factors() {
       edges.push_back(minus(neighbours[static_cast<std::size_t>(s)], i));
       longest = std::max(longest, std::sqrt(dot(edges.back(), edges.back())));
     }
+    // Of a linear field with the gradient g: the neighbours' highest rise `reach`, and what the
+    // pairs draw from the node, `pull`.
     double needed = 0;
     const auto look = [&](const mesh::Point& g) {
       double reach = 0, pull = 0;
@@ -158,6 +162,8 @@ void ConductionLimiter::find_factors() {
       for (const auto& [j, k] : partners[at(i)]) pull += k * std::max(0.0, -dot(g, minus(j, i)));
       needed = std::max(needed, pull / (diagonal[at(i)] * reach));
     };
+    // Directions are those of the edges and of the axes with their diagonals: among them one is
+    // close to the worst.
     for (const mesh::Point& d : edges) {
       look(d);
       look({-d[0], -d[1], -d[2]});
@@ -167,6 +173,7 @@ void ConductionLimiter::find_factors() {
         for (int z = -1; z <= 1; ++z)
           if (x != 0 || y != 0 || z != 0)
             look({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
+    // The reserve makes up for directions between those that were looked at.
     gamma_[at(i)] = std::clamp(k_reserve * needed, k_least_factor, k_largest_factor);
   }
 }
@@ -211,12 +218,15 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
                                     std::span<const double> loss, std::span<const char> fixed,
                                     double negligible, std::span<LimitedFlow* const> flows) {
   if (!needed_) return false;
+  // Σ of all limited flows into (2 i) and out of (2 i + 1) each node: P⁺ and P⁻ of a flux-corrected
+  // transport.
   std::fill(sums_.begin(), sums_.end(), 0.0);
   for_flows(temperature, [&](std::size_t, const Pair& p, double flow) {
     const std::size_t i = 2 * at(p.i), j = 2 * at(p.j);
     sums_[flow > 0 ? i : i + 1] += std::abs(flow);
     if (j < sums_.size()) sums_[flow > 0 ? j + 1 : j] += std::abs(flow);
   });
+  // Flows of surfaces count along, since they are limited together with those of pairs.
   for (const LimitedFlow* f : flows) {
     const std::size_t from = 2 * at(f->from) + (f->heat > 0 ? 1 : 0),
                       to = 2 * at(f->to) + (f->heat > 0 ? 0 : 1);
@@ -224,11 +234,14 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
     if (to < sums_.size()) sums_[to] += std::abs(f->heat);
   }
   find_extremes(temperature);
+  // What a node may gain at most without passing its neighbours (Q⁺, Q⁻): first what its
+  // surroundings supply,
   for (const Index node : nodes_) {
     const std::size_t i = at(node);
     shares_[2 * i] = k_supply * gain[i];
     shares_[2 * i + 1] = k_supply * loss[i];
   }
+  // then what flows of the monotone part allow, γ K_ii (u_max − u_i).
   for (const Body& body : bodies_) {
     const KirchhoffPotential& u = potentials_[static_cast<std::size_t>(body.body)];
     for (const Diagonal& d : body.diagonal) {
@@ -236,11 +249,14 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
       const double here = value(u, temperature[i]), factor = gamma_[i] * d.k;
       shares_[2 * i] += factor * std::max(value(u, highest_[i]) - here, 0.0);
       shares_[2 * i + 1] += factor * std::max(here - value(u, lowest_[i]), 0.0);
+      // Where flows are rounding the quotient would jump from one evaluation to the next.
       const double noise = k_noise * d.k * u.reference();
       if (sums_[2 * i] > 0) sums_[2 * i] += noise;
       if (sums_[2 * i + 1] > 0) sums_[2 * i + 1] += noise;
     }
   }
+  // The share of a node is Q/P; nodes with a prescribed temperature need no bound, and nodes that
+  // are held take nothing.
   for (const Index node : nodes_) {
     const std::size_t i = at(node);
     for (std::size_t k = 2 * i; k < 2 * i + 2; ++k) {
@@ -250,6 +266,7 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
       if (fixed[i] != 0) shares_[k] = 1;
     }
   }
+  // A flow takes the smaller share of its two nodes, of which one may be another process's.
   ghosts_.update(shares_, 2);
   // Where nothing flows yet the direction is unknown, and the processes of the two nodes must agree: the
   // smaller share of both directions is taken.
@@ -263,6 +280,7 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
     return 1.0 -
            (f.heat > 0 ? std::min(shares_[from + 1], shares_[to]) : std::min(shares_[from], shares_[to + 1]));
   };
+  // The change that the new shares make is measured in watt before they are taken.
   double change = 0;
   for_flows(temperature, [&](std::size_t position, const Pair& p, double flow) {
     change += std::abs((left_of(p, flow) - left_[position]) * flow) * (p.j < mesh_.n_owned_nodes ? 1.0 : 0.5);
@@ -289,6 +307,7 @@ ConductionLimiter::Held ConductionLimiter::hold(std::span<const double> temperat
     held = std::max(held, now == 0 ? Held::further : Held::as_before);
     now = 1;
   }
+  // A process may have held none: the answer is the strongest of all.
   return static_cast<Held>(static_cast<int>(parallel::global_max(static_cast<int>(held))));
 }
 

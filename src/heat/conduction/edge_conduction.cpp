@@ -79,6 +79,7 @@ struct Simplex {
 /// The mean of both functions over the face opposite to vertex `a`, by its parts of equal size: enough for
 /// powers r^α, and exact for linear functions.
 std::array<double, 2> mean_over_face(const Simplex& s, std::size_t a, const SingularFunctions& functions) {
+  // The face is a segment or a triangle with the corner p and the sides `first` and `second`.
   const Point& p = s.x[(a + 1) % s.n];
   const Point first = difference(s.x[(a + 2) % s.n], p);
   std::array<double, 2> sum{};
@@ -90,6 +91,7 @@ std::array<double, 2> mean_over_face(const Simplex& s, std::size_t a, const Sing
     for (std::size_t k = 0; k < 2; ++k) sum[k] += value[k];
     ++n_parts;
   };
+  // Midpoints of equal parts; triangles are cut into small ones that point up (1/3) and down (2/3).
   constexpr int k_parts_of_line = 24, k_parts_of_side = 8;
   if (s.n == 3) {
     for (int i = 0; i < k_parts_of_line; ++i) add((i + 0.5) / k_parts_of_line, 0, first);
@@ -178,6 +180,7 @@ std::optional<EdgeLoss> EdgeConduction::loss(const mesh::Mesh& mesh, mesh::Shape
   for (std::size_t a = 0; a < n; ++a) any = (wedges[a] = wedge(nodes[a])) != nullptr || any;
   if (!any) return {};
   const Simplex s(mesh, {nodes, n});
+  // The loss is that of a matrix (1 − c)(1 − t ⊗ t): conduction along the edge t is not reduced.
   EdgeLoss mean{};
   int n_edges = 0;
   const auto add = [&](double c, const Point& t) {
@@ -201,6 +204,7 @@ std::optional<EdgeLoss> EdgeConduction::loss(const mesh::Mesh& mesh, mesh::Shape
   const bool with_a_side = n_edges > 0;
   for (std::size_t a = 0; a < n && !with_a_side; ++a)
     if (wedges[a] != nullptr) add(factor_of(s, {s.x[a], *wedges[a]}, 1U << a), wedges[a]->tangent);
+  // Of several edges the mean.
   for (auto& row : mean)
     for (double& value : row) value /= n_edges;
   return mean;

@@ -11,6 +11,8 @@ KirchhoffPotential::KirchhoffPotential(const Table& conductivity)
       reference_(0.5 * (conductivity.min_value() + conductivity.max_value())) {
   if (constant()) return;
   const std::size_t last = t_.size() - 1;
+  // Beyond the table the conductivity is constant, or goes on along the last piece where the user
+  // says so.
   const bool linear = conductivity.extrapolation() == Extrapolation::linear;
   u_.push_back(0);
   slope_.push_back(0);

@@ -67,9 +67,11 @@ double NodalPotential::slope(Index node, double temperature) const {
 }
 
 double NodalPotential::temperature(Index node, double value, double near) const {
+  // Where all conductivities are constant and alike v is Θ itself.
   if (identity_) return value;
   const auto list = bodies(node);
   if (list.empty()) return value;
+  // A node of one body is inverted in closed form.
   if (list.size() == 1) {
     const KirchhoffPotential& u = potentials_[static_cast<std::size_t>(list.front())];
     return u.constant() ? value : u.temperature(value * u.reference());

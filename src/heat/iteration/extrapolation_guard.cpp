@@ -173,6 +173,8 @@ bool ExtrapolationGuard::raise_along(std::span<const std::size_t> way_out, doubl
                                      std::span<double> barrier) const {
   const std::size_t n = way_out.size();
   std::vector<char> seen(n, 0);
+  // A chain along the way out is walked to its end, or to a node that was seen, and then raised
+  // from the far end back: so each node is visited once.
   std::vector<std::size_t> chain;
   bool changed = false;
   for (std::size_t i = 0; i < n; ++i) {
@@ -183,6 +185,7 @@ bool ExtrapolationGuard::raise_along(std::span<const std::size_t> way_out, doubl
     for (; !chain.empty(); chain.pop_back()) {
       double& here = barrier[chain.back()];
       const double ahead = barrier[way_out[chain.back()]];
+      // `sign` makes highest and lowest barriers the same loop.
       if (sign * (ahead - here) <= 0) continue;
       here = ahead;
       changed = true;

@@ -47,6 +47,7 @@ std::vector<double> HeatSpread::operator()(std::span<const double> heat, std::sp
   const std::size_t n = capacity.size();
   const NodalPotential& potential = system_.potential();
   std::vector<double> slope(temperature.size(), 1.0);
+  // c = dv/dΘ: in the potential v the matrix of conduction is symmetric.
   if (!potential.identity()) {
     for (std::size_t i = 0; i < n; ++i) slope[i] = potential.slope(static_cast<Index>(i), temperature[i]);
     ghosts_.update(slope, 1);
@@ -54,6 +55,7 @@ std::vector<double> HeatSpread::operator()(std::span<const double> heat, std::sp
   system_.assemble_symmetric(temperature, slope);
   linear::BlockMatrix& a = system_.matrix();
   std::vector<double> inverse(n), r(n), x(n, 0.0), product(n), z(n), direction(temperature.size(), 0.0);
+  // The diagonal gets the capacity over τ; nodes without an equation are kept out by a zero.
   for (std::size_t i = 0; i < n; ++i) {
     double& diagonal = *a.diagonal_block(static_cast<Index>(i));
     diagonal += capacity[i] / (dt * slope[i]);
@@ -63,6 +65,7 @@ std::vector<double> HeatSpread::operator()(std::span<const double> heat, std::sp
     z[i] = inverse[i] * r[i];
     direction[i] = z[i];
   }
+  // Conjugate gradients until the norm in the preconditioner has fallen by k_accuracy.
   double rho = dot(r, z);
   const double enough = k_accuracy * k_accuracy * rho;
   for (int iteration = 0; iteration < k_max_iterations && rho > enough; ++iteration) {
@@ -80,6 +83,7 @@ std::vector<double> HeatSpread::operator()(std::span<const double> heat, std::sp
     rho = next;
     for (std::size_t i = 0; i < n; ++i) direction[i] = z[i] + beta * direction[i];
   }
+  // Back from c δ to δ.
   std::vector<double> result(temperature.size());
   for (std::size_t i = 0; i < n; ++i) result[i] = x[i] / slope[i];
   ghosts_.update(result, 1);

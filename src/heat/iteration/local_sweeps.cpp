@@ -33,11 +33,13 @@ LocalSweeps::LocalSweeps(const linear::BlockMatrix& matrix, std::span<const doub
 void LocalSweeps::copy_rows(const linear::BlockMatrix& matrix, std::size_t n_owned) {
   constexpr auto k_none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> position(n_owned, k_none);
+  // The place of each chosen node among the chosen ones.
   for (std::size_t k = 0; k < nodes_.size(); ++k) position[nodes_[k]] = static_cast<std::uint32_t>(k);
   const std::span<const std::int64_t> row_start = matrix.row_start();
   const std::span<const Index> columns = matrix.columns();
   const double* values = matrix.block(0);
   const bool half = matrix.storage() == linear::BlockMatrix::Storage::upper;
+  // Each entry between two chosen nodes once, and its mirror image where only half is stored.
   const auto for_entries = [&](const auto& take) {
     for (std::size_t k = 0; k < nodes_.size(); ++k)
       for (std::int64_t s = row_start[nodes_[k]]; s < row_start[nodes_[k] + 1]; ++s) {
@@ -48,6 +50,8 @@ void LocalSweeps::copy_rows(const linear::BlockMatrix& matrix, std::size_t n_own
         if (half && other != k) take(other, static_cast<std::uint32_t>(k), values[s]);
       }
   };
+  // First how many each row has, then where it starts, then the entries: float is enough for sweeps
+  // that only improve a guess.
   start_.assign(nodes_.size() + 1, 0);
   for_entries([&](std::size_t row, std::uint32_t, double) { ++start_[row + 1]; });
   for (std::size_t k = 0; k < nodes_.size(); ++k) start_[k + 1] += start_[k];
@@ -64,6 +68,8 @@ void LocalSweeps::copy_couplings(const linear::BlockMatrix& matrix, std::size_t 
   const std::span<const Index> columns = matrix.columns();
   const double* values = matrix.block(0);
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    // The magnitudes on the diagonal keep a sweep stable although the values of the other process
+    // are old.
     float magnitudes = 0;
     for (std::int64_t s = row_start[nodes_[k]]; s < row_start[nodes_[k] + 1]; ++s) {
       const Index column = columns[static_cast<std::size_t>(s)];

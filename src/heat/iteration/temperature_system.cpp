@@ -45,6 +45,7 @@ TemperatureSystem::TemperatureSystem(const mesh::Mesh& mesh, HeatSystem& system,
 double TemperatureSystem::residual(std::span<const double> x, std::span<double> r) {
   // Flows and storage; reactions at prescribed temperatures count as heat moved.
   double moved = system_.residual(x, r);
+  // Storage at points is added where the step stores heat; a steady solution has none.
   if (storing_) {
     local_.assign(mesh_.x.size(), 0.0);
     for (const auto& block : points_) block->add_residual(x, local_);
@@ -53,6 +54,7 @@ double TemperatureSystem::residual(std::span<const double> x, std::span<double> 
       moved += std::abs(local_[i]);
     }
   }
+  // The reaction is what the condition brings or takes: it is heat moved, too.
   for (std::size_t i = 0; i < r.size(); ++i)
     if (system_.fixed()[i]) moved += std::abs(r[i]);
   moved_ = 0.5 * parallel::global_sum(moved);

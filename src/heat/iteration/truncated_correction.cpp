@@ -93,15 +93,19 @@ int TruncatedNewton::refine(std::span<const char> held, double forcing) {
   const auto add = [](double factor, const std::vector<double>& x, std::span<double> y) {
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += factor * x[i];
   };
+  // The residual of the derivative itself after the step of the symmetric system.
   std::vector<double> left(n);
   multiply_exactly(step_, left, held);
   for (std::size_t i = 0; i < n; ++i) left[i] = product_[i] - left[i];
+  // Nothing is gained by refining below what the outer iteration asks for.
   const double target = std::max(forcing, k_refined) * std::sqrt(dot(product_, product_));
   struct Direction {
     std::vector<double> step, product;  ///< the products are orthonormal
   };
   std::vector<Direction> directions;
   int iterations = 0;
+  // Each further direction is one solution of the symmetric system, whose preconditioner is at
+  // hand.
   for (int k = 0; k < k_refinements && std::sqrt(dot(left, left)) > target; ++k) {
     Direction d{std::vector<double>(step_.size()), std::vector<double>(n)};
     const linear::LinearReport report = solver_.solve_again(left, std::span(d.step).first(n), k_refining);
@@ -111,6 +115,8 @@ int TruncatedNewton::refine(std::span<const char> held, double forcing) {
       if (held[i]) d.step[i] = 0;
     ghosts_.update(d.step, 1);
     multiply_exactly(d.step, d.product, held);
+    // Its image is made orthogonal to those before, and the direction with it, so that the residual
+    // falls along each one separately.
     for (const Direction& before : directions) {
       const double along = dot(before.product, d.product);
       add(-along, before.step, d.step);
@@ -120,6 +126,7 @@ int TruncatedNewton::refine(std::span<const char> held, double forcing) {
     if (!(length > 0)) break;
     for (auto* v : {&d.step, &d.product})
       for (double& value : *v) value /= length;
+    // The share is the projection of the residual that is left.
     const double share = dot(left, d.product);
     add(share, d.step, step_);
     add(-share, d.product, left);
@@ -154,6 +161,8 @@ void TruncatedNewton::find_chords(std::span<float> chords) const {
 /// begins without plateaus: their nodes have the capacity of their temperature.
 linear::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
   const NodalPotential& potential = system_.potential();
+  // Nodes on a plateau have slope zero, their chord would be infinite: they begin with the capacity
+  // of their temperature.
   std::vector<float> chords(r_.size()), before(r_.size());
   for (std::size_t i = 0; i < r_.size(); ++i) {
     const auto node = static_cast<Index>(i);
@@ -161,6 +170,8 @@ linear::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
       chords[i] = static_cast<float>(storage_.capacity(node, temperature_[i]) /
                                      (dt_ * potential.slope(node, temperature_[i])));
   }
+  // A chord depends on the step that it gives, so both are repeated until the heat that they store
+  // changes little.
   linear::LinearReport report;
   int iterations = 0;
   for (int round = 0; round < k_chord_rounds; ++round) {
@@ -173,6 +184,7 @@ linear::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
       if (!report.converged) break;
       continue;
     }
+    // Changes count in heat (chord times step), summed over all nodes.
     double change = 0, all = 0;
     for (std::size_t i = 0; i < r_.size(); ++i) {
       const auto node = static_cast<Index>(i);

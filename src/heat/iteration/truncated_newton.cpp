@@ -77,12 +77,14 @@ void TruncatedNewton::assemble() {
   }
   system_.assemble_symmetric(temperature_, slope);
   linear::BlockMatrix& a = system_.matrix();
+  // Σ |A_ii Θ_i|: the scale against which rounding of the residual is judged.
   double conductance = 0;
   for (std::size_t i = 0; i < r_.size(); ++i) {
     diagonal_[i] = *a.diagonal_block(static_cast<Index>(i));
     conductance += std::abs(diagonal_[i] * slope[i] * temperature_[i]);
   }
   conductance_ = parallel::global_sum(conductance);
+  // With one process the rows are complete; otherwise couplings to ghosts are noted.
   if (r_.size() == mesh_.x.size()) return;
   const std::span<const std::int64_t> start = a.row_start();
   const std::span<const Index> columns = a.columns();
@@ -121,6 +123,7 @@ double TruncatedNewton::forcing_term(linear::Forcing& forcing) const {
 linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, double dt,
                                             std::span<double> temperature, std::span<double> heat,
                                             const ConductionBounds& bounds, int newton_steps) {
+  // The step's data are kept for its duration, so that its parts need no arguments of their own.
   old_heat_ = old_heat;
   heat_ = heat;
   temperature_ = temperature;
@@ -130,6 +133,7 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
   revisions_ = idle_ = 0;
   linear_ = true;
   looked_up_ = false;
+  // Whether the front has passed nodes in depth says if chords are worth trying.
   allocate();
   PlateauWatch watch(mesh_, storage_, system_.matrix(), ghosts_);
   watch.passed_in_depth(heat_, temperature_);
@@ -139,6 +143,8 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
   linear::Forcing forcing(true, k_loosest);
   linear::NewtonReport report;
   bool revised = false, looked_ahead = false;
+  // Every round: nonlinear sweeps, a test of convergence, and a linear correction with a search
+  // along it.
   evaluate();
   while (true) {
     report.residuals.push_back(moved_ > 0 ? norm_ / moved_ : norm_);
@@ -148,6 +154,8 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
       report.reason = "the residual is not a number";
       break;
     }
+    // At convergence the limits of conduction are found again; if that changes flows, the iteration
+    // goes on.
     if (converged()) {
       report.residuals.back() = moved_ > 0 ? norm_ / moved_ : norm_;
       report.converged = true;
@@ -175,8 +183,11 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
     }
     ++report.iterations;
     if (norm_ > std::max(options_.tolerance, options_.effort_tolerance) * moved_) ++report.effort;
+    // The linear solver's tolerance follows the nonlinear convergence (Eisenstat and Walker).
     const double to = forcing_term(forcing);
     const bool in_depth = watch.passed_in_depth(heat_, temperature_);
+    // Chords were no help last time if the residual has not fallen by k_chord_worth: then Newton's
+    // step again.
     const bool may_use_chords =
         storage_.has_plateaus() && !(by_chords && norm_ > k_chord_worth * norm_before);
     norm_before = norm_;
@@ -184,6 +195,8 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
     linear::LinearReport linear = by_chords ? correct_by_chords(to) : correct(to);
     report.linear_iterations += linear.iterations;
     solver_.release();  // sweeps have copies of their own
+    // A step that the search cuts short has met kinks of the curves: another correction is tried,
+    // by chords or beside the kinks.
     if (linear.converged && !search(by_chords ? 0 : may_use_chords ? k_short_step : k_stuck_step)) {
       by_chords = may_use_chords;
       linear = by_chords ? correct_by_chords(to) : correct_beside_kinks(to);

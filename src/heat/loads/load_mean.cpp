@@ -117,6 +117,7 @@ double LoadLaw::ambient(const LoadValues& mean, double otherwise) const {
 
 std::vector<TimePoint> time_points(const LoadWindow& window, std::span<const PlaceFunction* const> functions,
                                    int n, int parts) {
+  // A load that does not change has no mean to take: one point, without rounding.
   if (window.n_parts == 0 || all_steady(functions)) return {{window.time, 1}};
   const std::span<const TimePoint> rule =
       n == 2 ? std::span<const TimePoint>(k_gauss_2) : std::span<const TimePoint>(k_gauss);

@@ -186,15 +186,18 @@ void PlacedLoad::set_power(const CellIntegrals::Result& integrals, std::span<con
   double least = 1;
   for (std::size_t k = 0; k < 2; ++k) {
     const double sign = k == 0 ? 1 : -1;
+    // The total by points against the integral over cells tells how far points can be trusted.
     double sum = 0;
     for (const Share& share : shares_) sum += share.weight * at_points[at(share.point)][k];
     const double by_points = parallel::global_sum(sum), integral = integrals.total[k];
     const double alpha = share_of_points(by_points, integral);
     least = std::min(least, alpha);
+    // Values at points, scaled so that their total is the integral.
     if (alpha > 0 && by_points != 0)
       for (const Share& share : shares_)
         heat_[at(share.node)] +=
             sign * alpha * (integral / by_points) * share.weight * at_points[at(share.point)][k];
+    // What is left goes by the integrals of the nodes.
     if (alpha < 1)
       for (std::size_t i = 0; i < heat_.size(); ++i)
         heat_[i] += sign * (1 - alpha) * integrals.of_nodes[i][k];
@@ -205,16 +208,19 @@ void PlacedLoad::set_power(const CellIntegrals::Result& integrals, std::span<con
 void PlacedLoad::set_exchange(const CellIntegrals::Result& integrals, std::span<const LoadValues> at_points) {
   // The drive is counted from the coldest ambient temperature: in kelvin the rest would hide what varies.
   double coldest = HUGE_VAL;
+  // Index 0 is the coefficient, index 1 the coefficient times the ambient temperature.
   LoadValues sum{};
   for (std::size_t p = 0; p < points_.size(); ++p) {
     for (std::size_t k = 0; k < 2; ++k) sum[k] += points_[p].weight * at_points[p][k];
     if (at_points[p][0] > 0) coldest = std::min(coldest, at_points[p][1] / at_points[p][0]);
   }
+  // Means over processes, so that all of them take the same mixture.
   coldest = parallel::global_min(coldest);
   if (!std::isfinite(coldest)) coldest = 0;
   const LoadValues by_points{parallel::global_sum(sum[0]), parallel::global_sum(sum[1])};
   // An ambient temperature that is the same everywhere leaves rounding.
   constexpr double k_rounding = 1e-9;
+  // The drive above the coldest temperature: integral and points are compared in it.
   const double excess = integrals.total[1] - coldest * integrals.total[0];
   const double alpha = std::min(share_of_points(by_points[0], integrals.total[0]),
                                 excess > k_rounding * integrals.total[1]
@@ -230,6 +236,7 @@ void PlacedLoad::set_exchange(const CellIntegrals::Result& integrals, std::span<
         if (cells_.of_nodes()[i] > 0) around[2 * i + k] = integrals.of_nodes[i][k] / cells_.of_nodes()[i];
     parallel::GhostExchange(mesh_).update(around, 2);
   }
+  // At each point the mixture of its own value and the mean around its node or in its cell.
   for (std::size_t p = 0; p < points_.size(); ++p)
     for (std::size_t k = 0; k < 2; ++k) {
       means_[p][k] = alpha * scale * at_points[p][k];

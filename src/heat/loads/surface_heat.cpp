@@ -63,6 +63,7 @@ LoadValues SurfaceLaw::mean_over(const LoadWindow& window) const {
 }
 
 void SurfaceLaw::set_window(const LoadWindow& window) {
+  // Without a dependence on position one value serves all points.
   const PlaceFunction& driver = law_.functions.back();
   if (!placed()) {
     const double at_end = driver.value(window.time);
@@ -76,6 +77,7 @@ void SurfaceLaw::set_window(const LoadWindow& window) {
   std::vector<LoadValues> means(points_.size());
   std::vector<std::vector<double>> values(law_.functions.size(), std::vector<double>(points_.size()));
   std::array<double, 3> of_functions{};
+  // Means over the window by Gauss points in time; functions are evaluated for all places at once.
   for (const TimePoint& time : time_points(window, law_.pointers(), k_points)) {
     for (std::size_t f = 0; f < values.size(); ++f) law_.functions[f].values(points_, time.time, values[f]);
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -96,6 +98,8 @@ void SurfaceLaw::set_values(std::span<const LoadValues> means) {
 }
 
 SurfaceFlux SurfaceLaw::at(double temperature, std::size_t point) const {
+  // A prescribed flux has no slope; exchange has that of its drive and of a coefficient that
+  // depends on temperature.
   const Now& n = now_[placed() ? point : 0];
   if (!exchanges()) return {n.driver, 0.0};
   const bool varies = of_temperature_.has_value();
@@ -109,6 +113,7 @@ SurfaceFlux SurfaceLaw::at(double temperature, std::size_t point) const {
     // Θ|Θ|³ instead of Θ⁴: the same above absolute zero, and rising everywhere an iterate may stray.
     const double cube = k_stefan_boltzmann * std::abs(temperature * temperature * temperature);
     const double ambient = n.driver * n.driver;
+    // The driver of radiation is Θ_∞², so that its square is the fourth power.
     drive = k_stefan_boltzmann * ambient * ambient - cube * temperature;
     drive_slope = -4.0 * cube;
   }
@@ -137,6 +142,7 @@ double SurfaceHeat::Patch::temperature(std::span<const double> t, Index face, in
 SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface,
                          std::string name, SurfaceLaw law, bool closed)
     : name_(std::move(name)), law_(std::move(law)) {
+  // `lumped` are the weights of the closed rule, `positive` those of supply.
   std::vector<double> lumped(static_cast<std::size_t>(mesh.n_owned_nodes), 0.0);  // ∫ N_i dA
   std::vector<double> positive(lumped.size(), 0.0);
   for (const mesh::ElementBlock& faces : surface.faces) {
@@ -172,11 +178,14 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
                         .weight = g.weight,
                         .slots = {}});
   }
+  // Only nodes with a weight are kept.
   for (std::size_t i = 0; i < positive.size(); ++i) {
     if (positive[i] == 0.0) continue;
     supplied_nodes_.push_back(static_cast<Index>(i));
     supply_weight_.push_back(positive[i]);
   }
+  // The lumped nodes form a patch of one-node faces: so the rest of the class has one way for both
+  // rules.
   Patch nodes;
   nodes.values = {1.0};
   for (std::size_t i = 0; i < lumped.size(); ++i) {
@@ -208,6 +217,7 @@ void SurfaceHeat::place_points(const mesh::Mesh& mesh, AnalysisKind kind, const 
         else
           point.cell = first_cell + face;
         if (face < patch.n_counted) point.weight = weight;
+        // Place and shares of the point by the shape functions of its face.
         for (int a = 0; a < patch.n_nodes; ++a) {
           const Index node = patch.nodes[static_cast<std::size_t>(face * patch.n_nodes + a)];
           const double n = patch.values[static_cast<std::size_t>(q * patch.n_nodes + a)];
@@ -231,6 +241,7 @@ void SurfaceHeat::place_points(const mesh::Mesh& mesh, AnalysisKind kind, const 
     place(p.j);
   }
   for (const LimitedFlow& flow : flows_) place(flow.from);
+  // The faces themselves, over which integrals of the law are taken.
   std::vector<CellIntegrals::Cells> cells;
   for (const mesh::ElementBlock& faces : surface.faces)
     cells.push_back({faces.shape, faces.nodes, faces.n_counted});
@@ -256,6 +267,7 @@ std::pair<double, double> SurfaceHeat::flux_range() const {
       least = std::min(least, heat), greatest = std::max(greatest, heat);
     return {least, greatest};
   }
+  // At absolute zero all that comes in is supply: the range that surroundings can drive.
   for (const Patch& patch : patches_)
     for (std::size_t point = 0; point < patch.weight.size(); ++point) {
       const double q = law_.at(0.0, law_.placed() ? patch.first_point + point : 0).q;

@@ -24,6 +24,7 @@ void ConsistentHeat::begin_stage(const linear::RungeKuttaStage& stage, std::span
     else
       block->extrapolate(before, stage.carried);
   }
+  // The heat at nodes from which the stage counts, extrapolated in the same way.
   for (std::size_t i = 0; i < from_.size(); ++i) {
     const double heat = nodes_.upper(static_cast<Index>(i), before[i]);
     from_[i] = first ? heat : from_[i] + stage.carried * (heat - from_[i]);

@@ -34,6 +34,7 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
   std::vector<int> body_of(n_owned, k_none);
   std::vector<double> volume_of(n_owned, 0.0);
   std::map<Index, std::vector<NodeShare>> further;
+  // The first body that a node meets has its own two arrays; a second or third one goes to the map.
   const auto volume_in = [&](Index node, int body) -> double& {
     int& own = body_of[static_cast<std::size_t>(node)];
     if (own == k_none) own = body;
@@ -42,6 +43,7 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
     const auto found = std::ranges::find(list, body, &NodeShare::body);
     return (found != list.end() ? *found : list.emplace_back(NodeShare{body, 0.0})).weight;
   };
+  // Nodal weights of all elements, the volume ∫ N_a dV of each body at each node.
   for (const mesh::ElementBlock& block : mesh.blocks)
     mesh::for_parts(block, [&](const mesh::ElementBlock& part, Index) {
       const PackVector<Lane> weights = mesh::nodal_weights(mesh, part, kind);
@@ -57,6 +59,7 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
     shares_ = NodeShares(body_of.front(), std::move(volume_of));
     return;
   }
+  // Otherwise a list for each node: its own body first, then the others.
   std::size_t n_shares = n_owned;
   for (const auto& [node, list] : further) n_shares += list.size();
   shares_.reserve(n_shares);
@@ -139,10 +142,13 @@ double NodalEnthalpy::mixed_temperature(const NodeShares::List& shares, double h
   const auto upper_at = [&](double t) { return sum([t](const auto& c) { return c.upper(t); }); };
   const auto capacity_at = [&](double t) { return sum([t](const auto& c) { return c.capacity(t); }); };
   plateau = false;
+  // Breaks are common to all curves, so the sum is one quadratic between two of them.
   const auto above =
       std::partition_point(breaks_.begin(), breaks_.end(), [&](double t) { return lower_at(t) <= heat; });
+  // Below the lowest break all capacities are constant.
   if (above == breaks_.begin())
     return breaks_.front() + (heat - lower_at(breaks_.front())) / capacity_at(breaks_.front() - 1.0);
+  // Within the jump at the break the heat is on the plateau.
   const double t0 = *(above - 1), h = heat - upper_at(t0);
   if (h <= 0) {
     plateau = h < 0 && heat > lower_at(t0);

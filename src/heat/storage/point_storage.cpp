@@ -56,6 +56,7 @@ class Storage final : public PointStorage {
         const Lane rate = stored * geometry_.weight_at(batch, q) * Lane(1.0 / dt_);
         for (std::size_t a = 0; a < n_nodes; ++a) sum[a] += Lane(n[a]) * rate;
       }
+      // Ghost rows are summed too: their owners compute the same element.
       scatter<n_nodes>(geometry_, batch, sum, r);
     }
   }
@@ -109,6 +110,7 @@ class Storage final : public PointStorage {
       };
       for_points(old_temperature, add(1.0));
       for_points(temperature, add(-1.0));
+      // Latent heat per mass times density times the volume that transformed.
       total += material_.density * change.latent_heat * sum(transformed);
     }
     return total;

@@ -69,6 +69,7 @@ IntervalSearch StorageCurve::search_of(const std::vector<Piece>& pieces, double 
 StorageCurve::AtHeat StorageCurve::at_heat(double h) const {
   const std::size_t i = by_heat_(h);
   const Piece* piece = &pieces_[i];
+  // Heat counts from the start of the piece in which it lies.
   double x = h - piece->h0;
   if (x < 0) {
     if (h >= below_.h0) return {piece->t0, piece->v0, 0.0};  // in a jump at the first temperature
@@ -83,7 +84,10 @@ StorageCurve::AtHeat StorageCurve::at_heat(double h) const {
     const double c = piece->c0 + piece->c1 * piece->width;
     return {next.t0, next.v0, jumps ? 0.0 : (piece->k0 + piece->k1 * piece->width) / c};
   }
+  // c² = c0² + 2 c1 x: the capacity at that heat, of a piece whose capacity is linear in
+  // temperature.
   const double c = std::sqrt(std::max(0.0, piece->c0 * piece->c0 + 2.0 * piece->c1 * x));
+  // The root in the form without cancellation for small c1.
   double t = 2.0 * x / (piece->c0 + c);
   if (piece != &below_) t = std::min(t, piece->width);
   const double k = piece->k0 + piece->k1 * t;
