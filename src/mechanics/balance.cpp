@@ -19,6 +19,7 @@ constexpr double k_at_rest = 1e-8;
 // Bodies that share a node, directly or by way of others, get the same number.
 std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh, const linear::ActiveSet& active) {
   const std::size_t n = mesh.bodies.size();
+  // A node knows the first body that it was met in; every other body there touches that one.
   std::vector<int> touching(n * n, 0), first_body(mesh.x.size(), -1);
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (!active.body(block.body)) continue;
@@ -28,9 +29,11 @@ std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh, const linear::
       touching[static_cast<std::size_t>(first) * n + static_cast<std::size_t>(block.body)] = 1;
     }
   }
+  // Two bodies may share nodes on another process only.
   processes::largest(touching);
   std::vector<std::size_t> group(n);
   for (std::size_t b = 0; b < n; ++b) group[b] = b;
+  // Groups that touch are joined, under the smaller of their numbers.
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b < n; ++b) {
       if (touching[a * n + b] == 0 || group[a] == group[b]) continue;
@@ -45,6 +48,8 @@ std::vector<double> extents(const mesh::Mesh& mesh, std::span<const std::size_t>
                             std::size_t n_groups) {
   constexpr double k_none = -std::numeric_limits<double>::infinity();
   std::vector<double> all(6 * n_groups, k_none);  // the least, with the sign changed
+  // Largest coordinates, and largest of the coordinates with their sign changed: one maximum over
+  // processes gives both ends of each box.
   for (std::size_t i = 0; i < node_group.size(); ++i)
     for (std::size_t d = 0; d < 3; ++d) {
       double* const of_group = &all[6 * node_group[i]];
@@ -138,6 +143,7 @@ double BodyBalance::relative_step(std::span<const double> step, std::span<const 
   struct Squares {
     double step = 0, increment = 0, entries = 0;
   };
+  // Squares of the step and of the increment, and the number of entries, by groups.
   std::vector<Squares> all(n_groups_);
   for (std::size_t i = 0; i < step.size(); ++i) {
     Squares& of_group = all[group_of_entry(i, components_)];
@@ -149,6 +155,7 @@ double BodyBalance::relative_step(std::span<const double> step, std::span<const 
   processes::sum(std::span(reinterpret_cast<double*>(all.data()), 3 * n_groups_));
   double largest = 0;
   for (std::size_t g = 0; g < n_groups_; ++g) {
+    // A group at rest has an increment of rounding; its extent is then the scale.
     const Squares& group = all[g];
     const double still = k_at_rest * extent_[g];
     const double least = still * still * group.entries / components_;

@@ -37,6 +37,7 @@ void refuse_external(const material::Material& material, const std::string& what
 std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                                AnalysisKind kind, const material::Material& material,
                                                Mapping mapping, bool b_bar) {
+  // A law from outside does not say what it stores, which phases at fixed entropy need.
   if (mapping != Mapping::isothermal)
     refuse_external(material, "a phase that holds more than its temperature",
                     "a mechanical phase that holds the temperature (coupling.scheme)");
@@ -50,6 +51,7 @@ std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mes
         return make_coupled_block<AnalysisKind::solid>(mesh, block, material, b_bar);
     }
   }
+  // At fixed entropy; then laws from outside, which keep temperature.
   if (mapping == Mapping::isentropic)
     return make_block_of_law<material::Isentropic>(mesh, block, kind, material, b_bar);
   if (external_law(material) != nullptr)

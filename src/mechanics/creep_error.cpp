@@ -58,6 +58,7 @@ CreepError::CreepError(const MechanicalPhase& phase) : phase_(phase) {
     any_ = true;
     b.first = material.solidification() != nullptr ? k_components : 0;  // behind ε^v (law_parts.cpp)
     const PackVector<Lane> nodal = mesh::nodal_weights(mesh, block, phase.kind());
+    // Nodal weights of an element sum to its volume.
     const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
     for (std::size_t e = 0; e < static_cast<std::size_t>(block.n_counted); ++e) {
       double volume = 0;

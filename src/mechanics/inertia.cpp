@@ -22,6 +22,7 @@ mesh::Rule mass_rule(mesh::Shape shape, AnalysisKind kind) {
 MassMatrix::MassMatrix(const mesh::Mesh& mesh, AnalysisKind kind, std::span<const double> density,
                        MassKind mass) {
   assert(density.size() == mesh.bodies.size());
+  // The lumped matrix keeps the diagonal alone, and its graph has nothing else.
   linear::NodeGraph graph(mesh);  // with the diagonal of every node
   if (mass == MassKind::consistent)
     for (const mesh::ElementBlock& block : mesh.blocks)

@@ -28,6 +28,8 @@ void put_common(ElementField which, const Values& values, double* to) {
     case ElementField::dissipation:
       *to = values.dissipation;
       return;
+    // Derived from the stress: von Mises's equivalent and the pressure, which is positive in
+    // compression.
     case ElementField::von_mises:
       *to = von_mises(values.stress);
       return;

@@ -52,6 +52,7 @@ void integrate(const mesh::Mesh& mesh, AnalysisKind kind, const linear::ActiveSe
 /// The coordinate that a set of nodes has in common, −1 when it is not exactly one of the mesh's. Collective.
 int common_coordinate(const mesh::Mesh& mesh, std::span<const Index> nodes) {
   constexpr double k_flat = 1e-6;  // of the largest extent: what meshing programs leave
+  // The extent of the set along each axis, over all processes.
   std::array<double, 3> extent{};
   for (std::size_t i = 0; i < 3; ++i) {
     double low = HUGE_VAL, high = -HUGE_VAL;
@@ -61,6 +62,7 @@ int common_coordinate(const mesh::Mesh& mesh, std::span<const Index> nodes) {
     }
     extent[i] = parallel::global_max(high) - parallel::global_min(low);
   }
+  // Flat along exactly one axis: that is the plane of the set. A point or a line has more than one.
   const double largest = *std::max_element(extent.begin(), extent.end());
   int common = -1, n = 0;
   for (int i = 0; i < mesh.dimension; ++i)
@@ -120,6 +122,7 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, MechanicalConditions con
 
 void Loads::add_support(const mesh::Mesh& mesh, const linear::ActiveSet& active,
                         const PrescribedDisplacement& condition, std::span<const double> start) {
+  // The component may be one that the analysis does not have, such as z in the plane.
   if (condition.component < 0 || condition.component >= components_)
     throw InputError({}, "displacement component " + std::to_string(condition.component) + " of '" +
                              condition.node_set + "' does not exist in this analysis");
@@ -130,6 +133,7 @@ void Loads::add_support(const mesh::Mesh& mesh, const linear::ActiveSet& active,
   if (condition.relative)
     for (const Index entry : support.entries)
       support.start.push_back(start.empty() ? 0.0 : start[static_cast<std::size_t>(entry)]);
+  // Entries that are held have no equation; later conditions may hold the same one.
   for (const Index entry : support.entries) supported_[static_cast<std::size_t>(entry)] = 1;
   supports_.push_back(std::move(support));
 }

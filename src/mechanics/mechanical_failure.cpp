@@ -37,6 +37,7 @@ void MechanicalPhase::reject(const std::string& reason, std::span<const double> 
 
 /// LastIterate::flowing at x.
 std::vector<double> MechanicalPhase::flowing_shares(std::span<const double> x) const {
+  // Flowing and whole volume of each body, in pairs for one sum over processes.
   std::vector<double> sums(2 * mesh_.bodies.size(), 0.0);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const FlowingVolume volume = blocks_[b]->flowing(x.first(n_displacements()));
@@ -57,6 +58,7 @@ std::string MechanicalPhase::worst_place(std::span<const double> x) {
   residual(x, r);
   r.resize(n_forces());
   matrix_->constraints().sum(r);
+  // A residual that is not a number is the worst of all.
   double worst = -1;
   std::size_t entry = 0;
   for (std::size_t i = 0; i < r.size(); ++i) {
@@ -81,6 +83,7 @@ std::string MechanicalPhase::worst_place(std::span<const double> x) {
 
 /// The first point whose law finds no state at x, of the lowest process that has one.
 LawFailure MechanicalPhase::law_failure(std::span<const double> x) const {
+  // The first block with a failure is enough: the others mostly fail for the same reason.
   LawFailure found;
   for (std::size_t b = 0; b < blocks_.size() && found.text.empty(); ++b) {
     found = blocks_[b]->failure(x.first(n_displacements()));
@@ -88,6 +91,7 @@ LawFailure MechanicalPhase::law_failure(std::span<const double> x) const {
       found.text = fmt::format("body '{}', {}",
                                mesh_.bodies[static_cast<std::size_t>(mesh_.blocks[b].body)].name, found.text);
   }
+  // The lowest process that has one tells it to all, so that every process reports the same.
   const int first = processes::least(found.text.empty() ? processes::count() : processes::rank());
   if (first == processes::count()) return {};
   processes::broadcast(found.text, first);

@@ -30,6 +30,7 @@ void renew_history(const MechanicalPhase& phase, const std::vector<char>& bodies
     // A history of its own, no stress, and the solid fraction with which it was poured.
     state.history[b] = phase.blocks()[b]->initial_history();
     if (b < state.elements.size()) state.elements[b].reset();
+    // With the two-step method the history before the last is that of a body at rest, too.
     if (!state.before.empty()) state.before[b] = state.history[b];
     if (state.solid_fraction.empty()) continue;
     const std::vector<double>& poured = phase.nodal_phases().initial_solid_fraction();

@@ -62,8 +62,10 @@ NodalPressure::NodalPressure(const mesh::Mesh& mesh, BodyFields fields_of_bodies
   // A ghost may have its only such element on its owner.
   ghosts_.update(absent, fields());
   absent_.resize(n);
+  // Only a node with an element of mixed form, here or on its owner, has a pressure.
   for (std::size_t i = 0; i < n; ++i) absent_[i] = absent[i] != 0;
   const auto owned = static_cast<std::ptrdiff_t>(mesh.n_owned_nodes * fields());
+  // The mean square of residuals is taken over the nodes that have one.
   n_nodes_ = std::max(1.0, parallel::global_sum(static_cast<double>(
                                std::count(absent_.begin(), absent_.begin() + owned, char{0}))));
 }

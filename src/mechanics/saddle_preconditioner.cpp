@@ -64,6 +64,7 @@ void SaddlePreconditioner::set_up_schur() {
 
 void SaddlePreconditioner::find_softness() {
   const std::size_t fields = schur_.size(), n = mesh_.x.size() * fields;
+  // Pressures are scaled by their unit so that both rows of the system have one size.
   const double scale = pressure_.unit() * pressure_.unit();
   std::vector<double> softness(n, 0.0), volume(n, 0.0);
   // Softness of the volume at each node; its inverse augments the displacement block.
@@ -71,6 +72,7 @@ void SaddlePreconditioner::find_softness() {
   inverse_softness_.assign(static_cast<std::size_t>(mesh_.n_owned_nodes) * fields, 0.0);
   stiffness_.assign(n, 0.0);
   for (std::size_t i = 0; i < inverse_softness_.size(); ++i) {
+    // A node without volume of a mixed element has no pressure to augment.
     if (!(softness[i] > 0)) continue;
     inverse_softness_[i] = k_augmentation / (scale * softness[i]);
     stiffness_[i] = k_augmentation * volume[i] / softness[i];

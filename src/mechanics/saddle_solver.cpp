@@ -73,6 +73,8 @@ void SaddleSolver::make_solver() {
   hierarchy_.renew();
   copy_.reset();
   const auto product = [this](std::span<const double> x, std::span<double> y) { multiply(x, y); };
+  // Small systems are factorised; with sub-scales the factors precondition, since the projection is
+  // in the product alone.
   if (direct_) {
     preconditioner_.reset();  // the factors need its memory
     iterative_.reset();
@@ -83,6 +85,7 @@ void SaddleSolver::make_solver() {
   }
   factorised_.reset();
   operator_.reset();
+  // The preconditioner has a hierarchy for displacements and a Schur complement for pressures.
   preconditioner_.emplace(mesh_, matrix_, pressure_, ghosts_, options_.symmetric);
   iterative_.emplace();
   iterative_->set(product, [this](std::span<const double> r, std::span<double> z) { precondition(r, z); });
@@ -99,10 +102,12 @@ void SaddleSolver::assemble() {
 void SaddleSolver::multiply(std::span<const double> x, std::span<double> y) {
   const auto n_u = static_cast<std::size_t>(mesh_.n_owned_nodes * matrix_.components()),
              n_p = static_cast<std::size_t>(mesh_.n_owned_nodes * matrix_.fields());
+  // Scratch of the sizes of now; bodies may have come or gone.
   whole_.resize(n_u + n_p);
   product_.resize(n_u + n_p);
   local_u_.resize(mesh_.x.size() * static_cast<std::size_t>(matrix_.components()));
   local_p_.resize(mesh_.x.size() * static_cast<std::size_t>(matrix_.fields()));
+  // Unknowns are the free entries only; held ones are zero in the product.
   unknowns_->expand(x, whole_);
   // Both parts with their ghosts, the product, and the projection of the stabilisation.
   std::copy_n(whole_.begin(), n_u, local_u_.begin());
@@ -134,6 +139,7 @@ void SaddleSolver::set_up() {
   const Stopwatch watch(seconds_setup_);
   choose();
   if (direct_) {
+    // The assembled matrix holds displacements and pressures of the free entries.
     Mat assembled = copy_.copy(mesh_, matrix_, *unknowns_);
     factorised_->set(pressure_.orthogonal() ? operator_->matrix() : assembled, assembled);
     return;
@@ -159,6 +165,7 @@ linear::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::s
   // system is small enough for one.
   for (bool again = true; again;) {
     again = false;
+    // A factorisation costs the same at any tolerance, an iteration does not.
     const double relative = direct_ ? std::min(k_direct_tolerance, options_.relative_tolerance)
                                     : std::max(forcing, options_.relative_tolerance);
     const int spent = report.iterations;

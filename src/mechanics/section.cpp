@@ -58,6 +58,7 @@ std::vector<Face> skin_faces(const mesh::Mesh& mesh, int body) {
     const mesh::ElementBlock& block = mesh.blocks[b];
     if (block.body != body) continue;
     const auto vertices = at(mesh::vertex_count(mesh::face_shape(block.shape)));
+    // Every face of every element of the body, with a key of its sorted vertices.
     for (Index e = 0; e < block.size(); ++e)
       for (int f = 0; f < mesh::face_count(block.shape); ++f) {
         std::array<Index, 4> nodes{};
@@ -67,6 +68,8 @@ std::vector<Face> skin_faces(const mesh::Mesh& mesh, int body) {
         if (counts(mesh, key)) faces.push_back({key, b, e, f});
       }
   }
+  // Faces with one key lie next to each other then: a face inside is there twice, one of the skin
+  // once.
   std::ranges::sort(faces, {}, [](const Face& face) { return face.key.vertices; });
   std::vector<Face> skin;
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -114,6 +117,7 @@ std::vector<double> volumes(const mesh::Mesh& mesh, AnalysisKind kind, int body)
     const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
     for (Index batch = 0; batch < geometry.n_batches; ++batch) {
       Lane volume(0.0);
+      // Elements that another process counts weigh nothing here.
       for (int q = 0; q < geometry.n_points; ++q) volume += geometry.weight_at(batch, q);
       volume *= geometry.counted[at(batch)];
       for (int lane = 0; lane < k_lanes; ++lane) result.push_back(volume[lane]);

@@ -48,6 +48,7 @@ void StructuralHeat::add_tangent(std::span<const double> temperature, linear::Bl
     if (!slots_[b]) slots_[b] = deformation_[b]->slots(matrix);
     deformation_[b]->add_heat_tangent(form_, stages_->of_block[b], temperature, *slots_[b], matrix);
   }
+  // The diagonal of the nodes' own heat, at once for all blocks.
   for (Index node = 0; node < phase_.mesh().n_owned_nodes; ++node)
     *matrix.diagonal_block(node) += work_[static_cast<std::size_t>(node)];
 }

@@ -243,8 +243,10 @@ StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, const Stage
   // All others are differences of energy or entropy since the start.
   switch (form) {
     case StructuralForm::energy:
+      // Energy gained since the start is the heat (first law).
       return {now.internal_energy - start.energy, now.capacity};
     case StructuralForm::literal: {
+      // The literal form: Θ ΔS with the heating of 2.127b.
       const Lane gained = now.entropy - state(at, of_mechanics(point), at.temperature).entropy;
       const Sloped h = structural_heating(at, temperature);
       return {temperature * gained + h.value - dissipated, now.capacity + gained + h.slope};
@@ -401,6 +403,7 @@ StructuralChange StructuralPoints::mechanical_change() const {
   for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
     Lane energy(0.0), entropy(0.0);
     for (int q = 0; q < geometry_.n_points; ++q) {
+      // Nodes keep their heat of before; the sensible heat is that of the points.
       const Point& at = points_[index(batch, q)];
       const State now = state(at, of_mechanics(index(batch, q)), at.pass_temperature);
       const auto sensible = material::sensible_heat(material_, at.temperature, at.pass_temperature);
