@@ -97,6 +97,8 @@ void BlockIterative::forget() {
 }
 
 StepEffort BlockIterative::advance(const State& old, State& trial, double time, double dt) {
+  // Contact's energies are taken before the step, so that what the step changes can be booked after
+  // it.
   const ContactWork contact(phases_);
   StepEffort effort;
   // One iteration with one Newton step in each phase; if that fails the full iteration follows.
@@ -105,6 +107,7 @@ StepEffort BlockIterative::advance(const State& old, State& trial, double time, 
       solve(old, trial, {.time = time, .dt = dt, .newton_steps = 1}, contact, effort);
       return effort;
     } catch (const StepRejected&) {
+      // The failed attempt has moved the contact pairs: they are set back to the start of the step.
       synchronise(old);
     }
   }
@@ -142,6 +145,7 @@ void BlockIterative::solve(const State& old, State& trial, const Attempt& attemp
 
 void BlockIterative::iterate_until_agreement(const State& old, Iterate& it) {
   for (Relaxation& relaxation : relaxation_) relaxation.begin();
+  // Each round solves both phases once and measures how far they have changed each other.
   changes_.clear();
   while (true) {
     ++it.number;
@@ -151,6 +155,8 @@ void BlockIterative::iterate_until_agreement(const State& old, Iterate& it) {
       // Single steps of Newton's method do not look at the limits of conduction: whole passes follow.
       it.attempt.newton_steps = 0;
     }
+    // A further round: give up where it cannot converge, halve the step where changes stopped
+    // falling, and mix old and new.
     require_progress(it);
     damp(it);
     relax(it);
@@ -193,8 +199,11 @@ bool BlockIterative::thermal(const State& old, Iterate& it, int newton_steps) co
 
 // A pass of each phase (4.2, 4.3), and how much they changed.
 void BlockIterative::iterate(const State& old, Iterate& it) {
+  // Displacements before the round, to measure how far it moves.
   const std::vector<double> displacement = it.now.mechanics.displacement;
   try {
+    // Which phase comes first alternates where a gap conducts so much that one order alone would
+    // swing.
     if (alternates(it)) {
       it.solved = thermal(old, it, it.attempt.newton_steps);
       it.solved = mechanical(old, it, it.attempt.newton_steps) && it.solved;
@@ -203,10 +212,12 @@ void BlockIterative::iterate(const State& old, Iterate& it) {
       it.solved = thermal(old, it, it.attempt.newton_steps) && it.solved;
     }
   } catch (const StepRejected& rejected) {
+    // A phase that fails after growing changes is a symptom of the iteration, not of the phase.
     const bool grew = changes_.size() > 1 && changes_.back().temperature > changes_.front().temperature;
     if (!grew) throw;
     diverged(it, rejected.reason());
   }
+  // The change of the round is that between what was guessed and what both phases have answered.
   double change = largest_difference(it.now.heat.temperature, answered(it));
   const std::vector<double> interface = interface_temperatures(it.now.contacts);
   if (it.interface.size() == interface.size())
@@ -261,6 +272,7 @@ void BlockIterative::require_progress(const Iterate& it) const {
     diverged(it, "a temperature or displacement is not a number");
   if (changes_.back().temperature > k_diverged * changes_.front().temperature)
     diverged(it, "the phases drive each other away");
+  // The numbers of the last round tell how far it was.
   if (it.number < options_.max_iterations) return;
   throw StepRejected(fmt::format("coupling: no convergence in {} iterations, the last of which changed "
                                  "temperatures by {:.3g} K and displacements by {:.3g} m",

@@ -43,9 +43,12 @@ struct Moments {
 
 double Moments::distortion(AnalysisKind kind) const {
   if (weight <= 0) return square;
+  // What a rigid translation explains of the mean square is the square of the mean.
   const auto explained_by = [&](std::size_t i) { return displacement[i] * displacement[i] / weight; };
   // A ring that widens does not move.
   if (kind == AnalysisKind::axisymmetric) return std::max(square - explained_by(1), 0.0);
+  // Of three axes translation and rotation are taken off; the moment m and the inertia count from
+  // the centre of the nodes that take part.
   double rest = square;
   Point m{};
   std::array<Point, 3> inertia{};
@@ -61,6 +64,7 @@ double Moments::distortion(AnalysisKind kind) const {
   constexpr double k_singular = 1e-9;
   const double least = k_singular * (second[0][0] + second[0][1] + second[0][2]);
   std::array<Point, 3> l{};
+  // In plane strain the one rotation is about z.
   Point d{}, y{};
   for (std::size_t i = kind == AnalysisKind::plane_strain ? 2 : 0; i < 3; ++i) {
     d[i] = inertia[i][i];
@@ -104,12 +108,14 @@ BodyNorm::BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind)
               nodal[static_cast<std::size_t>(e / k_lanes) * n_nodes + a][static_cast<int>(e % k_lanes)];
       }
   }
+  // Weights become shares of the body, so that sums over nodes are means over its volume.
   for (std::size_t b = 0; b < n_bodies_; ++b) {
     const double volume = parallel::global_sum(std::accumulate(weight[b].begin(), weight[b].end(), 0.0));
     for (std::size_t i = 0; i < n_owned; ++i)
       if (weight[b][i] > 0)
         shares_.push_back({static_cast<Index>(i), static_cast<int>(b), weight[b][i] / volume});
   }
+  // The centre of each body, summed over processes like the volumes.
   for (const Share& share : shares_)
     for (std::size_t k = 0; k < 3; ++k)
       centre_[static_cast<std::size_t>(share.body)][k] +=
@@ -147,12 +153,14 @@ double BodyNorm::of_distortion(std::span<const double> displacement, std::span<c
   // Places count from the centre of the body, which keeps the moments well conditioned.
   for (const Share& share : shares_) {
     const auto node = static_cast<std::size_t>(share.node), body = static_cast<std::size_t>(share.body);
+    // Nodes that do not count leave the fit to the others.
     if (displacement.empty() || (!counts.empty() && counts[node] == 0)) continue;
     Point u{}, x = mesh_->x[node];
     for (std::size_t k = 0; k < width; ++k) u[k] = displacement[node * width + k];
     for (std::size_t k = 0; k < 3; ++k) x[k] -= centre_[body][k];
     moments[body].add(share.weight, x, u);
   }
+  // Moments are plain numbers, so they are summed over processes as one array.
   static_assert(sizeof(Moments) == Moments::k_size * sizeof(double));
   processes::sum(std::span(reinterpret_cast<double*>(moments.data()), Moments::k_size * n_bodies_));
   std::vector<double> square;

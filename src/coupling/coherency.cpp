@@ -27,6 +27,7 @@ Coherency::Coherency(const mesh::Mesh& mesh, const std::vector<material::Materia
     for (const Index node : block.nodes)
       if (material_[at_index(node)] == nullptr) material_[at_index(node)] = &material;
   }
+  // Nodes of bodies that do not melt are coherent from the start.
   of_solid_.assign(mesh.x.size(), 1.0);
   if (!melts_) return;
   const std::size_t n_bodies = mesh.bodies.size();

@@ -123,6 +123,7 @@ void begin_contacts(const Phases& phases, const std::vector<contact::ContactStat
           phases.heat != nullptr && phases.mechanics->mapping() == mechanics::Mapping::simultaneous,
       .further = further,
       .share = phases.mechanics->force_share()};
+  // Each pair gets its own state at t_n and, within an iteration, the one of the pass before.
   for (std::size_t i = 0; i < phases.contacts.size(); ++i) {
     of_contact.iterate = iterate.empty() ? nullptr : &iterate[i];
     phases.contacts[i]->begin(state_of(contacts, i), of_contact);
@@ -151,6 +152,7 @@ void find_interface_temperatures(const Phases& phases, const State& state, doubl
   const std::vector<double> coherency = coherency_of(phases, state.heat);
   for (std::size_t i = 0; i < phases.contacts.size(); ++i) {
     contact::ContactPair& pair = *phases.contacts[i];
+    // Only interfaces that store heat have a temperature that can be unknown.
     if (!pair.has_temperature()) continue;
     pair.begin(state_of(state.contacts, i), {.time = time,
                                              .dt = 0,
@@ -215,6 +217,7 @@ bool penetrations_small(const Phases& phases, int augmentation, int earlier) {
         reject_augmentations(*pair, augmentation + earlier, pair->excess());
       continue;
     }
+    // By default the pressure's tolerance ends the augmentations of a pair after a few.
     if (pair->spec().pressure_tolerance && augmentation >= k_most_augmentations_by_default) continue;
     if (const double of_pair = pair->excess(); of_pair > excess) {
       excess = of_pair;
@@ -253,6 +256,7 @@ bool restore_multipliers(const Phases& phases) {
   for (const contact::ContactPair* pair : phases.contacts) {
     if (!pair->forces().multiplies()) continue;
     if (!pair->forces().multipliers().may_take_back()) return false;
+    // A pair without multipliers has nothing to take back.
     any = true;
   }
   if (!any) return false;
@@ -270,9 +274,12 @@ void add_contacts(const Phases& phases, StepRejected& rejected) {
   for (const contact::ContactPair* pair : phases.contacts)
     if (failure.empty()) failure = pair->forces().failure_text();
   if (!failure.empty()) rejected.append(" (" + failure + ")");
+  // Only a failed equilibrium has an iterate at which the points can be looked at.
   auto* const equilibrium = dynamic_cast<mechanics::EquilibriumRejected*>(&rejected);
   if (equilibrium == nullptr || !numbers_everywhere(equilibrium->iterate.displacement)) return;
   equilibrium->iterate.contacts.clear();
+  // update() moves the pairs to the displacements that failed; what changed in the last iteration
+  // is kept.
   for (contact::ContactPair* pair : phases.contacts) {
     const std::int64_t changed = pair->forces().changes();
     pair->update(equilibrium->iterate.displacement);

@@ -69,12 +69,15 @@ bool CoupledSaddleSolver::factorises() const {
 }
 
 void CoupledSaddleSolver::make_solver(bool direct) {
+  // What the other kind of solver held is let go first, since both together may not fit into
+  // memory.
   direct_ = direct;
   hierarchy_.renew();
   copy_.reset();
   const auto product = [this](std::span<const double> x, std::span<double> y) { multiply(x, y); };
   saddle_.reset();
   temperatures_.reset();
+  // A factorisation of the assembled matrix; the product adds the projection of the stabilisation.
   if (direct) {
     iterative_.reset();
     factorised_.emplace(linear::KrylovOptions{.prefix = "coupled_", .symmetric = false});
@@ -142,6 +145,7 @@ void CoupledSaddleSolver::multiply(std::span<const double> x, std::span<double> 
   matrix_.temperature().multiply(local_t_, of_t(product_));
   matrix_.multiply_force(local_t_, of_u(part_));
   matrix_.multiply_volume(local_t_, of_p(part_));
+  // Heat by displacement is added before `part_` is reused for heat by pressure.
   matrix_.multiply_heat(local_u_, of_t(part_));
   add_part();
   std::fill_n(part_.begin(), n_u + n_p, 0.0);
@@ -162,6 +166,7 @@ void CoupledSaddleSolver::find_temperatures(std::span<const double> heat, std::s
 
 void CoupledSaddleSolver::precondition(std::span<const double> r, std::span<double> z) {
   const std::size_t n_u = n_displacements(), n_p = n_pressures();
+  // Temperatures first; their forces go over to the right-hand side of displacements and pressures.
   unknowns_->expand(r, whole_);
   weight(whole_, true);
   const std::span<double> temperature = std::span(product_).subspan(n_u + n_p);
@@ -194,6 +199,8 @@ linear::LinearReport CoupledSaddleSolver::solve([[maybe_unused]] linear::Coupled
   unknowns_->restrict_to(whole, right_);
   set_up();
   linear::LinearReport report;
+  // As in the saddle solver of mechanics: an old hierarchy that fails is renewed, then a
+  // factorisation is tried.
   for (bool again = true; again;) {
     again = false;
     const double relative = direct_ ? std::min(k_direct_tolerance, tightest_) : std::max(forcing, tightest_);

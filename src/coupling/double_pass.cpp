@@ -25,6 +25,8 @@ constexpr double k_settled = 1e-4, k_falls = 0.1;
 
 DoublePass::DoublePass(Phases phases, ThermalFlow flow) : phases_(std::move(phases)), flow_(flow) {
   if (phases_.heat == nullptr || phases_.mechanics == nullptr)
+    // The energy of a half step is exchanged in one form; only the energy and the entropy form
+    // close the balance.
     throw std::invalid_argument("the double pass needs both phases");
   using mechanics::Mapping;
   const Mapping mapping = phases_.mechanics->mapping();
@@ -33,6 +35,7 @@ DoublePass::DoublePass(Phases phases, ThermalFlow flow) : phases_(std::move(phas
   if (mapping == Mapping::isentropic && phases_.structural == nullptr)
     throw std::invalid_argument("isentropic passes need structural heat");
   using Form = mechanics::StructuralForm;
+  // Both halves must book the same exchange.
   if (phases_.structural != nullptr && phases_.structural->form() != Form::energy &&
       phases_.structural->form() != Form::entropy)
     throw std::invalid_argument("the double pass has the energy and the entropy form only");
@@ -112,14 +115,18 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
   const double middle = time - 0.5 * dt;
   const bool moves = phases_.mechanics->dynamic();
   ContactWork contact(phases_);
+  // The share of the plateau is held while the mechanical phase works, as the temperature is.
   const std::vector<double> share = plateau_share(phases_, old.heat);
+  // Step 0: a predictor of heat over the first half with the deformation held.
   if (phases_.structural != nullptr) phases_.structural->release();
   mechanics::StepDeformation held =
       phases_.mechanics->held_deformation(old.mechanics, old.heat.temperature, share);
   for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
+  // It gives the temperature at which the mechanical phase evaluates properties.
   State predicted;
   thermal_pass(phases_, old, predicted, held, {.time = middle, .dt = 0.5 * dt}, effort);
   held.clear();  // its storage serves again
+  // Step 1: mechanics over the first half, at the temperatures of t_n.
   mechanics::MechanicalPass pass{.time = middle,
                                  .dt = 0.5 * dt,
                                  .temperature = old.heat.temperature,
@@ -134,6 +141,7 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
       },
       moved, effort);
   in_middle = std::move(moved.report.at_work);
+  // The work of contact in the half step is booked before gaps move on.
   contact.add(phases_.mechanics->work_share());
   contact.book(effort.energy);
   for (contact::ContactPair* pair : phases_.contacts) pair->predict_heat();
@@ -158,7 +166,11 @@ StepEffort DoublePass::second_half(const State& half, State& trial, double time,
                                  .dt = 0.5 * dt,
                                  .temperature = half.heat.temperature,
                                  .plateau_share = share,
+                                 // Without inertia the forces in the middle do the work of both
+                                 // halves.
                                  .at_work = moves ? nullptr : &in_middle};
+  // Step 3: mechanics over the second half, then heat that only exchanges with deformation (step
+  // 4).
   Half moved;
   mechanical_half(
       half, trial, pass,

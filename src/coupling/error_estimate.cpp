@@ -116,6 +116,7 @@ LocalError ErrorEstimate::doubling(const State& old, const State& whole, const S
   if (measures(flows))
     in_heat = std::max(in_heat, lasting(norm_.mean(phases_->heat->change_in_kelvin(whole.heat, halves.heat)),
                                         rates.changed, change_of(old, halves, flows)));
+  // Stress follows from the difference of the creep strains, relaxed over the step.
   double in_stress = 0;
   if (creep_ != nullptr)
     in_stress = creep_->of_stress(creep_->flow(whole.mechanics, halves.mechanics, 1),

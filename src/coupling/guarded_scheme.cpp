@@ -68,6 +68,7 @@ std::vector<double> by_deformation(const Phases& phases, const State& trial, dou
 
 void require_continued(const Phases& phases, const State& old, const State& trial, double time, double dt) {
   if (phases.heat == nullptr) return;
+  // The range that temperatures may follow from: those at the start, and the surroundings.
   const heat::ThermalPhase& phase = *phases.heat;
   const heat::TemperatureRange start = range_of(phase, old),
                                range = including(start, range_around(phases, time));
@@ -76,6 +77,7 @@ void require_continued(const Phases& phases, const State& old, const State& tria
   const double lowest = std::isfinite(range.lowest) ? range.lowest : found.lowest,
                highest = std::isfinite(range.highest) ? range.highest : found.highest,
                width = highest - lowest;
+  // The allowance covers the overshoot of the time integration and rounding.
   const double allowed = k_overshoot * width + k_slack;
   const std::vector<double>& now = trial.heat.temperature;
   // How far each own node lies beyond the range, less what deformation explains of it.

@@ -65,6 +65,7 @@ StepEffort& StepEffort::operator+=(const StepEffort& next) {
     sum.residual = std::max(sum.residual, before.residual);
     sum.seconds += before.seconds;
   };
+  // The flows of a part are only known where it was a thermal pass with stages.
   if (!fields.flows.known()) fields.flows = std::move(first.fields.flows);
   if (fields.reactions.empty()) fields.reactions = std::move(first.fields.reactions);
   add(heat, first.heat);

@@ -38,14 +38,17 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
                                             int* augmentations) {
   const profile::Part part("mechanics");
   const double start = processes::wall_time();
+  // Augmentations of earlier passes of the step count along, so that a step has one limit.
   const int earlier = augmentations != nullptr ? *augmentations : 0;
   const std::vector<double> coherency =
       phases.contacts.empty() ? std::vector<double>{} : coherency_of(phases, old.mechanics, pass);
   begin_contacts(phases, old.contacts, old.mechanics, pass, coherency, contacts, earlier > 0);
+  // A firmer hold of contact helps the first pass of a step that failed.
   if (pass.contact_hold != 1)
     for (contact::ContactPair* pair : phases.contacts) pair->stabilise(pass.contact_hold);
   if (phases.structural != nullptr) phases.structural->release();
   mechanics::MechanicalReport report;
+  // Each augmentation is a whole equilibrium with the multipliers of the one before.
   mechanics::MechanicalPass augmented = pass;
   mechanics::MechanicalState next;
   // Most of a state is its history: the storage of the one that is overwritten serves again.
@@ -66,6 +69,7 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
       throw;
     }
     {
+      // Contact is placed at the solution, where penetrations are measured.
       const profile::Part of_contact("contact");
       for (contact::ContactPair* pair : phases.contacts) pair->update(next.displacement);
     }
@@ -75,6 +79,7 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
     augmented.start = next.displacement;
     augmented.newton_steps = 0;
   }
+  // Only now is the trial state replaced: a phase that fails leaves it as it was.
   trial.mechanics = std::move(next);
   trial.contacts = contact_states(phases);
 
@@ -84,12 +89,14 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
 }
 
 void book_work(const mechanics::MechanicalReport& report, StepEffort& effort) {
+  // Support work counts as work of the outside, since a prescribed motion does it.
   const mechanics::MechanicalWork& work = report.work;
   EnergyAudit& energy = effort.energy;
   energy.kinetic = work.kinetic;
   energy.numerical = work.numerical;
   energy.work = work.external_work + work.support_work;
   energy.unbalanced = work.residual_work;
+  // What dissipates and is not plastic flow is viscous.
   energy.viscous_dissipation = work.dissipation - work.plastic_dissipation;
   energy.plastic_dissipation = work.plastic_dissipation;
   energy.plastic_work = work.plastic_work;

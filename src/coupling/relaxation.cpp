@@ -25,11 +25,13 @@ double Relaxation::factor(std::span<const double> change) {
     sums[1] += difference * difference;
   }
   const double along = parallel::global_sum(sums[0]), square = parallel::global_sum(sums[1]);
+  // The first change of a step has nothing to compare with: it takes the user's factor.
   if (first_)
     factor_ = options_.factor;
   else if (square > 0)
     factor_ = std::clamp(-factor_ * along / square, k_least, k_largest);
   first_ = false;
+  // The change is kept for the next factor.
   last_.assign(change.begin(), change.end());
   return factor_;
 }

@@ -90,6 +90,7 @@ StepEffort SequentialSplit::mechanics_first(const State& old, State& trial, doub
   if (phases_.heat != nullptr)
     thermal_phase(old, old, trial, deformation,
                   {.time = time, .dt = dt, .stepping = phases_.heat->stepping()}, effort);
+  // What friction and gaps exchanged is booked once both phases have been solved.
   book_interface(effort.energy, phases_.structural != nullptr);
   const profile::Part part("audit");
   effort.stability = stability_audit(phases_, old, trial, deformation, effort);
@@ -115,6 +116,8 @@ std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, Sta
                                                            double dt, const HeatJudge& stop, int most,
                                                            int& iterations) {
   iterations = 1;
+  // `used` are the gaps by which heat was conducted; at first those of t_n, or where they change
+  // steadily the expected ones.
   State warm;
   const Gaps start = gaps();
   const Gaps expected = expected_gaps(old, time, dt, start);
@@ -123,25 +126,32 @@ std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, Sta
     if (old.steady_gaps[i] != 0) used[i] = expected[i];
   mechanics::StructuralLead lead;
   StepEffort effort = heat_at_rest(old, warm, time, dt, used, false, lead);
+  // A step that heat alone rejects ends here, before mechanics has cost anything (decision 0039).
   if (stop && stop(warm, effort.fields.flows)) return {};
   StepEffort deformed;
   mechanics::StepDeformation deformation =
       mechanical_phase(old, warm, trial, time, dt, extrapolated(old, dt), deformed, &lead);
   GapIterationWatch watch;
   while (true) {
+    // Mechanics tells the gaps of the end; in the middle of the step they are the mean of both
+    // ends.
     Gaps right = middle(start, gaps());
     trial.steady_gaps = steady_gaps(start, expected, right, warm);
     deformed.gap_heat = gap_heat(used, right, warm);
+    // The heat that went through gaps of another width than these decides on a further round.
     const contact::GapHeat all = sum(deformed.gap_heat);
     if (!misplaces_much(all, dt, effort) || iterations == most) break;
     const GapIterationWatch::Finding finding = watch.after(all.misplaced / all.passed);
     if (finding == GapIterationWatch::Finding::stuck) break;
+    // Where rounds jump between two answers the middle of both is tried.
     if (finding == GapIterationWatch::Finding::between) right = middle(used, right);
     ++iterations;
     const PhaseEffort heat = effort.heat, mechanics = deformed.mechanics;
+    // A further round starts from the contact state of t_n, with heat by the gaps that were found.
     restore_contacts(phases_, old);
     deformation.clear();  // its storage serves again
     effort = heat_at_rest(old, warm, time, dt, right, true, lead);
+    // It starts from the displacement of the round before, which is nearly the answer.
     const Start before{trial.mechanics.displacement, trial.mechanics.pressure};
     deformed = {};
     deformation = mechanical_phase(old, warm, trial, time, dt, before, deformed, &lead);
@@ -150,6 +160,7 @@ std::optional<StepEffort> SequentialSplit::conducted_first(const State& old, Sta
     deformed.coupling_iterations = iterations;
     used = std::move(right);
   }
+  // At last the heat that deformation makes, which exchanges nothing with the surroundings.
   const contact::InterfaceSums conducted = effort.energy.interface;
   thermal_phase(old, warm, trial, deformation, {.time = time, .dt = dt, .adiabatic = true}, deformed, &lead);
   book_interface(deformed.energy, phases_.structural != nullptr);
@@ -239,6 +250,7 @@ void SequentialSplit::thermal_phase(const State& old, const State& warm, State& 
     thermal_pass(phases_, warm, trial, deformation, pass, effort);
     return;
   }
+  // The share of the plateau is that of the temperatures that mechanics has used.
   const std::vector<double> share = plateau_share(phases_, warm.heat);
   thermal_pass_with_flow(phases_, warm, trial, deformation, pass, old.mechanics,
                          {.time = pass.time,

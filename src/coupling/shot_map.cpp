@@ -44,6 +44,7 @@ DieTemperature ShotMap::die_temperature(const State& state) const {
     die.lowest = std::min(die.lowest, t);
     die.highest = std::max(die.highest, t);
   }
+  // Over processes: the mean by volume, and the extremes.
   volume = parallel::global_sum(volume);
   return {parallel::global_sum(sum) / volume, parallel::global_min(die.lowest),
           parallel::global_max(die.highest)};
@@ -92,6 +93,8 @@ ShotRecord ShotMap::end(const State& state, ShotHistory& history) const {
 std::vector<double> ShotMap::coefficients(const ShotHistory& history) const {
   const Index n_owned = heat_.mesh().n_owned_nodes;
   const std::size_t last = history.iterates.size() - 1;
+  // Anderson's acceleration: α with Σ α = 1 minimises the change that the iterates would have
+  // together.
   const std::vector<double>& newest = history.iterates[last].change;
   struct Direction {
     std::vector<double> change;  ///< of unit length
@@ -100,6 +103,7 @@ std::vector<double> ShotMap::coefficients(const ShotHistory& history) const {
   std::vector<Direction> directions;
   std::vector<double> alpha(last + 1, 0.0), left = newest;
   alpha[last] = 1;
+  // Each difference to the newest iterate is a direction; its α says how it is made of iterates.
   for (std::size_t j = last; j-- > 0;) {
     Direction d{history.iterates[j].change, std::vector<double>(last + 1, 0.0)};
     for (std::size_t i = 0; i < d.change.size(); ++i) d.change[i] -= newest[i];
@@ -111,10 +115,12 @@ std::vector<double> ShotMap::coefficients(const ShotHistory& history) const {
       for (std::size_t i = 0; i < d.change.size(); ++i) d.change[i] -= along * other.change[i];
       for (std::size_t i = 0; i <= last; ++i) d.alpha[i] -= along * other.alpha[i];
     }
+    // A direction that the newer ones span already would only amplify rounding.
     const double rest = std::sqrt(dot(volume_, d.change, d.change, n_owned));
     if (!(rest > k_independent * length)) continue;
     for (double& c : d.change) c /= rest;
     for (double& a : d.alpha) a /= rest;
+    // The projection of the change that is left.
     const double along = dot(volume_, left, d.change, n_owned);
     for (std::size_t i = 0; i < left.size(); ++i) left[i] -= along * d.change[i];
     for (std::size_t i = 0; i <= last; ++i) alpha[i] -= along * d.alpha[i];

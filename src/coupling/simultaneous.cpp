@@ -162,6 +162,7 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
   // over the rest.
   extrapolated =
       extrapolated && thermal.may_extrapolate(old.heat, first.heat, heat::last_loads(time, dt, true));
+  // By extrapolation the second stage starts at Y_n + carried (Y_1 − Y_n).
   const double carried = extrapolated ? material::k_sdirk_carried : 1.0;
   contact.add(1, carried);
   for (std::size_t b = 0; b < deformation.size(); ++b)
@@ -190,6 +191,7 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
     return std::nullopt;
   // Energies and effort of both stages add up.
   deformation = drop_carried();
+  // Structural heat is booked with the deformation of the whole step.
   if (phases_.structural != nullptr) phases_.structural->set_deformation(deformation);
   effort.energy.add_first_stage(of_first.energy, carried);
   effort.mechanics.iterations += of_first.mechanics.iterations;
@@ -231,6 +233,8 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
   if (pressure != nullptr) pressure->release_pores();
   phases_.mechanics->begin(old, pass);
   std::vector<double> x = phases_.mechanics->start(old, pass);
+  // The loop goes on as long as something that Newton's iteration holds must change: pores,
+  // multipliers, limits of conduction, fractions of phases.
   int iterations = 0, linear_iterations = 0, revisions = 0, fraction_iterations = 0;
   // The equilibrium that an augmentation of the Lagrangian sets out from.
   std::vector<double> balanced;
@@ -239,6 +243,7 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
     try {
       report_ = newton_->solve(old, pass, x);
     } catch (StepRejected& rejected) {
+      // An augmentation without equilibrium is taken back, and the one before it is the solution.
       if (!balanced.empty() && restore_multipliers(phases_)) {
         x = std::exchange(balanced, {});
         newton_->thermal().restart(balanced_heat);
@@ -250,6 +255,7 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
     iterations += report_.iterations;
     linear_iterations += report_.linear_iterations;
     const std::span<const double> pressures = std::span(x).subspan(phases_.mechanics->n_displacements());
+    // Pressures below that of a pore change which nodes are pores; the equilibrium is found again.
     if (pressure != nullptr && pressure->fill_pores(pressures, solution)) continue;
     if (!penetrations_small(phases_, solution)) {
       balanced = x;
@@ -257,6 +263,7 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
       continue;
     }
     balanced.clear();
+    // Limits of conduction follow the solution a few times, then stay.
     if (revisions < k_revisions && newton_->thermal().revise_limits()) {
       ++revisions;
       continue;

@@ -42,6 +42,7 @@ SkinShare::SkinShare(const mesh::Mesh& mesh, AnalysisKind kind, std::span<const 
 double SkinShare::change(std::span<const double> before, std::span<const double> after) const {
   double largest = 0;
   if (before.empty() || after.empty()) return largest;
+  // The share counts up to full coherency; more solid changes nothing at a surface.
   const auto coherent = [](std::span<const double> of, Index node) {
     return std::min(of[static_cast<std::size_t>(node)], 1.0);
   };

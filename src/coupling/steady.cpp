@@ -72,6 +72,7 @@ void deform(const Phases& phases, const State& initial, std::span<const double> 
 
 [[noreturn]] void reject(const Phases& phases, const SteadyOptions& options, double change,
                          std::span<const double> found, std::span<const double> seen) {
+  // The node that changed most, for the message.
   heat::WorstNode worst;
   for (Index i = 0; i < phases.heat->mesh().n_owned_nodes; ++i) {
     const auto n = static_cast<std::size_t>(i);
