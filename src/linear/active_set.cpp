@@ -26,6 +26,7 @@ mesh::FaceKey face_of_element(const mesh::ElementBlock& block, Index element, in
 ActiveSet::ActiveSet(const mesh::Mesh& mesh, std::span<const std::string> absent)
     : complete_(absent.empty()), bodies_(mesh.bodies.size(), 1), nodes_(mesh.x.size(), 1) {
   if (complete_) return;
+  // Names become flags of bodies; a name that no body has is an error of the caller.
   for (const std::string& name : absent) {
     const auto found = std::find_if(mesh.bodies.begin(), mesh.bodies.end(),
                                     [&](const mesh::Body& body) { return body.name == name; });

@@ -49,6 +49,7 @@ void NodeGraph::add_cliques(std::span<const Index> nodes, int n) {
   assert(nodes.size() % count == 0);
   // Every pair of nodes of an element, in the rows of this process.
   for (std::size_t start = 0; start < nodes.size(); start += count) {
+    // Rows of other processes are theirs; nodes without an equation have neither row nor column.
     const auto clique = nodes.subspan(start, count);
     for (Index row : clique) {
       if (row >= mesh_.n_owned_nodes) continue;
@@ -99,16 +100,19 @@ BlockMatrix::BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph
 
 void BlockMatrix::set_graph(NodeGraph graph) {
   ++pattern_;
+  // Slots and the compressed rows follow from the graph; values are zero until the next assembly.
   left_out_ = graph.left_out();
   const bool upper = storage_ == Storage::upper;
   graph.compress(row_start_, columns_, upper);
   const auto bs = static_cast<std::size_t>(block_size_);
   assign_in_large_pages(values_, (columns_.size() + 1) * bs * bs + (upper ? k_overhang : 0), 0.0);
+  // An upper half begins each row with its diagonal, so that only whole rows need a table of it.
   if (!upper) {
     diagonal_.resize(at(mesh_.n_owned_nodes));
     for (Index row = 0; row < mesh_.n_owned_nodes; ++row) diagonal_[at(row)] = slot(row, row);
   }
   order_ghost_columns();
+  // The lists of fixed entries belong to the old pattern.
   set_fixed(std::move(fixed_));
   petsc_->matrix.reset();
   petsc_->lower.reset();
@@ -124,9 +128,11 @@ void BlockMatrix::order_ghost_columns() {
   const auto global = [&](Slot s) { return mesh_.global_node[at(columns_[static_cast<std::size_t>(s)])]; };
   ghost_start_.clear();
   ghost_slots_.clear();
+  // With one process there are no ghosts.
   if (mesh_.n_nodes() == mesh_.n_owned_nodes) return;
   ghost_start_.reserve(at(mesh_.n_owned_nodes) + 1);
   ghost_start_.push_back(0);
+  // Each row lists the slots of its ghost columns, sorted as PETSc has them.
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
     const auto begin = ghost_slots_.size();
     for (Slot s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s)
@@ -141,6 +147,8 @@ void BlockMatrix::create_petsc_matrix() {
   // Any order of columns will do for the pattern as long as it is sorted: ghosts below, owned, ghosts above.
   if (storage_ == Storage::upper)
     petsc_->lower = std::make_unique<multigrid::LowerPart>(row_start_, columns_);
+  // Rows of scalar unknowns, each with the sorted columns of its blocks, in PETSc's format of
+  // compressed rows.
   std::vector<PetscInt> i(1, 0), j, columns;
   i.reserve(at(mesh_.n_owned_nodes) * static_cast<std::size_t>(block_size_) + 1);
   j.reserve(values_.size() * (storage_ == Storage::upper ? 2 : 1));
@@ -321,11 +329,13 @@ void BlockMatrix::copy_to_petsc() {
   PetscBool parallel = PETSC_FALSE;
   petsc::check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(a), MATMPIAIJ, &parallel),
                "PetscObjectTypeCompare");
+  // On several processes PETSc keeps two matrices, one for owned columns and one for ghosts.
   if (parallel) petsc::check(MatMPIAIJGetSeqAIJ(a, &diagonal, &off_diagonal, nullptr), "MatMPIAIJGetSeqAIJ");
   double *owned = nullptr, *ghosts = nullptr;
   petsc::check(MatSeqAIJGetArrayWrite(diagonal, &owned), "MatSeqAIJGetArrayWrite");
   if (off_diagonal) petsc::check(MatSeqAIJGetArrayWrite(off_diagonal, &ghosts), "MatSeqAIJGetArrayWrite");
 
+  // Scalar rows are written one after the other, a component of a block row each.
   double *to = owned, *to_ghosts = ghosts;
   const int bs = block_size_;
   const multigrid::MatrixView blocks = view();
@@ -361,6 +371,7 @@ void multiply_rows(std::span<const std::int64_t> row_start, std::span<const Inde
   const int bs = size > 0 ? size : any_size;
   for (std::size_t row = 0; row + 1 < row_start.size(); ++row) {
     double* const to = y + row * static_cast<std::size_t>(bs);
+    // Sums of a row stay in registers where the size is known to the compiler.
     double sum[size > 0 ? size : 1] = {};
     if constexpr (size == 0) std::fill_n(to, bs, 0.0);
     for (std::int64_t s = row_start[row]; s < row_start[row + 1]; ++s) {
@@ -381,6 +392,7 @@ void BlockMatrix::multiply(std::span<const double> x, std::span<double> y) const
     return multigrid::multiply_symmetric(block_size_, row_start_, columns_.data(), block(0), x.data(),
                                          y.data(), scratch_, mesh_.n_nodes());
   const auto with = [&](auto rows) { rows(row_start_, columns_, block(0), x.data(), y.data(), block_size_); };
+  // Sizes that occur have an instance of their own.
   switch (block_size_) {
     case 1:
       return with(multiply_rows<1>);

@@ -52,6 +52,7 @@ void CoupledMatrix::create_rectangles() {
 void CoupledMatrix::create_petsc_rectangles() {
   const int n_components = components(), n_fields = fields();
   const std::vector<char>&fixed_u = displacement_.fixed(), &fixed_t = temperature_.fixed();
+  // A prescribed displacement has no number; one that is tied has the number of its leader.
   const auto displacement_number = [&](Index node, int i) -> PetscInt {
     const std::int64_t entry = std::int64_t{node} * n_components + i;
     if (fixed_u[at(entry)]) return -1;
@@ -59,11 +60,13 @@ void CoupledMatrix::create_petsc_rectangles() {
     return static_cast<PetscInt>(constraints.empty() ? mesh_.global_node[at(node)] * n_components + i
                                                      : constraints.unknown(static_cast<Index>(entry)));
   };
+  // Temperatures are tied to nothing.
   const auto temperature_number = [&](Index node, int field) -> PetscInt {
     return fixed_t[at(std::int64_t{node} * n_fields + field)]
                ? -1
                : static_cast<PetscInt>(mesh_.global_node[at(node)] * n_fields + field);
   };
+  // Rows and columns of both rectangles, in the order in which their values are stored.
   std::vector<PetscInt> force_rows, force_columns, heat_rows, heat_columns;
   for (auto* list : {&force_rows, &force_columns, &heat_rows, &heat_columns}) list->reserve(force_.size());
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row)
@@ -82,6 +85,7 @@ void CoupledMatrix::create_petsc_rectangles() {
     }
   const auto n_nodes = static_cast<PetscInt>(mesh_.n_owned_nodes);
   const PetscInt n_t = n_nodes * n_fields, n_u = n_nodes * n_components;
+  // The pattern is given once as pairs; values follow in the same order at every assembly.
   const auto create = [](petsc::MatHandle& a, PetscInt rows, PetscInt columns, std::vector<PetscInt>& i,
                          std::vector<PetscInt>& j) {
     petsc::check(MatCreate(PETSC_COMM_WORLD, a.out()), "MatCreate");
@@ -110,6 +114,7 @@ namespace {
 template <int rows, int columns>
 void multiply_rectangles_of(const BlockMatrix& graph, const double* blocks, int any_rows, int any_columns,
                             const double* x, double* y) {
+  // As in BlockMatrix: sums in registers where the sizes are known.
   const int m = rows > 0 ? rows : any_rows, n = columns > 0 ? columns : any_columns;
   const std::span<const std::int64_t> start = graph.row_start();
   const Index* const column = graph.columns().data();
@@ -179,6 +184,7 @@ Mat CoupledMatrix::matrix(double force_scale, double heat_scale) {
                  "MatCreateNest");
   petsc::check(MatAssemblyBegin(petsc_->nest, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
   petsc::check(MatAssemblyEnd(petsc_->nest, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
+  // PETSc does not see that the blocks have changed, and would keep an old factorisation.
   petsc::check(PetscObjectStateIncrease(reinterpret_cast<PetscObject>(static_cast<Mat>(petsc_->nest))),
                "PetscObjectStateIncrease");
   return petsc_->nest;

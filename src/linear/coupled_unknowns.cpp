@@ -26,6 +26,8 @@ std::vector<std::int64_t> sums_before(const std::vector<std::int64_t>& counts) {
 /// processes, −1 where a degree of freedom is no unknown; always in the same order.
 template <class F>
 void each_entry(const mesh::Mesh& mesh, CoupledMatrix& matrix, const CoupledUnknowns& unknowns, const F& f) {
+  // First the saddle of displacements and pressures, then what couples it with temperature, row by
+  // row.
   each_saddle_entry(mesh.n_owned_nodes, *matrix.saddle(), unknowns,
                     [&](PetscInt i, PetscInt j, double value) { f(i, j, value, false); });
   const BlockMatrix &u = matrix.displacement(), &t = matrix.temperature();
@@ -45,6 +47,7 @@ void each_entry(const mesh::Mesh& mesh, CoupledMatrix& matrix, const CoupledUnkn
           matrix.heat_by_pressure(s)[field], true);
       }
     }
+    // At last conduction and storage of the temperatures themselves.
     for (std::int64_t s = t.row_start()[at(row)]; s < t.row_start()[at(row) + 1]; ++s)
       f(unknowns.of_temperature(row), unknowns.of_temperature(t.columns()[at(s)]), *t.block(s), true);
   }

@@ -89,12 +89,14 @@ Matrix transposed_product(const Columns& a, const Columns& b) {
 OrthogonalFactors orthogonal_factors(const Columns& a) {
   OrthogonalFactors f{copy(a), Matrix(a.count, a.count)};
   const int m = length(a.rows), n = length(a.count), lda = distance(f.q.all());
+  // LAPACK's block size is 32 at most for these routines.
   const int n_work = 32 * std::max(1, n);
   std::vector<double> reflectors(a.count), work(static_cast<std::size_t>(n_work));
   int info = 0;
   // Householder's factorisation, then its orthogonal factor explicitly.
   LAPACKgeqrf_(&m, &n, f.q.all().values, &lda, reflectors.data(), work.data(), &n_work, &info);
   require(info, "geqrf");
+  // R lies above the diagonal of what geqrf returns; the reflectors below are used up by orgqr.
   for (std::size_t j = 0; j < a.count; ++j)
     for (std::size_t i = 0; i <= j; ++i) f.r(i, j) = f.q(i, j);
   LAPACKorgqr_(&m, &n, &n, f.q.all().values, &lda, reflectors.data(), work.data(), &n_work, &info);
@@ -119,6 +121,8 @@ Eigensystem eigensystem(const Columns& a) {
   double none = 0;
   LAPACKgeev_("N", "V", &n, work_on.all().values, &lda, real.data(), imaginary.data(), &none, &one,
               result.vectors.all().values, &lda, work.data(), &n_work, &info);
+  // A negative value is a wrong argument, our fault; a positive one says that the iteration did not
+  // converge.
   if (info < 0) require(info, "geev");
   if (info == 0)
     for (std::size_t i = 0; i < size; ++i) result.values.emplace_back(real[i], imaginary[i]);

@@ -45,19 +45,26 @@ void IncompleteCholesky::set_up(BlockMatrix& a) {
 /// Returns whether no pivot was negative beyond rounding.
 bool IncompleteCholesky::factorise(const double* values, float shift) {
   bool positive = true;
+  // Single precision halves the memory; the factor only preconditions.
   std::transform(values, values + column_.size(), factor_.begin(),
                  [](double v) { return static_cast<float>(v); });
   std::vector<float>& bears = work_;
+  // What of the fill that is dropped a row may bear without losing its positive diagonal.
   find_borne_fill(values, bears);
   for (std::size_t row = 0; row < work_.size(); ++row) {
     const std::int64_t diagonal = start_[row], end = end_of_owned(row);
     float& pivot = factor_[at(diagonal)];
+    // The shift raises the diagonal where an attempt without it has met negative pivots.
     const float original = (1.0F + shift) * static_cast<float>(values[diagonal]);
     pivot += shift * static_cast<float>(values[diagonal]);
+    // Couplings to other processes are left out; a part of them goes onto the diagonal.
     for (std::int64_t s = end; s < start_[row + 1]; ++s) pivot += k_across * factor_[at(s)];
     if (bears[row] < 0.0F) pivot += bears[row];
     if (pivot < -k_least_pivot * original) positive = false;
+    // A pivot that is too small would dominate the factor: its row then counts with its own
+    // diagonal.
     if (!(pivot > k_least_pivot * original)) pivot = original;
+    // The row is taken out of those below, then divided by its pivot.
     eliminate(static_cast<Index>(row), end, bears);
     const float inverse = pivot != 0.0F ? 1.0F / pivot : 1.0F;
     for (std::int64_t s = diagonal + 1; s < end; ++s) factor_[at(s)] *= inverse;
@@ -91,6 +98,7 @@ void IncompleteCholesky::eliminate(Index row, std::int64_t end, std::span<float>
   for (std::int64_t s = diagonal + 1; s < end; ++s) {
     const float share = factor_[at(s)] / pivot;
     const std::size_t below = at(column_[at(s)]);
+    // Both rows are sorted by column, so one pass along each finds the places.
     std::int64_t to = start_[below];
     const std::int64_t last = start_[below + 1];
     for (std::int64_t t = s; t < end; ++t) {

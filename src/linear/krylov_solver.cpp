@@ -118,17 +118,20 @@ LinearReport KrylovSolver::solve(std::span<const double> b, std::span<double> x,
                                  double absolute) {
   Implementation& my = *implementation_;
   if (!my.ksp) return {0, false, "no factorisation"};
+  // Tolerances change from call to call, as Newton's iteration asks for them.
   petsc::check(KSPSetTolerances(my.ksp, relative, absolute, PETSC_DEFAULT, my.options.max_iterations),
                "KSPSetTolerances");
   petsc::put(b, my.b);
 
   LinearReport report;
+  // A factorisation that runs out of its work space is tried again with more.
   KSPConvergedReason reason = my.run(report.iterations);
   my.factorisation.begin();
   while (reason == KSP_DIVERGED_PC_FAILED && my.try_again()) reason = my.run(report.iterations);
   my.stale = false;
   report.converged = reason > 0;
   if (!report.converged) report.reason = KSPConvergedReasons[reason];
+  // MUMPS's own message says more than PETSc's.
   if (reason == KSP_DIVERGED_PC_FAILED) report.reason = my.factorisation.failure(my.preconditioner);
   petsc::get(my.x, x);
   // MUMPS refuses the next factorisation once one has met a singular matrix.

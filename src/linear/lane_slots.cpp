@@ -21,6 +21,7 @@ LaneSlots::LaneSlots(const BlockMatrix& matrix, std::span<const Index> nodes, in
   places_.resize(n_batches * held_.size());
   const std::span<const std::int64_t> row_start = matrix.row_start();
   for (std::size_t batch = 0; batch < n_batches; ++batch) {
+    // Nodes lie by lanes within a batch: [node][lane].
     const Index* const of_batch = nodes.data() + batch * n_ * k_lanes;
     std::uint16_t* to = places_.data() + batch * held_.size();
     for (std::size_t a = 0; a < n_; ++a)

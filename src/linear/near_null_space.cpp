@@ -11,6 +11,7 @@ NearNullSpace rigid_body_modes(const mesh::Mesh& mesh, int components) {
   for (std::size_t node = 0; node < n; ++node) {
     const mesh::Point& x = mesh.x[node];
     double* const rows = space.values.data() + node * nc * modes;
+    // Translations are ones in their own component.
     for (std::size_t i = 0; i < nc; ++i) rows[i * modes + i] = 1;
     // Rotations about z, x and y.
     rows[0 * modes + nc] = -x[1];

@@ -51,6 +51,7 @@ class Iteration {
         options_(options),
         start_(x.size()),
         local_step_(x.size()) {
+    // Lengths of the residual and of the step by the owned entries of all fields.
     std::size_t n = 0;
     for (const int of_field : components) n += owned(of_field);
     n_first_ = owned(components.front());
@@ -216,6 +217,7 @@ double Iteration::search(double slope) {
 
 NewtonReport Iteration::run() {
   NewtonReport report;
+  // The first residual and tangent; what is fixed and tied is known with them.
   evaluate();
   BlockMatrix* tangent = &system_.tangent(x_);  // knows what is fixed, and serves the first solve
   fixed_ = &tangent->fixed();
@@ -225,6 +227,7 @@ NewtonReport Iteration::run() {
   bool chord = false;
   Forcing forcing(options_.inexact, k_loosest);
   while (true) {
+    // Each round: test, direction, search along it, and whether the tangent may be used once more.
     check_interruption();
     report.residuals.push_back(measured());
     if (!std::isfinite(norm_)) {
@@ -242,8 +245,10 @@ NewtonReport Iteration::run() {
     }
     // Beyond here such a solution only gets better: nothing that follows makes it a failure.
     const bool solved = stepped_ && converged(false);
+    // A chord uses the factors of the round before.
     if (!tangent && !chord) tangent = &system_.tangent(x_);
     for (double& value : r_) value = -value;
+    // The tolerance of the linear solve follows the convergence (Eisenstat and Walker).
     const double eta = forcing.next(norm_, goal() / norm_);
     const LinearReport linear =
         chord ? solver_.solve_again(r_, step_, eta) : solver_.solve(*tangent, r_, step_, eta);
@@ -261,11 +266,13 @@ NewtonReport Iteration::run() {
       report.reason = "linear solver: " + linear.reason;
       return report;
     }
+    // Prescribed entries do not move, followers move with their leaders.
     for (std::size_t i = 0; i < n_first_ && i < fixed_->size(); ++i)
       if ((*fixed_)[i]) step_[i] = 0;
     constraints_->share(std::span(step_).first(n_first_));
     spread_step();
 
+    // The search starts from x, to which it may have to go back.
     const double norm_before = norm_;
     double alpha = 1;
     std::copy(x_.begin(), x_.end(), start_.begin());
@@ -291,6 +298,8 @@ NewtonReport Iteration::run() {
       system_.accept(x_, local_step_, 1.0);
       evaluate();
     }
+    // What this round has brought decides about the next one: whether the step is expected to
+    // converge, and whether a chord would.
     stepped_ = true;
     falls_ = options_.line_search && norm_ <= k_falls * norm_before;
     measure_next_step(alpha, norm_before);

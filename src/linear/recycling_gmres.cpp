@@ -109,6 +109,7 @@ class LeastSquares {
 /// parts of complex ones.
 Matrix slow_vectors(const Columns& g, const Columns& f, Size most) {
   const Size n = g.count;
+  // From G = Q R the problem becomes an ordinary one: R⁻¹ Qᵀ F p = (1/θ) p.
   const dense::OrthogonalFactors qr = dense::orthogonal_factors(g);
   const Matrix inverse =
       dense::transposed_product(qr.q.all(), f);  // R⁻¹ Qᵀ F, of which 1/θ are the eigenvalues
@@ -119,11 +120,13 @@ Matrix slow_vectors(const Columns& g, const Columns& f, Size most) {
   const dense::Eigensystem eigen = dense::eigensystem(inverse.all());
   if (eigen.values.empty()) return Matrix(n, 0);
   const auto size = [&](Size i) { return std::abs(eigen.values[i]); };
+  // The largest 1/θ are the slowest directions.
   std::vector<Size> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](Size a, Size b) { return size(a) > size(b); });
   std::vector<Size> chosen;
   for (const Size i : order) {
+    // Only those that are slow enough are worth their memory.
     if (size(i) < 1 / k_slow || chosen.size() == most) break;
     const double imaginary = eigen.values[i].imag();
     if (imaginary < 0) continue;  // comes with its conjugate
@@ -177,13 +180,16 @@ void RecyclingGmres::Implementation::set_size(Size size) {
 void RecyclingGmres::Implementation::renew_products() {
   Size kept = 0;
   for (Size i = 0; i < n_kept; ++i) {
+    // Products of the operator, orthogonalised against those before.
     const std::span<double> product = v.all()[kept];
     op(z.all()[i], product);
     const double before = norm(product);
     const Vector h = orthogonalise(v.all().first(kept), product);
     const double left = h[kept];
+    // What depends on others brings nothing and is left out.
     if (!(left > k_dependent * before)) continue;
     for (double& value : product) value /= left;
+    // Z and U get the same combination as their products.
     for (const Matrix* directions : {&z, &u}) {
       const std::span<double> from = directions->all()[i], to = directions->all()[kept];
       if (kept != i) std::copy(from.begin(), from.end(), to.begin());
@@ -247,6 +253,7 @@ RecyclingGmres::Implementation::Cycle RecyclingGmres::Implementation::cycle(std:
 /// The next Z from the space of this cycle, A [Z Z_m] = [C V] G.
 void RecyclingGmres::Implementation::choose(Size steps, const Columns& g) {
   const Size k = n_kept, all = k + steps;
+  // F holds the products [U V]ᵀ [C V] of kept and new directions.
   Matrix f(all + 1, all);
   for (Size i = 0; i < steps; ++i) f(k + i, k + i) = 1;
   if (k > 0) {
@@ -256,10 +263,12 @@ void RecyclingGmres::Implementation::choose(Size steps, const Columns& g) {
   const Matrix p = slow_vectors(g, f.all(), static_cast<Size>(options.kept));
   n_kept = p.columns();
   if (n_kept == 0) return;
+  // The kept space becomes orthonormal again: G P = Q R, and the combination P R⁻¹.
   const Matrix of_ritz = dense::product(g, p.all());
   const dense::OrthogonalFactors qr = dense::orthogonal_factors(of_ritz.all());
   const Columns combination = p.all();
   dense::solve_upper_from_right(qr.r, combination);
+  // Both sides of the space are combined from the old ones and those of this cycle.
   Matrix before = dense::product(v.all().from(k, steps), combination.rows_from(k, steps));
   for (Size i = 0; i < n_kept; ++i)
     dense::add_product(1, u.all().first(k), combination[i].first(k), before.all()[i]);
@@ -294,6 +303,7 @@ void RecyclingGmres::forget() {
 
 LinearReport RecyclingGmres::solve(std::span<const double> b, std::span<double> x, double relative) {
   const profile::Part part("solve");
+  // Kept directions of an older operator are brought up to date first.
   Implementation& my = *implementation_;
   my.set_size(b.size());
   if (my.stale) my.renew_products();
@@ -322,9 +332,11 @@ LinearReport RecyclingGmres::solve(std::span<const double> b, std::span<double> 
     }
     const Implementation::Cycle cycle = my.cycle(r, x, limit, left);
     report.iterations += cycle.iterations;
+    // The true residual, since that of the cycle drifts by rounding.
     Vector product(my.n);
     my.op(x, product);
     for (Size i = 0; i < my.n; ++i) r[i] = b[i] - product[i];
+    // A cycle that has spanned all that it can reach would only repeat itself.
     if (cycle.exhausted && norm(r) > accepted) {
       report.converged = false;
       report.reason = "DIVERGED_BREAKDOWN";

@@ -32,6 +32,7 @@ void add_borders(const BlockMatrix& pattern, const double* border, bool half, An
   constexpr bool of_gradient = part != Part::divergence, of_divergence = part != Part::gradient,
                  of_compliance = part == Part::all;
   constexpr int most_components = 3, most_fields = 8;
+  // Sizes known to the compiler make the loops below straight code.
   const int dim = sizes.components(), fields = sizes.fields();
   assert(dim <= most_components && fields <= most_fields);
   const std::ptrdiff_t of_u = dim, of_p = fields, size = 2 * dim * fields + fields * fields;
@@ -42,6 +43,7 @@ void add_borders(const BlockMatrix& pattern, const double* border, bool half, An
     const std::int64_t first = start[static_cast<std::size_t>(row)],
                        end = start[static_cast<std::size_t>(row) + 1];
     if (first == end) continue;
+    // Results of the row are summed here; its own values of u and p are read once.
     double sum_u[most_components] = {}, u_row[most_components] = {};
     double sum_p[most_fields] = {}, p_row[most_fields] = {};
     if constexpr (of_divergence) std::copy_n(u + row * of_u, dim, u_row);
@@ -50,6 +52,8 @@ void add_borders(const BlockMatrix& pattern, const double* border, bool half, An
     for (std::int64_t s = first; s < end; ++s, e += size) {
       const Index column = columns[s];
       const bool mirrored = half && column != row && column < n_rows;
+      // A border holds the gradient, the divergence and the compliance of the pressure, one behind
+      // the other.
       const double *const gradient = e, *const divergence = e + dim * fields,
                           *const compliance = e + 2 * dim * fields;
       for (int f = 0; f < fields; ++f) {
@@ -75,6 +79,7 @@ void add_borders(const BlockMatrix& pattern, const double* border, bool half, An
         }
       }
     }
+    // One store for each result of the row.
     if constexpr (of_gradient)
       for (int i = 0; i < dim; ++i) y_u[row * of_u + i] += sum_u[i];
     if constexpr (of_divergence)

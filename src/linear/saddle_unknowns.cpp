@@ -79,6 +79,7 @@ void SaddleUnknowns::restrict_to(std::span<const double> whole, std::span<double
 }
 
 void SaddleCopy::create(const mesh::Mesh& mesh, const SaddleMatrix& matrix, const SaddleUnknowns& unknowns) {
+  // One walk over all entries fixes rows and columns; values follow in the same order.
   std::vector<PetscInt> rows, columns;
   each_saddle_entry(mesh.n_owned_nodes, matrix, unknowns, [&](PetscInt i, PetscInt j, double) {
     rows.push_back(i);
