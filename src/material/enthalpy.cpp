@@ -134,9 +134,11 @@ double EnthalpyCurve::capacity(double temperature) const {
 }
 
 double EnthalpyCurve::temperature(double enthalpy) const {
+  // The piece in which the enthalpy lies, and how far into it.
   const std::size_t i = piece_of_enthalpy(enthalpy);
   const Piece& piece = pieces_[i];
   const double h = enthalpy - piece.h0, width = piece.t1 - piece.t0;
+  // Below the first piece capacity is constant.
   if (h <= 0) return piece.t0 + h / piece.c0;
   const double in_piece = width * (piece.c0 + 0.5 * piece.c1 * width);
   if (h >= in_piece) {

@@ -144,6 +144,7 @@ bool ExternalLaw::integrate(const Properties<T>& p, const T* old, T* now, const 
 template <class T>
 void ExternalLaw::update(const Properties<T>& p, const T* old, T* now, const Sym<T>& strain, double dt,
                          Workspace& space, Response<T>& r) const {
+  // The law takes the strain without thermal growth and without the viscous strain of the melt.
   const T zero(0.0), one(1.0), third(1.0 / 3.0);
   const T bulk = p.elastic.bulk, twice_shear = T(2.0) * p.elastic.shear;
   const auto solid = p.elastic.solid_fraction >= T(data_.coherency_fraction);
@@ -155,6 +156,8 @@ void ExternalLaw::update(const Properties<T>& p, const T* old, T* now, const Sym
 
   T dissipated = zero;
   bool answered = true;
+  // Lanes of one kernel may hold solid and melt: the library is called for solid points alone, and
+  // history is forgotten where a point has melted again.
   for (int lane = 0; lane < k_points<T>; ++lane)
     if (holds(solid, lane))
       answered = integrate(p, old, now, of_law, dt, lane, space, r, dissipated) && answered;
@@ -164,6 +167,8 @@ void ExternalLaw::update(const Properties<T>& p, const T* old, T* now, const Sym
     r.status = Status::cut_the_step;
     return;
   }
+  // The library's tangent is by its own components; place and factor bring it to ours (engineering
+  // shear strains and their order).
   if (space.wants_tangent) {
     const Sym4<T> of_library = r.tangent;
     const T* const entries = of_library.c[0].data();
@@ -199,6 +204,8 @@ void ExternalLaw::update(const Properties<T>& p, const T* old, T* now, const Sym
   r.plastic_power = rate * work;
   r.dissipation = r.plastic_dissipation = rate * dissipated;
 
+  // Points below coherency are the Maxwell element: they forget the deviatoric inelastic strain and
+  // keep what they have grown by.
   if (any(!solid)) {
     const T volume = third * trace(old_inelastic);
     Sym<T> swollen = strain;
@@ -221,6 +228,8 @@ void ExternalLaw::update(const Properties<T>& p, const T* old, T* now, const Sym
     r.plastic_dissipation = select(solid, r.plastic_dissipation, zero);
     r.dissipation = select(solid, r.dissipation, melt.dissipation);
   }
+  // History at the end: viscous and inelastic strain, the law's own strain and stress, sums of
+  // strain and energy.
   put(viscous, now, k_viscous);
   put(inelastic, now, k_inelastic);
   put(of_law, now, k_strain);

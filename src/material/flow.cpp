@@ -28,6 +28,7 @@ std::vector<Property> Flow::properties() const {
     used.push_back({"plasticity.kinematic_modulus", "Pa", &kinematic_modulus});
   const auto of_kinematic = kinematic_law(kinematic).parameters();
   for (std::size_t i = 0; i < of_kinematic.size(); ++i) add(of_kinematic[i], recall[i]);
+  // Of the rate law only what it reads with these parameters.
   if (!rate_independent()) {
     const RateLaw& law = rate_law(rate_dependence);
     for (std::size_t i = 0; i < law.parameters().size(); ++i)

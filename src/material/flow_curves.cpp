@@ -42,6 +42,7 @@ double stress_of(const FlowCurve& curve, double strain) {
 }  // namespace
 
 FlowCurves::Axis::Axis(std::vector<double> rising) : points(std::move(rising)) {
+  // One point has no interval.
   if (points.size() < 2) return;
   const double range = points.back() - points.front();
   // Buckets as wide as the shortest interval find an interval at once.
@@ -50,6 +51,7 @@ FlowCurves::Axis::Axis(std::vector<double> rising) : points(std::move(rising)) {
     shortest = std::min(shortest, points[i + 1] - points[i]);
   const auto count = static_cast<std::size_t>(std::min(std::ceil(range / shortest), double{k_max_buckets}));
   scale = static_cast<double>(count) / range;
+  // Each bucket knows the interval in which it begins: a search then looks at one or two intervals.
   for (std::size_t b = 0, i = 0; b < count; ++b) {
     const double start = points.front() + static_cast<double>(b) / scale;
     while (i + 2 < points.size() && points[i + 1] <= start) ++i;
@@ -69,6 +71,8 @@ std::size_t FlowCurves::Axis::interval(double x) const {
 
 FlowCurves::FlowCurves(std::vector<double> strains, std::vector<double> temperatures,
                        std::vector<double> stresses) {
+  // Strains and temperatures rise, the first strain is zero, and each curve has a stress for every
+  // strain.
   check_rising(strains, "strain");
   check_rising(temperatures, "temperature");
   if (strains.front() != 0) throw std::invalid_argument("the flow curves do not start at zero strain");
@@ -96,6 +100,7 @@ FlowCurves::FlowCurves(std::vector<double> strains, std::vector<double> temperat
 }
 
 FlowCurves FlowCurves::merged(std::vector<FlowCurve> curves) {
+  // Curves by temperature; each is checked before it is joined.
   std::sort(curves.begin(), curves.end(),
             [](const FlowCurve& a, const FlowCurve& b) { return a.temperature < b.temperature; });
   std::vector<double> strains, temperatures, stresses;
@@ -108,6 +113,7 @@ FlowCurves FlowCurves::merged(std::vector<FlowCurve> curves) {
     temperatures.push_back(curve.temperature);
     strains.insert(strains.end(), curve.strains.begin(), curve.strains.end());
   }
+  // The union of all strains: each curve is exact at its own, and linear between.
   std::sort(strains.begin(), strains.end());
   strains.erase(std::unique(strains.begin(), strains.end()), strains.end());
   for (const FlowCurve& curve : curves)
@@ -126,6 +132,7 @@ FlowCurves::Piece FlowCurves::on_curve(std::size_t row, std::size_t interval, do
 }
 
 FlowCurves::Value FlowCurves::at(double strain, double temperature) const {
+  // The piece in strain is the same for all curves, since they share their strains.
   const std::size_t i = strain_.interval(strain);
   const double beyond = strain - strain_.points[i];
   // Outside of the temperatures the nearest curve holds; between two of them everything is linear.
@@ -134,6 +141,7 @@ FlowCurves::Value FlowCurves::at(double strain, double temperature) const {
     const Piece one = on_curve(temperature > thetas.front() ? thetas.size() - 1 : 0, i, beyond);
     return {one.stress, one.slope, one.energy, 0, 0, 0};
   }
+  // The two curves between which the temperature lies, and its share between them.
   const std::size_t row = std::min(temperature_.interval(temperature), thetas.size() - 2);
   const Piece cold = on_curve(row, i, beyond), hot = on_curve(row + 1, i, beyond);
   const double width = thetas[row + 1] - thetas[row];

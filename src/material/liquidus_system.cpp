@@ -134,6 +134,8 @@ class Freezing {
   }
   /// The valley that the melt meets first, and where.
   void find_valley() {
+    // Each eutectic whose solute is there has a valley; the melt meets that with the largest liquid
+    // fraction first.
     for (const auto& eutectic : system_.eutectics) {
       if (!holds(eutectic.solute)) continue;
       const auto excess = [&](double f) {  // of the primary liquidus over the valley
@@ -143,6 +145,8 @@ class Freezing {
             if (part.solute->name == other.name) t += other.slope * concentration(part, f);
         return primary(f) - t;
       };
+      // The primary liquidus lies above the valley at first; where it crosses, the second solid
+      // appears.
       double at = 1.0;
       if (excess(1.0) > 0) {
         if (excess(k_least_melt) > 0) continue;  // never
@@ -166,6 +170,8 @@ class Freezing {
 /// Appends points of (T(f), 1 − f) from the liquid fraction a, whose point is there, to b < a.
 void sample(const std::function<double(double)>& temperature, double a, double b, double tolerance, int depth,
             std::vector<std::pair<double, double>>& points) {
+  // The curve is T over f, so that the chord is compared in f: its error in fraction is what the
+  // tolerance bounds.
   const double ta = temperature(a), tb = temperature(b);
   bool fits = true;
   for (const double share : {0.25, 0.5, 0.75}) {
@@ -177,6 +183,7 @@ void sample(const std::function<double(double)>& temperature, double a, double b
     points.emplace_back(tb, 1 - b);
     return;
   }
+  // Both halves from hot to cold.
   const double middle = 0.5 * (a + b);
   sample(temperature, a, middle, tolerance, depth - 1, points);
   sample(temperature, middle, b, tolerance, depth - 1, points);
@@ -190,6 +197,8 @@ void remark_on(const LiquidusSystem& system, const Composition& alloy, const Fre
     if (percent > s.up_to)
       remarks.push_back(fmt::format("{} % {} lie beyond the line of {}, which is meant to {} %", percent,
                                     name, name, s.up_to));
+    // Once two solids freeze together, solutes that the eutectic does not list play no part any
+    // more.
     if (!freezing.has_valley() || name == freezing.eutectic().solute || percent <= 0) continue;
     const auto& other = freezing.eutectic().other;
     if (std::none_of(other.begin(), other.end(), [&, &n = name](const auto& o) { return o.name == n; }))

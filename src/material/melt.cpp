@@ -45,6 +45,8 @@ double relaxation_time(const Material& material, double section) {
 
 MeltModulus melt_modulus(const Material& material, double gravity, double extent, double section) {
   using Bound = MeltModulus::Bound;
+  // The scale is the pressure of the melt's own weight: below some multiples of it the melt would
+  // sag.
   if (!material.mechanical() || !material.chooses_viscosity()) return {};
   const double liquidus = material.solidification()->fraction.liquidus();
   const double head = material.density * gravity * extent;
@@ -60,9 +62,11 @@ MeltModulus melt_modulus(const Material& material, double gravity, double extent
     set(k_melt_heads, head, Bound::head);
   else
     set(k_melt_heads, k_weightless_head, Bound::weightless);
+  // A shell that is weaker than that must not be carried by its melt.
   const double strength = shell_strength(material);
   if (strength > 0 && k_melt_strengths * strength < melt.modulus)
     set(k_melt_strengths, strength, Bound::strength);
+  // The least modulus keeps a share of the bulk modulus, since both stand in one matrix.
   const double bulk =
       material.young_modulus.value(liquidus) / (3 * (1 - 2 * material.poisson_ratio.value(liquidus)));
   if (k_least_melt_share * bulk > melt.modulus) set(k_least_melt_share, bulk, Bound::arithmetic);

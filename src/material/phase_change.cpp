@@ -16,6 +16,7 @@ bool colder(const Point& p, double temperature) {
 }  // namespace
 
 PhaseFraction::PhaseFraction(std::vector<Point> points) : points_(std::move(points)) {
+  // Any order of points is accepted from which the curve is clear; what contradicts itself is not.
   if (points_.size() < 2) throw std::invalid_argument("a phase fraction needs at least two points");
   for (const auto& [temperature, fraction] : points_)
     if (!std::isfinite(temperature) || !std::isfinite(fraction))
@@ -30,9 +31,11 @@ PhaseFraction::PhaseFraction(std::vector<Point> points) : points_(std::move(poin
     if (points_[i].second > points_[i - 1].second)
       throw std::invalid_argument("the phase fraction must not rise with temperature");
   }
+  // The whole change lies within the points: 1 at the cold end, 0 at the hot one.
   if (points_.front().second != 1.0 || points_.back().second != 0.0)
     throw std::invalid_argument("the phase fraction must be 1 at its coldest point and 0 at its hottest");
 
+  // One piece for each stretch between jumps, and one of solid before the first point.
   std::vector<Pieces::Piece> pieces{{solidus() - 1, 1.0, 0.0}};
   // Points at one temperature are a jump; between jumps the fraction is linear.
   for (std::size_t i = 0; i < points_.size();) {

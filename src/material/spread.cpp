@@ -43,6 +43,7 @@ void check_spread(const Spread& spread, bool of_temperature, const std::string& 
       int{spread.relative.has_value()} + int{spread.factor.has_value()} + int{spread.shift.has_value()};
   const char* const allowed = of_temperature ? "{ shift = \"5 K\", estimate = true }, for example"
                                              : "{ relative = 0.05, source = \"…\" } or { factor = 1.5, … }";
+  // Exactly one width; temperatures have theirs in kelvin, everything else as a share or a factor.
   if (given != 1)
     throw InputError(spread.where,
                      fmt::format("the spread of {} has {}", what,
@@ -54,6 +55,7 @@ void check_spread(const Spread& spread, bool of_temperature, const std::string& 
                          ? fmt::format("{} is a temperature, and its spread one in kelvin", what)
                          : fmt::format("{} is no temperature, and its spread no shift in kelvin", what),
                      allowed);
+  // A width without a source is allowed only where it is called an estimate.
   if (spread.source.empty() && !spread.estimate)
     throw InputError(spread.where, fmt::format("the spread of {} says not where it comes from", what),
                      "a 'source', or estimate = true");

@@ -176,6 +176,7 @@ void vary(Material& material, const MaterialFactors& factors, const SourceLocati
                        fmt::format("'{}' cannot vary: the material '{}' has none", row.key, material.name));
     row.apply(material, by);
   }
+  // After all factors: the combination may have left what an elastic material can be.
   constexpr double k_incompressible = 0.4999;
   if (material.mechanical() &&
       !(material.poisson_ratio.max_value() <= k_incompressible && material.poisson_ratio.min_value() > -1))

@@ -51,6 +51,7 @@ std::string take_phase(std::string& header) {
 }  // namespace
 
 HeaderParts parts_of_header(const ColumnTable::Column& column) {
+  // JMatPro appends the cooling rate and the phase to the header; both are taken off from the end.
   std::string header = column.header;
   take_cooling_rate(header);
   const std::string small = lower(header);
@@ -58,6 +59,8 @@ HeaderParts parts_of_header(const ColumnTable::Column& column) {
   if (header != column.header || small.ends_with("-total") || small.ends_with("%-liquid") ||
       small.ends_with("%-solid"))
     phase = take_phase(header);
+  // A header that had neither is that of another program, which may say of what system the value
+  // is.
   if (header == column.header) {
     HeaderParts parts{column.name, column.unit};
     for (const char* suffix : {" per gram of system", " of the system", " of system"})
@@ -65,6 +68,7 @@ HeaderParts parts_of_header(const ColumnTable::Column& column) {
         parts.name.resize(parts.name.size() - std::char_traits<char>::length(suffix));
     return parts;
   }
+  // What is left is the quantity with its unit; phases are quantities by themselves.
   HeaderParts parts = split_header(trimmed(header));
   const std::string base = lower(parts.name);
   if (base.starts_with("phases") || base.starts_with("phase")) {

@@ -80,6 +80,7 @@ std::vector<std::string> designated(std::string_view name, const std::vector<std
   const std::string wanted = letters(name);
   std::vector<std::string> found;
   if (wanted.size() < 2) return found;  // "7" means none
+  // One letter in common is no likeness.
   int best = 1;
   // All that are as like as the best one.
   for (const std::string& each : names) {

@@ -67,6 +67,8 @@ const Section<ExternalData>& external_section() {
 }
 
 void add_external(Material& material, ExternalData data) {
+  // The law needs the elastic data of the card: thermal strain, the heat of deformation and the
+  // solvers use them.
   const std::string of = " of '" + material.name + "'";
   if (!material.mechanical())
     throw InputError(
@@ -80,6 +82,8 @@ void add_external(Material& material, ExternalData data) {
     throw InputError(data.where, "a law from outside" + of + " goes with one model of the melt",
                      "liquid_model = \"maxwell\"");
   if (data.library.empty()) throw InputError(data.where, "the library" + of + " has no name");
+  // The two interfaces differ in what must be said: an MFront library may hold several behaviours,
+  // a UMAT does not tell how many state variables it has.
   const bool umat = data.interface == ExternalInterface::umat;
   if (data.behaviour.empty() && !umat)
     throw InputError(data.where, "the library of [external] may hold several behaviours",

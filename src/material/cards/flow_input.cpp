@@ -70,6 +70,8 @@ void check_yield_strain(const Table& flow_stress, const Material& material, cons
 }
 
 void check_curve(const FlowCurveData& data) {
+  // A curve is a plain table of its own points: neither an extrapolation nor a range of validity
+  // has a meaning here, because the law levels off by itself.
   const Function& stress = data.stress;
   const std::string which = fmt::format("the flow curve at {}", celsius(data.temperature));
   if (stress.table.extrapolation() != Extrapolation::constant)
@@ -77,6 +79,8 @@ void check_curve(const FlowCurveData& data) {
   if (stress.valid)
     throw InputError(stress.where, which + " has a range of strains in 'valid'",
                      "none: a flow curve holds for its points");
+  // It starts at the flow stress and does not fall: softening would localise in one row of
+  // elements, so that the answer would hang on the mesh.
   const auto strain = stress.table.x(), sigma = stress.table.y();
   if (strain.front() != 0)
     throw InputError(stress.where, fmt::format("{} starts at the plastic strain {}", which, strain.front()),
@@ -92,6 +96,7 @@ void check_curve(const FlowCurveData& data) {
 
 /// The curves in order of temperature, each checked.
 std::vector<FlowCurveData> checked_curves(const FlowData& data) {
+  // Curves may come in any order; each temperature once.
   if (data.curves.empty())
     throw InputError(data.where, "isotropic_hardening = \"table\" has no flow curves",
                      "at least one [[plasticity.flow_curve]]");
@@ -108,6 +113,7 @@ std::vector<FlowCurveData> checked_curves(const FlowData& data) {
 }
 
 void add_curves(Material& material, Flow& flow, const FlowData& data) {
+  // All curves become one table over the union of their strains.
   const std::vector<FlowCurveData> given = checked_curves(data);
   std::vector<FlowCurve> curves;
   std::vector<double> temperatures, at_zero;
@@ -157,6 +163,7 @@ std::array<bool, n> add_parameters(Material& m, const FlowData& data, const char
   return given_ones;
 }
 
+// Measured curves carry their own flow stress; all other laws take it from the key.
 void add_isotropic(Material& m, Flow& flow, const FlowData& data) {
   flow.isotropic = data.isotropic;
   if (data.isotropic == IsotropicHardening::table) return add_curves(m, flow, data);

@@ -37,6 +37,7 @@ Section<FlowCurveData> curve_keys() {
 /// name of a law with that parameter. Throws std::logic_error where a key is that of another kind of law too.
 template <class Law>
 void parameter_keys(Section<FlowData>& s, const std::string& chosen_by, std::span<const Law* const> laws) {
+  // A parameter that several laws have is declared once, with the names of all of them in `when`.
   std::set<std::string_view> declared;
   for (const Law* law : laws)
     for (const LawParameter& parameter : law->parameters()) {
@@ -44,6 +45,7 @@ void parameter_keys(Section<FlowData>& s, const std::string& chosen_by, std::spa
       if (s.info().find(parameter.key) != nullptr)
         throw std::logic_error(
             fmt::format("the key '{}' of the {} '{}' is taken", parameter.key, chosen_by, law->name()));
+      // It is required only if every law that has it needs it.
       std::vector<std::string> names;
       bool required = true;
       for (const Law* other : laws)

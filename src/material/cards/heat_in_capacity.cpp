@@ -47,10 +47,12 @@ double heat_in_capacity(const ImportColumns& c, std::size_t solidus, std::size_t
   const auto& t = c.temperature;
   const auto& heat = c.of("specific_heat");
   const std::size_t last = t.size() - 1;
+  // The table must have a row beside the range, which tells what a phase without latent heat has.
   if (solidus == 0 && liquidus == last) return 0;
   // A plain capacity would go straight over the range; what is far above that is heat of freezing.
   const double below = heat[solidus > 0 ? solidus - 1 : liquidus + 1],
                above = heat[liquidus < last ? liquidus + 1 : solidus - 1];
+  // The integral of the column over the range against that of a straight line.
   double all = 0;
   for (std::size_t i = solidus; i < liquidus; ++i) all += 0.5 * (heat[i] + heat[i + 1]) * (t[i + 1] - t[i]);
   const double plain = 0.5 * (below + above) * (t[liquidus] - t[solidus]);
@@ -60,6 +62,8 @@ double heat_in_capacity(const ImportColumns& c, std::size_t solidus, std::size_t
 
 std::string take_heat_once(ImportColumns& c, std::size_t solidus, std::size_t liquidus,
                            bool latent_heat_is_given) {
+  // Where the peak of the capacity holds the latent heat it must count once: as an enthalpy, or not
+  // at all.
   const double held = heat_in_capacity(c, solidus, liquidus);
   if (held == 0) return {};
   if (latent_heat_is_given) {

@@ -85,6 +85,8 @@ units::Conversion conversion_of(const Quantity& quantity, const Column& column, 
                                 const std::string& file) {
   const SourceLocation where{file, 0, 0};
   const std::string expected = quantity.unit;
+  // A header without a unit will do for a fraction only: a unit that is guessed wrong is an error
+  // that nobody sees.
   if (column.unit.empty()) {
     if (!quantity.unit_needed) return {};
     // pycalphad's Scheil has kelvins without saying so.
@@ -94,6 +96,7 @@ units::Conversion conversion_of(const Quantity& quantity, const Column& column, 
                                  expected == "K" ? "C" : expected, quantity.name, column.header,
                                  expected == "K" ? "C" : expected));
   }
+  // Values for each mole need the molar mass; only heat and capacity occur in that way.
   std::string unit = column.unit;
   const bool per_mole = take_mole(unit);
   if (per_mole && !options.molar_mass)
@@ -166,6 +169,7 @@ void read_column(const Quantity& quantity, const Column& column, const ColumnTab
 
 /// Rising temperature; throws where the rows turn back.
 void put_in_order(ImportColumns& c) {
+  // All columns have one value for each temperature, and a temperature lies above absolute zero.
   auto& t = c.temperature;
   if (t.size() < 2) throw InputError({c.file, 0, 0}, "the table has fewer than two rows");
   for (const auto& [name, values] : c.values)
@@ -174,6 +178,7 @@ void put_in_order(ImportColumns& c) {
                        fmt::format("the column '{}' has {} values, that of the temperature {}",
                                    c.headers[name], values.size(), t.size()),
                        "columns of equal length");
+  // Tables of cooling fall, tables of heating rise: either is fine, a change of direction is not.
   const bool falling = t.front() > t.back();
   for (std::size_t i = 0; i < t.size(); ++i) {
     if (!(t[i] > 0))
@@ -185,6 +190,7 @@ void put_in_order(ImportColumns& c) {
                        "temperatures that only rise or only fall from row to row");
   }
   if (!falling) return;
+  // Falling tables are turned over together with their lines, so that messages name the right line.
   std::reverse(t.begin(), t.end());
   std::reverse(c.lines.begin(), c.lines.end());
   for (auto& [name, values] : c.values) std::reverse(values.begin(), values.end());
@@ -192,6 +198,8 @@ void put_in_order(ImportColumns& c) {
 
 /// One row for each state: a row that repeats the one before is left out.
 void drop_repeated_rows(ImportColumns& c) {
+  // A state is told by temperature, fraction and enthalpy: at a jump two of its rows have one
+  // temperature.
   std::size_t kept = 1;
   for (std::size_t i = 1; i < c.temperature.size(); ++i) {
     bool same = c.temperature[i] == c.temperature[kept - 1];
@@ -226,6 +234,7 @@ void check_fractions(ImportColumns& c) {
     c.values["solid_fraction"] = std::move(values);
     c.headers["solid_fraction"] = c.headers["liquid_fraction"];
   }
+  // From here on there is only the solid fraction.
   c.values.erase("liquid_fraction");
   auto& f = c.values["solid_fraction"];
   for (std::size_t i = 1; i < f.size(); ++i) {

@@ -43,6 +43,8 @@ void add_phase_change(Material& material, const PhaseChangeData& data) {
           "the phase changes '" + other.name + "' and '" + data.name + "' are both the solidification",
           "at most one has solidification = true");
   }
+  // The law of the fraction throws where its parameters do not make a curve; the message gets its
+  // place here.
   try {
     material.phase_changes.push_back({data.name, data.fraction.law->curve(), data.latent_heat,
                                       volume_change_of(material, data), data.solidification, data.graphite});
@@ -112,6 +114,7 @@ Value load_with_base(const fs::path& file, std::span<const fs::path> library, in
   return document;
 }
 
+// A model of the liquid brings its own parameters, in its own order.
 void add_liquid_model(Material& m, const MaterialData& data) {
   m.liquid_model = data.liquid_model;
   const auto parameters = liquid_law(m.liquid_model).parameters();
@@ -132,6 +135,7 @@ void add_liquid_model(Material& m, const MaterialData& data) {
 
 void check_liquid_model(const Material& m, const MaterialData& data) {
   if (m.liquid_model == LiquidModel::maxwell) return;
+  // The models that carry stress in the mush need to know how much of it is solid, and a rate.
   const LiquidLaw& law = liquid_law(m.liquid_model);
   if (m.solidification() == nullptr)
     throw InputError(data.where,
@@ -180,6 +184,7 @@ void check_heat_of_expansion(const Material& m, const MaterialData& data) {
 }
 
 void add_casting(Material& m, const MaterialData& data) {
+  // The ranges of the solid fraction must follow each other: coherency, then the brittle range.
   const Casting& casting = data.casting;
   if (!(casting.brittle_range[0] < casting.brittle_range[1]))
     throw InputError(data.where, "the brittle_range of '" + m.name + "' does not rise",
@@ -201,9 +206,12 @@ PropertyNote note_of(std::string property, const Function& f) {
 }
 
 Table mean_expansion(const Table& instantaneous, double reference) {
+  // Mean and instantaneous coefficients are the same where the coefficient does not change.
   if (instantaneous.constant()) return instantaneous;
   constexpr double k_close = 5, k_widest = 4000;  // [K]
   const std::span<const double> given = instantaneous.x();
+  // Points of the mean: those of the table, and others so close that straight lines between them
+  // do.
   std::vector<double> x{given.begin(), given.end()};
   for (std::size_t i = 1; i < given.size(); ++i) {
     const double width = given[i] - given[i - 1];
@@ -217,6 +225,7 @@ Table mean_expansion(const Table& instantaneous, double reference) {
       if (given.front() - beyond > 0) x.push_back(given.front() - beyond);
     }
   std::sort(x.begin(), x.end());
+  // At the reference temperature itself the mean is the limit, which is the coefficient there.
   std::vector<double> y;
   for (const double t : x)
     y.push_back(std::abs(t - reference) < 1e-6 * k_close

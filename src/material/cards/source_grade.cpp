@@ -15,6 +15,7 @@ bool names(std::string_view text, std::string_view word) {
   const auto same = [](char a, char b) {
     return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
   };
+  // Each place of the word is looked at, since an earlier one may be the end of another word.
   for (auto from = text.begin(); from != text.end();) {
     const auto at = std::search(from, text.end(), word.begin(), word.end(), same);
     if (at == text.end()) return false;

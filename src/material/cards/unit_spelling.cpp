@@ -31,6 +31,7 @@ std::string in_ascii(std::string text) {
                                                                                     {"⁷", "7"},
                                                                                     {"⁸", "8"},
                                                                                     {"⁹", "9"}}};
+  // Signs first, so that a raised minus stays with its digit.
   replace_all(text, "⁻", "^-");
   for (const auto& [raised, plain] : k_raised) {
     replace_all(text, std::string("^-") + std::string(raised), "^-" + std::string(plain));
@@ -135,6 +136,7 @@ constexpr std::array<Known, 40> k_known{{{"c", "K"},
 std::vector<Factor> factors_of(const std::string& unit) {
   std::vector<Factor> factors;
   bool below = false;
+  // One symbol with its power after the other.
   for (std::size_t i = 0; i < unit.size();) {
     if (unit[i] == '/') {
       below = true;
@@ -147,6 +149,8 @@ std::vector<Factor> factors_of(const std::string& unit) {
       ++i;
       continue;
     }
+    // The letters of the symbol, then what may stand between it and its power: brackets and a
+    // caret.
     std::size_t end = i;
     while (end < unit.size() && is_letter(unit[end])) ++end;
     std::string symbol = unit.substr(i, end - i);
@@ -157,12 +161,14 @@ std::vector<Factor> factors_of(const std::string& unit) {
     const std::size_t first = at + (sign ? 1 : 0);
     // A digit behind a blank or a bracket alone is none of this symbol.
     const bool attached = at == end || unit.substr(end, at - end).find('^') != std::string::npos;
+    // A power that is attached belongs to the symbol, with its sign.
     if (attached && first < unit.size() && is_digit(unit[first])) {
       std::from_chars(unit.data() + first, unit.data() + unit.size(), power);
       if (sign && unit[at] == '-') power = -power;
       end = first;
       while (end < unit.size() && is_digit(unit[end])) ++end;
     }
+    // Below the slash powers count down.
     if (below && power > 0) power = -power;
     // "mK" below a slash, and "W/mC" and "kgK", are two units.
     if (below && symbol.size() > 1 &&
@@ -186,6 +192,8 @@ std::pair<std::string, double> for_udunits(const std::string& unit) {
   double times = 1;
   const std::vector<Factor> factors = factors_of(unit);
   if (factors.empty()) return {unit, 1};
+  // Symbols that UDUNITS lacks are replaced, with their factor; a power multiplies the factor as
+  // often.
   for (const Factor& f : factors) {
     std::string symbol = f.symbol;
     int power = f.power;
@@ -217,6 +225,7 @@ std::optional<std::string> scale_of_temperature(const std::string& unit) {
 bool take_mole(std::string& unit) {
   const std::string original = unit;
   unit = in_ascii(unit);
+  // Brackets around the mole may go: what is below the slash stays below.
   if (unit.find("(mol") != std::string::npos || unit.find("mol)") != std::string::npos)
     std::erase_if(unit, [](char c) { return c == '(' || c == ')'; });
   for (const char* mole : {"/mole", "/mol", " mol-1", " mol^-1", "*mol-1", ".mol-1", " mol", "*mol", ".mol"})
@@ -236,6 +245,7 @@ bool take_mole(std::string& unit) {
 
 units::Conversion conversion_of_spelling(std::string_view given, std::string_view expected) {
   std::string unit = in_ascii(std::string(given));
+  // A column of temperatures: scales with an offset are told apart from differences.
   if (expected == "K") {
     const std::string small = lower(unit);
     if (small == "r" || small == "degr" || small == "rankine") return {k_rankine, 0};
@@ -244,6 +254,7 @@ units::Conversion conversion_of_spelling(std::string_view given, std::string_vie
   }
   if (expected == "1" && unit.find('%') != std::string::npos)
     return units::conversion("percent", expected, units::Temperature::absolute);
+  // All else is a factor: per cent, parts in a million, spellings of data sheets.
   double times = 1;
   if (expected == "1/K" && take_millionths(unit)) times = 1e-6;
   const auto [text, factor] = for_udunits(unit);

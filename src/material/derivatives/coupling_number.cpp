@@ -30,12 +30,14 @@ double strongest_coupling(const Material& material, double from, double to) {
 
   constexpr int k_samples = 10;
   double at = from, strongest = -1;
+  // Samples of the number from cold to hot; the first of equal ones stays.
   const auto look = [&](double temperature) {
     const double number = coupling_number(material, temperature).bound;
     if (number <= strongest) return;
     strongest = number;
     at = temperature;
   };
+  // Within a piece the number is smooth, so that a few samples find its maximum closely enough.
   for (std::size_t i = 0; i + 1 < ends.size(); ++i)
     for (int n = 0; n < k_samples; ++n) look(ends[i] + (ends[i + 1] - ends[i]) * n / k_samples);
   look(to);

@@ -13,6 +13,8 @@ constexpr double k_sampling_tolerance = 1e-6;  ///< of the fraction, between the
 /// Appends points of f on (a, b], b included, so that the chords stay within the tolerance of f.
 void sample(const std::function<double(double)>& f, double a, double b, int depth,
             std::vector<Point>& points) {
+  // The chord from a to b is compared with the curve at three places; where it fits only b is
+  // appended.
   const double fa = f(a), fb = f(b);
   bool fits = true;
   for (const double t : {0.25, 0.5, 0.75})
@@ -21,6 +23,7 @@ void sample(const std::function<double(double)>& f, double a, double b, int dept
     points.emplace_back(b, fb);
     return;
   }
+  // Otherwise both halves are sampled, from left to right, so that points stay in order.
   const double middle = 0.5 * (a + b);
   sample(f, a, middle, depth - 1, points);
   sample(f, middle, b, depth - 1, points);

@@ -53,6 +53,8 @@ void set_hardening(Flow& flow, const std::map<std::string_view, Table>& numbers)
 }
 
 std::optional<LawObjection> Voce::objection(const Table& flow_stress, const HardeningTables& tables) {
+  // The saturation stress must not lie below the flow stress at any temperature: the law would
+  // soften.
   const Table& saturated = tables[saturation_stress];
   std::vector<double> joint(flow_stress.x().begin(), flow_stress.x().end());  // between them both are lines
   joint.insert(joint.end(), saturated.x().begin(), saturated.x().end());

@@ -38,6 +38,8 @@ void evaluate(const Material& material, const ExternalLaw& law, double temperatu
       temperature};
   const std::vector<double> old(law.size(), 0.0);
   std::vector<double> now(law.size());
+  // A uniaxial strain far below any yield strain: an elastic answer is the least that a law must
+  // give.
   std::string reason;
   Sym<double> strain;
   strain[0] = k_trial_strain;
@@ -61,6 +63,7 @@ std::vector<double> temperatures_of_law(const Material& material) {
     if (at > 0 && (freezing == nullptr || at <= freezing->fraction.solidus())) temperatures.push_back(at);
   std::sort(temperatures.begin(), temperatures.end());
   temperatures.erase(std::unique(temperatures.begin(), temperatures.end()), temperatures.end());
+  // So many trials would take too long for long tables.
   while (temperatures.size() > k_trial_temperatures) {  // every other one, with both ends
     std::vector<double> fewer;
     for (std::size_t i = 0; i < temperatures.size(); i += 2) fewer.push_back(temperatures[i]);
@@ -72,6 +75,7 @@ std::vector<double> temperatures_of_law(const Material& material) {
 
 std::shared_ptr<const ExternalLaw> load_external_law(const Material& material, const ExternalLaw& law) {
   const ExternalData& data = law.data();
+  // A shared object runs its own code at once when it is loaded: that needs the user's word.
   if (!external_laws_are_trusted())
     throw InputError(
         data.where,
@@ -88,6 +92,7 @@ std::shared_ptr<const ExternalLaw> load_external_law(const Material& material, c
       evaluate(material, *loaded, temperature);
     }
   };
+  // The trial runs in a copy of the process; only what has come through it is loaded here.
   if (const std::string fault = fault_of(try_out, k_trial_seconds); !fault.empty())
     throw InputError(
         data.where,

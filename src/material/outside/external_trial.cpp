@@ -24,9 +24,11 @@ void leave(int /*status*/, void* /*unused*/) {
 }
 
 [[noreturn]] void run_in_copy(const Trial& trial, int notes) {
+  // In the copy signals kill as they would without the program's own handlers.
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM}) std::signal(signal, SIG_DFL);
   for (const int signal : {SIGINT, SIGHUP, SIGUSR1}) std::signal(signal, SIG_IGN);  // the program decides
   on_exit(leave, nullptr);
+  // Notes go through the pipe before each part, so that the last one tells where it ended.
   const auto note = [notes](const std::string& part) {
     const std::string line = part + "\n";
     [[maybe_unused]] const ssize_t written = ::write(notes, line.data(), line.size());

@@ -116,12 +116,15 @@ std::size_t size_of(int type, const Symbols& symbols) {
 }
 
 void check_kind(const Symbols& s) {
+  // What the library says of itself must fit what Solidus does: the interface, small strains,
+  // isotropy, strain in and stress out.
   if (s.number_or("api_version", 0) != k_version)
     s.refuse(fmt::format("speaks version {} of the generic interface", s.number_or("api_version", 0)),
              "version 1, of TFEL 4 and newer");
   if (s.number("mfront_mkt") != 1) s.refuse("is no behaviour", "a behaviour (mfront_mkt = 1)");
   if (s.number("BehaviourType") != 1 || s.number("BehaviourKinematic") != 1)
     s.refuse("is no law of infinitesimal strain", "BehaviourType = 1 and BehaviourKinematic = 1");
+  // Isotropic, since moulds and castings have no axes of a material.
   if (s.number("SymmetryType") != 0)
     s.refuse("is orthotropic: a casting has no axes of a material", "an isotropic law");
   if (const auto gradients = s.names("Gradients"); gradients != std::vector<std::string>{"Strain"})
@@ -141,6 +144,7 @@ class MfrontLibrary final : public ExternalLibrary {
     const Symbols s(object, data);
     check_kind(s);
     entry_ = s.entry();
+    // The properties as the library expects them, in its own order.
     std::vector<std::string> wanted;
     // Elastic moduli come before the properties that the behaviour names itself.
     if (s.own_number("requiresStiffnessTensor") != 0) wanted = {"YoungModulus", "PoissonRatio"};
@@ -160,6 +164,7 @@ class MfrontLibrary final : public ExternalLibrary {
       for (std::size_t j = 0; j < n; ++j)
         names_.push_back(n == 1 ? names[i] : fmt::format("{}[{}]", names[i], j));
     }
+    // External state variables beside temperature, and which energies it computes.
     external_ = data.external_state_variables;
     read_external(s, data);
     stores_ = s.own_number("ComputesInternalEnergy") == 1;
@@ -239,6 +244,7 @@ class MfrontLibrary final : public ExternalLibrary {
     if (s.has("ExternalStateVariablesTypes"))
       for (const int type : s.types("ExternalStateVariables", names.size()))
         if (type != 0) s.refuse("has external state variables that are no numbers", "scalars");
+    // Newer versions of the interface take the temperature apart from the others.
     if (s.number_or("TemperatureRemovedFromExternalStateVariables", 1) == 0) {
       if (names.empty() || names[0] != "Temperature")
         s.refuse("does not take the temperature as its first external state variable", "Temperature");
