@@ -68,6 +68,8 @@ Index aggregate(const MatrixView& a, std::vector<Index>& of_row) {
   of_row.assign(at(n), k_none);
   Index n_aggregates = 0;
   const StrongCouplings strong(a);
+  // Rows without strong neighbours in this process join no aggregate, unless they are bodies by
+  // themselves.
   const auto each_neighbour = [&](Index row, const auto& f) {
     for (const Index j : strong.of(row)) f(j);
   };
@@ -84,6 +86,7 @@ Index aggregate(const MatrixView& a, std::vector<Index>& of_row) {
     });
     if (own && !coupled) alone[at(row)] = 0;
   }
+  // First: a row all of whose neighbours are free makes an aggregate of all of them.
   for (Index row = 0; row < n; ++row) {
     bool free = alone[at(row)] == 0;
     if (free) each_neighbour(row, [&](Index j) { free = free && of_row[at(j)] == k_none; });
@@ -100,6 +103,7 @@ Index aggregate(const MatrixView& a, std::vector<Index>& of_row) {
   for (Index row = 0; row < n; ++row) {
     if (first[at(row)] != k_none || alone[at(row)] != 0) continue;
     Index best = k_none;
+    // Of the aggregates around it the one with the fewest members, so that all stay of one size.
     each_neighbour(row, [&](Index j) {
       const Index candidate = first[at(j)];
       if (candidate != k_none && (best == k_none || members[at(candidate)] < members[at(best)]))
@@ -109,6 +113,7 @@ Index aggregate(const MatrixView& a, std::vector<Index>& of_row) {
     of_row[at(row)] = best;
     ++members[at(best)];
   }
+  // At last rows that no aggregate touches make new ones with what is still free around them.
   for (Index row = 0; row < n; ++row) {
     if (of_row[at(row)] != k_none || alone[at(row)] != 0) continue;
     each_neighbour(row, [&](Index j) {

@@ -63,6 +63,8 @@ std::vector<float> tentative(const std::vector<Index>& of_row, Index n_aggregate
   for (std::size_t row = 0; row < of_row.size(); ++row)
     if (of_row[row] != k_none) rows[at(next[at(of_row[row])]++)] = static_cast<Index>(row);
 
+  // Each aggregate's rows of the modes become orthonormal; what was divided off is the mode of the
+  // coarse level.
   std::vector<float> p(of_row.size() * bs * n);
   coarse_modes.assign(at(n_aggregates) * n * n, 0.0);
   std::vector<double> q;

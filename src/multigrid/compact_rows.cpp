@@ -39,6 +39,7 @@ Renumbering renumber(const Numbering& whole, const std::vector<Index>& rows) {
     number[row] = static_cast<double>(now.first + i);
   }
   parallel::GhostExchange(whole.n_owned, whole.first, whole.ghosts).update(std::span(number), 1);
+  // A ghost whose owner keeps it gets the next local number here.
   for (auto i = static_cast<std::size_t>(whole.n_owned); i < number.size(); ++i) {
     if (number[i] < 0) continue;
     result.local[i] = now.n_local();

@@ -33,6 +33,7 @@ std::size_t at(std::int64_t i) {
 
 /// The largest eigenvalue of a symmetric tridiagonal matrix, by bisection on Sturm's sequence.
 double largest_eigenvalue(const std::vector<double>& diagonal, const std::vector<double>& beside) {
+  // Gershgorin's circles bound the eigenvalues from above, the largest diagonal entry from below.
   double low = -1e300, high = -1e300;
   for (std::size_t i = 0; i < diagonal.size(); ++i) {
     const double radius =
@@ -40,6 +41,7 @@ double largest_eigenvalue(const std::vector<double>& diagonal, const std::vector
     low = std::max(low, diagonal[i]);
     high = std::max(high, diagonal[i] + radius);
   }
+  // All eigenvalues are below x if and only if the pivots of T − x I are all negative.
   const auto above_all = [&](double x) {
     double d = 1;
     for (std::size_t i = 0; i < diagonal.size(); ++i) {
@@ -48,6 +50,7 @@ double largest_eigenvalue(const std::vector<double>& diagonal, const std::vector
     }
     return true;
   };
+  // Forty halvings reach single precision from any start.
   for (int k = 0; k < 40; ++k) {
     const double middle = 0.5 * (low + high);
     (above_all(middle) ? high : low) = middle;
@@ -104,6 +107,7 @@ void Multigrid::Level::estimate_largest() {
     root[i] = std::sqrt(std::abs(inverse_diagonal[i]));
     v[i] = scattered(numbering.first * size + static_cast<GlobalIndex>(i));
   }
+  // Lanczos works on vectors of length one.
   const double length = norm(v);
   if (!(length > 0)) return;
   scale(v, 1 / length);
@@ -119,6 +123,7 @@ void Multigrid::Level::estimate_largest() {
       along += static_cast<double>(r[i]) * static_cast<double>(v[i]);
     }
     diagonal.push_back(parallel::global_sum(along));
+    // The three-term recurrence, with the last two vectors.
     const auto back = static_cast<float>(beside.empty() ? 0.0 : beside.back()),
                here = static_cast<float>(diagonal.back());
     for (std::size_t i = 0; i < n; ++i) {
@@ -127,6 +132,7 @@ void Multigrid::Level::estimate_largest() {
       v[i] = next;
     }
     const double left = norm(v);
+    // A vector of length zero ends the sequence: the space is exhausted.
     if (k + 1 == k_lanczos_steps || !(left > 1e-6 * std::abs(diagonal.front()))) break;
     beside.push_back(left);
     scale(v, 1 / left);
@@ -262,6 +268,7 @@ void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<co
   parallel::RowExchange rows(numbering.n_owned, numbering.first, numbering.ghosts);
   const std::size_t index = levels_.size();
   const Index columns = numbering.n_local();
+  // Afterwards only the packed form is needed.
   const auto packed = [&] {
     return PackedRows(a, columns, symmetric_,
                       index == 0 ? PackedRows::Pattern::referred_to  // it stays
@@ -294,6 +301,7 @@ void Multigrid::add_coarser(const MatrixView& a, std::span<const char> fixed, in
     return static_cast<GlobalIndex>(parallel::global_sum(static_cast<double>(n.n_owned)));
   };
   Level& level = levels_.back();
+  // The number of rows before and after says whether coarsening has stalled.
   const GlobalIndex before = n_rows(level.numbering);
   Coarsening next = coarsen(a, level.numbering, *level.rows, std::move(near_null), modes, fixed,
                             level.inverse_diagonal, level.largest);
@@ -308,12 +316,14 @@ void Multigrid::add_coarser(const MatrixView& a, std::span<const char> fixed, in
         k_most_factorised);
     return;
   }
+  // Interpolation belongs to the finer level.
   level.interpolation = PackedRows(std::move(next.interpolation), level.numbering.n_owned);
   if (after > coarsest_limit_ && !stalls) {
     const MatrixView view{next.modes, next.matrix.start, next.matrix.column, next.matrix.value.data()};
     add_level(view, std::move(next.numbering), {}, modes, std::move(next.near_null));
     return;
   }
+  // The coarsest level is factorised by every process alike.
   coarsest_rows_ = after;
   if (after > 0) coarsest_ = std::make_unique<Coarsest>(next.matrix, next.numbering);
   const std::size_t n = at(next.numbering.n_local()) * at(next.modes);
@@ -335,6 +345,8 @@ void Multigrid::cycle(std::size_t index) {
     return;
   }
   Level& next = levels_[index + 1];
+  // Smoothing, restriction of the residual, the coarser level, interpolation, smoothing again: a
+  // V-cycle.
   level.smooth(true);
   level.residual();
   // Rows of this process interpolate from coarse rows of others too.

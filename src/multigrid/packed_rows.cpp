@@ -51,6 +51,7 @@ void multiply_rows(std::span<const std::int64_t> start, const Index* column, con
       const float* const from = x + static_cast<std::ptrdiff_t>(column[s]) * columns;
       for (int c = 0; c < columns; ++c) sum += load<Type>(a + c * rows) * from[c];
     }
+    // The lanes of the sum are the rows of the block.
     float part[sizeof(Type) / sizeof(float)];
     __builtin_memcpy(part, &sum, sizeof sum);
     float* const to = y + row * rows;
@@ -120,6 +121,7 @@ PackedRows::PackedRows(const MatrixView& a, Index n_local, bool symmetric, Patte
 void PackedRows::copy_upper_pattern(const MatrixView& a) {
   own_start_.assign(1, 0);
   own_start_.reserve(a.start.size());
+  // Where the diagonal of each row stands: what follows it is kept.
   std::vector<std::int64_t> diagonal(a.start.size() - 1);
   for (Index row = 0; row < a.n_rows(); ++row) {
     const auto first = a.column.begin() + a.begin(row), last = a.column.begin() + a.end(row);
@@ -134,6 +136,7 @@ void PackedRows::copy_upper_pattern(const MatrixView& a) {
 
 PackedRows::PackedRows(BlockRows<float> from, Index n_rows)
     : rows_(from.rows), columns_(from.columns), own_start_(std::move(from.start)) {
+  // Rows of ghosts are dropped: their products belong to other processes.
   own_start_.resize(static_cast<std::size_t>(n_rows) + 1);
   const auto n_slots = static_cast<std::size_t>(own_start_.back());
   own_column_ = std::move(from.column);

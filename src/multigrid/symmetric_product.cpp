@@ -36,6 +36,7 @@ void multiply_registers(std::span<const std::int64_t> start, const Index* column
     std::int64_t s = start[static_cast<std::size_t>(row)];
     const std::int64_t end = start[static_cast<std::size_t>(row) + 1];
     const Number* a = blocks + s * size * size;
+    // The row's own x as one register, and each of its entries spread over a register.
     const Type own = load<Type>(x + row * lanes);
     Type sum[size], spread[size];
     for (int r = 0; r < size; ++r) {
@@ -44,6 +45,7 @@ void multiply_registers(std::span<const std::int64_t> start, const Index* column
       spread[r] = load<Type>(same);
       sum[r] = load<Type>(a + r * size) * own;
     }
+    // Blocks right of the diagonal serve this row and, transposed, the row of their column.
     for (++s, a += size * size; s < end && column[s] < n; ++s, a += size * size) {
       const Type other = load<Type>(x + column[s] * lanes);
       Number* const to = y + column[s] * lanes;
@@ -55,10 +57,12 @@ void multiply_registers(std::span<const std::int64_t> start, const Index* column
       }
       __builtin_memcpy(to, &back, sizeof back);
     }
+    // Blocks of ghost columns have no row here.
     for (; s < end; ++s, a += size * size) {
       const Type other = load<Type>(x + column[s] * lanes);
       for (int r = 0; r < size; ++r) sum[r] += load<Type>(a + r * size) * other;
     }
+    // The lanes of a sum are the columns of the block: they are added up at the end.
     for (int r = 0; r < size; ++r) {
       Number parts[lanes], total = 0;
       __builtin_memcpy(parts, &sum[r], sizeof parts);
