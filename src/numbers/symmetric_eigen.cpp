@@ -21,12 +21,14 @@ struct Rotated {
   void rotate(std::size_t p, std::size_t q) {
     const double between = at(p, q);
     if (between == 0) return;
+    // Jacobi's rotation: the tangent of the smaller angle, which is the stable one.
     const double half = 0.5 * (at(q, q) - at(p, p)) / between;
     const double tangent = std::copysign(1 / (std::abs(half) + std::sqrt(half * half + 1)), half);
     const double c = 1 / std::sqrt(tangent * tangent + 1), s = tangent * c;
     at(p, p) -= tangent * between;
     at(q, q) += tangent * between;
     at(p, q) = at(q, p) = 0;
+    // Rows and columns p and q of the matrix, then the vectors.
     for (std::size_t k = 0; k < n; ++k) {
       if (k == p || k == q) continue;
       const double of_p = at(k, p), of_q = at(k, q);

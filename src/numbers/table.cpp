@@ -73,6 +73,7 @@ double Table::add_parts(double a, double b, Part part) const {
   // its slope. Beyond the table values are constant, or go on along the last line.
   if (a > b) return -add_parts(b, a, part);
   if (constant()) return part(a, b, y_[0], 0.0);
+  // Before the table.
   double total = 0;
   double from = a;
   const bool linear = extrapolation_ == Extrapolation::linear;
@@ -81,6 +82,7 @@ double Table::add_parts(double a, double b, Part part) const {
     total += part(from, to, y_.front(), 0.0);
     from = to;
   }
+  // Within it, piece by piece; the last piece goes on where the table is extrapolated.
   if (from < b && (linear || from < x_.back())) {
     const std::size_t n = x_.size() - 1;
     for (std::size_t i = std::min(pieces_.index(from), n - 1); from < b && i < n; ++i) {
@@ -90,6 +92,7 @@ double Table::add_parts(double a, double b, Part part) const {
       from = to;
     }
   }
+  // Behind it.
   if (from < b) total += part(from, b, y_.back(), 0.0);
   return total;
 }

@@ -38,6 +38,8 @@ class Zoom {
 
   /// The two sides of the jump that most of the change across the interval is; false: there is none.
   bool find_jump() {
+    // The interval is halved towards the half that changes more; a smooth function's change would
+    // halve too.
     double a = f_(low_), b = f_(high_);
     const double change = std::abs(b - a);
     for (int i = 0; i < k_halvings; ++i) {
