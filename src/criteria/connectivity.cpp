@@ -59,6 +59,7 @@ Connectivity::Connectivity(const mesh::Mesh& mesh, const parallel::GhostExchange
 ConnectedParts Connectivity::parts(std::span<const char> inside) const {
   // Inside nodes of one element are connected; elements with all nodes inside make their part whole.
   const std::size_t n = inside.size();
+  // Disjoint sets: joining two nodes costs next to nothing, whatever the shape of the parts.
   Joined joined(n);
   std::vector<char> whole(n, 0);  // a node of each whole element
   for (const mesh::ElementBlock& block : mesh_.blocks) {
@@ -94,14 +95,17 @@ ConnectedParts Connectivity::parts(std::span<const char> inside) const {
   // A ghost's owner may call its part by another number: then both are one part.
   std::vector<double> of_owner = parts.label;
   ghosts_.update(of_owner, 1);
+  // Such pairs of labels are few: only parts that lie on more than one process have them.
   std::vector<std::pair<double, double>> pairs;
   for (std::size_t i = static_cast<std::size_t>(mesh_.n_owned_nodes); i < n; ++i)
     if (inside[i] != 0 && of_owner[i] != parts.label[i]) pairs.emplace_back(parts.label[i], of_owner[i]);
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  // All processes get all pairs and come to the same common labels.
   std::vector<double> flat;
   for (const auto& [mine, owners] : pairs) flat.insert(flat.end(), {mine, owners});
   const std::map<double, double> common = joined_labels(gathered(flat));
+  // A label without a pair is a part of this process alone and stays.
   if (!common.empty())
     for (double& label : parts.label)
       if (const auto found = common.find(label); found != common.end()) label = found->second;

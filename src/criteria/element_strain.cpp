@@ -9,6 +9,7 @@ ElementStrain::ElementStrain(const mesh::Mesh& mesh, const mesh::ElementBlock& b
   mesh::BlockGeometry g(mesh, block, kind, mesh::stiffness_rule(block.shape));
   n_nodes_ = g.n_nodes;
   dim_ = g.dim;
+  // Sizes and arrays: all entries lie [batch][node of the element], in lanes.
   axisymmetric_ = kind == AnalysisKind::axisymmetric;
   n_elements_ = g.n_elements;
   n_batches_ = g.n_batches;
@@ -32,6 +33,7 @@ ElementStrain::ElementStrain(const mesh::Mesh& mesh, const mesh::ElementBlock& b
           select(volume > Lane(0.0), weight / select(volume > Lane(0.0), volume, Lane(1.0)), Lane(0.0));
       const Lane* gradients = g.gradients_at(batch, static_cast<int>(q));
       for (std::size_t a = 0; a < n; ++a) {
+        // Shape functions give means of nodal values; over the radius they give the hoop strain.
         const Lane value = w * Lane(g.values[q * n + a]);
         share_[first + a] += value;
         if (axisymmetric_)

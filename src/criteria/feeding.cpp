@@ -134,9 +134,12 @@ void Feeding::step(const CriterionInput& old, const CriterionInput& next, Criter
 
 void Feeding::measure(const CriterionInput& old, const CriterionInput& next, Step& step) const {
   for (std::size_t i = 0; i < mesh_.x.size(); ++i) {
+    // Nodes without followed metal take no part.
     if (body_[i] < 0 || !(step.rows(i, k_room) > 0)) continue;
     const bool owned = i < step.demands.size();
     const MetalVolume& metal = metal_of(i);
+    // The step is described by the mean of both ends: how much is solid, what can move, what is
+    // soft.
     const double before = old.solid_fraction[i], after = next.solid_fraction[i];
     const bool frozen = before >= 1 && after >= 1, stands = step.rows(i, k_drained) < 1 - k_nothing;
     // Metal that froze before the melt around it sank is solid and asks for nothing. The curve of freezing
@@ -147,19 +150,25 @@ void Feeding::measure(const CriterionInput& old, const CriterionInput& next, Ste
     step.inside[i] = step.soft[i] != 0 && metal.mobile_share(before) > 0 && stands;
     if (!frozen && stands) {
       constexpr double k_mean = 0.5;  // of a step in which it begins to freeze
+      // The local time of freezing decides the spacing of arms and with it the permeability of
+      // mush.
       double& time = step.rows(i, k_freezing);
       time = after > 0 ? time + (before > 0 ? 1 : k_mean) * step.dt : 0;
       if (step.inside[i] != 0) blow(i, step);
       step.rows(i, k_wall) += wall_yields(i, old, next, step);
     }
+    // Only the owner asks for metal; ghosts need no demand.
     if (!owned) continue;
     FeedingDemand& demand = step.demands[i];
     demand.present = room(i) > 0.5 * step.rows(i, k_room);
     if (!demand.present) continue;
+    // The demand: contraction from the volumes of before to those of now, of which freezing metal
+    // is fed up to its end and solid metal not at all.
     demand.before = {step.rows(i, k_thermal), step.rows(i, k_phase)};
     demand.after = metal.at(next.heat.temperature[i], next.plateau_at(i));
     demand.fed = after < 1 ? demand.after : frozen ? demand.before : metal.solid();
     if (step.soft[i] == 0) continue;
+    // A node that has been emptied in part asks only for what is still there.
     const double full = step.rows.fill(i);
     demand.metal = full / demand.fed.total() - step.rows(i, k_metal);
     step.melts = true;
@@ -174,25 +183,31 @@ void Feeding::commit(Step& step, FeedingTotals& totals) const {
   const FeedingRows& rows = step.rows;
   for (std::size_t i = 0; i < step.demands.size(); ++i) {
     const double v = rows(i, k_room);
+    // A node may have lost its body since the last step.
     if (!(v > 0)) continue;
     const FeedingDemand& d = step.demands[i];
     if (d.present) {
       const double had = v * step.metal_before[i], has = v * rows(i, k_metal);
+      // Contraction is booked by its cause: of the melt, of freezing, of the solid.
       melt += had * d.before.thermal - has * d.fed.thermal;
       freezing += had * d.before.phase - has * d.fed.phase;
       solid += has * (d.fed.total() - d.after.total());
       rows(i, k_thermal) = d.after.thermal;
       rows(i, k_phase) = d.after.phase;
     }
+    // The volumes of pipe, sink, cavities, pores and gas are what they are now, not sums over
+    // steps.
     pipe += v * rows(i, k_pipe);
     sink += v * rows(i, k_sink);
     cavity += v * rows(i, k_cavity);
     pores += v * rows(i, k_pores);
     gas += v * rows(i, k_gas);
     wall += v * rows(i, k_wall);
+    // What is neither metal nor hole has come from outside or left.
     outside += v * (rows.fill(i) - rows(i, k_metal) * (1 + rows(i, k_thermal) + rows(i, k_phase)));
   }
   processes::sum(sums);
+  // Causes add up over the steps, holes are those of the end.
   totals.melt += melt;
   totals.freezing += freezing;
   totals.solid += solid;

@@ -74,6 +74,7 @@ double Feeding::reached_at_first(const Step& step, std::size_t node) {
 // Air follows the melt that sinks: nodes beside those that are drained at a level may be drained too.
 bool Feeding::spread(const Step& step, const std::vector<PoolLevel>& level,
                      std::vector<double>& reached) const {
+  // Nodes that the level of their pool has fallen below, in pools that give metal.
   std::vector<double> drained(reached.size(), 0.0);
   for (std::size_t i = 0; i < step.demands.size(); ++i) {
     if (step.pool[i] < 0 || reached[i] == 0) continue;
@@ -81,6 +82,7 @@ bool Feeding::spread(const Step& step, const std::vector<PoolLevel>& level,
     if (l.given > 0 && l.level < graph_.high(i)) drained[i] = 1;
   }
   ghosts_.update(drained, 1);
+  // A neighbour of such a node in the same pool is reached if it lies above the level too.
   bool grown = false;
   for (std::size_t i = 0; i < step.demands.size(); ++i) {
     if (step.pool[i] < 0 || reached[i] != 0) continue;
@@ -95,6 +97,7 @@ bool Feeding::spread(const Step& step, const std::vector<PoolLevel>& level,
     reached[i] = 1;
     grown = true;
   }
+  // Another process may have grown its part: the caller repeats until none grows.
   if (!parallel::any_process(grown)) return false;
   ghosts_.update(reached, 1);
   return true;

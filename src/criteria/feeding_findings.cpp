@@ -168,6 +168,7 @@ std::vector<CriterionResult> Feeding::findings(const CriterionRecord& record) co
 CriterionResult Feeding::densest_pores(const CriterionRecord& record) const {
   CriterionRecord copy{record.name, record.columns, {}};
   const FeedingRows rows(copy.columns[0].values);
+  // Share and place travel together, so that the winner's place comes along.
   std::vector<double> own;
   // The densest own node, then the densest of all.
   for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i)

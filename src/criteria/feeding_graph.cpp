@@ -60,6 +60,7 @@ FeedingGraph::FeedingGraph(const mesh::Mesh& mesh, AnalysisKind kind, const Feed
 void FeedingGraph::connect(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<char>& bodies) {
   const auto owned = static_cast<std::size_t>(mesh.n_owned_nodes);
   std::vector<std::size_t> entries(owned + 1, 0);
+  // Bodies that are not followed hold no melt that could flow.
   const auto each_block = [&](const auto& visit) {
     for (const mesh::ElementBlock& block : mesh.blocks)
       if (bodies[static_cast<std::size_t>(block.body)] != 0) visit(block);
@@ -93,6 +94,7 @@ void FeedingGraph::connect(const mesh::Mesh& mesh, AnalysisKind kind, const std:
               factor[static_cast<std::size_t>(a * n + b)] -=
                   weight * gradients[a * g.dim + d] * gradients[b * g.dim + d];
       }
+      // Lanes beyond the last element of a block are padding.
       for (Index lane = 0; lane < k_lanes && batch * k_lanes + lane < block.size(); ++lane) {
         const Index* nodes = block.element(batch * k_lanes + lane);
         for (int a = 0; a < n; ++a) {
@@ -114,6 +116,7 @@ void FeedingGraph::connect(const mesh::Mesh& mesh, AnalysisKind kind, const std:
     const auto first = neighbours_.begin() + static_cast<std::ptrdiff_t>(entries[i]),
                last = neighbours_.begin() + static_cast<std::ptrdiff_t>(entries[i + 1]);
     std::stable_sort(first, last, [](const Neighbour& a, const Neighbour& b) { return a.node < b.node; });
+    // Entries of one pair are neighbours after sorting; the sum of both elements is kept in place.
     for (auto entry = first; entry != last; ++entry) {
       if (kept > start_[i] && neighbours_[kept - 1].node == entry->node)
         neighbours_[kept - 1].factor += entry->factor;
@@ -129,6 +132,7 @@ void FeedingGraph::connect(const mesh::Mesh& mesh, AnalysisKind kind, const std:
 }
 
 void FeedingGraph::measure(const mesh::Mesh& mesh, const FeedingOptions& options) {
+  // Low and high end of each node's share along `up`, widened by each of its elements.
   for (std::size_t i = 0; i < mesh.x.size(); ++i) low_[i] = high_[i] = along(mesh.x[i], options.up);
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (options.bodies[static_cast<std::size_t>(block.body)] == 0) continue;
@@ -158,6 +162,7 @@ void FeedingGraph::measure(const mesh::Mesh& mesh, const FeedingOptions& options
 // A face of the outside of all followed bodies. It is open where groups say so, or where it faces up and
 // nothing else stands there; it is skin where it is open or where heat leaves.
 void FeedingGraph::mark(const mesh::Mesh& mesh, const FeedingOptions& options) {
+  // Marks of the user's groups first, since they go before what geometry says.
   constexpr double k_upward = 0.5;  // of the normal along `up`
   const std::vector<char> vented = nodes_of(mesh, options.vented, "vented"),
                           covered = nodes_of(mesh, options.covered, "covered");
@@ -169,22 +174,29 @@ void FeedingGraph::mark(const mesh::Mesh& mesh, const FeedingOptions& options) {
   };
   mesh::each_body_face_at_owned(mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
     if (!is_followed(face) || std::ranges::count_if(same, is_followed) > 1) return;
+    // The area vector of a face points outwards; its part along `up` tells whether the face looks
+    // up.
     const mesh::Point area = area_vector(mesh, face.vertices());
     const double size = std::sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+    // Another body on the same face, or a contact with one, is a wall: neither air nor skin moves
+    // there.
     const bool against_wall = same.size() > 1 || touched.contains(face.key);
     const bool upward = along(area, options.up) > k_upward * size && !against_wall &&
                         (!risers || options.risers[static_cast<std::size_t>(face.body)] != 0);
+    // A group marks a face only if all of its nodes are in it.
     const auto all = [&](const std::vector<char>& marked) {
       return std::ranges::all_of(face.vertices(),
                                  [&](Index node) { return marked[static_cast<std::size_t>(node)] != 0; });
     };
     const bool open = (options.vented.empty() ? upward : all(vented)) && !all(covered);
     const bool skin = open || against_wall || cooled.contains(face.key);
+    // Marks of a face go to all of its nodes; a node may be on several faces.
     for (const Index node : face.all_nodes()) {
       if (skin) skin_[static_cast<std::size_t>(node)] = 1;
       if (open) vented_[static_cast<std::size_t>(node)] = 1;
     }
   });
+  // A face may lie on one process only: its nodes' owners and ghosts learn of it here.
   const parallel::GhostExchange ghosts(mesh);
   std::vector<double> marks(2 * mesh.x.size());
   for (std::size_t i = 0; i < mesh.x.size(); ++i) {

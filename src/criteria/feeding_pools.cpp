@@ -61,6 +61,7 @@ void Feeding::leave_out_absent(Step& step) const {
 // Air reaches a pool through an open skin, or through a pipe that has emptied a node beside it or lies in it.
 // Crumbs of melt without a whole element are pools where air or a skin reaches them and mush elsewhere.
 void Feeding::find_pools(Step& step) const {
+  // Pools are connected parts of nodes whose metal can move.
   const ConnectedParts parts = connectivity_.parts(step.inside);
   const auto emptied_through = [&](std::size_t j, FeedingNumber kind) {
     return step.rows(j, kind) > k_nothing &&
@@ -80,6 +81,7 @@ void Feeding::find_pools(Step& step) const {
              return step.inside[j] != 0 && graph_.skin(j);
            });
   };
+  // Which pools air or a skin reaches: any of their nodes is enough.
   const std::size_t owned = step.demands.size();
   step.by_air.assign(step.inside.size(), 0.0);
   step.by_skin.assign(step.inside.size(), 0.0);
@@ -91,19 +93,23 @@ void Feeding::find_pools(Step& step) const {
     if (step.by_air[i] != 0) open.push_back(parts.label[i]);
     if (step.by_skin[i] != 0) soft_skin.push_back(parts.label[i]);
   }
+  // Over all processes, since a pool may lie on several.
   open = all_numbers(std::move(open));
   soft_skin = all_numbers(std::move(soft_skin));
   FeedingPools& pools = step.pools;
+  // A part is a pool if air or a skin reaches it or if it holds a whole element.
   pools.label = open;
   pools.label.insert(pools.label.end(), soft_skin.begin(), soft_skin.end());
   pools.label.insert(pools.label.end(), whole.begin(), whole.end());
   std::sort(pools.label.begin(), pools.label.end());
   pools.label.erase(std::unique(pools.label.begin(), pools.label.end()), pools.label.end());
+  // Both marks by the pool's place in the list, which is the same on all processes.
   for (const double label : pools.label) {
     pools.open.push_back(place_in(open, label) >= 0);
     pools.soft_skin.push_back(place_in(soft_skin, label) >= 0);
   }
   pools.metal.assign(pools.size(), 0.0);
+  // Each node inside gets the number of its pool.
   for (std::size_t i = 0; i < step.inside.size(); ++i)
     if (step.inside[i] != 0) step.pool[i] = place_in(pools.label, parts.label[i]);
 }
@@ -125,6 +131,8 @@ void Feeding::feed_mush(Step& step) const {
   const std::vector<double> fed = all_numbers(std::move(own));
   std::vector<int> region(step.soft.size(), -1);
   std::vector<MushPlace> place(step.soft.size(), MushPlace::none);
+  // Input of the flow: what each node asks for, how its gas gives way, and by how much pressure may
+  // drop.
   std::vector<double> flow(owned, 0.0), gives(owned, 0.0), drop(owned, 0.0);
   std::vector<GasLine> gas(owned);
   for (std::size_t i = 0; i < place.size(); ++i) {
@@ -143,6 +151,7 @@ void Feeding::feed_mush(Step& step) const {
     flow[i] -= gives[i] * gas[i].pressure;
     drop[i] = most_drop(step, i);
   }
+  // One flow for all regions, from the pressures of the step before as a start.
   const MushResult result = flow_through_mush(graph_, ghosts_, laws_,
                                               {.place = place,
                                                .pool = step.pool,
@@ -171,6 +180,7 @@ void Feeding::feed_mush(Step& step) const {
                    drop[i]);
     if (place[i] == MushPlace::none) demand.metal = 0;
   }
+  // What flows out of each pool is what the mush asks of it.
   share_among_pools(step, result.from_pool, region, fed.size());
 }
 
@@ -187,6 +197,7 @@ void Feeding::share_among_pools(Step& step, const std::vector<double>& from_pool
                                 const std::vector<int>& region, std::size_t n_regions) const {
   constexpr double k_given = 0.9;  // of what a pool has
   const std::size_t n_pools = step.pools.size();
+  // For each region what its mush asks for, and for each pool what it has and where it lies.
   std::vector<double> asked(n_regions, 0.0), has(n_pools, 0.0);
   std::vector<double> region_of(n_pools, -1.0);
   for (std::size_t i = 0; i < step.demands.size(); ++i) {
@@ -200,9 +211,11 @@ void Feeding::share_among_pools(Step& step, const std::vector<double>& from_pool
       asked[static_cast<std::size_t>(region[i])] += room * step.demands[i].metal;
     }
   }
+  // Sums of all processes; the region of a pool is known to those that hold nodes of it.
   processes::sum(asked);
   processes::sum(has);
   processes::largest(region_of);
+  // Of what a pool has, its own surface needs some: the rest may be given.
   std::vector<double> left(n_regions, 0.0), flow(n_regions, 0.0), part(n_regions, 1.0);
   for (std::size_t p = 0; p < n_pools; ++p) {
     if (region_of[p] < 0) continue;
@@ -210,6 +223,8 @@ void Feeding::share_among_pools(Step& step, const std::vector<double>& from_pool
     left[static_cast<std::size_t>(region_of[p])] += has[p];
     flow[static_cast<std::size_t>(region_of[p])] += std::max(0.0, from_pool[p]);
   }
+  // Where the pools of a region have too little, each node of mush gets the same part, and pores
+  // take the rest.
   for (std::size_t r = 0; r < n_regions; ++r)
     if (asked[r] > left[r]) part[r] = left[r] / asked[r];
   for (std::size_t i = 0; i < step.demands.size(); ++i) {
@@ -217,6 +232,7 @@ void Feeding::share_among_pools(Step& step, const std::vector<double>& from_pool
     const double given = part[static_cast<std::size_t>(region[i])];
     if (given < 1) open_pores(step, i, (1 - given) * step.demands[i].metal);
   }
+  // Each pool gives in the ratio of the flows from it, up to what it has;
   std::vector<double> over(n_regions, 0.0), spare(n_regions, 0.0), gives(n_pools, 0.0);
   for (std::size_t p = 0; p < n_pools; ++p) {
     if (region_of[p] < 0) continue;
@@ -230,6 +246,7 @@ void Feeding::share_among_pools(Step& step, const std::vector<double>& from_pool
     over[r] += all * share - gives[p];
     spare[r] += has[p] - std::max(0.0, gives[p]);
   }
+  // what it could not give comes from the spare metal of the other pools of the region.
   for (std::size_t p = 0; p < n_pools; ++p) {
     if (region_of[p] < 0) continue;
     const auto r = static_cast<std::size_t>(region_of[p]);

@@ -134,6 +134,7 @@ int Freezing::body_of(Index node, const std::vector<char>& chosen) const {
 CriterionRecord Freezing::initial(const CriterionInput& start) const {
   CriterionRecord record{
       k_name, {make_column(mesh_, "history", mesh::FieldPlace::node, k_width, 0)}, {{"frozen", k_row, {}}}};
+  // All times begin as "never", which is a negative number.
   std::vector<double>& history = record.columns[0].values;
   for (std::size_t i = 0; i < mesh_.x.size(); ++i)
     for (const Slot time : k_times) history[i * k_width + time] = k_never;
@@ -143,6 +144,7 @@ CriterionRecord Freezing::initial(const CriterionInput& start) const {
     if (start.solid_fraction[i] > 0 && start.solid_fraction[i] < 1)
       history[i * k_width + k_liquidus_at] = start.time;
   }
+  // Neighbours read each other's times: ghosts need them too.
   ghosts_.update(history, k_width);
   return record;
 }
@@ -196,6 +198,8 @@ void Freezing::follow(const FreezingNode& who, const Step& step, std::span<doubl
 
 Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& step, double at,
                                           std::span<const double> history, bool only_behind) const {
+  // The passage of the front counts as the same time within a share of the step, since it is
+  // interpolated.
   const Levels& levels = levels_[static_cast<std::size_t>(who.body)];
   const double level = levels.evaluation, liquidus = levels.liquidus;
   const double now = step.time(at), tolerance = k_same_time * step.dt();
@@ -204,6 +208,7 @@ Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& s
   PatchGradient result;
   mesh::Point all{}, behind{};
   double volume = 0, volume_behind = 0;
+  // Every element of the node's own body: its gradient weighs by its volume.
   for (const Patches::Element e : patches_.around(who.node)) {
     if (patches_.body(e) != who.body) continue;
     std::array<double, k_most_nodes> values{};
@@ -222,12 +227,15 @@ Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& s
       coldest = std::min(coldest, values[a]);
     }
     const bool is_behind = some_passed && !melt;
+    // Recovered gradients of waiting nodes count elements behind the front alone.
     if (only_behind && !is_behind) continue;
     const Patches::Gradient g = patches_.gradient(e, std::span(values).first(nodes.size()));
     volume += g.volume;
     result.all_magnitude += g.volume * length(g.value);
     for (std::size_t k = 0; k < 3; ++k) all[k] += g.volume * g.value[k];
     if (!is_behind) continue;
+    // Of those behind: how deep the coldest node lies below the level, and since when the front is
+    // past.
     result.has_behind = true;
     result.drop = std::max(result.drop, level - coldest);
     result.since = std::min(result.since, since);
@@ -235,6 +243,8 @@ Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& s
     result.behind_magnitude += g.volume * length(g.value);
     for (std::size_t k = 0; k < 3; ++k) behind[k] += g.volume * g.value[k];
   }
+  // Means by volume; the mean of lengths is kept beside the length of the mean, which cancels where
+  // fronts meet.
   if (volume > 0) {
     result.all = length(all) / volume;
     result.all_magnitude /= volume;
@@ -254,7 +264,9 @@ void Freezing::evaluate(const Passage& passage, const Step& step, std::span<doub
   const bool sharp = levels.at_end || g.drop > levels.liquidus - levels.evaluation;
   if (h[k_mode] != 0)  // passed before, and warmed up since without melting: there are no sums
     for (const Slot sum : {k_sum_time, k_sum_gradient, k_sum_magnitude}) h[sum] = 0;
+  // Without an element behind the front the node waits for the first one; a mushy front needs none.
   h[k_mode] = !g.has_behind ? k_waiting : (sharp ? k_sharp : k_mushy);
+  // A sharp front moves through its patch over several steps: the mean over their time is taken.
   const double share = passage.at * step.dt(), time = h[k_sum_time] + share;
   if (h[k_mode] != k_sharp) {
     h[k_gradient] = g.all;
@@ -280,6 +292,8 @@ void Freezing::accumulate(const FreezingNode& who, const Step& step, std::span<d
 
 // The first element around a node that waited is passed.
 void Freezing::complete(const FreezingNode& who, const Step& step, std::span<double> history) const {
+  // The time at which the first element around the node lies behind the front with all of its
+  // nodes.
   double passed_at = step.next.time + step.dt();
   for (const Patches::Element e : patches_.around(who.node)) {
     if (patches_.body(e) != who.body) continue;
@@ -290,11 +304,13 @@ void Freezing::complete(const FreezingNode& who, const Step& step, std::span<dou
     }
     passed_at = std::min(passed_at, last);
   }
+  // Not in this step: it goes on waiting.
   if (passed_at > step.next.time) return;
   const Levels& levels = levels_[static_cast<std::size_t>(who.body)];
   const double at = std::clamp((passed_at - step.old.time) / step.dt(), 0.0, 1.0);
   const PatchGradient g = recover(who, step, at, history, true);
   double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
+  // The same distinction as in evaluate(), now with the gradient behind.
   const bool sharp = levels.at_end || g.drop > levels.liquidus - levels.evaluation;
   h[k_mode] = sharp ? k_sharp : k_mushy;
   if (!sharp) return;
@@ -322,6 +338,7 @@ void Freezing::step(const CriterionInput& old, const CriterionInput& next, Crite
   for (const auto* list : {&freezing, &waiting})
     for (const FreezingNode& who : *list) needed.push_back(who.node);
   patches_.gather(needed);
+  // Gradients of those that pass now, sums of those that freeze, and those whose waiting is over.
   for (const Passage& passage : passages) evaluate(passage, step, history);
   for (const FreezingNode& who : freezing) accumulate(who, step, history);
   for (const FreezingNode& who : waiting)
@@ -335,6 +352,8 @@ void Freezing::step(const CriterionInput& old, const CriterionInput& next, Crite
 /// that slopes of opposite sense do not cancel where fronts meet.
 std::vector<double> Freezing::front_speeds(std::span<const double> history) const {
   const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes);
+  // Elements whose nodes have all been passed have a gradient of the passing time; its length is
+  // one over speed.
   std::vector<double> slope(n, 0.0), volume(n, 0.0);
   std::vector<int> body(n, -1);
   for (const FreezingNode& who : nodes_) body[static_cast<std::size_t>(who.node)] = who.body;
@@ -353,6 +372,7 @@ std::vector<double> Freezing::front_speeds(std::span<const double> history) cons
       volume[i] += g.volume;
     }
   });
+  // The mean slope by volume, turned into a speed.
   for (std::size_t i = 0; i < n; ++i) slope[i] = slope[i] > 0 ? volume[i] / slope[i] : 0.0;
   return slope;
 }

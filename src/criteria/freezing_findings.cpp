@@ -12,6 +12,7 @@ std::vector<CriterionResult> Freezing::shares_beyond(const CriterionRecord& reco
                                                      std::span<const double> speeds) const {
   std::vector<CriterionResult> shares;
   for (std::size_t f = 0; f < k_fields; ++f) {
+    // Only fields with a threshold have a share beyond it.
     const quantities::Quantity& field = *fields::k_of_freezing[f];
     if (!field.threshold) continue;
     double all = 0, bad = 0;
@@ -20,6 +21,7 @@ std::vector<CriterionResult> Freezing::shares_beyond(const CriterionRecord& reco
           values_of(who, record.columns[0].values, speeds[static_cast<std::size_t>(who.node)])[f];
       if (value == field.no_value) continue;
       const double volume = storage_.volume(who.node, who.body);
+      // The side of the threshold that is bad is that of the field's worst extreme.
       all += volume;
       const bool low = field.worst == quantities::Extreme::least;
       if (low ? value < *field.threshold : value > *field.threshold) bad += volume;
@@ -44,6 +46,8 @@ std::vector<CriterionResult> Freezing::findings(const CriterionRecord& record) c
                         (value == e.value && number < e.number);
     if (better) e = {value, number, where};
   };
+  // Own nodes first; of equal values the lower number wins, so that the place does not depend on
+  // processes.
   const std::vector<double> speeds = front_speeds(record.columns[0].values);
   for (const FreezingNode& who : nodes_) {
     const auto i = static_cast<std::size_t>(who.node);
@@ -55,6 +59,7 @@ std::vector<CriterionResult> Freezing::findings(const CriterionRecord& record) c
                side == 0);
   }
   std::vector<CriterionResult> shares = shares_beyond(record, speeds);
+  // Rows of plain numbers go to all processes, and the same comparison chooses the best of all.
   std::vector<double> mine;
   for (const Extreme& e : own)
     mine.insert(mine.end(), {e.value, e.number, e.where[0], e.where[1], e.where[2]});
@@ -65,6 +70,7 @@ std::vector<CriterionResult> Freezing::findings(const CriterionRecord& record) c
     const std::size_t which = k % (2 * k_fields);
     if (row[1] >= 0) take(best[which], row[0], row[1], {row[2], row[3], row[4]}, which % 2 == 0);
   }
+  // Two results for each field that any node has.
   std::vector<CriterionResult> found;
   for (std::size_t f = 0; f < k_fields; ++f)
     for (std::size_t side = 0; side < 2; ++side)

@@ -17,6 +17,7 @@ CriterionRecord Freezing::restart(const CriterionRecord& before, const Criterion
   std::vector<double> own(n_bodies * k_entries, 0.0);
   for (std::size_t b = 0; b < n_bodies; ++b) own[b * k_entries + 2] = -1;
   const std::vector<double>& history = before.columns[0].values;
+  // A later time wins, of equal times the lower number.
   const auto take = [](double* best, const double* row) {
     best[0] = std::max(best[0], row[0]);
     const bool later = row[1] > best[1] || (row[1] == best[1] && row[2] < best[2]);

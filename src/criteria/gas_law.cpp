@@ -35,16 +35,20 @@ double GasLaw::tension(const Place& place) const {
 }
 
 GasLaw::Pore GasLaw::pore(const Place& place, double pressure) const {
+  // Pressure outside the pore: that of the atmosphere and of the melt, never below zero; surface
+  // tension holds the pore shut on top of it.
   const bool held = ambient_ + pressure > 0;
   const double outside = held ? ambient_ + pressure : 0;
   const double p = std::max(outside + tension(place), k_least_pressure);
   const double temperature = std::max(place.temperature, solidus_);
   Pore result;
+  // The gas that the metal cannot hold at this pressure, as a volume (Sieverts' law).
   result.gas = gas_.free_volume(content_, temperature, place.solid_fraction, p, density_);
   // x = a (c − s √p)/p, also where it just begins
   constexpr double k_begins = 1e-9;
   const double dissolved =
       gas_.solubility(temperature, place.solid_fraction) * std::sqrt(p / material::k_standard_pressure);
+  // The slope by pressure: less is dissolved, and the gas itself expands.
   if (!held || dissolved > (1 + k_begins) * content_) return result;
   const double a = density_ * material::k_standard_pressure * (temperature / material::k_standard_state);
   result.gas_by_pressure = a * (dissolved / 2 - content_) / (p * p);

@@ -53,11 +53,13 @@ void GasPores::step(const CriterionInput& old, const CriterionInput& next, Crite
     const auto i = static_cast<std::size_t>(who.node);
     // The time of freezing counts from the step in which freezing begins, of which half is taken.
     const double before = old.solid_fraction[i], after = next.solid_fraction[i];
+    // Solid metal makes no more pores.
     if (before >= 1 && after >= 1) continue;
     times[i] = after > 0 ? times[i] + (before > 0 ? 1 : k_mean) * (next.time - old.time) : 0;
     pores[i] =
         laws_[static_cast<std::size_t>(who.body)]->pores({next.heat.temperature[i], after, times[i]}, 0);
   }
+  // Fields show ghosts' values too.
   ghosts_.update(pores, 1);
   ghosts_.update(times, 1);
 }

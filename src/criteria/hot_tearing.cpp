@@ -15,6 +15,7 @@ using Curve = std::vector<std::pair<double, double>>;
 /// The straight pieces of a curve between the root and the liquidus, from low to high temperature.
 Curve mush_of(const Curve& curve) {
   Curve mush;
+  // The root is where the grains are bridged; above it the solid fraction counts no more.
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const auto& [temperature, fraction] = curve[i];
     if (fraction > k_bridged && i + 1 < curve.size() && curve[i + 1].second <= k_bridged) {
@@ -40,6 +41,7 @@ TearingLaw::TearingLaw(const Curve& curve, double shrinkage, double viscosity, d
                                                                  {0.9061798459386640, 0.2369268850561891}}};
   const Curve mush = mush_of(curve);
   double taken = 0;  // F at the low end of the piece
+  // A and B of the criterion of Rappaz, Drezet and Gremaud, summed piece by piece over the mush.
   for (std::size_t i = 1; i < mush.size(); ++i) {
     const double width = mush[i].first - mush[i - 1].first, low = mush[i - 1].second, high = mush[i].second;
     for (const auto& [place, weight] : k_gauss) {
@@ -89,6 +91,7 @@ double root_of(const Curve& curve) {
 }
 
 double kou_index(const Curve& curve, double from, double to) {
+  // The curve of the mush goes from the root to the liquidus.
   const Curve mush = mush_of(curve);
   if (mush.size() < 2 || mush.front().second <= from) return 0;
   // The slope of temperature over the root of the fraction, between both fractions.

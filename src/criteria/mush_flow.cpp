@@ -43,6 +43,8 @@ class Equations {
   Equations(const FeedingGraph& graph, const parallel::GhostExchange& ghosts, std::span<const MushLaw> laws,
             const MushInput& input, std::span<double> pressure)
       : ghosts_(ghosts), laws_(laws), input_(input), pressure_(pressure) {
+    // A row for each own node in mush: the flows to its neighbours by permeability over viscosity,
+    // and gas that gives way with pressure.
     start_.push_back(0);
     for (std::size_t i = 0; i < input.flow.size(); ++i) {
       if (input.place[i] != MushPlace::mush) continue;
@@ -60,6 +62,7 @@ class Equations {
       start_.push_back(edges_.size());
       diagonal_.push_back(diagonal);
     }
+    // Pools are at the pressure of the melt above, which counts as zero.
     for (std::size_t i = 0; i < pressure_.size(); ++i)
       if (input.place[i] != MushPlace::mush) pressure_[i] = 0;
     held_.assign(rows_.size(), 0);
@@ -67,11 +70,14 @@ class Equations {
 
   MushResult solve() {
     constexpr int k_most_rounds = 400;
+    // Nodes that cannot be fed, or were at their least pressure already, start as held.
     for (std::size_t k = 0; k < rows_.size(); ++k)
       if (!(diagonal_[k] > 0) || pressure_[rows_[k]] <= -critical(k)) hold(k);
     for (int round = 0; round < k_most_rounds; ++round) {
       balance();
       bool changed = false;
+      // An active set: too low a pressure is held and opens pores; a held node that would close
+      // them again is let go.
       for (std::size_t k = 0; k < rows_.size(); ++k) {
         const bool low =
             held_[k] == 0 && pressure_[rows_[k]] < -critical(k) - k_slack * std::abs(critical(k));
@@ -81,6 +87,7 @@ class Equations {
         if (fed) held_[k] = 0;
         changed = changed || low || fed;
       }
+      // The set is right when no process has changed it.
       if (!parallel::any_process(changed)) break;
       ghosts_.update(pressure_, 1);
     }
@@ -141,6 +148,7 @@ class Equations {
         image[k] = outflow(k, direction);
         curvature += image[k] * direction[rows_[k]];
       }
+      // The step along the direction and the next direction, as in any conjugate gradients.
       curvature = parallel::global_sum(curvature);
       if (!(curvature > 0)) break;
       const double step = product / curvature;

@@ -23,6 +23,7 @@ double niyama(double gradient, double cooling_rate) {
 std::optional<FeedingLaw> FeedingLaw::of(const material::Material& material) {
   const material::PhaseChange* change = material.solidification();
   const material::Casting& casting = material.casting;
+  // Without these data the law has nothing to say.
   if (change == nullptr || !casting.arm_spacing || !casting.melt_viscosity) return {};
   const double range = change->fraction.liquidus() - change->fraction.solidus();
   double volume_change = 0;  // until the last melt is frozen: graphite forms on the way
@@ -35,6 +36,7 @@ std::optional<FeedingLaw> FeedingLaw::of(const material::Material& material) {
   law.shrinkage_ = -volume_change;
   const double beta = law.shrinkage_ / (1 - law.shrinkage_);
   law.factor_ = std::sqrt(casting.critical_pressure_drop / (*casting.melt_viscosity * beta * range));
+  // Pieces from hot to cold: the integral over the liquid fraction runs from the liquidus down.
   const auto& points = change->fraction.points();
   double above = 0;
   for (std::size_t i = points.size() - 1; i > 0; --i) {

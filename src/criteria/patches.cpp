@@ -41,6 +41,7 @@ Patches::Patches(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<char> ch
     mesh::basis_gradients(block.shape, centre_of(block.shape), centre.gradients);
     for (const mesh::QuadraturePoint& point : mesh::gauss_rule(block.shape, 1)) centre.weight += point.weight;
   }
+  // Elements are numbered through all blocks.
   first_.push_back(0);
   for (const mesh::ElementBlock& block : mesh.blocks)
     first_.push_back(first_.back() + static_cast<std::uint32_t>(block.size()));
@@ -50,6 +51,7 @@ void Patches::gather(std::span<const Index> owned) {
   position_.assign(static_cast<std::size_t>(mesh_.n_owned_nodes), k_not_gathered);
   for (std::size_t k = 0; k < owned.size(); ++k)
     position_[static_cast<std::size_t>(owned[k])] = static_cast<std::uint32_t>(k);
+  // Each pair of a gathered node and an element around it.
   const auto each = [&](const auto& visit) {
     for_elements([&](const Element& e) {
       const std::uint32_t number =
@@ -103,12 +105,14 @@ Patches::Gradient Patches::gradient(const Element& e, std::span<const double> va
       for (std::size_t i = 0; i < dim; ++i) j[i][k] += x[i] * dn;
     }
   }
+  // In the plane the third direction is perpendicular and of unit length.
   if (dim == 2) j[2][2] = 1;
   // With the cofactors c of J: J⁻¹_ki = c_ik/det J, so ∂v/∂x_i = Σ_k c_ik ∂v/∂ξ_k / det J.
   const auto cofactor = [&j](std::size_t a, std::size_t b) {
     const std::size_t a1 = (a + 1) % 3, a2 = (a + 2) % 3, b1 = (b + 1) % 3, b2 = (b + 2) % 3;
     return j[a1][b1] * j[a2][b2] - j[a1][b2] * j[a2][b1];
   };
+  // The determinant times the weight of the centre is the element's volume.
   const double determinant = j[0][0] * cofactor(0, 0) + j[0][1] * cofactor(0, 1) + j[0][2] * cofactor(0, 2);
   Gradient gradient;
   for (std::size_t i = 0; i < dim; ++i)

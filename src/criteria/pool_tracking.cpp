@@ -52,6 +52,7 @@ Pool& pool_of(std::vector<Pool>& pools, int number) {
 
 }  // namespace
 
+// Every process has found a part of each pool; labels are the same on all of them.
 Melt gathered(const Melt& own) {
   std::map<double, MeltPart> parts;
   std::map<std::pair<double, int>, double> overlaps;
@@ -76,6 +77,7 @@ Melt gathered(const Melt& own) {
   each_row(rows, 7, [&](const double* r) {
     take_later(last, {static_cast<int>(r[0]), r[1], r[2], r[3], {r[4], r[5], r[6]}});
   });
+  // Maps are in order of their labels, so all processes get the same lists.
   Melt all;
   for (const auto& [label, part] : parts) all.parts.push_back(part);
   for (const auto& [key, volume] : overlaps) all.overlaps.push_back({key.first, key.second, volume});
@@ -105,6 +107,8 @@ std::vector<int> follow_pools(std::vector<Pool>& pools, const Melt& melt, double
     pool.ended = true;
     pool.volume = 0;
     const auto joined = std::find_if(overlaps.begin(), overlaps.end(),
+                                     // The largest overlap that is left says into which pool it
+                                     // went.
                                      [&](const Overlap& o) { return o.pool == pool.number; });
     if (joined != overlaps.end()) {
       pool.into = number_of.at(joined->label);
@@ -116,6 +120,7 @@ std::vector<int> follow_pools(std::vector<Pool>& pools, const Melt& melt, double
       pool.into = Pool::k_left;
       continue;
     }
+    // All of it froze in this step: where and when its last node did.
     pool.frozen = last->time;
     pool.temperature = last->temperature;
     pool.where = last->where;
@@ -127,6 +132,7 @@ std::vector<int> follow_pools(std::vector<Pool>& pools, const Melt& melt, double
     const auto known = number_of.find(part.label);
     int number = known == number_of.end() ? 0 : known->second;
     if (number == 0 && part.whole) {
+      // The parent is the pool with which the new part shares the most.
       const auto parent = std::find_if(overlaps.begin(), overlaps.end(),
                                        [&](const Overlap& o) { return o.label == part.label; });
       number = pools.empty() ? 1 : pools.back().number + 1;
@@ -134,11 +140,13 @@ std::vector<int> follow_pools(std::vector<Pool>& pools, const Melt& melt, double
       born.number = number;
       born.born = time;
       born.parent = parent == overlaps.end() ? 0 : parent->pool;
+      // Without feeders a pool that splits off is cut off by that.
       if (!feeders && born.parent > 0) born.closed_off = time;
     }
     numbers.push_back(number);
     if (number == 0) continue;
     Pool& pool = pool_of(pools, number);
+    // With feeders a pool is cut off while no feeder is in it, and may be joined again.
     if (feeders) pool.closed_off = part.fed ? -1 : (pool.closed_off < 0 ? time : pool.closed_off);
     pool.volume = part.volume;
     if (pool.closed_off >= 0) pool.largest = std::max(pool.largest, part.volume);

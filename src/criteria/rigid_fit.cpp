@@ -46,6 +46,7 @@ RigidFit::RigidFit(const mesh::Mesh& mesh, AnalysisKind kind)
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     OfBody& body = bodies_[b];
     std::vector<double> volume(mesh.x.size(), 0.0);
+    // Nodal volumes of counted elements: each element once over all processes.
     for (const mesh::ElementBlock& block : mesh.blocks) {
       if (block.body != static_cast<int>(b)) continue;
       const PackVector<Lane> weights = mesh::nodal_weights(mesh, block, kind);
@@ -82,6 +83,7 @@ RigidFit::RigidFit(const mesh::Mesh& mesh, AnalysisKind kind)
     std::array<Point, 3> tensor{};
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) tensor[i][j] = inertia[3 * i + j];
+    // In the plane only the rotation about z can be seen.
     if (kind == AnalysisKind::solid)
       body.inverse_inertia = inverse(tensor);
     else if (kind == AnalysisKind::plane_strain)
@@ -93,6 +95,7 @@ std::vector<SmallMotion> RigidFit::fit(std::span<const double> displacement) con
   const auto components = static_cast<std::size_t>(displacement_components(kind_));
   std::vector<SmallMotion> motions;
   for (const OfBody& body : bodies_) {
+    // Mean displacement and moment of the displacements about the centre.
     std::array<double, 6> sums{};
     for (std::size_t k = 0; k < body.nodes.size(); ++k) {
       const auto node = static_cast<std::size_t>(body.nodes[k]);
@@ -108,6 +111,7 @@ std::vector<SmallMotion> RigidFit::fit(std::span<const double> displacement) con
     sums = global_sums(sums);
     SmallMotion motion;
     motion.centre = body.centre;
+    // With the inertia they give the translation and rotation of least squares.
     for (std::size_t i = 0; i < 3; ++i) {
       motion.translation[i] = sums[i] / body.total;
       motion.rotation[i] = dot(body.inverse_inertia[i], {sums[3], sums[4], sums[5]});

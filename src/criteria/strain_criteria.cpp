@@ -20,6 +20,7 @@ Lane equivalent(const Sym<Lane>& strain) {
 /// The body of every local node; of ghosts from their owners, which hold all of a node's elements.
 std::vector<int> bodies_of_nodes(const mesh::Mesh& mesh, const std::vector<material::Material>& materials) {
   std::vector<double> body(mesh.x.size(), -1.0);
+  // Bodies that freeze first: at a node that they share with a mould they decide.
   for (const bool melts : {true, false})
     for (int b = 0; b < static_cast<int>(mesh.bodies.size()); ++b) {
       if ((materials[static_cast<std::size_t>(b)].solidification() != nullptr) != melts) continue;
@@ -96,6 +97,7 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
   // brittle range by the share of the step within it.
   for (const OfBlock& block : blocks_) {
     if (block.freezing == nullptr) continue;
+    // Fractions are those of the block's own material, also at nodes that other bodies share.
     for (const Index n : block.nodes) {
       const auto node = static_cast<std::size_t>(n);
       before[node] = solid_fraction(*block.freezing, old, node);
@@ -111,6 +113,8 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
       const LaneMask melt = from < Lane(coherent);
       const std::size_t first = block.first + static_cast<std::size_t>(batch) * k_lanes;
       const int count = std::min<int>(k_lanes, block.strain.n_elements() - batch * k_lanes);
+      // While an element is melt its nodes move with the melt: the share of the step for which that
+      // holds.
       for (int lane = 0; lane < count; ++lane) {
         if (from[lane] >= coherent) continue;
         const double until = to[lane] > coherent ? (coherent - from[lane]) / (to[lane] - from[lane]) : 1.0;
@@ -121,6 +125,8 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
       }
       Sym<Lane> reference = load_tensors(at_coherency, k_tensor, first, count),
                 sum = load_tensors(brittle, k_tensor, first, count);
+      // Melt carries no strain: the reference follows, and the sum of the brittle range starts
+      // again.
       for (std::size_t i = 0; i < k_tensor; ++i) {
         reference.c[i] = select(melt, strain.c[i], reference.c[i]);
         sum.c[i] = select(melt, Lane(0.0), sum.c[i] + share * increment.c[i]);
