@@ -35,12 +35,14 @@ std::vector<std::string> solver_advice(const CaseSpec& spec) {
 /// Advice on Newton's iteration of a body that stands and is strong enough.
 std::vector<std::string> iteration_advice(const coupling::Stop& stop, const CaseSpec& spec) {
   std::vector<std::string> advice;
+  // A linear solver that gave up is the first suspect.
   if (stop.failure == Failure::linear_solver) advice = solver_advice(spec);
   if (spec.dynamics) advice.emplace_back("a smaller step: with inertia a short one is an easy one");
   advice.push_back(
       fmt::format("more iterations: mechanics.max_iterations (now {}), or mechanics.tolerance "
                   "(now {:g})",
                   spec.mechanics.max_iterations, spec.mechanics.tolerance));
+  // Stiff contact is the second.
   if (!spec.contacts.empty())
     advice.emplace_back(
         "a softer contact: penalty_factor in [[contact]]; look at its gap in the last fields");
@@ -54,6 +56,7 @@ std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const Case
   const char* const support =
       "a support against moving and turning, [[mechanical_condition]] with a displacement of zero, or a body "
       "below it that it touches, [[contact]]";
+  // Each kind of failure has remedies of its own; supports are named with the key that makes them.
   switch (stop.diagnosis.physics) {
     case coupling::Physics::nothing_carries:
       return {support, "is gravity_direction right? Have the bodies that carried it left in this stage?"};
@@ -92,12 +95,14 @@ std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const Case
 /// Advice for steps that coupling::GuardedScheme refuses.
 std::vector<std::string> guard_advice(const coupling::Stop& stop, const CaseSpec& spec) {
   std::vector<std::string> advice;
+  // The likeliest cause first: the open rule may leave the range of temperatures at chills.
   if (spec.heat.integration == heat::HeatIntegration::open)
     advice.emplace_back(
         "the closed rule, heat.integration = \"closed\": the open one over- and undershoots at sudden "
         "chills");
   if (!spec.heat.bounds) advice.emplace_back("heat.bounds = true");
   advice.emplace_back("a heat transfer that changes less steeply with gap and pressure: [contact.heat]");
+  // The scheme knows what it can do itself.
   std::ranges::move(spec.coupling.scheme->advice(stop), std::back_inserter(advice));
   if (carries_loads(spec))
     advice.emplace_back(
@@ -127,6 +132,7 @@ std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec&
       "the closed rule, heat.integration = \"closed\": the open one over- and undershoots at sudden chills, "
       "the "
       "more the shorter the step is";
+  // Below zero kelvin the load takes more heat than there is, whatever the iteration does.
   if (stop.failure == Failure::temperature || stop.diagnosis.physics == coupling::Physics::cold_law) {
     std::vector<std::string> advice = {
         "fluxes and sources at that place: do they take more heat than there is?"};
@@ -144,6 +150,7 @@ std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec&
       {fmt::format("more iterations: heat.max_iterations (now {}), or heat.tolerance",
                    spec.heat.max_iterations),
        "films, radiation, sources or conductivities that change steeply with temperature at that place"});
+  // A steady state needs something that fixes the level of temperature.
   if (spec.time.steady)
     advice.emplace_back(
         "what holds a temperature, a film, radiation or a temperature on a surface: fluxes and sources alone "
@@ -160,6 +167,7 @@ std::vector<std::string> advice_of(const coupling::Stop& stop, const CaseSpec& s
       stop.diagnosis.physics == coupling::Physics::limit_load)
     return mechanics_advice(stop, spec);
   if (stop.diagnosis.physics == coupling::Physics::cold_law) return heat_advice(stop, spec);
+  // Otherwise the equations that failed tell which room of advice to open.
   switch (stop.failure) {
     case Failure::heat:
     case Failure::temperature:
@@ -208,6 +216,7 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
   const std::string physics = coupling::text(stop.diagnosis);
   std::string text = fmt::format("the simulation could not go on at t = {:.6g} s\n  reason: {}\n", time,
                                  physics.empty() ? stop.reason : physics);
+  // The equations' own reason, where it says more than the physics.
   if (!physics.empty() && stop.reason != stop.diagnosis.detail)
     text += fmt::format("  equations: {}\n", stop.reason);
   if (!stop.where.empty() && stop.where != stop.diagnosis.detail)
@@ -219,6 +228,7 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
                         stop.tries == 1 ? "step" : "steps, each shorter", stop.smallest_step) +
             checkpoint_line;
   text += "  what may help:";
+  // An unstable split is told first and instead of smaller steps, which do not help it.
   const CouplingEstimate* unstable = too_strong(couplings);
   if (unstable != nullptr)
     text += fmt::format(

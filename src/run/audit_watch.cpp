@@ -27,6 +27,7 @@ bool closes_first_law(const CaseSpec& spec) {
 
 void StabilityWatch::step(const coupling::StepRecord& record, const coupling::State&) {
   const coupling::StabilityAudit& l = record.stability;
+  // Growth within the tolerance of residuals and rounding is no sign of anything.
   if (warned_ || !admissibility_.holds() || !(l.increment() > l.tolerance)) return;
   const coupling::SchemeKind& scheme = *spec_.coupling.scheme;
   logging::warn(
@@ -78,6 +79,7 @@ void WallWatch::step(const coupling::StepRecord& record, const coupling::State&)
 }
 
 void WallWatch::report() const {
+  // Pairs by the largest gap, the worst first.
   std::vector<std::size_t> order(largest_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return largest_[i].gap; });

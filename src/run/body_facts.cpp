@@ -54,6 +54,7 @@ class Bodies {
 
 void Bodies::measure_boxes(std::vector<BodyFacts>& facts) const {
   std::vector<double> high(6 * n_, -std::numeric_limits<double>::infinity());  // of x and of −x
+  // Largest coordinates and largest negative ones: one maximum over processes gives both corners.
   for (const mesh::ElementBlock& block : a_.mesh.blocks)
     for (const Index node : block.nodes)
       for (std::size_t d = 0; d < 3; ++d) {
@@ -64,6 +65,7 @@ void Bodies::measure_boxes(std::vector<BodyFacts>& facts) const {
   processes::largest(high);
   for (std::size_t b = 0; b < n_; ++b) {
     const double* const of_body = high.data() + 6 * b;
+    // The diagonal of the box is the scale of all motions of the body.
     facts[b].size = std::hypot(of_body[0] + of_body[3], of_body[1] + of_body[4], of_body[2] + of_body[5]);
   }
 }
@@ -153,6 +155,7 @@ void find_contacts(const Assembly& a, const coupling::State& last, const mechani
     bool rigid, closed;
   };
   std::vector<Pair> pairs;
+  // Each active pair: which bodies are on its sides, how many points it has, how many are closed.
   for (std::size_t i = 0; i < a.phases.contacts.size(); ++i) {
     const contact::ContactPair& pair = *a.phases.contacts[i];
     if (!pair.active()) continue;
@@ -162,6 +165,7 @@ void find_contacts(const Assembly& a, const coupling::State& last, const mechani
     const auto& state = pair.state().points;
     points.all = std::llround(parallel::global_sum(
         static_cast<double>(std::ranges::count_if(state, [](const auto& point) { return point.counted; }))));
+    // A run without a step has no closed points yet: those of the failing try stand in.
     const bool stood = parallel::any_process(i < last.contacts.size() && !last.contacts[i].points.empty());
     points.before = coupling::closed_points(stood ? last.contacts[i] : pair.state());
     if (iterate != nullptr && i < iterate->contacts.size()) {
@@ -169,6 +173,7 @@ void find_contacts(const Assembly& a, const coupling::State& last, const mechani
       points.changed = iterate->contacts[i].changed;
     }
     found.closed = points.before > 0 || (!stood && points.now > 0);
+    // A point counts for the bodies of both sides.
     for (const std::set<std::size_t>* side : {&found.slave, &found.master})
       for (const std::size_t b : *side) {
         coupling::ContactPoints& of_body = facts[b].contact;
@@ -180,10 +185,12 @@ void find_contacts(const Assembly& a, const coupling::State& last, const mechani
       }
     pairs.push_back(std::move(found));
   }
+  // Supports carry; a closed contact hands that on to the other side.
   for (BodyFacts& body : facts) body.carried = body.supported || !body.moves;
   const auto any_carried = [&](const std::set<std::size_t>& side) {
     return std::ranges::any_of(side, [&](std::size_t b) { return facts[b].carried; });
   };
+  // As many sweeps as there are bodies are enough for the longest chain.
   for (std::size_t sweep = 0; sweep <= facts.size(); ++sweep)
     for (const Pair& pair : pairs) {
       if (!pair.closed) continue;
@@ -199,6 +206,8 @@ void find_elongation(const Assembly& a, const coupling::State& last, std::vector
   const std::vector<double>& u = last.mechanics.displacement;
   const auto n = at(a.mechanics->components());
   std::vector<double> largest(facts.size(), 0.0);
+  // Edges between neighbouring nodes in their numbering: a few for each element are enough to see a
+  // strain of a mechanism.
   for (const mesh::ElementBlock& block : a.mesh.blocks) {
     double& of_body = largest[at(block.body)];
     if (!facts[at(block.body)].moves || u.empty()) continue;
@@ -225,6 +234,7 @@ void find_motion(const Assembly& a, const coupling::State& last, const mechanics
   const std::vector<double>&now = iterate.displacement, &before = last.mechanics.displacement;
   if (parallel::any_process(now.size() != before.size())) return;
   const auto n = at(a.mechanics->components());
+  // The farthest node of each body on this process;
   for (const mesh::ElementBlock& block : a.mesh.blocks) {
     BodyFacts& body = facts[at(block.body)];
     if (!body.moves) continue;
@@ -241,6 +251,7 @@ void find_motion(const Assembly& a, const coupling::State& last, const mechanics
       body.farthest = node;
     }
   }
+  // then of all processes, of which one keeps the node.
   for (BodyFacts& body : facts) {
     const processes::Largest largest = processes::find_largest(body.farthest >= 0 ? body.moved : -1.0);
     body.moved = std::max(largest.value, 0.0);

@@ -15,14 +15,17 @@ CheckedRun check_run(Case c) {
   // Everything that a run builds is built, so that its errors come now and not in the run.
   a.mesh = load_mesh(c.spec);
   build(c.spec, a);
+  // Findings tell everything before the first error stops the check.
   const CaseMeasures measures = measure(c.spec, a);
   report(findings(c.spec, a, measures));
   require_sound_mesh(c.spec);
+  // Outputs and every stage are tried as well: a group that is missing in stage three is told now.
   results::check_output(a.mesh, a.phases, recorder_options(c, {}, a));
   for (std::size_t i = 0; i < a.stages.size(); ++i)
     if (a.stages[i].cycle <= 1) apply(c.spec, i, {}, nullptr, a);
   CheckedRun checked{
       counts(c.spec, a.mesh), overview(c.spec, a, measures), {}, uncertain_parameters(c.spec, a, measures)};
+  // Estimates of the coupling only where the audit of stability applies.
   if (a.phases.audits_stability())
     checked.couplings = coupling_estimates(c.spec, a.materials, a.mesh, a.start);
   return checked;

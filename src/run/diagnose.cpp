@@ -42,6 +42,8 @@ int owner_of(Index node) {
 
 /// Place and state of a node at the last step. Collective.
 void describe_node(const Assembly& a, const coupling::State& last, Index node, Diagnosis& d) {
+  // Every process takes part in what is collective; the owner of the node then fills in its
+  // numbers.
   const std::vector<double> coherency = coupling::coherency_of(a.phases, last.heat);
   const std::vector<double> solid =
       a.heat ? a.heat->solid_fraction(last.heat) : std::vector<double>(a.mesh.x.size(), 1.0);
@@ -106,14 +108,17 @@ bool comes_off(const coupling::ContactPoints& c) {
 
 /// Returns the physics behind the failed equilibrium of a body.
 coupling::Physics physics_of(const BodyFacts& body, const Diagnosis& d, Failure failure, bool inertia) {
+  // From what makes equilibrium impossible to what makes it hard: the first that fits is told.
   const double share = body.moved / body.size;
   const bool far = d.in_try && !(share <= k_moved_far), law_failed = failure == Failure::law;
   if (!inertia && !body.carried && (body.weight > 0 || far || failure == Failure::linear_solver))
     return coupling::Physics::nothing_carries;
+  // Plastic flow nearly everywhere is a mechanism: strain then tells whether the load is the limit.
   const bool mechanism = body.plastic && body.yielding > k_mechanism;
   if (mechanism && !d.molten && body.elongation > k_strained) return coupling::Physics::limit_load;
   if (law_failed && share <= k_too_far_for_a_law) return coupling::Physics::law;
   if (d.molten && far) return coupling::Physics::melt_flows;
+  // A body that nothing supports may lose its last contact in the failing try.
   if (!body.supported && d.in_try && comes_off(body.contact)) return coupling::Physics::comes_off;
   if (!inertia && !body.supported && failure == Failure::linear_solver) return coupling::Physics::slides;
   if (mechanism) return coupling::Physics::limit_load;

@@ -68,11 +68,13 @@ struct Beside {
 };
 
 Beside run_one(const Wanted& wanted, const RunOptions& options, const LoadBeside& load) {
+  // The other run writes into a folder of its own, says nothing and starts from the beginning.
   RunOptions beside = options;
   beside.folder = options.folder / "sure" / wanted.folder;
   beside.progress = nullptr;
   beside.terminal = beside.restart = beside.profile = false;
   const Quiet quiet;
+  // An input that cannot be made coarser is no error of the case: the reason goes to the message.
   try {
     Session session(load(wanted.how.overrides), beside);
     const RunResult result = session.run();
@@ -99,10 +101,12 @@ ErrorRuns run_beside(const Case& c, results::Summary summary, double displacemen
       made.complete = false;
       say(fmt::format("no comparison with {}: {}; the estimate stands", comparison.name, why));
     };
+    // A comparison that would mean nothing is not run.
     if (!comparison.how.why_not.empty()) {
       leave(comparison.how.why_not);
       continue;
     }
+    // The user may stop between the runs.
     if (options.stop_asked && options.stop_asked()) {
       leave("stopped as asked");
       continue;
@@ -120,6 +124,7 @@ ErrorRuns run_beside(const Case& c, results::Summary summary, double displacemen
       leave(fmt::format("it differs by a factor of {:.3g} only", finer));
       continue;
     }
+    // The answers' errors follow from the difference and the ratio.
     compare_errors(comparison.part, finer, *beside.summary->answers, beside.summary->criteria,
                    *made.summary.answers, made.summary.criteria);
     say(fmt::format("compared with {}, a factor of {:.3g}, in {}", comparison.name, finer,

@@ -9,6 +9,8 @@
 namespace solidus::model {
 
 void GapWatch::step(const coupling::StepRecord& record, const coupling::State& /*state*/) {
+  // Heat that passed a gap of another width than the step ended with is misplaced; it is summed up,
+  // and its worst step is kept.
   exchanged_ += record.energy.heat_exchanged;
   for (std::size_t i = 0; i < record.gap_heat.size(); ++i) {
     Pair& pair = pairs_[i];

@@ -45,6 +45,7 @@ void LagWatch::end(const coupling::State&) {
   }
   last = parallel::global_max(last);
   all = parallel::global_max(all);
+  // Where nothing moved at the end there is no lag.
   if (!(last > k_least * all)) return;
   const std::string text = fmt::format(
       "displacements and stresses belong to the temperatures one step before (coupling.order = "
@@ -79,11 +80,14 @@ void FrictionLagWatch::step(const coupling::StepRecord&, const coupling::State& 
   for (std::size_t i = 0; i < state.contacts.size() && i < pairs_.size(); ++i) {
     Pair& pair = pairs_[i];
     const auto& points = state.contacts[i].points;
+    // Only friction whose coefficient depends on temperature can lag.
     if (!pair.coefficient) continue;
     pair.work.resize(points.size(), 0.0);
     std::vector<double> conducted;
     if (after_heat_) conducted = contacts_[i]->conducted_temperatures(state.heat.temperature);
     for (std::size_t p = 0; p < points.size(); ++p) {
+      // For each slipping point the work since the step before, and what the coefficient at today's
+      // temperature would have given.
       const contact::ContactPointState& point = points[p];
       const double work = point.work - std::exchange(pair.work[p], point.work);
       if (point.status != contact::PointStatus::slips || !(point.temperature > 0) || !(work > 0)) continue;
@@ -92,6 +96,7 @@ void FrictionLagWatch::step(const coupling::StepRecord&, const coupling::State& 
               ->value(point.internal_variable, p < conducted.size() ? conducted[p] : point.temperature)
               .value *
           contact::rubbing_pressure(point.pressure, point.molten);
+      // The relative error of the traction weighs by its work.
       if (!(limit > 0)) continue;
       pair.late += work * std::abs(contact::norm(point.traction) / limit - 1);
       pair.all += work;
@@ -100,6 +105,7 @@ void FrictionLagWatch::step(const coupling::StepRecord&, const coupling::State& 
 }
 
 void FrictionLagWatch::report() const {
+  // Pairs whose error is worth a line.
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     if (!pairs_[i].coefficient) continue;
     const double late = parallel::global_sum(pairs_[i].late), all = parallel::global_sum(pairs_[i].all);

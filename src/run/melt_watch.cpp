@@ -38,6 +38,7 @@ MeltWatch::MeltWatch(const CaseSpec& spec, const Assembly& a)
       if (node < a.mesh.n_owned_nodes && body_[at(node)] < 0) body_[at(node)] = block.body;
     }
   }
+  // Over all processes, so that a body in two parts has one box.
   for (Box& box : boxes_)
     for (std::size_t d = 0; d < 3; ++d) {
       box.low[d] = parallel::global_min(box.low[d]);
@@ -69,6 +70,7 @@ void MeltWatch::step(const coupling::StepRecord&, const coupling::State& state) 
     const auto body = static_cast<std::size_t>(body_[i]);
     farthest[body] = std::max(farthest[body], boxes_[body].distance_outside(place));
   }
+  // Once is enough: what has run out does not come back.
   for (std::size_t b = 0; b < farthest.size(); ++b) {
     const double way = parallel::global_max(farthest[b]), size = boxes_[b].diagonal();
     if (!(way > k_out * size) || !ran_out_.empty()) continue;

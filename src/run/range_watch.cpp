@@ -26,6 +26,7 @@ double margin(const material::LeftRange& range) {
 std::vector<material::LeftRange> left_ranges(const CaseSpec& spec, std::size_t body,
                                              const material::Material& material, double low, double high) {
   std::vector<material::LeftRange> left;
+  // Thermal and mechanical properties act up to different temperatures.
   const auto add = [&](bool thermal, double hottest) {
     if (low > hottest) return;
     for (const material::LeftRange& range : material::left_ranges(material, low, hottest))
@@ -33,6 +34,7 @@ std::vector<material::LeftRange> left_ranges(const CaseSpec& spec, std::size_t b
           (low < range.valid_from - margin(range) || hottest > range.valid_to + margin(range)))
         left.push_back(range);
   };
+  // Mechanical properties act where the body deforms.
   if (spec.has_heat()) add(true, high);
   if (!spec.has_mechanics() || only_conducts(spec.bodies[body])) return left;
   const material::PhaseChange* freezing = material.solidification();
@@ -59,6 +61,7 @@ std::string left_data(const CaseSpec& spec, std::size_t body, const material::Ma
     const std::string holds = fmt::format("its data hold from {:.1f} to {:.1f} degC",
                                           left.valid_from - k_zero_celsius, left.valid_to - k_zero_celsius);
     const std::string used = fmt::format("body '{}', material '{}': ", spec.bodies[body].name, material.name);
+    // A table that may not be extrapolated ends the run with its place.
     if (left.refused)
       throw InputError(spec.bodies[body].where,
                        fmt::format("{}{} is used between {:.1f} and {:.1f} degC, {}", used, left.property,
@@ -66,6 +69,7 @@ std::string left_data(const CaseSpec& spec, std::size_t body, const material::Ma
                        "a table that reaches further, or another extrapolation");
     if (std::find(said.begin(), said.end(), left.property) != said.end()) continue;
     said.push_back(left.property);
+    // Properties of one range share one pair of brackets.
     if (text.empty())
       text = fmt::format("{}data that do not reach its temperature{}: {}", used, span_text(low, high),
                          left.property);
@@ -94,6 +98,7 @@ void RangeWatch::look(const coupling::State& state) {
       high[b] = std::max(high[b], temperature[static_cast<std::size_t>(i)]);
     }
   }
+  // After the extremes of all processes are known.
   for (std::size_t b = 0; b < low.size(); ++b) {
     const double lowest = parallel::global_min(low[b]), highest = parallel::global_max(high[b]);
     if (lowest > highest) continue;  // it has gone

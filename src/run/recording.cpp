@@ -53,6 +53,8 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.progress = options.progress;
   r.profile = options.profile;
   r.castings = cast_bodies(spec, a.materials, a.start);
+  // The terminal's line needs to know what can be shown: fractions only of what melts, contacts
+  // where there are some.
   r.units = {spec.output.length_unit, spec.output.temperature_unit, spec.output.stress_unit};
   r.progress_options.end = spec.time.end.value_or(0);
   r.progress_options.until_solid = spec.time.until == TimeSpec::Until::solid;

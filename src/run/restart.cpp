@@ -19,6 +19,7 @@ void check_restart(const CaseSpec& spec, const RunOptions& options) {
 
 std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOptions& options, Assembly& a,
                                               const results::Fingerprint& fingerprint) {
+  // Without --restart a run begins anew.
   if (!options.restart) return {};
   const results::CheckpointFolder folder(options.folder);
   results::Checkpoint found = folder.read(a.mesh, fingerprint, a.initial);
@@ -31,6 +32,7 @@ std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOpt
   const bool periodic = cycle != nullptr && stage != nullptr && stage->ends_shot &&
                         found.state.time == stage->end && found.continuation.shots.shots > 0 &&
                         found.continuation.shots.change <= *cycle->periodic;
+  // Each reason that has ended the run is told with the key that would let it go on.
   if (periodic && results::is_finished(options.folder))
     throw InputError(cycle->where,
                      fmt::format("the run has found its periodic state already, to {:.3g} K in shot {}",

@@ -37,6 +37,7 @@ namespace {
 /// @param steady    the state reached
 RunResult run_steady(const CaseSpec& spec, Assembly& a, coupling::Observer* recorder, coupling::State& steady,
                      coupling::StepRecord& record) {
+  // A steady state is one step without a length; what fails has no checkpoint.
   if (recorder != nullptr) recorder->begin(a.initial);
   record = {};
   try {
@@ -52,6 +53,7 @@ RunResult run_steady(const CaseSpec& spec, Assembly& a, coupling::Observer* reco
     if (recorder != nullptr) recorder->stopped(stop, a.initial);
     return {false, stop_text(stop, spec, 0, {})};
   }
+  // It is written as a step, so that the same files exist as for a transient run.
   record.number = 1;
   record.reason = "steady";
   record.output = true;
@@ -139,6 +141,8 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
     if (!c.spec.time.steady) parts_->transient.emplace(c.spec, o, a, nullptr);
     return;
   }
+  // With a folder: everything that a restart has to agree with is fingerprinted, and the folder is
+  // locked against a second run.
   r.summary.overview = overview(c.spec, a, measures);
   r.fingerprint = fingerprint(c.spec, a.mesh, a.materials, a.initial.heat.temperature);
   parts_->lock.emplace(o.folder);
@@ -163,6 +167,7 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
   for (const std::string& text : logging::told_once(melts)) logging::info("{}", text);
   std::vector<std::string> tables;
   for (const ProfileSpec& profile : c.spec.profiles) tables.push_back(profile.name + ".csv");
+  // The folder gets the resolved case at once, so that a run that dies can be understood.
   parts_->folder.emplace(o.folder, c.toml(), o.restart, tables);
   r.summary.seconds.emplace_back("mesh", loaded - start);
   r.summary.seconds.emplace_back("set_up", processes::wall_time() - loaded);
@@ -175,6 +180,7 @@ Session::~Session() = default;
 RunResult Session::run() {
   Parts& p = *parts_;
   if (p.ended) return *p.ended;
+  // An interruption outside a step has nothing to save.
   try {
     if (p.c.spec.time.steady) {
       coupling::Observer* recorder = p.recorder ? &*p.recorder : nullptr;
@@ -216,6 +222,7 @@ void Session::commit() {
 void Session::change(const std::string& assignment) {
   Parts& p = *parts_;
   const SourceLocation where{"--set " + assignment, 0, 0};
+  // Only conditions may change: a mesh, a material or a scheme would need everything built again.
   if (!assignment.starts_with("thermal_condition.") && !assignment.starts_with("mechanical_condition."))
     throw InputError(where, "this key cannot change within a run",
                      "keys of conditions, for example thermal_condition.NAME.ambient=50 degC");

@@ -81,6 +81,7 @@ std::vector<std::vector<std::array<double, 6>>> point_stress(const mesh::Mesh& m
                                                              int n_modes) {
   const mesh::Rule rule = mesh::stiffness_rule(block.shape);
   const mesh::BlockGeometry geometry(mesh, block, kind, rule);
+  // The volumetric modes of the shape: constant, and linear in each reference coordinate.
   std::vector<PointValues> modes;
   for (int k = 0; k < n_modes; ++k) {
     modes.emplace_back();
@@ -91,6 +92,7 @@ std::vector<std::vector<std::array<double, 6>>> point_stress(const mesh::Mesh& m
   for (std::size_t e = 0; e < stress.size(); ++e) {
     const std::size_t batch = e / k_lanes;
     const int lane = static_cast<int>(e % k_lanes);
+    // Stress and pressure at all points of the element, with their weights.
     PointValues weight, pressure;
     for (std::size_t q = 0; q < rule.size(); ++q) {
       std::array<double, 6>& s = stress[e].emplace_back();
@@ -111,6 +113,7 @@ std::vector<std::vector<std::array<double, 6>>> point_stress(const mesh::Mesh& m
 /// other nodal forces than the stress at their one point. Around them the loads are what that stress
 /// balances, ∫ Bᵀ σ dV.
 void balance_triangles(results::StructuralDeck& deck) {
+  // Nodal forces of the stress at all points, of every element around the axis;
   std::vector<char> around(deck.mesh.x.size(), 0);
   std::vector<double> force(deck.force.size(), 0.0);
   for (std::size_t b = 0; b < deck.mesh.blocks.size(); ++b) {
@@ -119,6 +122,7 @@ void balance_triangles(results::StructuralDeck& deck) {
     const mesh::BlockGeometry geometry(deck.mesh, block, deck.kind, mesh::stiffness_rule(block.shape));
     const auto n = static_cast<std::size_t>(geometry.n_nodes);
     for (Index e = 0; e < block.size(); ++e) {
+      // only nodes of triangles take over what that gives.
       const Index batch = e / k_lanes;
       const int lane = static_cast<int>(e % k_lanes);
       for (int q = 0; q < geometry.n_points; ++q) {
@@ -167,6 +171,7 @@ ExportReport export_history(const CaseSpec& spec, const Assembly& a, const Expor
     throw InputError(spec.analysis.where,
                      "a temperature history is of one stage: bodies come and go in stages",
                      "the end of the run, without --temperature-history");
+  // A deck without stress: the other program computes it from the temperatures.
   const linear::ActiveSet& active = a.mechanics->active();
   results::StructuralDeck deck{
       .title = spec.title.empty() ? "Solidus" : spec.title,
@@ -204,16 +209,19 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
   a.mesh = load_mesh(spec);
   require_sound_mesh(spec);
   build(spec, a);
+  // The history of temperatures needs no equilibrium.
   if (options.temperature_history) return export_history(spec, a, options);
   // The checkpoint has to be that of this case and mesh.
   results::Checkpoint from =
       results::CheckpointFolder(options.folder)
           .read(a.mesh, fingerprint(spec, a.mesh, a.materials, a.initial.heat.temperature), a.initial);
   const coupling::StageStart& stage = from.continuation.stage;
+  // The stage of the checkpoint decides which bodies and conditions are there.
   check_stage_of_checkpoint(spec, stage, from.state.time);
   if (stage.number > 0)
     apply(spec, static_cast<std::size_t>(stage.number - 1), stage.displacement, nullptr, a);
 
+  // A step so short that nothing flows, from the state as it is.
   coupling::State& state = from.state;
   state.mechanics.dt_before = 0;  // by backward Euler
   const std::vector<double>& temperature = a.heat ? state.heat.temperature : a.phases.temperature;
@@ -255,9 +263,11 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
   for (const BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
   deck.supports = results::missing_supports(a.mesh, active, spec.analysis.kind, deck.fixed, deck.constraints);
   report.supports = deck.supports.size();
+  // The other program may start from the deformed or from the drawn shape.
   if (options.deformed) deck.displacement = still.mechanics.displacement;
   const std::vector<double> plastic_strain =
       mechanics::element_field(a.mesh, still.mechanics, mechanics::ElementField::equivalent_plastic_strain);
+  // Element fields lie block after block.
   auto of_block = plastic_strain.begin();
   for (std::size_t b = 0; b < a.mesh.blocks.size(); ++b) {
     const mesh::ElementBlock& block = a.mesh.blocks[b];
