@@ -1,3 +1,6 @@
+/// Sums over the points of a pair at the end of a step: forces, areas and energies first, then what has
+/// left its wall, which takes a search for the nearest face of the master and is therefore asked only of
+/// points that seem to have left.
 #include "contact/contact_report.hpp"
 
 #include <algorithm>

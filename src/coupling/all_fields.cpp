@@ -1,3 +1,4 @@
+/// The rooms of physics declare their fields; this list joins them.
 #include "coupling/all_fields.hpp"
 
 #include <algorithm>

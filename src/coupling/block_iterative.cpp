@@ -1,3 +1,5 @@
+/// Both phases are solved in alternation until the largest change of temperature and displacement is within
+/// the tolerance; relaxation and damping speed that up or end it.
 #include "coupling/block_iterative.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Weights of nodes are shares of the volume of their body, so that a norm does not depend on the mesh.
+/// Distortion takes the best rigid motion of each body off first.
 #include "coupling/body_norm.hpp"
 
 #include <algorithm>

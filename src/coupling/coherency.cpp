@@ -1,3 +1,5 @@
+/// A node takes the material that can melt; elements of melt count by their mean, so that one solid node
+/// does not make an element coherent.
 #include "coupling/coherency.hpp"
 
 #include <algorithm>

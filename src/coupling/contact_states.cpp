@@ -1,3 +1,5 @@
+/// Pairs are set from states at the start of a pass and read back at its end; between them the loop of
+/// augmentations decides whether penetrations are small enough.
 #include "coupling/contact_states.hpp"
 
 #include <fmt/format.h>

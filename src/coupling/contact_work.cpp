@@ -1,3 +1,5 @@
+/// Energies of contact before and after a step are compared; what is neither stored nor dissipated by
+/// friction is the dissipation of the integration in time.
 #include "coupling/contact_work.hpp"
 
 namespace solidus::coupling {

@@ -1,3 +1,5 @@
+/// As the saddle solver of mechanics with the temperatures as a third block: block triangular
+/// preconditioning from the temperatures up, or factors of the assembled matrix.
 #include "coupling/coupled_saddle_solver.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// One sentence for each physical cause, from numbers that run/diagnose.cpp has found.
 #include "coupling/diagnosis.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// The two halves of a step as calls of the phases, in the order that makes the product formula of second
+/// order; the energies of both are added up.
 #include "coupling/double_pass.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// The largest of the heat exchanged, the mechanical energies, and a small part of the heat content.
 #include "coupling/energy_scale.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Errors of a step by comparison: with an extrapolation of the steps before, or with two steps of half the
+/// length. Each quantity has its own norm.
 #include "coupling/error_estimate.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// An error that is not a number would let the controller take any step.
 #include "coupling/finite_measure.hpp"
 
 #include <cmath>

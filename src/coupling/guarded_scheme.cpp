@@ -1,3 +1,5 @@
+/// The range of temperatures at the start and around bounds those at the end, widened by what deformation
+/// can explain.
 #include "coupling/guarded_scheme.hpp"
 
 #include <fmt/format.h>

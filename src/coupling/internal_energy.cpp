@@ -1,3 +1,4 @@
+/// Heat of the storage, structural energy of the points and energy of contact, added up for one state.
 #include "coupling/internal_energy.hpp"
 
 #include <algorithm>

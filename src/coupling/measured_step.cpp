@@ -1,3 +1,5 @@
+/// A step is taken once with an estimate from the past, or three times (whole and in halves) where the past
+/// tells nothing.
 #include "coupling/measured_step.hpp"
 
 #include <utility>

@@ -1,3 +1,4 @@
+/// How the reports of two parts of a step become that of the whole.
 #include "coupling/observer.hpp"
 
 #include <algorithm>

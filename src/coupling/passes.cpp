@@ -1,3 +1,5 @@
+/// The calls around the solve of a phase that every scheme needs: contact before and after, augmentations,
+/// and the energies for the audit.
 #include "coupling/passes.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Fractions follow the iterate at once at first, and later by a share that the caller lowers, so that an
+/// alternation between two states dies out.
 #include "coupling/phase_iterate.hpp"
 
 #include <algorithm>

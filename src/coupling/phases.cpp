@@ -1,3 +1,4 @@
+/// What can be said of all phases together: coherency, ranges, and the summary of a step's effort.
 #include "coupling/phases.hpp"
 
 #include <algorithm>

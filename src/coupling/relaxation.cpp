@@ -1,3 +1,4 @@
+/// Fixed factors and Aitken's; both return the factor alone and leave the update to the caller.
 #include "coupling/relaxation.hpp"
 
 #include <algorithm>

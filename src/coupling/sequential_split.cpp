@@ -1,3 +1,5 @@
+/// The two orders of a split, and the iteration over gaps when heat comes first: heat is conducted by gaps
+/// that mechanics then changes, and is conducted again if that misplaced too much of it.
 #include "coupling/sequential_split.hpp"
 
 #include <algorithm>

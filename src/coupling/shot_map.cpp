@@ -1,3 +1,5 @@
+/// Anderson's acceleration over shots, with the temperatures of the die as unknowns and its volume as
+/// weights.
 #include "coupling/shot_map.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// One or two stages, each a Newton iteration of both fields inside a loop over what the iteration holds:
+/// pores, multipliers, limits of conduction, fractions of phases.
 #include "coupling/simultaneous.hpp"
 
 #include <algorithm>

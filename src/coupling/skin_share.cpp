@@ -1,3 +1,4 @@
+/// Each surface that a casting shows to another body is a list of nodes with their share of its area.
 #include "coupling/skin_share.hpp"
 
 #include <algorithm>

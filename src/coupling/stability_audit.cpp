@@ -1,3 +1,5 @@
+/// Energies and entropies of a step are joined to the functional of 2.24, with the increment of each phase
+/// and the rounding that it may have.
 #include "coupling/stability_audit.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Conduction and equilibrium in alternation until gaps and temperatures agree; without mechanics one
+/// solution is enough.
 #include "coupling/steady.hpp"
 
 #include <fmt/format.h>

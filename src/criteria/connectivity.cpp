@@ -1,3 +1,5 @@
+/// Disjoint sets within a process, then labels by the least node number, which processes exchange for the
+/// parts that they share.
 #include "criteria/connectivity.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The criteria of a run as one list: each call goes to all of them, in the order in which they are
+/// declared.
 #include "criteria/criteria.hpp"
 
 #include <cassert>

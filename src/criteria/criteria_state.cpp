@@ -1,3 +1,4 @@
+/// Columns of records, sized by what they are stored at: nodes or elements.
 #include "criteria/criteria_state.hpp"
 
 #include <utility>

@@ -1,3 +1,5 @@
+/// Gradients are averaged over each element once; strains are then sums over its nodes, eight elements at a
+/// time.
 #include "criteria/element_strain.hpp"
 
 #include <array>

@@ -1,3 +1,5 @@
+/// The balance of metal of a step: what each node asks for, what pools and mush give, and how the totals
+/// are booked by cause. Levels and pools are found in feeding_levels.cpp and feeding_pools.cpp.
 #include "criteria/feeding.hpp"
 
 #include <algorithm>

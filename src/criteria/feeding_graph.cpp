@@ -1,3 +1,5 @@
+/// Made once from the mesh: neighbours with their conductances, heights of the nodes' shares, and which
+/// nodes are open or have a skin.
 #include "criteria/feeding_graph.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The level of each pool by Newton's method within a bracket, for all pools at once so that processes meet
+/// once a trial.
 #include "criteria/feeding_levels.hpp"
 
 #include <algorithm>

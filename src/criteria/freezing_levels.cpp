@@ -1,3 +1,4 @@
+/// Times within a step at which a temperature passes a level, linear in between.
 #include "criteria/freezing_levels.hpp"
 
 #include <algorithm>

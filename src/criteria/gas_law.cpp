@@ -1,3 +1,5 @@
+/// Pressure, dissolved gas and free gas of a node, and the pressure at which a pore would have a given
+/// size.
 #include "criteria/gas_law.hpp"
 
 #include <algorithm>

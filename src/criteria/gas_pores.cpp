@@ -1,3 +1,5 @@
+/// Each node keeps its time of freezing and the share of its gas; the step is evaluated at the pressure of
+/// the surroundings.
 #include "criteria/gas_pores.hpp"
 
 #include <algorithm>

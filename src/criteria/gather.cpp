@@ -1,3 +1,4 @@
+/// Lists of numbers of all processes, one behind the other.
 #include "criteria/gather.hpp"
 
 #include "system/processes.hpp"

@@ -1,3 +1,4 @@
+/// Integrals over the straight pieces of the freezing curve, done once; an evaluation is then a formula.
 #include "criteria/hot_tearing.hpp"
 
 #include <algorithm>

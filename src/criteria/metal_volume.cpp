@@ -1,3 +1,4 @@
+/// Thermal and phase part of the volume, from the card's tables and fractions.
 #include "criteria/metal_volume.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// A linear complementarity problem: pressures where melt flows, pores where it would have to be drawn
+/// below the critical pressure. An active set of nodes is found, with conjugate gradients inside.
 #include "criteria/mush_flow.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Elements in the brittle range: their strain rate, gradient and cooling, kept as means over the time in
+/// it.
 #include "criteria/mush_strain.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The integral of the flow resistance over the freezing range is summed piece by piece when the law is
+/// made.
 #include "criteria/niyama.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Elements around chosen nodes as compressed rows, and gradients at element centres.
 #include "criteria/patches.hpp"
 
 #include <array>

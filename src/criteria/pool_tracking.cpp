@@ -1,3 +1,4 @@
+/// Parts of the melt are matched with the pools of the step before by the volume that they share.
 #include "criteria/pool_tracking.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Parts of the melt are found over the elements and followed; records keep one row for each pool that
+/// there ever was.
 #include "criteria/pools.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Sums over elements and steps in which metal freezes, from which the errors of the answers are estimated.
 #include "criteria/resolution.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Volume, centre and inertia of each body once; a fit is then two sums over its nodes.
 #include "criteria/rigid_fit.hpp"
 
 #include "mesh/block_geometry.hpp"

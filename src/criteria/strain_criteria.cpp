@@ -1,3 +1,5 @@
+/// Strains of elements are split by the state of the metal in which they were taken; displacements since
+/// coherency give distortion.
 #include "criteria/strain_criteria.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Tensors in columns of a record, loaded and stored in lanes.
 #include "criteria/strain_lanes.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The stages and checks of a thermal step as single calls, for a caller that solves displacements along
+/// with it.
 #include "heat/thermal_iteration.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The phase is put together here: storage by the rule of each body, conduction, loads, the solver that
+/// fits. The steps are in thermal_step.cpp, reports in thermal_report.cpp.
 #include "heat/thermal_phase.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Bodies are named, nodes follow from their elements, faces from the elements that they bound.
 #include "linear/active_set.hpp"
 
 #include <algorithm>

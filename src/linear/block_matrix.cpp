@@ -1,3 +1,5 @@
+/// The matrix is built in steps: graph, compressed rows, slots; then values are summed by slots and copied
+/// to PETSc's own arrays when it asks for them.
 #include "linear/block_matrix.hpp"
 
 #include <petscmat.h>

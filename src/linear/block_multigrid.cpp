@@ -1,3 +1,4 @@
+/// Rows without unknowns are taken out before the hierarchy is made, and put back into its result.
 #include "linear/block_multigrid.hpp"
 
 #include <algorithm>

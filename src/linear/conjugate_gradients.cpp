@@ -1,3 +1,4 @@
+/// The products, sums and updates of an iteration are joined into as few passes through memory as possible.
 #include "linear/conjugate_gradients.hpp"
 
 #include <algorithm>

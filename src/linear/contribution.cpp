@@ -1,3 +1,4 @@
+/// Whether any contribution has changed its pattern, over all processes.
 #include "linear/contribution.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Two square matrices that belong to the phases and two rectangles of our own, which share the graph of
+/// the displacements.
 #include "linear/coupled_matrix.hpp"
 
 #include <petsc/private/petscimpl.h>

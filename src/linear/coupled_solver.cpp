@@ -1,3 +1,5 @@
+/// Small systems are factorised as a whole; larger ones are split by fields, with multigrid on the
+/// displacements.
 #include "linear/coupled_solver.hpp"
 
 #include <petscmat.h>

@@ -1,3 +1,5 @@
+/// Numbers of displacements and pressures are those of the saddle; temperatures follow behind them on every
+/// process.
 #include "linear/coupled_unknowns.hpp"
 
 #include <petscmat.h>

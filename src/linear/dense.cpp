@@ -1,3 +1,4 @@
+/// Thin wrappers around BLAS and LAPACK, which check sizes and the routines' answers.
 #include "linear/dense.hpp"
 
 #include <petscsys.h>  // petscblaslapack.h needs it before it

@@ -1,3 +1,5 @@
+/// Set-up and repair of a factorisation by MUMPS: a larger work space where it runs out, and the text of
+/// its failures.
 #include "linear/factorisation.hpp"
 
 #include <petsc/private/petscimpl.h>

@@ -1,3 +1,5 @@
+/// Eisenstat and Walker's second choice, with the safeguards that keep a tolerance from falling faster than
+/// the residual.
 #include "linear/forcing.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// A shell matrix of PETSc whose product is a function.
 #include "linear/function_matrix.hpp"
 
 #include <petscmat.h>

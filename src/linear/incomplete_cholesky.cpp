@@ -1,3 +1,5 @@
+/// Row by row in single precision; fill without a place is taken from what the diagonal can bear, and a
+/// shift is tried where pivots become negative.
 #include "linear/incomplete_cholesky.hpp"
 
 #include <algorithm>

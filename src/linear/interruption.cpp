@@ -1,3 +1,5 @@
+/// Whether to stop is asked of a function that the program sets, between iterations of the linear solvers,
+/// and all processes get the same answer.
 #include "linear/interruption.hpp"
 
 #include <petscksp.h>

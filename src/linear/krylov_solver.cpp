@@ -1,3 +1,4 @@
+/// Set-up and solve of PETSc's FGMRES with factors that may belong to an older matrix.
 #include "linear/krylov_solver.hpp"
 
 #include <petscksp.h>

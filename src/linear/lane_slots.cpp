@@ -1,3 +1,4 @@
+/// Slots are stored as places within rows and put together again when a batch is held.
 #include "linear/lane_slots.hpp"
 
 #include <cassert>

@@ -1,3 +1,5 @@
+/// The face of the linear solvers: it keeps a hierarchy as long as it serves, renews it once it does not,
+/// and falls back to factors.
 #include "linear/linear_solver.hpp"
 
 #include <petscksp.h>

@@ -1,3 +1,5 @@
+/// The objects of PETSc behind the face: which method, which preconditioner, which of our own parts replace
+/// PETSc's.
 #include "linear/linear_solver_implementation.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Groups of entries with one value have one leader; sums go to it, values come from it.
 #include "linear/multi_point_constraints.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Rigid-body modes from the coordinates, constants for scalar fields.
 #include "linear/near_null_space.hpp"
 
 namespace solidus::linear {

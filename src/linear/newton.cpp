@@ -1,3 +1,5 @@
+/// One iteration: test, tangent or chord, linear solve within a tolerance, line search. What decides
+/// between them is measured, never assumed.
 #include "linear/newton.hpp"
 
 #include <algorithm>

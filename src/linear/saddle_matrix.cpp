@@ -1,3 +1,5 @@
+/// Displacement blocks with borders for gradient, divergence and compliance of the pressure; products read
+/// every border once.
 #include "linear/saddle_matrix.hpp"
 
 #include <algorithm>

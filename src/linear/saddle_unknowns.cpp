@@ -1,3 +1,5 @@
+/// Free entries are numbered process by process; expanding and restricting move between them and whole
+/// vectors.
 #include "linear/saddle_unknowns.hpp"
 
 #include <petscmat.h>

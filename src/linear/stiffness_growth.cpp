@@ -1,3 +1,5 @@
+/// The largest quotient of the traces of diagonal blocks, now and when the preconditioner was made, over
+/// all nodes.
 #include "linear/stiffness_growth.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Pieces between all bends of capacity and fractions, each quadratic in temperature; jumps of isothermal
+/// changes lie between two pieces.
 #include "material/enthalpy.hpp"
 
 #include <algorithm>

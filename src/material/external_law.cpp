@@ -1,3 +1,5 @@
+/// The library's strain, stress and tangent are brought to ours and back; solid points call it, points that
+/// are melt use the Maxwell element.
 #include "material/external_law.hpp"
 
 #include <cmath>

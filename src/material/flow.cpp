@@ -1,3 +1,4 @@
+/// Which tables a flow rule reads, for the checks of their ranges and for the material's overview.
 #include "material/flow.hpp"
 
 #include "material/laws/hardening_law.hpp"

@@ -1,3 +1,5 @@
+/// Curves are merged to one grid, which is exact; a look-up finds both intervals by buckets and
+/// interpolates bilinearly.
 #include "material/flow_curves.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Sieverts' law and its inverse, in closed form for atoms in solution and a pore of ideal gas.
 #include "material/gas.hpp"
 
 #include <algorithm>

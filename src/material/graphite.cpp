@@ -1,3 +1,4 @@
+/// Carbon balances of the eutectic by the lever rule or by Scheil's, in mass per cent.
 #include "material/graphite.hpp"
 
 #include <algorithm>

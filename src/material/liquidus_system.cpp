@@ -1,3 +1,5 @@
+/// Reads a corner of a phase diagram and an alloy, finds the valley that the melt meets, and samples the
+/// freezing path to straight lines within a tolerance.
 #include "material/liquidus_system.hpp"
 
 #include <fmt/format.h>

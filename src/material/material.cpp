@@ -1,3 +1,4 @@
+/// Questions about a material that follow from its tables.
 #include "material/material.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The modulus of a melt is the largest that neither its weight nor its shell notices, but not so small
+/// that it drowns in rounding.
 #include "material/melt.hpp"
 
 #include <fmt/format.h>

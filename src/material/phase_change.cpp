@@ -1,3 +1,5 @@
+/// A fraction is a list of linear pieces with jumps between them; checks make sure that it falls from one
+/// to zero.
 #include "material/phase_change.hpp"
 
 #include <algorithm>

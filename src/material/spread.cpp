@@ -1,3 +1,4 @@
+/// The keys of a spread and the rules that a width of uncertainty obeys.
 #include "material/spread.hpp"
 
 #include <fmt/format.h>

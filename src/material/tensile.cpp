@@ -1,3 +1,4 @@
+/// A tensile test from the flow data alone: stress as a sum of flow stress, hardening and overstress.
 #include "material/tensile.hpp"
 
 #include <cmath>

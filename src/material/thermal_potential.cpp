@@ -1,3 +1,4 @@
+/// Integrals over the pieces of the tables, so that energy and entropy stay consistent to rounding.
 #include "material/thermal_potential.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// One row for each property that may vary; keys, spreads and the change itself are read from the rows.
 #include "material/varied.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// The template of the law is compiled here for the number types of the program.
 #include "material/viscoplastic_impl.hpp"
 
 namespace solidus::material {

@@ -1,3 +1,5 @@
+/// Bodies are grouped by common nodes; forces, residuals and steps are then summed group by group, so that
+/// a heavy mould does not hide the imbalance of a small casting.
 #include "mechanics/balance.hpp"
 
 #include <algorithm>

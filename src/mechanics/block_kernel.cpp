@@ -1,3 +1,5 @@
+/// The choice of a kernel: by what the phase holds (temperature, entropy, nothing), by the material's law,
+/// and by the kind of analysis.
 #include "mechanics/block_kernel.hpp"
 
 #include "material/external_law.hpp"

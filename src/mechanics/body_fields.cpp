@@ -1,3 +1,4 @@
+/// Colours the bodies of the mesh so that two with a common node get different fields.
 #include "mechanics/body_fields.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Derivatives at one point, compiled once here for the kernels of all shapes.
 #include "mechanics/coupled_rates.hpp"
 
 #include "material/derivatives/structural_lines.hpp"

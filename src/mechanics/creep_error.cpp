@@ -1,3 +1,5 @@
+/// The difference of plastic flow between two solutions becomes a stress by the elastic moduli, less what
+/// creep itself relaxes within the step.
 #include "mechanics/creep_error.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Values lie block by block, as the kernels have written them.
 #include "mechanics/element_values.hpp"
 
 #include "mechanics/mechanical_state.hpp"

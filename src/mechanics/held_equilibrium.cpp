@@ -1,3 +1,6 @@
+/// A tangent whose diagonals keep a share of the largest stiffness that they have had, and a solver that
+/// bounds the way of every node: both slow what has just lost its contact, and neither changes the
+/// equilibrium.
 #include "mechanics/held_equilibrium.hpp"
 
 #include <algorithm>

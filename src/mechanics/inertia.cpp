@@ -1,3 +1,5 @@
+/// The mass matrix is assembled once, consistent or lumped, over the graph of the mesh; products and sums
+/// into other matrices use its own rows.
 #include "mechanics/inertia.hpp"
 
 #include <algorithm>

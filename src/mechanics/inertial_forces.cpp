@@ -1,3 +1,5 @@
+/// begin() prepares the constant part of the force from the state at t_n, force() adds what depends on the
+/// displacement, conclude() makes the motion of t_{n+1} and the work of the step.
 #include "mechanics/inertial_forces.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// One overload per law for each question that a kernel asks: what it stores, what it shows, how its lanes
+/// are packed.
 #include "mechanics/law_parts.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Loads become one vector for each table of time, so that a step only scales and adds them; prescribed
+/// displacements become a list of entries.
 #include "mechanics/loads.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The phase is put together here: kernels of the blocks, matrix with what is tied, pressure, solver. The
+/// steps are in mechanical_step.cpp, messages in mechanical_failure.cpp.
 #include "mechanics/mechanical_phase.hpp"
 
 #include <algorithm>

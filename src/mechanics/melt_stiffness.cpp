@@ -1,3 +1,4 @@
+/// Height and section of each melting body, from which the material finds the modulus of its melt.
 #include "mechanics/melt_stiffness.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Coefficients of the two methods of integration in one form: factors of displacement, velocity and
+/// acceleration.
 #include "mechanics/motion.hpp"
 
 #include <stdexcept>

@@ -1,3 +1,5 @@
+/// Renewed bodies lose displacements and pressures at their nodes and the history of their elements, and
+/// get the solid fraction with which they were poured.
 #include "mechanics/new_bodies.hpp"
 
 #include "mechanics/block_kernel.hpp"

@@ -1,3 +1,5 @@
+/// The kernels of mixed elements write into the arrays of this class, which adds the projection of the
+/// stabilisation and finds the unit of the pressure.
 #include "mechanics/nodal_pressure.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Fractions are found at the nodes, where heat is stored, and interpolated to the points of each block
+/// within the range of its nodes.
 #include "mechanics/phase_fields.hpp"
 
 #include <algorithm>

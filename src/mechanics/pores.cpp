@@ -1,3 +1,4 @@
+/// The arrays of a body's pores, which only a melt needs whose viscosity the program has chosen.
 #include "mechanics/pores.hpp"
 
 namespace solidus::mechanics {

@@ -1,3 +1,5 @@
+/// Pressures are eliminated approximately by the softness of the volume at each node; what is left is a
+/// displacement block for multigrid.
 #include "mechanics/saddle_preconditioner.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Chooses between factors and iteration by the number of unknowns, keeps what either needs as long as it
+/// serves, and changes to factors where an iteration fails.
 #include "mechanics/saddle_solver.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The skin of a body is the set of faces that one element alone has; planes of symmetry are taken off, and
+/// volume and area are summed in an order that does not depend on the processes.
 #include "mechanics/section.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Linear simplices are mixed where the material may become incompressible, unless the user says otherwise.
 #include "mechanics/simplices.hpp"
 
 #include "material/external_law.hpp"

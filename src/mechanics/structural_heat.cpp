@@ -1,3 +1,5 @@
+/// The form of the exchange is the same for all blocks; each block adds its points' heat at the points or
+/// at the nodes, as its body stores heat.
 #include "mechanics/structural_heat.hpp"
 
 #include <algorithm>

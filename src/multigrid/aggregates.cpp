@@ -1,3 +1,5 @@
+/// Greedy aggregation in three sweeps over the rows: whole neighbourhoods, rows that join one, and what is
+/// left over.
 #include "multigrid/aggregates.hpp"
 
 #include <cmath>

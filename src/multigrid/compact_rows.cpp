@@ -1,3 +1,4 @@
+/// Rows with unknowns are renumbered, on their owners and as ghosts, and their blocks copied.
 #include "multigrid/compact_rows.hpp"
 
 #include <algorithm>

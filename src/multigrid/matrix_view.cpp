@@ -1,3 +1,4 @@
+/// The mirror half of a symmetric matrix as a list of places, made in a counting pass and a filling pass.
 #include "multigrid/matrix_view.hpp"
 
 namespace solidus::multigrid {

@@ -1,3 +1,5 @@
+/// Levels are added until the coarsest is small enough to be factorised; a cycle then smooths, restricts,
+/// recurs, interpolates and smooths again.
 #include "multigrid/multigrid.hpp"
 
 #include <petscksp.h>

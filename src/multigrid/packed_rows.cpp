@@ -1,3 +1,5 @@
+/// Blocks are stored by columns in single precision and padded so that whole vectors can be loaded behind
+/// the last one.
 #include "multigrid/packed_rows.hpp"
 
 #include <algorithm>

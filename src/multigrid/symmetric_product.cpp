@@ -1,3 +1,4 @@
+/// Each stored block acts twice, as itself and as its mirror image; sizes have instances of their own.
 #include "multigrid/symmetric_product.hpp"
 
 #include <algorithm>

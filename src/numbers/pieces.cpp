@@ -1,3 +1,5 @@
+/// A table of buckets leads to the piece in one step; lanes look up each of their values and share the
+/// rest.
 #include "numbers/pieces.hpp"
 
 #include <algorithm>

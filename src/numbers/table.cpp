@@ -1,3 +1,5 @@
+/// Value, slope and integral of a piecewise-linear function, with what happens beyond its ends in one
+/// place.
 #include "numbers/table.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Corners of tables by Douglas and Peucker, breaks of arbitrary functions by comparing values on a grid
+/// and zooming in.
 #include "numbers/time_events.hpp"
 
 #include <algorithm>

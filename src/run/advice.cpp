@@ -1,3 +1,4 @@
+/// Texts for a run that stopped: the physical cause chooses them, the case fills in its keys.
 #include "run/advice.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Each watch keeps the worst step and speaks once, while the run goes on or at its end.
 #include "run/audit_watch.hpp"
 
 #include <fmt/format.h>

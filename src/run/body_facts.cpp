@@ -1,3 +1,4 @@
+/// Facts are found body by body with one exchange between processes for each kind of fact.
 #include "run/body_facts.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// The range of all initial and boundary temperatures, compared with every step until it is left once.
 #include "run/bounds_watch.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Facts of bodies, contacts and heat are compared with thresholds, from what makes equilibrium impossible
+/// to what merely makes it hard.
 #include "run/diagnose.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The case is run again with longer steps and with larger elements; differences of answers become errors
+/// by the ratio of the sizes.
 #include "run/error_runs.hpp"
 
 #include <fmt/format.h>

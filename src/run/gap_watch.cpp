@@ -1,3 +1,4 @@
+/// Sums of heat that passed gaps of another width than the step ended with.
 #include "run/gap_watch.hpp"
 
 #include <fmt/format.h>

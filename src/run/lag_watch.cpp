@@ -1,3 +1,4 @@
+/// Each lag is measured as a share of all change, so that its text can carry a number.
 #include "run/lag_watch.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// The box of each body against the places of its melt.
 #include "run/melt_watch.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Properties are compared with the temperatures of their body after every step; each is told once.
 #include "run/range_watch.hpp"
 
 #include <fmt/format.h>

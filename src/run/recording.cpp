@@ -1,3 +1,4 @@
+/// The recorder's options are copied from the case and from what was built of it.
 #include "run/recording.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// A checkpoint is read, compared with the case, and refused where the run has ended already.
 #include "run/restart.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// The state of a checkpoint is brought into equilibrium without contact and written with its stresses and
+/// loads.
 #include "run/structural_export.hpp"
 
 #include <fmt/format.h>

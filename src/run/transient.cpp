@@ -1,3 +1,4 @@
+/// The simulation and its watches are made in the order in which they report.
 #include "run/transient.hpp"
 
 #include <utility>

@@ -1,3 +1,6 @@
+/// The multipliers rise in one of two ways: by means around nodes with lengthened steps (Aitken), which
+/// keeps pressures smooth along a face, and by single points with secants, where means alternate between
+/// two patterns of contact.
 #include "contact/forces/augmented_lagrangian.hpp"
 
 #include <fmt/format.h>

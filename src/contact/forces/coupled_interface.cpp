@@ -1,3 +1,5 @@
+/// The temperatures on both sides of a point are means of nodal temperatures with the shares that the
+/// motion gives: slave nodes first, then those of the master.
 #include "contact/forces/coupled_interface.hpp"
 
 namespace solidus::contact {

@@ -1,3 +1,5 @@
+/// The parts are made in the order in which they need each other: the law with its penalty, then the
+/// multipliers, then the term of the mechanical phase, which refers to both.
 #include "contact/forces/forces.hpp"
 
 #include <fmt/format.h>

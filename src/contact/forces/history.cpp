@@ -1,3 +1,5 @@
+/// The state of a pair between steps: where it begins, what of it stays when bodies are renewed, and what a
+/// step reads of it (skins, temperatures of the interface).
 #include "contact/forces/history.hpp"
 
 #include <fmt/format.h>

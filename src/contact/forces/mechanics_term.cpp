@@ -1,3 +1,5 @@
+/// Residual and tangent point by point. Entries of successive points with the same nodes are summed in one
+/// dense block (Run) before they go to the matrix, since most points of a face share their nodes.
 #include "contact/forces/mechanics_term.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// What a mechanical pass has found at each point is handed to the heat term here; after the thermal phase
+/// the temperatures and slips that it has found go back into the history of the points.
 #include "contact/heat/heat.hpp"
 
 #include <cmath>

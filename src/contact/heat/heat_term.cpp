@@ -1,3 +1,6 @@
+/// Heat of each point from the temperatures of both sides (see()), then residual and tangent. An interface
+/// with a temperature of its own is solved at the point; an interface without one conducts straight from
+/// side to side.
 #include "contact/heat/heat_term.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Spots, gas gap and separation are correlations in closed form; beyond the range of its fit the
+/// separation goes on smoothly, so that an iterate may pass there.
 #include "contact/interface/asperities.hpp"
 
 #include <cmath>

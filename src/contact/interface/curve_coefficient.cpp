@@ -1,3 +1,5 @@
+/// Friction measured as curves over the internal variable at several temperatures: linear between the
+/// points of a curve and between curves, with exact integrals for the stored energy.
 #include "contact/laws/curve_coefficient.hpp"
 
 #include <fmt/format.h>

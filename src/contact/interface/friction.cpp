@@ -1,3 +1,6 @@
+/// The return mapping is one scalar equation in the slip γ. It is solved by Newton's method inside a
+/// bracket; the three entry points differ in what follows from the slip: nothing (held temperature), the
+/// temperature by entropy, or heat.
 #include "contact/interface/friction.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The coefficient is one of the laws of the list, with its value, slopes and stored energy at a point;
+/// checks that every law has to pass come first.
 #include "contact/interface/friction_coefficient.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,6 @@
+/// A law for the closed interface and one for the gap, joined at zero penetration. They are checked at all
+/// temperatures at which one of their tables bends: continuous there, and monotone within the transition if
+/// it is smoothed.
 #include "contact/interface/heat_transfer.hpp"
 
 #include <fmt/format.h>

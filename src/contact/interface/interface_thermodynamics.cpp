@@ -1,3 +1,6 @@
+/// Two balances of the interface: with the slip held, which Newton's method solves from the isentropic
+/// temperature, and with slip and temperature together (5.40), where the slip is found for each trial
+/// temperature.
 #include "contact/interface/interface_thermodynamics.hpp"
 
 #include <cmath>

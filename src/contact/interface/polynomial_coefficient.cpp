@@ -1,3 +1,5 @@
+/// A polynomial in the internal variable with coefficients that are linear in temperature; value, slopes
+/// and integrals by Horner's rule in one pass.
 #include "contact/laws/polynomial_coefficient.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Linear between the two tables whose temperatures enclose the one asked for; the nearest table beyond
+/// them.
 #include "contact/interface/table_family.hpp"
 
 #include <algorithm>

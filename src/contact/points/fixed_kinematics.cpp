@@ -1,3 +1,5 @@
+/// The shapes and normals of all points are stored when they are found, since they never change; a motion
+/// is then one sum over the nodes of the point.
 #include "contact/points/fixed_kinematics.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The push-forward is a product of three linear maps; its derivatives by place, tangents and normal follow
+/// by the product rule, each in its own term.
 #include "contact/points/frame_push.hpp"
 
 namespace solidus::contact {

@@ -1,3 +1,5 @@
+/// Surfaces become kinematics here: fixed partners for small sliding, a master that is searched for large
+/// sliding, cells for segments. What does not go together is refused before anything is searched.
 #include "contact/points/geometry.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Cliques are recorded as one list of nodes with the starts of each, so that both phases can read them
+/// without the pair.
 #include "contact/points/graph.hpp"
 
 namespace solidus::contact {

@@ -1,3 +1,5 @@
+/// Each rule finds points with their partners face by face; points of one pair of faces are stored together
+/// as a pairing, with the shape functions of all its nodes.
 #include "contact/points/integration.hpp"
 
 #include <algorithm>

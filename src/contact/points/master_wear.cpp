@@ -1,3 +1,5 @@
+/// Volumes are added at the nodes with shares that are nowhere negative; the depth of a node is its volume
+/// over the area that belongs to it.
 #include "contact/points/master_wear.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Pieces of `segments` are summed up around each vertex of the slave's faces in a first pass; in a second
+/// one each sum becomes a point.
 #include "contact/points/nodal_means.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// A compressed list: for each point its nodes, shares and weight, one behind the other.
 #include "contact/points/partners.hpp"
 
 namespace solidus::contact {

@@ -1,3 +1,5 @@
+/// The stiffness next to a surface is a modulus over the height of the elements behind its faces, averaged
+/// over the area.
 #include "contact/points/penalty.hpp"
 
 #include <fmt/format.h>

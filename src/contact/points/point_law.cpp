@@ -1,3 +1,5 @@
+/// Normal law first, then friction within its limit, then the derivatives of both by motion and
+/// temperature; next() turns the forces of a solution into the history of the point.
 #include "contact/points/point_law.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The place on the face is found back from the values of its shape functions, and the piecewise-linear
+/// functions are evaluated there with their slopes.
 #include "contact/points/positive_shares.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// A line of the slave is cut at the ends of the master's lines that lie opposite to it, and Gauss's rule
+/// is applied between two cuts.
 #include <algorithm>
 #include <cmath>
 

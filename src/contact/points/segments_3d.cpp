@@ -1,3 +1,5 @@
+/// Faces of the slave and of the master are projected onto a plane, clipped with each other as polygons,
+/// and what they have in common is integrated by triangles.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,3 +1,4 @@
+/// Slots are looked up again only for the points whose nodes have changed since the last call.
 #include "contact/points/slot_cache.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The nearest face of the master is sought twice, as drawn and as it lies now; the difference of the
+/// distances is how far the point has opened.
 #include "contact/points/wall_distance.hpp"
 
 #include <algorithm>

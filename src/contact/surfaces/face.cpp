@@ -1,3 +1,5 @@
+/// All of a face follows from the shape functions of its kind: place, tangents, normal, curvature; lines
+/// and triangles are told apart only where coordinates are clamped.
 #include "contact/surfaces/face.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Cells are polygons in reference coordinates, so that one description serves straight and curved faces.
 #include "contact/surfaces/face_cells.hpp"
 
 #include "mesh/quadrature.hpp"

@@ -1,3 +1,5 @@
+/// Heights are quadratic forms in the shape functions: one number for each pair of nodes of a face, from
+/// the shape operator of the smooth surface.
 #include "contact/surfaces/facet_heights.hpp"
 
 #include <algorithm>

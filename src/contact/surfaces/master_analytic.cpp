@@ -1,3 +1,4 @@
+/// All questions are answered in the frame of the tool at rest; places and normals are then moved with it.
 #include "contact/surfaces/master_analytic.hpp"
 
 #include <cmath>

@@ -1,3 +1,5 @@
+/// The closest face comes first. Then it depends on where the foot lies: inside a face, at an edge or
+/// vertex between faces (a wedge), or at the free boundary, beyond which contact fades within a strip.
 #include "contact/surfaces/master_mesh.hpp"
 
 #include <algorithm>

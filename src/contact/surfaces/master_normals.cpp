@@ -1,3 +1,5 @@
+/// Which faces belong together at a node is decided once, by the feature angle in the drawing; normals of a
+/// configuration and their rates then follow from lists of members.
 #include "contact/surfaces/master_normals.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Neighbours are found through vertices: faces at each vertex, then faces around each face, faces at each
+/// edge, and the free boundary where an edge has one face alone.
 #include "contact/surfaces/master_topology.hpp"
 
 #include <algorithm>

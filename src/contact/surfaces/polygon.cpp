@@ -1,3 +1,4 @@
+/// Clipping by Sutherland and Hodgman (1974); area and centroid by the shoelace formula.
 #include "contact/surfaces/polygon.hpp"
 
 #include <cmath>

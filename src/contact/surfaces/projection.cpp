@@ -1,3 +1,5 @@
+/// Newton's method in reference coordinates for both kinds of projection, guarded so that it goes downhill;
+/// edges are searched where the interior has no minimum.
 #include "contact/surfaces/projection.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Closed formulas of the smallest rotation between two unit vectors and its derivatives; they fail only
+/// for opposite vectors.
 #include "contact/surfaces/rotation.hpp"
 
 namespace solidus::contact {

@@ -1,3 +1,5 @@
+/// Boxes of faces in an R-tree (Boost.Geometry) come in order of their distance, so that the search ends as
+/// soon as no box can hold anything nearer.
 #include "contact/surfaces/search.hpp"
 
 #include <algorithm>

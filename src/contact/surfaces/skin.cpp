@@ -1,3 +1,4 @@
+/// Means of the nodes on each side by their shares; the weaker side decides what the skin does.
 #include "contact/surfaces/skin.hpp"
 
 #include <algorithm>

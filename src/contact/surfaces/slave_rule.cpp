@@ -1,3 +1,5 @@
+/// Gauss points carry the weight of their rule; nodes carry their share of the area, or a scaled diagonal
+/// where that share would be negative.
 #include "contact/surfaces/slave_rule.hpp"
 
 #include <algorithm>

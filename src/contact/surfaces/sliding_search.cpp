@@ -1,3 +1,5 @@
+/// Boxes are inflated by a margin when the tree is built; the tree is built again once a node has moved
+/// farther than that. The answer depends on the faces alone.
 #include "contact/surfaces/sliding_search.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Faces are held in an order that the numbers in the mesh file define, so that every process and every
+/// partition has the same surface.
 #include "contact/surfaces/surface.hpp"
 
 #include <algorithm>

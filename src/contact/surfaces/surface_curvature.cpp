@@ -1,3 +1,5 @@
+/// A shape operator is fitted to each face and its neighbours by least squares, from normals or, for
+/// triangles, from a quadric through the nodes; principal curvatures follow from it.
 #include "contact/surfaces/surface_curvature.hpp"
 
 #include <Eigen/Dense>

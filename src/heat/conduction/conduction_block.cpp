@@ -1,3 +1,5 @@
+/// The element loop over batches of eight lanes, as a template on the shape and the kind of analysis; the
+/// interface of a block calls the instance that fits.
 #include "heat/conduction/conduction_block.hpp"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+/// Pairs of nodes with an entry of the wrong sign are listed once for each body; per solve the flows of
+/// these pairs are summed into and out of each node, compared with what the node may take, and limited in
+/// proportion.
 #include "heat/conduction/conduction_limiter.hpp"
 
 #include <algorithm>

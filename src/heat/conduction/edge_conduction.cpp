@@ -1,3 +1,5 @@
+/// The factor of an element comes from the singular functions of its wedge, by their means over the faces
+/// opposite to its nodes.
 #include "heat/conduction/edge_conduction.hpp"
 
 #include <algorithm>

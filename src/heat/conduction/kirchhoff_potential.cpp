@@ -1,3 +1,5 @@
+/// The table's integral is stored at its points, so that value and inverse are one look-up and a quadratic
+/// formula.
 #include "heat/conduction/kirchhoff_potential.hpp"
 
 #include <algorithm>

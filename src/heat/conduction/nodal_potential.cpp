@@ -1,3 +1,5 @@
+/// Nodes of one material use its potential directly; nodes of several invert the sum of theirs by Newton's
+/// method.
 #include "heat/conduction/nodal_potential.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The steps of one iteration in the order of their calls: residual, tangent by enthalpy, the step by
+/// temperatures, the change of the enthalpies along it.
 #include "heat/iteration/enthalpy_newton.hpp"
 
 #include <algorithm>

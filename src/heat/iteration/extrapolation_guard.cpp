@@ -1,3 +1,5 @@
+/// Barriers of each free node are found once from the first stage; the second stage is then compared with
+/// them, with the range around and with its own direction.
 #include "heat/iteration/extrapolation_guard.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// A quick solver (incomplete factors) first; once it takes too many iterations for a digit, the strong one
+/// takes over until the next begin().
 #include "heat/iteration/heat_solver.hpp"
 
 #include <algorithm>

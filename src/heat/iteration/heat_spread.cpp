@@ -1,3 +1,4 @@
+/// One implicit step of conduction with the error as its source, by conjugate gradients with the diagonal.
 #include "heat/iteration/heat_spread.hpp"
 
 #include <cmath>

@@ -1,3 +1,5 @@
+/// The rows of the chosen nodes are copied into a compact matrix of their own, on which sweeps run without
+/// touching the rest.
 #include "heat/iteration/local_sweeps.hpp"
 
 #include <algorithm>

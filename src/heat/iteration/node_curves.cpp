@@ -1,3 +1,5 @@
+/// A node of one body reads the curve of its material, which gives temperature and potential in one
+/// look-up; nodes of several bodies take sums.
 #include "heat/iteration/node_curves.hpp"
 
 namespace solidus::heat {

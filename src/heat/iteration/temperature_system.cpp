@@ -1,3 +1,5 @@
+/// Residual and tangent of the heat balance as Newton's method (linear/newton.hpp) asks for them; storage
+/// at points is added where the step has any.
 #include "heat/iteration/temperature_system.hpp"
 
 #include <algorithm>

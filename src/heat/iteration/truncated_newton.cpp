@@ -1,3 +1,5 @@
+/// Each iteration smooths by nodal sweeps, which can cross any kink, then corrects by a linear solve
+/// without the nodes on a plateau, and searches along the correction.
 #include "heat/iteration/truncated_newton.hpp"
 
 #include <algorithm>

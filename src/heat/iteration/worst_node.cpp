@@ -1,3 +1,4 @@
+/// The largest value of each process is compared over all; its owner composes the text.
 #include "heat/iteration/worst_node.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Measures, nodal shares and the points of all cells are found once; an object of its own (Division) then
+/// integrates, on parts of cells where that is needed.
 #include "heat/loads/cell_integrals.hpp"
 
 #include "heat/loads/cell_division.hpp"

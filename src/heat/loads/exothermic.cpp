@@ -1,3 +1,5 @@
+/// For each node of a body that burns: whether and when it has ignited, and what share of its heat lies in
+/// the window of the step.
 #include "heat/loads/exothermic.hpp"
 
 #include <cassert>

@@ -1,3 +1,5 @@
+/// The window is cut where a function of time bends; between two cuts Gauss's rule in time is exact for
+/// smooth loads.
 #include "heat/loads/load_mean.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Values at the points give the pattern, integrals over cells give the total: where both agree the points
+/// suffice, else nodal heat is a mixture of both with the right total.
 #include "heat/loads/placed_load.hpp"
 
 #include <algorithm>

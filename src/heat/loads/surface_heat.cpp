@@ -1,3 +1,5 @@
+/// The law gives flux and slope at a point; the patches say which points there are and to which nodes they
+/// give: Gauss points of faces, or the nodes themselves by the closed rule.
 #include "heat/loads/surface_heat.hpp"
 
 #include <algorithm>

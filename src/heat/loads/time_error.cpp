@@ -1,3 +1,5 @@
+/// A divided difference of the flows at the start and in the stages, times the error constant of the
+/// method.
 #include "heat/loads/time_error.hpp"
 
 #include "material/time_integration.hpp"

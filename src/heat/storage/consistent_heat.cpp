@@ -1,3 +1,5 @@
+/// Point storage minus nodal storage: the difference is what the open rule adds beside bodies that keep
+/// their heat at the nodes.
 #include "heat/storage/consistent_heat.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Volumes of all bodies at each node are summed once; every question about a node is then a weighted sum
+/// over its few shares, which nearly always is a single one.
 #include "heat/storage/nodal_enthalpy.hpp"
 
 #include <algorithm>

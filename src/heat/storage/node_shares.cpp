@@ -1,3 +1,5 @@
+/// One weight for each node as long as every node has one body; bodies and starts of nodes are listed from
+/// the first node on that has more.
 #include "heat/storage/node_shares.hpp"
 
 #include <numeric>

@@ -1,3 +1,5 @@
+/// The front is deep where a node has changed its side of a plateau together with all of its neighbours
+/// since the last call.
 #include "heat/storage/plateau_watch.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// A template on the number of nodes: gather temperatures, evaluate the enthalpy at each point of eight
+/// elements at once, scatter.
 #include "heat/storage/point_storage.hpp"
 
 #include "heat/conduction/block_shapes.hpp"

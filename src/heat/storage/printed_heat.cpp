@@ -1,3 +1,5 @@
+/// The excess of a printed form is evaluated at every node with the curve of its bodies and added to the
+/// residual and to the diagonal.
 #include "heat/storage/printed_heat.hpp"
 
 #include <cassert>

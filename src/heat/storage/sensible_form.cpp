@@ -1,3 +1,5 @@
+/// The three forms differ in which factor of the product is integrated; each is evaluated as its difference
+/// to the enthalpy.
 #include "heat/storage/sensible_form.hpp"
 
 #include <limits>

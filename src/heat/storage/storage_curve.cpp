@@ -1,3 +1,5 @@
+/// Pieces between all bends of both tables, searched by heat or by potential; on a piece each quantity is a
+/// quadratic that is solved in closed form.
 #include "heat/storage/storage_curve.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Headers are read from their end: cooling rate, phase, unit; what is left is the quantity.
 #include "material/cards/column_headers.hpp"
 
 #include <algorithm>

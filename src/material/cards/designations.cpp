@@ -1,3 +1,4 @@
+/// Names are compared by letters and digits alone, so that spelling does not matter.
 #include "material/cards/designations.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// The integral of a capacity over the freezing range against a straight line tells whether it holds latent
+/// heat; if so it becomes an enthalpy or loses its peak.
 #include "material/cards/heat_in_capacity.hpp"
 
 #include <fmt/format.h>

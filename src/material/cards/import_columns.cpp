@@ -1,3 +1,5 @@
+/// From a table of a program to columns in SI: find each quantity's column, convert its unit, order the
+/// rows by temperature, check fractions and enthalpy.
 #include "material/cards/import_columns.hpp"
 
 #include <fmt/format.h>

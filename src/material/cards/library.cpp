@@ -1,3 +1,5 @@
+/// A card is loaded in steps: find the file, join it with the card that it is like, assign by the declared
+/// keys, build the material, and check what keys alone cannot.
 #include "material/cards/library.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Grades are words with a colon in the text of a source; a group of properties has every grade that one of
+/// its sources has.
 #include "material/cards/source_grade.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Spellings of data sheets become spellings of UDUNITS: characters first, then symbols with their powers,
+/// at last factors of units that UDUNITS does not know.
 #include "material/cards/unit_spelling.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// The number at one temperature in closed form, and its maximum over a range by sampling the smooth
+/// pieces.
 #include "material/derivatives/coupling_number.hpp"
 
 #include <algorithm>

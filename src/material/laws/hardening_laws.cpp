@@ -1,3 +1,4 @@
+/// The list of isotropic hardening laws, and what more than one of them needs.
 #include <fmt/format.h>
 
 #include <algorithm>

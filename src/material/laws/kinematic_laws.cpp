@@ -1,3 +1,4 @@
+/// The list of kinematic hardening laws.
 #include "material/laws/armstrong_frederick.hpp"
 #include "material/laws/prager.hpp"
 

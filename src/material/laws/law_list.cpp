@@ -1,3 +1,4 @@
+/// Two laws of one kind may share a key only if they declare it alike.
 #include "material/laws/law_list.hpp"
 
 #include <stdexcept>

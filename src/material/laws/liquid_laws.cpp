@@ -1,3 +1,4 @@
+/// The list of the models of the liquid.
 #include "material/liquid.hpp"
 
 namespace solidus::material {

@@ -1,3 +1,4 @@
+/// The list of rate laws, and how Perzyna's completes itself from the liquid's viscosity.
 #include "material/laws/perzyna.hpp"
 #include "material/material.hpp"
 

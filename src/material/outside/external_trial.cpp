@@ -1,3 +1,5 @@
+/// A fork of the process runs the trial and reports by a pipe; the parent waits for its end or for the time
+/// to be over.
 #include "material/outside/external_trial.hpp"
 
 #include <fmt/format.h>

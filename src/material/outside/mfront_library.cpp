@@ -1,3 +1,5 @@
+/// Symbols of the shared object are read and checked against what Solidus offers; a call then fills the
+/// structure that the interface defines, point by point.
 #include "material/outside/mfront_library.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// dlopen and dlsym with their messages.
 #include "material/outside/shared_object.hpp"
 
 #include <dlfcn.h>

@@ -1,3 +1,5 @@
+/// One call of a Fortran subroutine per point, with all arguments by reference in the order of the manual
+/// of Abaqus.
 #include "material/outside/umat_library.hpp"
 
 #include <algorithm>
