@@ -45,6 +45,8 @@ Jacobian<dim> invert(const std::array<std::array<Lane, dim>, dim>& j) {
 template <std::size_t n_nodes, std::size_t dim>
 void gradients_of(const std::vector<Point>& x, const Index* nodes, const double* reference, int n_points,
                   Lane* gradients, Lane* determinants) {
+  // Coordinates of the corners are gathered once for the batch, turned from lanes of nodes to nodes
+  // of lanes.
   std::array<std::array<Lane, dim>, n_nodes> corner;
   for (std::size_t a = 0; a < n_nodes; ++a) {
     alignas(sizeof(Lane)) double values[dim][k_lanes];
@@ -54,6 +56,8 @@ void gradients_of(const std::vector<Point>& x, const Index* nodes, const double*
     }
     for (std::size_t i = 0; i < dim; ++i) corner[a][i] = Lane::load(values[i]);
   }
+  // At each point the Jacobian from all nodes, its inverse, and the gradients of all functions in
+  // space.
   for (int point = 0; point < n_points; ++point) {
     std::array<std::array<Lane, dim>, dim> jacobian{};
     for (std::size_t a = 0; a < n_nodes; ++a)
@@ -257,6 +261,7 @@ FaceGeometry::FaceGeometry(const Mesh& mesh, const ElementBlock& faces, Analysis
   const auto nn = static_cast<std::size_t>(n_nodes), np = static_cast<std::size_t>(n_points);
   const auto nd = static_cast<std::size_t>(dimension(faces.shape));
   assert(nd == 1 || nd == 2);
+  // Values and reference gradients are the same for all faces of the shape.
   values.resize(np * nn);
   std::vector<double> reference(np * nn * nd);
   for (std::size_t p = 0; p < np; ++p) {
@@ -282,6 +287,8 @@ FaceGeometry::FaceGeometry(const Mesh& mesh, const ElementBlock& faces, Analysis
       if (nd == 1) t = {0, 0, 1};
       const Point n{s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]};
       const double area = std::hypot(n[0], n[1], n[2]);
+      // The length of the normal is the area that the point stands for, with the weight of the
+      // rule.
       weight.push_back(rule[p].weight * area * revolution(kind, radius));
       normal.push_back({n[0] / area, n[1] / area, n[2] / area});
     }

@@ -48,11 +48,14 @@ ElementSearch::Found ElementSearch::find(const Point& point) const {
     if (bg::distance(at, entry->first) > best.distance) break;
     const Tree::Element element = entry->second;
     const ElementBlock& block = mesh_.blocks[element.block];
+    // The nearest place within the element; at equal distance the lower element wins, whatever the
+    // tree's order.
     NearestPlace here = nearest_place(mesh_, block.shape, block.element(element.element), point);
     if (here.distance > best.distance || (here.distance == best.distance && answers < element)) continue;
     best = std::move(here);
     answers = element;
   }
+  // Shape functions at that place are the weights of its nodes.
   Found found;
   found.distance = best.distance;
   found.weights.resize(best.local.size());

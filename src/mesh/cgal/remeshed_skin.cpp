@@ -102,6 +102,8 @@ RemeshedSkin remeshed_skin(const ClosedShells& all, const SkinRemeshing& how, co
     d.volume += sign * std::abs(PMP::volume(skin));
     d.facets_area += PMP::area(facets);
     d.area += PMP::area(skin);
+    // The distance between both skins is measured both ways, since either may leave out a detail of
+    // the other.
     d.distance = std::max({d.distance, distance_from(skin, facets), distance_from(facets, skin)});
     append_shells(skin, all.shells[s].name, made.shells);
     CGAL::copy_face_graph(skin, whole);
@@ -109,6 +111,7 @@ RemeshedSkin remeshed_skin(const ClosedShells& all, const SkinRemeshing& how, co
   // The new skin must neither cross itself nor enclose another volume.
   if (const std::string place = first_crossing(whole); !place.empty())
     throw InputError({path}, "the new skin crosses itself near " + place);
+  // Volume is the measure that matters for heat: a wall that is thinned by meshing cools faster.
   if (std::abs(d.volume - d.facets_volume) > k_skin_tolerance * d.facets_volume)
     throw InputError({path}, fmt::format("the new skin encloses another volume than the facets, by {}",
                                          change_text(d.volume, d.facets_volume)));

@@ -28,6 +28,7 @@ TriangleSurface surface_of(const ClosedShells& all, const Shell& shell) {
       points.emplace_back(p[0], p[1], p[2]);
     }
   }
+  // STL gives triangles in any sense; a surface needs them all alike.
   PMP::orient_polygon_soup(points, triangles);
   TriangleSurface surface;
   PMP::polygon_soup_to_polygon_mesh(points, triangles, surface);
@@ -36,6 +37,7 @@ TriangleSurface surface_of(const ClosedShells& all, const Shell& shell) {
 
 void append_shells(const TriangleSurface& surface, const std::string& name, ClosedShells& all) {
   std::map<TriangleSurface::Face_index, std::size_t> part_of;
+  // Parts that hang together by edges get a number each.
   const std::size_t n_parts =
       PMP::connected_components(surface, boost::associative_property_map<decltype(part_of)>(part_of));
   const std::size_t first = all.shells.size();

@@ -66,6 +66,7 @@ class Union {
     std::string place;
     std::size_t count = 1;
     double single = PMP::volume(surfaces_[first]);
+    // Each shell that is left is tried against the union so far.
     for (std::size_t s = first + 1; s < surfaces_.size(); ++s) {
       if (taken_[s] || !cross(first, s)) continue;
       if (place.empty()) place = place_of_crossing(surfaces_[first], surfaces_[s]);
@@ -77,6 +78,7 @@ class Union {
       s = first;  // the union may cross shells that its first piece did not
     }
     if (count == 1) return {};
+    // The volume that is lost to the union is what the shells had in common.
     const double common = single - PMP::volume(surfaces_[first]);
     return fmt::format(
         "{} closed skins that cross or touch each other, the first two near {}, are united; they had {:.3g} "

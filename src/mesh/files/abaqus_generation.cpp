@@ -123,6 +123,7 @@ void Generator::nodes_between(const AbaqusLine& line) {
   const bool arc = kind != nullptr && upper(*kind) == "C";
   if (kind != nullptr && !arc)
     line.fail("*NGEN with LINE=" + *kind + " is not read here", "straight lines, and arcs with LINE=C");
+  // The end nodes exist already; what lies between is made.
   const Point a = place(first, line.at), b = place(last, line.at);
   add_to(scope_.node_sets, "NSET", first);
   for (GlobalIndex i = 1; i < n; ++i) {
@@ -152,6 +153,7 @@ Point Generator::on_arc(const AbaqusLine& line, const Point& a, const Point& b, 
 
 void Generator::fill(const AbaqusLine& line) {
   if (line.parts.size() < 3) line.fail("*NFILL needs two sets of nodes, and a number of lines");
+  // Both sets in the order in which they were written, since rows run from member to member.
   const auto one = numbers_of(scope_.node_sets, line.parts[0], true, line.at),
              other = numbers_of(scope_.node_sets, line.parts[1], true, line.at);
   const GlobalIndex lines = line.integer(2), step = line.integer(3, 1);
@@ -188,6 +190,7 @@ void Generator::copy_nodes(const std::vector<AbaqusLine>& lines) {
   const auto old = numbers_of(scope_.node_sets, keyword_.required("OLD SET"), false, keyword_.at);
   Point shift{}, a{}, b{};
   double angle = 0;
+  // Coordinates are in the unit of the deck; everything of the mesh is in metres.
   if (!lines.empty())
     for (std::size_t i = 0; i < 3; ++i) shift[i] = unit_ * lines[0].real(i);
   if (lines.size() > 1) {
@@ -228,6 +231,7 @@ void Generator::rows_of_elements(const AbaqusLine& line) {
   const auto found = scope_.element_at.find(number);
   if (found == scope_.element_at.end())
     line.fail("there is no element " + std::to_string(number) + " up to here");
+  // The master element is copied by value, because the list grows meanwhile.
   const AbaqusElement master = scope_.elements[static_cast<std::size_t>(found->second)];
   // A row, rows in a layer, layers: how many, and by how much nodes and elements rise from one to the next.
   std::array<std::array<GlobalIndex, 3>, 3> rise{};
@@ -239,6 +243,7 @@ void Generator::rows_of_elements(const AbaqusLine& line) {
     if (rise[d][0] < 1) line.fail("*ELGEN makes rows of " + std::to_string(rise[d][0]) + " elements");
     all *= static_cast<double>(rise[d][0]);
   }
+  // Each copy has the master's nodes raised by the steps of its row, its rows and its layers.
   if (all > static_cast<double>(k_most)) line.fail("*ELGEN makes too many elements in one line");
   for (GlobalIndex k = 0; k < rise[2][0]; ++k)
     for (GlobalIndex j = 0; j < rise[1][0]; ++j)

@@ -106,6 +106,7 @@ void Groups::add_nodes() {
   for (const AbaqusScope& scope : scopes_) {
     first_node_.push_back(static_cast<Index>(mesh_.x.size()));
     GlobalIndex rise = 0;
+    // Numbers are raised by a power of ten, so that a user recognises the old one in the new one.
     if (several) {
       const auto again = [&](GlobalIndex n) { return taken.contains(n); };
       if (std::ranges::any_of(scope.node_number, again))
@@ -117,6 +118,7 @@ void Groups::add_nodes() {
       }
       for (const AbaqusElement& e : scope.elements) last = std::max(last, e.number + rise);
     }
+    // The rise is kept: references to nodes of this instance need it too.
     rise_.push_back(rise);
     if (rise > 0)
       mesh_.notes.push_back("the numbers of nodes and elements of the instance '" + scope.name +
@@ -136,10 +138,12 @@ void Groups::add_nodes() {
 Found Groups::find(std::size_t scope, const std::vector<NumberRange>& ranges, bool nodes) const {
   Found found;
   for (const NumberRange& r : ranges) {
+    // A range belongs to the scope that it was written in, or to the instance that it names.
     const std::size_t of = r.scope == 0 ? scope : static_cast<std::size_t>(r.scope);
     const auto& at = nodes ? scopes_[of].node_at : scopes_[of].element_at;
     const std::size_t before = found.members.size();
     const auto n_all = static_cast<GlobalIndex>(at.size());
+    // Short ranges are looked up number by number, which also tells which one is missing.
     if (r.count() <= 4 * n_all + 16) {
       for (GlobalIndex n = r.first; n <= r.last; n += r.step)
         if (const auto member = at.find(n); member != at.end())
@@ -163,6 +167,7 @@ void Groups::add_element_set(std::size_t scope, const std::string& key, const Ab
   const Found found = find(scope, set.ranges, false);
   say_missing(set, found);
   if (set.internal) return;
+  // The highest dimension in the set decides what the group is.
   RawGroup group{0, {}};
   for (const auto& at : found.members) {
     group.dimension = std::max(group.dimension, mesh::dimension(element(at).shape));

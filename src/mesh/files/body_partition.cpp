@@ -33,6 +33,8 @@ struct Candidates {
 };
 
 Candidates candidates_of(const RawMesh& mesh, const NamePreference& preference) {
+  // Groups of elements of the full dimension may be bodies; their elements are compared by their
+  // vertices, since the same element may stand in several groups under different numbers.
   Candidates result;
   std::vector<VertexSet> sets;
   for (const auto& [name, group] : mesh.groups) {
@@ -52,6 +54,7 @@ Candidates candidates_of(const RawMesh& mesh, const NamePreference& preference) 
       number[set] = original == set ? result.n_elements++ : number[original];
       member = number[set++];
     }
+    // Sorted members make unions and intersections cheap.
     Members& m = candidate.members;
     std::ranges::sort(m);
     m.erase(std::unique(m.begin(), m.end()), m.end());
@@ -143,6 +146,7 @@ class Choice {
   }
 
   std::string why_left_out(std::size_t i) const {
+    // The bodies that hold some of its elements are named in the reason.
     std::vector<std::string> holders;
     for (const std::size_t k : chosen_) {
       const bool any = std::ranges::any_of(all_[i].members, [&](Index e) {

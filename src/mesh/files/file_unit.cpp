@@ -27,10 +27,13 @@ std::optional<LengthUnit> unit_of_file(const std::string& path) {
 
 double metres_of_unit(const std::string& path, const std::string& told, const std::string& otherwise,
                       const SourceLocation& where) {
+  // What the user says must be a length at all.
   if (!told.empty() && !units::compatible(told, "m"))
     throw InputError(where, fmt::format("'{}' is no unit of length", told), "\"mm\", \"m\", \"inch\", ...");
   std::optional<LengthUnit> own;
   bool in_mm = false;
+  // A file that cannot be read says nothing of its unit here; the reader tells what is wrong with
+  // it.
   try {
     own = unit_of_file(path);
     in_mm = is_regular(path) && file_format(path).in_mm;

@@ -15,6 +15,8 @@ bool begins(std::string_view head) {
 
 /// Parameters of the global section, of which strings are "4HINCH".
 std::vector<std::string> iges_parameters(const std::string& path) {
+  // Records have 80 columns, of which the 73rd tells the section: S is a title, G the global
+  // section.
   std::ifstream file(path);
   std::string line, text;
   while (std::getline(file, line) && text.size() < 100'000) {
@@ -24,11 +26,11 @@ std::vector<std::string> iges_parameters(const std::string& path) {
     else if (line[72] != 'S')
       break;
   }
+  // The first two parameters may redefine the separators, which are then used at once.
   std::vector<std::string> parameters;
   char separator = ',', end = ';';
   std::string word;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    // A number and an H, and as many letters as the number says.
     // A number and an H, and as many letters as the number says.
     if (text[i] == 'H' && !word.empty() && word.find_first_not_of("0123456789") == std::string::npos &&
         word.size() < 6) {
@@ -51,6 +53,7 @@ std::vector<std::string> iges_parameters(const std::string& path) {
 }
 
 std::optional<LengthUnit> iges_unit(const std::string& path) {
+  // The unit is told by two parameters near the end of the section.
   const std::vector<std::string> parameters = iges_parameters(path);
   constexpr std::size_t k_flag = 13, k_name = 14;  // the fourteenth and the fifteenth
   if (parameters.size() <= k_flag) return std::nullopt;

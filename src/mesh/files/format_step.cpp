@@ -82,6 +82,7 @@ std::optional<LengthUnit> step_length_unit(const std::map<long, std::string>& st
   // A unit of STEP is an SI unit with a prefix, or is converted from another one, which is looked up in the
   // same way; the depth ends circles.
   const auto found = statements.find(number);
+  // An SI unit is a prefix and METRE.
   constexpr int k_deepest = 10;
   if (found == statements.end() || depth > k_deepest) return std::nullopt;
   const std::string& text = found->second;

@@ -39,6 +39,7 @@ std::map<int, GmshElement> all_elements() {
                                          {31, {"Tetrahedron 56", 3, 56, {}}},
                                          {36, {"Quadrilateral 16", 2, 16, {}}},
                                          {92, {"Hexahedron 64", 3, 64, {}}}};
+  // The others are those of our own table of shapes.
   for (const ShapeRow& row : k_shape_rows)
     elements[row.gmsh] = {gmsh_name(row), row.dimension, row.nodes, row.shape};
   return elements;

@@ -234,6 +234,7 @@ void Reader::read_nodes_4() {
     std::vector<std::int64_t> tags(n);
     for (std::int64_t& tag : tags) tag = file_.number<std::int64_t>();
     for (const std::int64_t tag : tags) {
+      // Parametric coordinates stand behind the others and say nothing here.
       Point x{};
       for (double& coordinate : x) coordinate = file_.number<double>();
       if (parametric != 0)
@@ -258,6 +259,7 @@ void Reader::add_element(const PieceKey& piece, int type, std::int64_t tag,
 }
 
 void Reader::read_elements_2() {
+  // The format of binary files needs the end of the line before the first byte.
   const std::size_t n = file_.count(file_.text<std::int64_t>(), 8);
   if (file_.binary) file_.line();
   std::vector<std::int64_t> nodes;
@@ -271,6 +273,7 @@ void Reader::read_elements_2() {
     const std::size_t n_tags = file_.count(file_.number<std::int32_t>(), 2);
     for (std::size_t k = 0; k < in_block; ++k, ++i) {
       if (file_.binary) tag = file_.raw<std::int32_t>();
+      // The first tag is the physical group, the second the entity of the geometry.
       PieceKey piece{element.dimension, 0, 0};
       for (std::size_t t = 0; t < n_tags; ++t) {
         const int value = file_.number<std::int32_t>();
@@ -298,6 +301,7 @@ void Reader::read_elements_4() {
     if (element.dimension != dimension)
       file_.fail("elements of the type '" + element.name + "' stand in an entity of dimension " +
                  std::to_string(dimension));
+    // Tag and nodes of each element, in binary as in text.
     for (std::size_t i = 0; i < n; ++i) {
       const std::int64_t tag = file_.number<std::int64_t>();
       nodes.clear();
@@ -339,6 +343,7 @@ std::optional<RawMesh> Reader::read() {
       file_.skip_section(section);
     }
   }
+  // A file without nodes or elements was cut off.
   if (!has_nodes_ || !has_elements_)
     file_.fail(std::string("the file ends before its ") + (has_nodes_ ? "elements" : "nodes"));
   return mesh();
@@ -352,6 +357,7 @@ void Reader::add_blocks(const PieceKey& piece, const std::unordered_map<std::int
     if (!element.shape)
       throw InputError({path_}, "the mesh has elements of the type '" + element.name + "'",
                        k_shapes_of_meshes);
+    // The block of this shape in the group, or a new one.
     auto block = std::find_if(group.blocks.begin(), group.blocks.end(),
                               [&](const RawBlock& b) { return b.shape == *element.shape; });
     if (block == group.blocks.end())
@@ -385,6 +391,7 @@ RawMesh Reader::mesh() {
       for (const auto& [type, elements] : types) used.insert(elements.nodes.begin(), elements.nodes.end());
   std::unordered_map<std::int64_t, Index> index;
   index.reserve(nodes_.size());
+  // In version 2 nodes that no element uses are left out: they are points of the geometry.
   for (const auto& [tag, x] : nodes_) {
     if (!version_4_ && !used.contains(tag)) continue;
     index.emplace(tag, static_cast<Index>(mesh.x.size()));
@@ -404,6 +411,7 @@ RawMesh Reader::mesh() {
     for (const int physical : physicals) groups[{piece.dimension, physical}].push_back(piece);
     if (physicals.empty() && piece.dimension == mesh.dimension) without.push_back(piece);
   }
+  // Each physical group becomes a group of the mesh, by its name or by a number.
   for (const auto& [key, pieces] : groups) {
     const auto& [dimension, physical] = key;
     const auto named = names_.find(key);
@@ -415,6 +423,7 @@ RawMesh Reader::mesh() {
     if (mesh.groups.contains(name)) name += "_" + std::to_string(dimension) + "d";
     mesh.groups.emplace(name, std::move(group));
   }
+  // What belongs to no group still is a body, so that a mesh without any groups can be used.
   int number = 0;
   for (const PieceKey& piece : without) {
     RawGroup group{piece.dimension, {}};

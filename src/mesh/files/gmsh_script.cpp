@@ -144,9 +144,11 @@ void ScriptCheck::check_output(std::size_t i) {
 
 void ScriptCheck::check_file(std::size_t i) {
   const GmshToken &command = at(i), &name = at(i + 1);
+  // A name that is computed could be anything, so only plain texts are allowed.
   if (name.kind != Kind::string || !at(i + 2).is(";"))
     refuse(command, in_quotes(command.text) + " needs the name of a file in quotes");
   const std::string wanted = (fs::path(path_).parent_path() / std::string(name.text)).string();
+  // Links and dots are resolved first: a path that leaves the folder of the script is refused.
   std::error_code error;
   const fs::path canonical = fs::weakly_canonical(wanted, error);
   const fs::path relative = canonical.lexically_relative(folder_);
@@ -155,6 +157,7 @@ void ScriptCheck::check_file(std::size_t i) {
            "a file in " + folder_.string() + "; or --trust-geo where you trust the script as a program");
   if (!fs::is_regular_file(canonical, error)) refuse(name, "there is no file " + in_quotes(name.text), "");
   if (seen_.size() >= k_most_files) refuse(name, "the script includes too many files", "at most 100");
+  // A mesh or a geometry is opened by its format, a script is checked like the outer one.
   const std::string ending = canonical.extension().string();
   if (command.is("Merge") && ending != ".geo" && ending != ".pos") {
     file_format(wanted);

@@ -66,6 +66,7 @@ class Cards {
   }
 
   void read_file(const std::string& path, int depth) {
+    // An include that is not there is an error at the line that asks for it.
     std::ifstream file(path);
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error) || !file) fail("there is no file '" + path + "'");
@@ -78,6 +79,7 @@ class Cards {
     while (!ended_ && std::getline(file, line)) {
       ++at_.line;
       if (line.find('\0') != std::string::npos) fail("this is not a text file");
+      // Comments may hold the names that preprocessors give to properties.
       const std::size_t dollar = line.find('$');
       if (dollar != std::string::npos) {
         comment_(std::string_view(line).substr(dollar + 1));
@@ -154,6 +156,7 @@ void Cards::take(const std::string& line, int depth) {
 }
 
 void Cards::add_fields(std::string_view line, bool large) {
+  // Free format: fields between commas.
   const std::size_t most = large ? 4 : 8;
   std::vector<std::string>& fields = pending_->fields;
   if (const auto comma = line.find(','); comma != std::string_view::npos) {
@@ -170,6 +173,7 @@ void Cards::add_fields(std::string_view line, bool large) {
       fail("a line has more than " + std::to_string(most) + " fields behind its name");
     return;
   }
+  // Fixed format: eight columns for each field, sixteen in the long form.
   const std::size_t width = large ? 16 : 8;
   for (std::size_t n = 0; n < most; ++n) {
     const std::size_t from = 8 + n * width;

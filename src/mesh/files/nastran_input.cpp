@@ -102,6 +102,7 @@ class Reader {
 };
 
 void Reader::take(const NastranCard& card) {
+  // Nodes are kept as cards, since a system that moves them may come later in the file.
   const std::string& name = card.name;
   if (name == "GRID") {
     const GlobalIndex number = card.integer(0);
@@ -120,6 +121,7 @@ void Reader::take(const NastranCard& card) {
   if (systems_.take(card)) return;
   for (const ElementCard& kind : k_elements)
     if (name == kind.name) return take_element(card, kind);
+  // Elements that would be read wrongly are refused by name.
   if (is_any_of(name, {"CTRIAX", "CTRIAX6", "CQUADX", "CQUAD", "CPLSTN3", "CPLSTN4", "CPLSTN6", "CPLSTN8"}))
     card.fail("elements of the type '" + name + "' are not supported",
               "CTETRA, CHEXA, CPENTA, CPYRAM, CTRIA3, CTRIA6, CQUAD4 and CQUAD8");
@@ -134,6 +136,7 @@ void Reader::take(const NastranCard& card) {
 /// " Femap Property 7 : casting".
 void Reader::take_name(std::string_view comment) {
   const std::string text(comment.substr(0, comment.find_last_not_of(" \r\t") + 1));
+  // Each program writes its comment in a form of its own: number and name are picked out of it.
   const auto number_in = [](const std::string& from) {
     const auto first = from.find_first_of("0123456789");
     GlobalIndex n = 0;
@@ -166,6 +169,7 @@ void Reader::take_name(std::string_view comment) {
 
 void Reader::take_element(const NastranCard& card, const ElementCard& kind) {
   Element e{kind.first, card.integer(0), card.integer(1, 0), {}, card.at};
+  // How many nodes the card has decides between first and second order.
   const auto corners = static_cast<std::size_t>(node_count(kind.first)),
              all = static_cast<std::size_t>(node_count(kind.second));
   // The second order needs all of its nodes; without any the element is of first order.
@@ -175,6 +179,7 @@ void Reader::take_element(const NastranCard& card, const ElementCard& kind) {
       e.nodes[a] = card.integer(2 + a);
       ++given;
     }
+  // Wedges and pyramids are split into tetrahedra later, which only those of first order can be.
   const bool is_split = kind.first == Shape::wedge6 || kind.first == Shape::pyramid5;
   if (is_split && card.has(2 + all))
     card.fail(card.name + " " + std::to_string(e.number) + " is of second order",
@@ -246,6 +251,7 @@ void Reader::make_groups(const std::string& path) {
   std::map<std::pair<int, GlobalIndex>, RawGroup> groups;  // by dimension and property
   // Nodes are put from Nastran's order into ours by way of that of Abaqus, which differs less.
   for (const Element& e : elements_) {
+    // The block of this shape in the group of its property.
     RawGroup& group = groups[{mesh::dimension(e.shape), e.property}];
     group.dimension = mesh::dimension(e.shape);
     auto block = std::find_if(group.blocks.begin(), group.blocks.end(),

@@ -4,6 +4,7 @@ namespace solidus::mesh {
 
 bool NastranSystems::take(const NastranCard& card) {
   const std::string& name = card.name;
+  // CORD1R to CORD2S: by three nodes or by coordinates, of three kinds.
   if (name.size() != 6 || !name.starts_with("CORD") || (name[4] != '1' && name[4] != '2')) return false;
   Given given{card, Coordinates::rectangular, name[4] == '1', 0, false, {}};
   if (name[5] == 'C')
@@ -33,8 +34,10 @@ const LocalSystem& NastranSystems::find(GlobalIndex number, const NastranCard& u
               "CORD1R, CORD1C, CORD1S, CORD2R, CORD2C or CORD2S of this number");
   Given& given = found->second;
   if (given.system) return *given.system;
+  // A system that is needed to find itself would never end.
   if (given.being_found) given.card.fail(given.card.name + ": the system is given in itself");
   given.being_found = true;
+  // Its three points: places of nodes, or coordinates in another system, which is found first.
   std::array<Point, 3> points{};
   if (given.by_nodes) {
     for (std::size_t k = 0; k < 3; ++k) points[k] = grid(given.card.integer(given.first + 1 + k), given.card);

@@ -160,6 +160,8 @@ void Splitter::find_cells() {
       const std::size_t n = block.input_element.size();
       for (std::size_t at = 0; at < n; ++at) {
         const Cell cell{&block, at};
+        // What makes a cell one to split, and its number for the notes: each cell once, however
+        // many groups hold it.
         const bool wedge = block.shape == Shape::wedge6, pyramid = block.shape == Shape::pyramid5;
         const bool collapsed = block.shape == Shape::hex8 && repeats(cell.corners());
         if (!wedge && !pyramid && !collapsed) continue;
@@ -176,6 +178,7 @@ void Splitter::find_cells() {
 
 // From face to face over all hexahedra that hang together with a cell that is split.
 void Splitter::spread() {
+  // Hexahedra by their quadrilaterals, which are where a cut spreads.
   std::unordered_map<FaceKey, std::vector<Cell>, HashOfFace> hexahedra;
   for (const auto& [name, group] : mesh_.groups)
     for (const RawBlock& block : group.blocks)
@@ -188,6 +191,7 @@ void Splitter::spread() {
   while (!front.empty()) {
     const Cell cell = front.back();
     front.pop_back();
+    // Each quadrilateral is cut once; both of its cells must then be split.
     for (const auto& face : faces_of(cell.block->shape)) {
       const std::vector<Index> corners = face_corners(cell.corners(), face);
       if (corners.size() != 4 || !cut_.insert(key_of(corners)).second) continue;
@@ -221,6 +225,7 @@ void Splitter::add_parts(const Cell& cell, RawBlock& to) const {
       to.input_element.push_back(cell.block->input_element[cell.at]);
     }
   if (n_parts == 0) fail(cell, "has no volume", "cells with a volume");
+  // Parts of both signs overlap each other.
   if (n_positive != 0 && n_positive != n_parts)
     fail(cell, "is so warped that the tetrahedra it is split into overlap",
          "cells whose faces are nearly plane");
@@ -245,6 +250,7 @@ void Splitter::split_blocks() {
       if (!whole.input_element.empty()) kept.push_back(std::move(whole));
     }
     if (parts.input_element.empty()) continue;
+    // The parts join the tetrahedra that the group has already, or make a block of their own.
     const auto tetrahedra = std::ranges::find(kept, Shape::tet4, &RawBlock::shape);
     if (tetrahedra == kept.end()) {
       kept.push_back(std::move(parts));
@@ -283,6 +289,7 @@ void cut_quadrilaterals(RawGroup& group, const Chosen& chosen) {
     }
     if (!whole.input_element.empty()) kept.push_back(std::move(whole));
   }
+  // Triangles join those of the group.
   if (!parts.input_element.empty()) {
     const auto triangles = std::ranges::find(kept, Shape::tri3, &RawBlock::shape);
     if (triangles == kept.end()) {

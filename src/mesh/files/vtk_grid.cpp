@@ -100,6 +100,7 @@ struct Regions {
 Regions regions_of(const std::string& path, const VtkGrid& grid) {
   constexpr std::array k_certain{"body", "gmsh:physical", "CellEntityIds"};
   Regions regions;
+  // Names that say without doubt what a body is are taken first.
   for (const char* name : k_certain) {
     const auto data = std::ranges::find(grid.data, name, &VtkCellData::name);
     if (data == grid.data.end() || !regions.numbers.empty()) continue;
@@ -108,6 +109,8 @@ Regions regions_of(const std::string& path, const VtkGrid& grid) {
         throw InputError({path}, fmt::format("the cell data `{}` are no whole numbers", name));
     regions.numbers = data->numbers;
   }
+  // Other data are used if they hold a few whole numbers under a name that programs use for
+  // regions.
   std::string others;
   for (const VtkCellData& data : grid.data) {
     if (data.name.starts_with("vtk") || std::ranges::find(k_certain, data.name) != k_certain.end()) continue;
@@ -121,6 +124,7 @@ Regions regions_of(const std::string& path, const VtkGrid& grid) {
     regions.notes.push_back(fmt::format("the cell data `{}` tell bodies apart, by the numbers {:g}",
                                         data.name, fmt::join(*different, ", ")));
   }
+  // Data that might have been meant are named, since the user can rename them.
   if (!others.empty() && regions.numbers.empty())
     regions.notes.push_back("no cell data tell bodies apart, all is one body; perhaps " + others +
                             " should, under the name `body`");

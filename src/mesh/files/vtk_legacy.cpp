@@ -179,6 +179,7 @@ std::vector<double> Reader::numbers(const NumberType& type, std::size_t n) {
     for (std::size_t i = 0; i < n; ++i, at_ += type.bytes) values.push_back(decode(type, text_.data() + at_));
     return values;
   }
+  // In text each number takes two bytes at least: so many cannot be there.
   if (n > text_.size() - at_) fail("the file is cut off: there are fewer numbers than it says");
   values.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -212,6 +213,7 @@ void Reader::points() {
 // Up to version 5.0 the number of corners stands before those of each cell.
 void Reader::cells() {
   const std::size_t n = count(), size = count(), before = at_;
+  // From version 5.1 on offsets and corners are two arrays with a head each.
   if (lower(word()) == "offsets") {
     const NumberType& of_offsets = type(word());
     std::vector<double> bounds = numbers(of_offsets, n);
@@ -221,6 +223,7 @@ void Reader::cells() {
     if (!bounds.empty()) offsets_.assign(bounds.begin() + 1, bounds.end());
     return;
   }
+  // Older files have the number of corners before those of each cell, all in one list.
   at_ = before;
   const std::vector<double> all = numbers(type("int"), size);
   for (std::size_t i = 0; i < all.size();) {
@@ -343,6 +346,7 @@ void Reader::attributes() {
 
 std::optional<RawMesh> Reader::mesh(double unit) {
   header();
+  // The loop ends when the types of the cells are there, after which only data follow.
   if (lower(word()) != "unstructured_grid") return std::nullopt;
   // Parts come in any order until the types are read.
   while (types_.empty() && skip_blanks()) {
@@ -356,6 +360,7 @@ std::optional<RawMesh> Reader::mesh(double unit) {
     else if (!attribute(kind, 0, false))
       fail("'" + kind.substr(0, 40) + "' is no part of an unstructured grid");
   }
+  // Cells, types and offsets must fit each other before anything is made of them.
   if (offsets_.size() != types_.size())
     fail(fmt::format("there are {} cells with {} types", offsets_.size(), types_.size()));
   grid_.cells = cell_table(types_, offsets_, corners_, grid_.points.size() / 3,

@@ -33,6 +33,7 @@ std::string decode_base64(std::string_view text, std::size_t n) {
   }();
   std::string out;
   std::uint32_t group = 0;
+  // Four digits make three bytes; padding ends one encoding, another one may follow.
   int digits = 0, padding = 0;
   for (const char c : text) {
     if (out.size() >= n) break;
@@ -41,6 +42,7 @@ std::string decode_base64(std::string_view text, std::size_t n) {
       ++padding;
     else if (value < 0)
       continue;
+    // Blanks and line ends between digits are no digits.
     group = (group << 6U) | static_cast<std::uint32_t>(value < 0 ? 0 : value);
     if (++digits < 4) continue;
     for (int k = 0; k < 3 - padding; ++k)
@@ -134,12 +136,14 @@ void VtuFile::fail(const std::string& what, const std::string& allowed) const {
 }
 
 VtuFile::VtuFile(const std::filesystem::path& file) : file_(file) {
+  // Size and depth are bounded before anything is parsed: files come from anywhere.
   require_readable(file, {file.string(), 0, 0}, k_most_field);
   std::ifstream in(file, std::ios::binary);
   if (!in) fail("the file cannot be read");
   content_.assign(std::istreambuf_iterator<char>(in), {});
   // The bytes after the underscore of the appended data need not be text.
   std::string xml = content_;
+  // Appended data begin behind an underscore and are cut off before the XML is parsed.
   const std::size_t tag = content_.find("<AppendedData");
   if (tag != std::string::npos) {
     const std::size_t close = content_.find('>', tag), begin = content_.find('_', close);
@@ -160,6 +164,7 @@ VtuFile::VtuFile(const std::filesystem::path& file) : file_(file) {
   }
   // What the head says of all arrays: order of bytes, width of lengths, compression.
   const auto root = document_.get_child_optional("VTKFile");
+  // The head decides how arrays are stored.
   if (!root) fail("the file is no VTK XML file", "an unstructured grid, .vtu or .pvtu");
   root_ = &*root;
   type_ = attribute(*root_, "type");
@@ -240,6 +245,7 @@ std::vector<double> VtuFile::numbers(const pt::ptree& array, std::size_t n) cons
     fail("an array of the file is shorter than its grid");
   std::vector<double> result;
   if (n == 0) return result;
+  // Arrays as text, one number after the other.
   if (attribute(array, "format") == "ascii") {
     if (n > array.data().size()) fail("an array of the file is shorter than its grid");
     result.resize(n);
@@ -253,6 +259,7 @@ std::vector<double> VtuFile::numbers(const pt::ptree& array, std::size_t n) cons
     }
     return result;
   }
+  // Arrays of bytes by their type, unpacked to exactly the length that the grid needs.
   const std::string type = attribute(array, "type");
   for (const NumberType& each : k_types)
     if (each.name == type) {

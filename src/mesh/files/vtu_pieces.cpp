@@ -117,6 +117,7 @@ CellTable cell_table(std::span<const double> types, std::span<const double> offs
   }
   for (const double type : types)
     if (!(type >= 0 && type <= 255)) fail(fmt::format("cells of VTK's type {:g} are not read", type));
+  // Types that VTK has under several numbers become one; corners must be points of this piece.
   CellTable table;
   table.types.assign(types.begin(), types.end());
   table.offsets.assign(offsets.begin(), offsets.end());

@@ -54,6 +54,7 @@ class PartMaker {
   /// Heals each body by a tolerance of its own. Gmsh 4.8 adds the healed body and keeps the old one, which is
   /// removed here; later versions put it in the place of the old one, and list all other bodies with it.
   void heal() {
+    // Each body is healed by a tolerance of its own size: one for all would heal small bodies away.
     const gmsh::vectorpair old = all_volumes();
     gmsh::vectorpair replaced;
     for (const auto& volume : old) {
@@ -70,6 +71,7 @@ class PartMaker {
         }
       if (added) replaced.push_back(volume);
     }
+    // The old bodies are removed once all have been healed.
     for (const auto& body : all_volumes())
       if (std::find(replaced.begin(), replaced.end(), body) != replaced.end()) occ::remove({body}, true);
     occ::synchronize();
@@ -94,6 +96,7 @@ class PartMaker {
     for (const auto& volume : all) {
       ++number;
       std::string name;
+      // A group of the case goes before a label of the file.
       for (const GeometryGroup& group : source_.geometry.groups)
         if (group.bodies && (std::count(group.numbers.begin(), group.numbers.end(), number) > 0 ||
                              (!group.label.empty() && group.label == label_of(volume.second)) ||
@@ -104,6 +107,7 @@ class PartMaker {
         name = label.empty()           ? "body_" + std::to_string(number)
                : labels.at(label) == 1 ? label
                                        : label + "_" + std::to_string(++used[label]);
+      // Volumes of one name are one body.
       const auto same =
           std::find_if(parts_.begin(), parts_.end(), [&](const BodyVolumes& p) { return p.name == name; });
       if (same != parts_.end())
@@ -142,6 +146,7 @@ class PartMaker {
     if (!(at > box.low[axis] && at < box.high[axis]))
       refuse("the plane of symmetry does not cut the geometry");
     for (std::size_t i = 0; i < 3; ++i) box.low[i] -= margin, box.high[i] += margin;
+    // What is kept lies below the plane.
     box.high[axis] = at;
     for (BodyVolumes& part : parts_) {
       const int tool = occ::addBox(box.low[0], box.low[1], box.low[2], box.high[0] - box.low[0],
@@ -153,6 +158,7 @@ class PartMaker {
       for (const auto& entity : kept)
         if (entity.first == 3) part.volumes.push_back(entity);
     }
+    // A body on the other side of the plane is gone.
     std::erase_if(parts_, [](const BodyVolumes& part) { return part.volumes.empty(); });
   }
 
@@ -164,6 +170,7 @@ class PartMaker {
     // Parts come first in the list, so that they keep what overlaps with riser and mould.
     for (std::size_t p = 0; p < parts_.size(); ++p)
       for (const auto& volume : parts_[p].volumes) objects.push_back(volume), part_of.push_back(p);
+    // Riser and block are made in the unit of the geometry.
     int riser = -1, block = -1;
     if (geometry_.riser) {
       const RiserCylinder& r = *geometry_.riser;
@@ -183,6 +190,7 @@ class PartMaker {
     }
     // Each piece belongs to the first of those that it comes from.
     occ::fragment(objects, tools, out, map);
+    // Overlaps are told before pieces are given away.
     note_overlaps(map, part_of);
     std::set<int> taken;
     const auto take = [&](std::size_t input) {
@@ -191,6 +199,7 @@ class PartMaker {
         if (piece.first == 3 && taken.insert(piece.second).second) pieces.push_back(piece);
       return pieces;
     };
+    // Pieces go to the first body that asks for them: parts, then the riser, then the mould.
     for (BodyVolumes& part : parts_) part.volumes.clear();
     for (std::size_t i = 0; i < part_of.size(); ++i) {
       const gmsh::vectorpair pieces = take(i);
@@ -200,6 +209,7 @@ class PartMaker {
     std::size_t next = part_of.size();
     if (riser >= 0) parts_.push_back({geometry_.riser->name, take(next++)});
     if (block >= 0) sort_mould(take(next));
+    // A body without a piece lies within another one.
     for (const BodyVolumes& part : parts_)
       if (part.volumes.empty())
         refuse("nothing is left of the body '" + part.name + "' beside the others: they overlap",

@@ -66,6 +66,7 @@ std::set<int> surfaces_at_fault() {
 }
 
 std::string place_of_complaints(const std::vector<BodyVolumes>& parts) {
+  // Gmsh's own last error, without those that were repaired.
   std::vector<std::string> log;
   gmsh::logger::get(log);
   const auto last = std::find_if(log.rbegin(), log.rend(),

@@ -29,6 +29,7 @@ void CastingSizes::limit_entities() {
     const BodySize* size = size_of(geometry_, part.name);
     if (size == nullptr) continue;
     for (const auto& volume : part.volumes) {
+      // The size of a body holds for its volumes and for everything that bounds them.
       const double limit = scale_ * size->size / unit_;
       note(3, volume.second, limit);
       growth_[volume.second] = size->growth;
@@ -44,11 +45,13 @@ void CastingSizes::limit_entities() {
 
 /// Triangles of the first, coarse mesh of a body's faces, outward, without those between two of its volumes.
 std::vector<std::array<Point, 3>> CastingSizes::skin_of(const BodyVolumes& part) const {
+  // A face that two volumes of the body share lies inside of it.
   std::map<int, int> volumes_beside;
   for (const auto& volume : part.volumes)
     for (const int face : boundary_of(volume.second)) ++volumes_beside[face];
   std::vector<std::array<Point, 3>> skin;
   std::vector<std::size_t> first{0};  // triangle of each face
+  // Triangles of each face stay together, so that its sense can be changed as a whole.
   for (const auto& [face, count] : volumes_beside) {
     if (count > 1) continue;
     std::vector<std::size_t> elements, nodes;
@@ -85,6 +88,7 @@ std::vector<SizeSample> CastingSizes::samples() {
   for (const BodyVolumes& part : parts_) {
     const BodySize* size = size_of(geometry_, part.name);
     if (size == nullptr) continue;
+    // Walls are measured only where the body's size asks for elements across them.
     const auto skin = skin_of(part);
     const std::vector<double> thickness =
         size->across > 0 ? wall_thickness(skin) : std::vector<double>(skin.size(), 0.0);
@@ -94,6 +98,7 @@ std::vector<SizeSample> CastingSizes::samples() {
                                   ? std::clamp(scale_ * thickness[t] / size->across, smallest, largest)
                                   : largest});
   }
+  // Details beyond walls: narrow faces and short curves would be lost at that size.
   if (details_) {
     sample_narrow_faces(all);
     sample_short_curves(all);
@@ -143,6 +148,7 @@ MeshingOutlook CastingSizes::outlook(const SizeField& field, int element_order) 
 void CastingSizes::sample_narrow_faces(std::vector<SizeSample>& all) const {
   constexpr double k_least =
       0.25;  // of the limit: steps of a hundredth of a part would take most of its nodes
+  // The width of a face from its area and its boundary, as of a strip.
   for (const auto& [entity, limit] : limit_) {
     if (entity.first != 2) continue;
     double area = 0, around = 0;
@@ -155,6 +161,7 @@ void CastingSizes::sample_narrow_faces(std::vector<SizeSample>& all) const {
       around += length;
     }
     const double width = around > 0 ? 2 * area / around : limit;
+    // A face as wide as an element needs nothing.
     if (!(width > 0) || width > limit) continue;
     std::vector<std::size_t> elements, nodes;
     gmsh::model::mesh::getElementsByType(2, elements, nodes, entity.second);

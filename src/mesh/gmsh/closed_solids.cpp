@@ -58,6 +58,7 @@ Sides sides_of(int face) {
 /// for each face. Not, where more than two meet.
 bool looks_like_one_shell(const gmsh::vectorpair& faces, double tolerance) {
   using Place = std::array<long, 7>;  // of a curve: its box and its length
+  // Curves are known by their box and length: IGES gives each face curves of its own.
   std::map<Place, std::vector<std::size_t>> faces_at;
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (const auto& [curve, n] : sides_of(faces[f].second)) {
@@ -68,12 +69,14 @@ bool looks_like_one_shell(const gmsh::vectorpair& faces, double tolerance) {
       std::ranges::transform(where, place.begin(), [&](double x) { return std::lround(x / tolerance); });
       for (int side = 0; side < n; ++side) faces_at[place].push_back(f);
     }
+  // Disjoint sets: faces with a common curve are one.
   std::vector<std::size_t> first(faces.size());
   std::iota(first.begin(), first.end(), 0U);
   const auto root = [&](std::size_t f) {
     while (first[f] != f) f = first[f];
     return f;
   };
+  // A curve of more than two faces is where several shells meet.
   for (const auto& [place, sides] : faces_at) {
     if (sides.size() > 2) return false;
     for (const std::size_t f : sides) first[root(f)] = root(sides.front());
@@ -158,6 +161,7 @@ Sides Faces::sides(const std::set<int>& faces) const {
 }
 
 std::vector<std::set<int>> Faces::patches(int n) const {
+  // Only faces with the number of copies asked for make patches; curves know all faces.
   std::map<int, std::vector<int>> faces_at;
   std::set<int> left;
   for (const auto& [face, copies] : copies_) {
@@ -169,6 +173,7 @@ std::vector<std::set<int>> Faces::patches(int n) const {
   std::vector<std::set<int>> patches;
   while (!left.empty()) {
     std::set<int> patch;
+    // From one face over its curves to the others, as far as no third face meets.
     std::vector<int> front = {*left.begin()};
     left.erase(left.begin());
     while (!front.empty()) {
@@ -267,6 +272,7 @@ void cut_cavities(std::vector<Shell>& shells) {
 
 /// Leaves the faces as they are and answers false where they are no several shells.
 bool close_several(const gmsh::vectorpair& faces, double tolerance) {
+  // The trial works on copies, so that the faces stay as they were if it comes to nothing.
   gmsh::vectorpair copies;
   occ::copy(faces, copies);
   Faces complex(copies, tolerance);
@@ -276,6 +282,7 @@ bool close_several(const gmsh::vectorpair& faces, double tolerance) {
     occ::synchronize();
     return false;
   }
+  // Shells become volumes, those inside of others cavities; faces of neither are removed.
   for (Shell& shell : shells) fill(shell);
   nest(shells);
   cut_cavities(shells);

@@ -58,12 +58,14 @@ using Bulges = std::map<std::pair<Index, Index>, Point>;
 
 Bulges bulges(int face, const std::vector<Index>& triangles, double unit, const RawMesh& mesh) {
   Bulges bulge;
+  // Each edge once, although two triangles share it.
   for (std::size_t t = 0; t < triangles.size(); t += 3)
     for (std::size_t a = 0; a < 3; ++a) bulge[std::minmax(triangles[t + a], triangles[t + (a + 1) % 3])];
   std::vector<double> middles, nearest, parametric;
   for (const auto& [edge, unused] : bulge)
     for (std::size_t i = 0; i < 3; ++i)
       middles.push_back(0.5 * (mesh.x[at(edge.first)][i] + mesh.x[at(edge.second)][i]) / unit);
+  // Gmsh projects all middles at once.
   try {
     gmsh::model::getClosestPoint(2, face, middles, nearest, parametric);
   } catch (const std::string&) {  // a kind of face on which Gmsh finds no nearest points: it stays as it is
@@ -73,6 +75,7 @@ Bulges bulges(int face, const std::vector<Index>& triangles, double unit, const 
   for (auto& [edge, vector] : bulge) {
     for (std::size_t i = 0; i < 3; ++i, ++m) vector[i] = unit * (nearest[m] - middles[m]);
     const Point along = minus(mesh.x[at(edge.second)], mesh.x[at(edge.first)]);
+    // A projection far away is one onto another part of the face.
     if (!(dot(vector, vector) <= k_most_bulge * k_most_bulge * dot(along, along))) vector = {};
   }
   return bulge;
@@ -85,6 +88,7 @@ void look_at_face(int face, bool is_plane, double unit, const RawMesh& mesh,
   const std::vector<Index> triangles = triangles_of(face, index);
   const Bulges bulge = is_plane ? Bulges{} : bulges(face, triangles, unit, mesh);
   std::map<Index, std::pair<Point, double>> sums;  // of area × normal, and of area × offset
+  // Sums at the vertices by area, over the triangles of this face.
   std::map<Index, double> areas;
   // Normals by area, and how far the face bulges over its triangles: the mean over their edges.
   for (std::size_t t = 0; t < triangles.size(); t += 3) {
@@ -165,12 +169,14 @@ std::vector<Place> gather(const std::map<Index, Point>& displacement, const RawM
 /// Moves the vertices, by half as much around elements that become too thin, and so on.
 void move(std::vector<Place> places, RawMesh& mesh) {
   const std::vector<Point> before = mesh.x;
+  // Each round moves all vertices from their old places by what is left of their displacement.
   for (int round = 0; round <= k_rounds; ++round) {
     for (const Place& place : places)
       for (const Index node : place.nodes) {
         mesh.x[at(node)] = before[at(node)];
         add(mesh.x[at(node)], 1, place.displacement);
       }
+    // Tetrahedra that have lost too much of their volume take their vertices back half way.
     std::vector<char> thin(mesh.x.size(), 0);
     bool any = false;
     for (const auto& [name, group] : mesh.groups)
@@ -231,6 +237,7 @@ void enclose_curved_volume(const std::unordered_map<std::size_t, Index>& index, 
     any = any || type != "Plane";
     look_at_face(face, type == "Plane", unit, mesh, index, faces);
   }
+  // A geometry of planes needs nothing.
   if (!any) return;
   std::map<Index, Point> displacement;
   for (const auto& [node, list] : faces) {

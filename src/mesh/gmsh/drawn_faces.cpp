@@ -82,6 +82,7 @@ class SmoothFaces {
         at_curve[std::abs(curve)].emplace_back(face, signed_face > 0 ? 1 : -1);
     }
     for (const auto& [curve, faces] : at_curve) {
+      // Two faces that are one already need no test.
       if (faces.size() != 2 || find(faces[0].first) == find(faces[1].first)) continue;
       try {
         if (continue_one_another(curve, {faces[0].first, faces[1].first}, faces[0].second * faces[1].second,

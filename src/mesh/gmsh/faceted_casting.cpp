@@ -83,6 +83,7 @@ class FacetedMaker {
     faces_.resize(all_.shells.size());
     std::map<Point, std::size_t> shell_at;
     for (std::size_t s = 0; s < all_.shells.size(); ++s) {
+      // Nodes of a shell get new tags in the order of their use.
       std::vector<std::size_t> tags, nodes;
       std::vector<double> x;
       std::map<Index, std::size_t> tag_of;
@@ -96,16 +97,20 @@ class FacetedMaker {
           tags.push_back(place->second);
           x.insert(x.end(), p.begin(), p.end());
         }
+      // The shell becomes a discrete face of Gmsh.
       const int face = gmsh::model::addDiscreteEntity(2);
       gmsh::model::mesh::addNodes(2, face, tags, x);
       constexpr int k_triangle = 2;
       gmsh::model::mesh::addElementsByType(face, k_triangle, {}, nodes);
       if (!classifies()) faces_[s] = {face};
     }
+    // Without classification that face is used as it is.
     if (!classifies()) return;
     constexpr double k_pi = 3.14159265358979323846;
     gmsh::model::mesh::classifySurfaces(way_.angle * k_pi / 180, true, true, k_pi);
     gmsh::model::mesh::createGeometry();
+    // Classification has made faces of its own: each belongs to the shell that its first node came
+    // from.
     gmsh::vectorpair faces;
     gmsh::model::getEntities(faces, 2);
     for (const auto& [dimension, face] : faces) {
@@ -122,11 +127,13 @@ class FacetedMaker {
   Tags add_block() const {
     namespace geo = gmsh::model::geo;
     const auto [low, high] = box_with_mould(all_, geometry_, unit_);
+    // Corners by the bits of their number: x, y and z, low or high.
     std::array<int, 8> corner{};
     for (std::size_t c = 0; c < 8; ++c)
       corner[c] = geo::addPoint((c & 1U) != 0 ? high[0] : low[0], (c & 2U) != 0 ? high[1] : low[1],
                                 (c & 4U) != 0 ? high[2] : low[2]);
     std::map<std::pair<std::size_t, std::size_t>, int> lines;
+    // Each edge of the block is made once and used in both senses.
     const auto line = [&](std::size_t from, std::size_t to) {
       const auto key = std::minmax(from, to);
       if (!lines.contains(key)) lines[key] = geo::addLine(corner[key.first], corner[key.second]);
@@ -156,6 +163,7 @@ class FacetedMaker {
       }
       region.volume = geo::addVolume(loops);
     }
+    // Volumes of one body make one physical group.
     geo::synchronize();
     std::map<std::string, Tags> of_body;
     for (const FacetedRegion& region : regions_) of_body[region.body].push_back(region.volume);
@@ -209,6 +217,7 @@ class FacetedMaker {
     gmsh::model::mesh::removeSizeCallback();
     gmsh::model::mesh::setOrder(source_.element_order);
     for (const FacetedRegion& region : regions_) {
+      // At last every region must have elements.
       std::vector<int> types;
       std::vector<std::vector<std::size_t>> elements, nodes;
       gmsh::model::mesh::getElements(types, elements, nodes, 3, region.volume);

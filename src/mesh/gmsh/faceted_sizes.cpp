@@ -55,6 +55,7 @@ std::vector<FacetedRegion> faceted_regions(const ClosedShells& all, const Castin
   std::vector<FacetedRegion> regions;
   std::map<std::string, int> outer;
   int number = 0, cavities = 0, cavity = 0;
+  // Names are used only where one outer shell has them; else bodies are numbered.
   for (const Shell& shell : all.shells) {
     if (shell.depth % 2 == 0) ++outer[tidy(shell.name)];
     cavities += shell.depth % 2;
@@ -70,6 +71,7 @@ std::vector<FacetedRegion> faceted_regions(const ClosedShells& all, const Castin
       region.body = name.empty() || outer[name] > 1 ? "body_" + std::to_string(++number) : name;
     else
       region.body = geometry.mould->core + (cavities > 1 ? "_" + std::to_string(++cavity) : "");
+    // The region's own shell, and the shells directly within it.
     region.shells = {s};
     for (std::size_t inner = 0; inner < all.shells.size(); ++inner)
       if (all.shells[inner].around == static_cast<int>(s)) region.shells.push_back(inner);
@@ -134,6 +136,7 @@ double FacetedSizes::growth(const std::string& body) const {
 /// Measures the walls of all bodies that have skins of their own, and keeps these.
 std::vector<SizeSample> FacetedSizes::sample_walls() {
   std::vector<SizeSample> samples;
+  // Long triangles are cut into pieces, or a wall would be measured at one place alone.
   const double longest_piece = distance(box_.low, box_.high) / 100;
   for (const FacetedRegion& region : regions_) {
     if (region.shells.empty()) continue;
@@ -142,9 +145,11 @@ std::vector<SizeSample> FacetedSizes::sample_walls() {
     std::vector<std::array<Point, 3>> skin;
     for (std::size_t i = 0; i < region.shells.size(); ++i)
       for (auto corners : corners_of(all_, all_.shells[region.shells[i]])) {
+        // Shells within the region bound it from inside: their triangles are turned.
         if (i > 0) std::swap(corners[0], corners[1]);
         add_pieces(corners, std::max(most, longest_piece), skin);
       }
+    // Where elements across a wall are asked for, the wall's thickness decides the size.
     const double across = size != nullptr ? size->across : 0;
     const std::vector<double> thickness =
         across > 0 ? wall_thickness(skin) : std::vector<double>(skin.size(), 0.0);
@@ -221,6 +226,7 @@ MeshingOutlook FacetedSizes::outlook(int element_order) const {
     }
     o.nodes += expected_nodes(pieces, volume, most, growth(region.body));
   }
+  // Nodes in the middles of edges multiply them.
   if (element_order == 2) o.nodes *= k_nodes_of_second_order;
   const Box parts = box_of_shells(all_);
   for (std::size_t i = 0; i < 3; ++i) o.sides[i] = unit_ * (parts.high[i] - parts.low[i]);

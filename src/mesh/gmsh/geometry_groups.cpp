@@ -132,6 +132,7 @@ void name_the_rest(int full) {
 
 void make_geometry_groups(const std::string& path, const GeometryChoice& choice, double unit_in_metres,
                           bool from_cad) {
+  // Faces in one place become one, so that bodies share their nodes.
   if (choice.conforming) {
     gmsh::model::occ::removeAllDuplicates();
     gmsh::model::occ::synchronize();
@@ -139,6 +140,7 @@ void make_geometry_groups(const std::string& path, const GeometryChoice& choice,
   // Bodies are entities of the full dimension, surfaces of one below; an entity is in one body at most.
   const int full = entities(3).empty() ? 2 : 3;
   const Choice choose(path, unit_in_metres);
+  // Each group chooses its entities; a body belongs to one group only.
   for (const GeometryGroup& group : choice.groups) {
     const int dimension = group.bodies ? full : full - 1;
     const std::vector<int> tags = choose.tags(group, dimension);

@@ -52,6 +52,8 @@ RawMesh read_format(const MeshSource& source, const FileFormat& format, const Ca
 }  // namespace
 
 RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting) {
+  // What the file holds decides: shapes are meshed, scripts are run, skins need sizes, meshes are
+  // read.
   const std::string& path = source.path;
   check_readable(path);
   const FileFormat& format = file_format(path);
@@ -62,11 +64,13 @@ RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting)
         {path},
         "an " + std::string(format.name) + " file holds a skin of triangles and no elements of a body",
         "[[mesh.size]] for each body: then what it encloses is meshed");
+  // Choices that only a geometry has are refused for a mesh.
   if (!source.geometry.groups.empty() && !is_geometry(format.holds))
     throw InputError({path}, "the file holds a mesh, whose groups are its own",
                      "a STEP, BREP, IGES or .geo file");
   if (source.geometry.conforming && !shapes)
     throw InputError({path}, "'conforming' is for geometries of CAD programs", "a STEP, BREP or IGES file");
+  // Files that can do more than describe geometry are checked before Gmsh sees them.
   if (!source.trust_script) {
     refuse_options_file(path);
     if (script) check_gmsh_script(path);
@@ -74,6 +78,7 @@ RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting)
   if (!source.constants.empty() && !script)
     throw InputError({path}, "the mesh file is no .geo script and has no constants");
   RawMesh mesh = read_format(source, format, casting);
+  // Cells that the program does not compute are split into tetrahedra.
   split_cells(mesh, path);
   return mesh;
 }

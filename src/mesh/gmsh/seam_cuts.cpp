@@ -70,6 +70,7 @@ std::optional<Plane> seam_plane(int face, int seam) {
 
 /// Adds a square in the plane, of this half width around its point.
 int add_square(const Plane& plane, double half) {
+  // Two axes in the plane, from the coordinate axis that is least along its normal.
   const auto smallest = std::min_element(plane.normal.begin(), plane.normal.end(),
                                          [](double a, double b) { return std::abs(a) < std::abs(b); });
   Point axis{};
@@ -78,6 +79,7 @@ int add_square(const Plane& plane, double half) {
   const double size = length(u);
   for (double& c : u) c /= size;
   const Point v = cross(plane.normal, u);
+  // Four corners around the point, in order, and the sides between them.
   std::vector<int> corners, sides;
   constexpr std::array<std::array<double, 2>, 4> k_corners = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
   for (const auto& [a, b] : k_corners) {

@@ -165,11 +165,13 @@ MeshingOutlook outlook_of(const MeshSource& source, FileHolds holds) {
   MeshingOutlook o;
   const double unit = source.unit_in_metres;
   Point low{}, high{};
+  // The sides of the box, where they are numbers at all.
   gmsh::model::getBoundingBox(-1, -1, low[0], low[1], low[2], high[0], high[1], high[2]);
   for (std::size_t i = 0; i < 3; ++i)
     if (high[i] > low[i] && std::isfinite(high[i] - low[i])) o.sides[i] = unit * (high[i] - low[i]);
   gmsh::vectorpair volumes;
   if (holds == FileHolds::shapes) occ::getEntities(volumes, 3);
+  // Volume and area of each solid tell how many nodes its mesh will have.
   for (const auto& [dimension, tag] : volumes) {
     double volume = 0, area = 0;
     occ::getMass(dimension, tag, volume);
@@ -193,6 +195,7 @@ MeshingOutlook outlook_of(const MeshSource& source, FileHolds holds) {
 /// The centre of the solids that Gmsh has; nothing where it has none, or where it cannot measure them.
 std::optional<Point> centre_of_solids(double unit) {
   namespace occ = gmsh::model::occ;
+  // Centre by volume over all solids; what cannot be measured has none.
   Point moment{};
   double whole = 0;
   try {
@@ -253,9 +256,11 @@ void read_entity(const std::string& path, int dimension, int entity,
                  const std::unordered_map<std::size_t, Index>& index, RawGroup& group) {
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> elements, nodes;
+  // Elements of one type come as one list of tags and one of nodes.
   gmsh::model::mesh::getElements(types, elements, nodes, dimension, entity);
   // Elements of one shape go into one block, their nodes by the numbers of this mesh.
   for (std::size_t t = 0; t < types.size(); ++t) {
+    // A type that is not ours is named in the words of Gmsh.
     const GmshElement* const element = gmsh_element(types[t]);
     if (element == nullptr || !element->shape) {
       std::string name;
@@ -356,6 +361,7 @@ RawMesh mesh_of_session(const MeshSource& source, bool has_geometry) {
         {source.path},
         "the mesh has no triangles, quads, tetrahedra or hexahedra: empty, cut off or not a mesh",
         common_formats());
+  // Nodes first, then groups by their numbers, then what only a geometry can tell.
   const auto index = read_nodes(source.unit_in_metres, mesh);
   read_groups(source.path, index, mesh);
   if (has_geometry && mesh.dimension == 3 && source.element_order == 1)
@@ -405,6 +411,7 @@ RawMesh read_with_gmsh(const MeshSource& source, FileHolds holds, const CastingG
   check_constants(path, source.constants);
   const Session session(source.constants);
   open(path, holds);
+  // A casting makes its bodies first; a geometry is meshed as it is; anything else is read.
   if (casting != nullptr) {
     make_casting(source, [&] { make_casting_mesh(source, *casting); });
   } else if (is_geometry(holds)) {
