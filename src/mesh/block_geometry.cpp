@@ -1,3 +1,5 @@
+/// Gradients of a batch are computed when a kernel asks for them, from the corners of eight elements at
+/// once, with one instance of the loops for each shape.
 #include "mesh/block_geometry.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Faces are collected by their sorted vertices over the elements of all bodies; those that lie on the
+/// border of two processes are counted on one of them.
 #include "mesh/body_faces.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Boxes of elements in an R-tree come by their distance, so that the search ends as soon as no box can
+/// hold a nearer element.
 #include "mesh/element_search.hpp"
 
 #include <boost/geometry.hpp>

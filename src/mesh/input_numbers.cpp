@@ -1,3 +1,4 @@
+/// Numbers take 32 bits each until one does not fit; then all of them become wide.
 #include "mesh/input_numbers.hpp"
 
 #include <algorithm>

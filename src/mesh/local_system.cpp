@@ -1,3 +1,4 @@
+/// Rectangular, cylindrical and spherical coordinates to global ones; sines of right angles are exact.
 #include "mesh/local_system.hpp"
 
 #include <cmath>

@@ -1,3 +1,5 @@
+/// The process that finds a point in one of its elements answers for all; averages over groups are
+/// integrals over their faces or elements.
 #include "mesh/locate.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Newton's method for the distance in reference coordinates, with descent where it fails, inside the
+/// element and on each of its faces.
 #include "mesh/nearest_place.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// A k-d tree: points are split at the middle along the longest side, and branches farther than the best
+/// point are left out.
 #include "mesh/nearest_point.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Gauss points of the line, from which those of quadrangles and hexahedra follow; orbits of symmetric
+/// points for triangles and tetrahedra; nodal rules at the corners.
 #include "mesh/quadrature.hpp"
 
 #include <array>

@@ -1,3 +1,5 @@
+/// Each group is assessed by itself: how many elements, how large, how far from regular, and where the
+/// worst one is.
 #include "mesh/quality.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Basis functions of simplices in barycentric coordinates, of quadrangles and hexahedra as products; the
+/// table of shapes tells which is which.
 #include "mesh/shape.hpp"
 
 #include <cassert>

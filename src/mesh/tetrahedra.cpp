@@ -1,3 +1,5 @@
+/// Tetrahedra with a list of those around each node; changes replace a few of them and are put back if they
+/// do not help.
 #include "mesh/tetrahedra.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Jacobians at the points of integration: elements that are mirrored are turned, those that are crossed
+/// are refused with their place.
 #include <algorithm>
 #include <array>
 #include <cmath>

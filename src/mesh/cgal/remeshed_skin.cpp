@@ -1,3 +1,5 @@
+/// Each shell is remeshed by itself, then all of them are checked together: they may not cross, and the
+/// enclosed volume may not change.
 #include "mesh/cgal/remeshed_skin.hpp"
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>

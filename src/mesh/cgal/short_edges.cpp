@@ -1,3 +1,4 @@
+/// Short edges are drawn together where the surface keeps its shape; sharp edges of the drawing stay.
 #include "mesh/cgal/short_edges.hpp"
 
 #include <CGAL/boost/graph/Euler_operations.h>

@@ -1,3 +1,5 @@
+/// The way between lists of triangles and surfaces of CGAL: nodes are numbered as triangles ask for them,
+/// and parts that hang together become shells.
 #include "mesh/cgal/surface.hpp"
 
 #include <CGAL/Polygon_mesh_processing/connected_components.h>

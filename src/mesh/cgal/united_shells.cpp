@@ -1,3 +1,5 @@
+/// Shells that cross are united one after the other, from the first that is left, until the union crosses
+/// no further one.
 #include "mesh/cgal/united_shells.hpp"
 
 #include <CGAL/Polygon_mesh_processing/bbox.h>

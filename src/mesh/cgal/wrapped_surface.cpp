@@ -1,3 +1,4 @@
+/// CGAL wraps the surface from outside; the points of the wrapping are then drawn back to the facets.
 #include "mesh/cgal/wrapped_surface.hpp"
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>

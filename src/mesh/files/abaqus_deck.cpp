@@ -1,3 +1,5 @@
+/// One line at a time: keywords are split at commas and signs of equality, data at commas, with the number
+/// of the line for messages.
 #include "mesh/files/abaqus_deck.hpp"
 
 #include <algorithm>

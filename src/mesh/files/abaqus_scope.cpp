@@ -1,3 +1,5 @@
+/// Plain tables of a scope, by number and by name in upper case; what is missing or there twice is an error
+/// with its line.
 #include "mesh/files/abaqus_scope.hpp"
 
 #include "mesh/files/abaqus_deck.hpp"

@@ -1,3 +1,5 @@
+/// Groups are compared by their elements. The names that a person would have given are taken first, and a
+/// group that overlaps what is taken is left out with its reason.
 #include "mesh/files/body_partition.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// The table of all formats: each describes itself in its own file, and a file is matched by its ending and
+/// its first bytes together.
 #include "mesh/files/file_format.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Our own shapes come from the table of shapes; the others of Gmsh are listed for messages.
 #include "mesh/files/gmsh_elements.hpp"
 
 #include <map>

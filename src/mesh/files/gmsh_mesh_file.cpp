@@ -1,3 +1,5 @@
+/// A scanner that reads text and binary alike, the sections of both versions, and at last the groups of the
+/// mesh from what they held.
 #include "mesh/files/gmsh_mesh_file.hpp"
 
 #include <algorithm>

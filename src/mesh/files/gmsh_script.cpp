@@ -1,3 +1,5 @@
+/// The tokens of a script are passed once, and each word is judged by what stands around it; a file that is
+/// included is checked in the same way.
 #include "mesh/files/gmsh_script.hpp"
 
 #include <filesystem>

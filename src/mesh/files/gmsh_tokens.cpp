@@ -1,3 +1,5 @@
+/// The scanner follows Gmsh's own rules for comments, strings, words and numbers, and refuses what could be
+/// read in two ways.
 #include "mesh/files/gmsh_tokens.hpp"
 
 #include <algorithm>

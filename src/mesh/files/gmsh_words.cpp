@@ -1,3 +1,5 @@
+/// Three lists: words that are refused with what they would do, words that are known to be harmless, and
+/// field types that only compute. What is in none of them is refused.
 #include "mesh/files/gmsh_words.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Cards are kept as they come and evaluated at the end, because systems, defaults and names may stand
+/// anywhere in the file.
 #include "mesh/files/nastran_input.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Systems are kept as cards and found when a node asks for one, with whatever systems they are given in.
 #include "mesh/files/nastran_systems.hpp"
 
 namespace solidus::mesh {

@@ -1,3 +1,5 @@
+/// First the cells that must be split, then those that have to follow since they share a cut face, at last
+/// the parts, which join the blocks of their groups.
 #include "mesh/files/split_cells.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// The length of the file tells binary from text; text is read word by word with the state of the facet at
+/// hand.
 #include "mesh/files/stl_file.hpp"
 
 #include <bit>

@@ -1,3 +1,4 @@
+/// The orders of nodes that differ between VTK and this program.
 #include "mesh/files/vtk_cells.hpp"
 
 #include <array>

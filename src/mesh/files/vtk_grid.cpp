@@ -1,3 +1,5 @@
+/// Points become nodes, cells become groups by their dimension and by the numbers of the cell data that
+/// tell bodies apart.
 #include "mesh/files/vtk_grid.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Arrays as text, base64 or appended bytes, packed or not, are all read to exactly the length that the
+/// grid asks for; size and depth are bounded before anything is parsed.
 #include "mesh/files/vtu_arrays.hpp"
 
 #include <fmt/format.h>

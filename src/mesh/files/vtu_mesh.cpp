@@ -1,3 +1,4 @@
+/// The one piece of a grid is read and handed on as a mesh.
 #include "mesh/files/vtu_mesh.hpp"
 
 #include "mesh/files/vtk_grid.hpp"

@@ -1,3 +1,4 @@
+/// Pieces, arrays and cells of a grid, checked against each other before they are used as indices.
 #include "mesh/files/vtu_pieces.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Small questions to the open geometry: boxes, volumes, boundaries, and which faces Gmsh complained of.
 #include "mesh/gmsh/casting_parts.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// A first coarse mesh of the surfaces shows walls, narrow faces and short curves; each of its triangles
+/// becomes a sample of the size field.
 #include "mesh/gmsh/casting_sizes.hpp"
 
 #include <algorithm>

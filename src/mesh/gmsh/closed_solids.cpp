@@ -1,3 +1,5 @@
+/// Faces are sewn as one shell where they look like one; else copies are cut with each other, patches are
+/// joined to shells, and shells are filled and nested.
 #include "mesh/gmsh/closed_solids.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// How far a face bulges over its triangles is measured at the middles of edges; vertices are then moved
+/// outward by the mean, and taken back where an element would become thin.
 #include "mesh/gmsh/curved_faces.hpp"
 
 #include <gmsh.h>

@@ -1,3 +1,5 @@
+/// Faces of a solid that continue one another smoothly are joined by disjoint sets; each facet of the mesh
+/// then gets the number of its joined face.
 #include "mesh/gmsh/drawn_faces.hpp"
 
 #include <gmsh.h>

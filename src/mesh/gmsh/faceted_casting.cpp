@@ -1,3 +1,5 @@
+/// Shells become discrete faces of Gmsh, faces become volumes, volumes are meshed with the sizes of a
+/// callback.
 #include "mesh/gmsh/faceted_casting.hpp"
 
 #include <gmsh.h>

@@ -1,3 +1,5 @@
+/// Depth tells metal from cavities; sizes follow from the walls of each region, and the number of nodes
+/// from areas and volumes over sizes.
 #include "mesh/gmsh/faceted_sizes.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Entities are chosen by number, label or place for each group of the case; those that are left get names
+/// of their own.
 #include "mesh/gmsh/geometry_groups.hpp"
 
 #include <gmsh.h>

@@ -1,3 +1,4 @@
+/// What a file holds decides which reader it gets, and what the case may ask of it.
 #include "mesh/gmsh/import.hpp"
 
 #include <algorithm>

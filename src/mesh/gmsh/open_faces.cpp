@@ -1,3 +1,4 @@
+/// Curves of one face alone are open; pieces are counted by the curves that faces share.
 #include "mesh/gmsh/open_faces.hpp"
 
 #include <gmsh.h>

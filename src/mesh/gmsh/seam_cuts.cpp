@@ -1,3 +1,5 @@
+/// A body with a closed face is cut by a square through its seam, which leaves two faces that are not
+/// closed.
 #include "mesh/gmsh/seam_cuts.hpp"
 
 #include <gmsh.h>

@@ -1,3 +1,4 @@
+/// A request is read, answered by a mesh or a failure, and the memory that it took is told at the end.
 #include "mesh/gmsh/serve.hpp"
 
 #include <sys/prctl.h>

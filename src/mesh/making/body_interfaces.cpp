@@ -1,3 +1,5 @@
+/// Bodies that share nodes get nodes of their own along the face between them; faces that only face each
+/// other are paired with what lies opposite.
 #include "mesh/making/body_interfaces.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// One way of meshing after the other is tried in a process of its own, cheap ones first, until a mesh has
+/// no element below the bound of quality.
 #include "mesh/making/casting_geometry.hpp"
 
 #include <algorithm>

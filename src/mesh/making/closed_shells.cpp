@@ -1,3 +1,5 @@
+/// Triangles are joined over their edges to shells; winding numbers tell which shell lies within which, and
+/// an edge with one triangle is where a skin is open.
 #include "mesh/making/closed_shells.hpp"
 
 #include <algorithm>

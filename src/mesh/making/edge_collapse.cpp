@@ -1,3 +1,4 @@
+/// An edge may be drawn together if the neighbourhood stays a mesh and the boundary keeps its shape.
 #include "mesh/making/edge_collapse.hpp"
 
 #include <algorithm>

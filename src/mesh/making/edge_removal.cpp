@@ -1,3 +1,5 @@
+/// The ring of tetrahedra around an edge is replaced by the best triangulation of the ring, found by
+/// dynamic programming.
 #include "mesh/making/edge_removal.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// A lattice of cells with some left out: nodes are made where a cell needs them, boundaries where a cell
+/// has no neighbour.
 #include "mesh/making/grid.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// From starts inside of a body a place climbs to where it is farthest from the skin: that distance is the
+/// radius of the sphere.
 #include "mesh/making/hot_spots.hpp"
 
 #include <algorithm>

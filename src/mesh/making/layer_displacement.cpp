@@ -1,3 +1,5 @@
+/// Directions are the means of what the faces of a vertex want; lengths are made even, and shortened where
+/// elements would be crushed.
 #include "mesh/making/layer_displacement.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Columns over the faces of a wall, cut into elements in the order that neighbours agree on.
 #include "mesh/making/layer_elements.hpp"
 
 #include <algorithm>

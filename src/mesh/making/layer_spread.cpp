@@ -1,3 +1,5 @@
+/// The body behind a wall follows by sweeps, in which each vertex takes the mean of its neighbours while
+/// surfaces hold their vertices.
 #include "mesh/making/layer_spread.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Expected nodes are areas and volumes over sizes; the text says what was measured so that a wrong unit is
+/// seen at once.
 #include "mesh/making/meshing_outlook.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// The list of ways in the order in which they are tried.
 #include "mesh/making/meshing_ways.hpp"
 
 #include <iterator>

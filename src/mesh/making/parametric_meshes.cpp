@@ -1,3 +1,4 @@
+/// Each built-in shape is a few grids that are joined at common faces, with names for its sides.
 #include "mesh/making/parametric_meshes.hpp"
 
 #include <cmath>

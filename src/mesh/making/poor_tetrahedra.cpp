@@ -1,3 +1,5 @@
+/// The worst tetrahedra are changed first, by whichever local change helps the most; passes go on while
+/// they help.
 #include "mesh/making/poor_tetrahedra.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Every structure has a pair of functions that put it into bytes and take it out again in the same order;
+/// lengths are checked before memory is taken.
 #include "mesh/making/reader_message.hpp"
 
 #include <unistd.h>

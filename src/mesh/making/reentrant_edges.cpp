@@ -1,3 +1,5 @@
+/// Boundary faces of all bodies together, pairs of them at each edge, and the angle that the bodies fill
+/// there.
 #include "mesh/making/reentrant_edges.hpp"
 
 #include <algorithm>

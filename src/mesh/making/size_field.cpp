@@ -1,3 +1,5 @@
+/// Samples are spread over a grid of boxes by sweeps, each box taking what its neighbours allow; walls are
+/// measured by rays from one side to the other.
 #include "mesh/making/size_field.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Inner nodes of poor elements are tried along each axis in halved steps; a place is kept if the worst
+/// element around the node becomes better.
 #include "mesh/making/smoothing.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The planes at a node tell where it may go: nowhere at a corner, along a line at an edge, in a plane on a
+/// face.
 #include "mesh/making/surface_node.hpp"
 
 #include <algorithm>

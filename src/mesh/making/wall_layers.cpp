@@ -1,3 +1,5 @@
+/// The wall is found, its vertices are moved into the body, and the room behind it is filled with columns
+/// of elements; middle nodes and groups follow at the end.
 #include "mesh/making/wall_layers.hpp"
 
 #include <algorithm>

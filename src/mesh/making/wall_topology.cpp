@@ -1,3 +1,4 @@
+/// Faces of a body become a surface with its edges; faces that other bodies share hold their vertices.
 #include "mesh/making/wall_topology.hpp"
 
 #include <algorithm>

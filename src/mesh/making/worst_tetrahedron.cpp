@@ -1,3 +1,5 @@
+/// The worst element is named with its place, and with the angle of the geometry that forces it if there is
+/// one.
 #include "mesh/making/worst_tetrahedron.hpp"
 
 #include <fmt/format.h>

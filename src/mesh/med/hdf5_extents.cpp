@@ -1,3 +1,5 @@
+/// All links of a file are visited without reading a data set; the largest extent is what a library would
+/// allocate.
 #include "mesh/med/hdf5_extents.hpp"
 
 #include <hdf5.h>

@@ -1,3 +1,4 @@
+/// Process 0 cuts the mesh and sends each part; the others only receive their own.
 #include "mesh/parts/distribute.hpp"
 
 #include "mesh/parts/global_mesh.hpp"

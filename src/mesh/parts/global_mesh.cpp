@@ -1,3 +1,4 @@
+/// Bodies are chosen, used nodes numbered, surfaces and sets gathered, all on process 0.
 #include "mesh/parts/global_mesh.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// A graph of nodes with their work goes to METIS; owners then give the order of nodes, process by process.
 #include "mesh/parts/partition.hpp"
 
 #include <metis.h>

@@ -1,3 +1,5 @@
+/// Which elements, nodes and sets a process needs is found from the owners; a part is packed as plain
+/// numbers and unpacked by its receiver.
 #include "mesh/parts/subdomains.hpp"
 
 #include <algorithm>

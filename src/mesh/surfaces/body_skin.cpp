@@ -1,3 +1,4 @@
+/// Faces that one element alone has make the skin; rays from points count how often they cross it.
 #include "mesh/surfaces/body_skin.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Skins of bodies are faces with places and normals; a rule picks those that fit, and of several strips
+/// the nearest.
 #include "mesh/surfaces/face_rules.hpp"
 
 #include <fmt/format.h>

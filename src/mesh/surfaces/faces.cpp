@@ -1,3 +1,4 @@
+/// Faces of the boundary are found among the faces of elements by their vertices.
 #include "mesh/surfaces/faces.hpp"
 
 namespace solidus::mesh {

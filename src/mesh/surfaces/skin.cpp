@@ -1,3 +1,4 @@
+/// Flat faces in a grid of cells, so that the nearest one to a place is found among few.
 #include "mesh/surfaces/skin.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Neighbouring faces that bend by less than the angle are joined by disjoint sets.
 #include "mesh/surfaces/smooth_parts.hpp"
 
 #include <cmath>

@@ -1,3 +1,5 @@
+/// One search for each kind of fault. Places are compared by cells of a tolerance that follows from the
+/// size of the mesh.
 #include "mesh/surfaces/soundness.hpp"
 
 #include <algorithm>

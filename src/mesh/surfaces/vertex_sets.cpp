@@ -1,3 +1,4 @@
+/// Sets are sorted by their smallest vertex, which few of them share, and compared by the others.
 #include "mesh/surfaces/vertex_sets.hpp"
 
 #include <algorithm>
