@@ -1,3 +1,5 @@
+/// The conditions of a bound on the functional are checked one group after the other; the first that fails
+/// is the answer.
 #include "setup/admissible.hpp"
 
 #include <fmt/format.h>

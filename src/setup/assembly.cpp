@@ -1,3 +1,5 @@
+/// Everything is built in the order of its needs: mesh, materials, heat, mechanics, contacts; a stage then
+/// changes what it changes and nothing else.
 #include "setup/assembly.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// The faces that a leaving body held are looked up in the mesh; metal there that is not coherent by then
+/// is an error, or a warning where heat alone is computed.
 #include "setup/bare_melt.hpp"
 
 #include <fmt/format.h>

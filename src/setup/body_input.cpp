@@ -1,3 +1,5 @@
+/// Which bodies leave, come back or only conduct is read from all stages at once, since what a body needs
+/// depends on all of them.
 #include "setup/body_input.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// A case is its layers, its keys, its paths and its checks, in this order.
 #include "setup/case_file.hpp"
 
 #include <fmt/format.h>

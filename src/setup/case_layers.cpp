@@ -1,3 +1,4 @@
+/// Files are laid over each other from the innermost include outward; variants come last.
 #include "setup/case_layers.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// A body is cast if it starts above its solidus and its role is one that is poured; names tell feeders
+/// only where the case does not.
 #include "setup/cast_bodies.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// From keys to parameters of contact: friction, moduli, penalties and gaps that follow from the bodies
+/// where the user has not said them.
 #include "setup/contact_input.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// The case's choices become options of the criteria, with what bodies and gravity add to them.
 #include "setup/criteria_input.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Parameters of the integrator from the method's name and its damping, and checks of the velocities.
 #include "setup/dynamics_input.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Tables, formulas and fields are searched for bends and jumps; events too close to each other become one.
 #include "setup/event_input.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The field of the source is mapped as enthalpy, with the weights of the closed rule, so that no heat is
+/// lost or gained.
 #include "setup/field_mapping.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Each part of the case becomes a short text or a hash; a difference then names the part.
 #include "setup/fingerprint.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Keys of friction and wear become their specifications, in SI.
 #include "setup/friction_input.hpp"
 
 #include <fmt/format.h>

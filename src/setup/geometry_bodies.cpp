@@ -1,3 +1,4 @@
+/// Volumes of a geometry are told apart by name and place, with the role that each may have.
 #include "setup/geometry_bodies.hpp"
 
 #include <fmt/format.h>

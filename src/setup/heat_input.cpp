@@ -1,3 +1,4 @@
+/// Each thermal condition becomes the conditions of the phase; options are checked against each other.
 #include "setup/heat_input.hpp"
 
 #include "setup/body_input.hpp"

@@ -1,3 +1,5 @@
+/// One temperature for a body, or a function that is evaluated at all of its nodes at once; a temperature
+/// at a jump of the enthalpy counts as melt.
 #include "setup/initial_temperature.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Pairs of bodies that touch get the law of the library that fits best, unless a contact of the case names
+/// them already.
 #include "setup/interfaces.hpp"
 
 #include <fmt/format.h>

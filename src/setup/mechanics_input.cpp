@@ -1,3 +1,4 @@
+/// Each mechanical condition becomes the conditions of the phase; options are copied with their checks.
 #include "setup/mechanics_input.hpp"
 
 #include <cmath>

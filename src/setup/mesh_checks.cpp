@@ -1,3 +1,5 @@
+/// What the case names must be in the mesh, and what the mesh has should be named: the first is an error,
+/// the second a warning.
 #include "setup/mesh_checks.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// The mesh is read or made, checked for faults, given layers and interfaces, and distributed.
 #include "setup/mesh_input.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// The faults of a mesh are searched; what can be mended without a choice is mended and told, the rest is
+/// refused.
 #include "setup/mesh_soundness.hpp"
 
 #include <fmt/format.h>

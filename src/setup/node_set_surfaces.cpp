@@ -1,3 +1,4 @@
+/// Faces of the skin whose nodes are all in a set make its surface.
 #include "setup/node_set_surfaces.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// A formula, a table or a field becomes a function of place and time; its values are checked wherever it
+/// is evaluated.
 #include "setup/place_input.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Shape and motion of each rigid surface are checked, then put into the frame of its master.
 #include "setup/rigid_surface_input.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Probes and profiles become what the recorder samples.
 #include "setup/run_input.hpp"
 
 #include <fmt/format.h>

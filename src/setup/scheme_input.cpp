@@ -1,3 +1,4 @@
+/// What the scheme needs to know of the case is gathered first; the scheme's own row then makes it.
 #include "setup/scheme_input.hpp"
 
 #include <algorithm>

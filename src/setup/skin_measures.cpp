@@ -1,3 +1,4 @@
+/// Gaps and areas of contacts and conditions, measured at the start over all processes.
 #include "setup/skin_measures.hpp"
 
 #include <algorithm>

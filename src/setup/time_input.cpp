@@ -1,3 +1,5 @@
+/// The keys of [time] become options of the simulation, stage by stage; contradictions are told with both
+/// keys.
 #include "setup/time_input.hpp"
 
 #include <fmt/format.h>
