@@ -1,3 +1,4 @@
+/// The largest of all processes over their mean.
 #include "results/load_balance.hpp"
 
 #include "parallel/parallel.hpp"

@@ -1,3 +1,4 @@
+/// One set of data, written as aligned text for the terminal and as JSON for summary.json.
 #include "results/overview.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// One line for a step, and a bar whose length is the share that is done.
 #include "results/progress.hpp"
 
 #include <fmt/format.h>

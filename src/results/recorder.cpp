@@ -1,3 +1,4 @@
+/// At each step: columns, fields if they are due, the progress; at the end the answers and the summary.
 #include "results/recorder.hpp"
 
 #include <algorithm>

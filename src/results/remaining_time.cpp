@@ -1,3 +1,4 @@
+/// The growth of the steps is fitted from those so far and carried on to the end.
 #include "results/remaining_time.hpp"
 
 #include <algorithm>

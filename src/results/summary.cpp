@@ -1,3 +1,4 @@
+/// Sections of the summary in a fixed order; what a run does not have is left out.
 #include "results/summary.hpp"
 
 #include <sys/resource.h>

@@ -1,3 +1,4 @@
+/// Each error is the difference of two answers times the factor of Richardson's extrapolation.
 #include "results/answers/answer_comparison.hpp"
 
 #include <algorithm>

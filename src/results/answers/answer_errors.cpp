@@ -1,3 +1,5 @@
+/// Each kind of answer has its own estimate, from the resolution of the freezing and the errors of the
+/// steps.
 #include "results/answers/answer_errors.hpp"
 
 #include <algorithm>

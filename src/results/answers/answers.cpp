@@ -1,3 +1,4 @@
+/// Answers are found field by field, over all processes, with the place of each extreme.
 #include "results/answers/answers.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// A row for each shot with what changed since the one before.
 #include "results/answers/shot_table.hpp"
 
 #include <fmt/format.h>

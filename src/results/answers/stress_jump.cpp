@@ -1,3 +1,4 @@
+/// Stress of elements against its mean at the nodes, by body, from sums over all processes.
 #include "results/answers/stress_jump.hpp"
 
 #include <algorithm>

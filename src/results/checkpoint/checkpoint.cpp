@@ -1,3 +1,5 @@
+/// Parts of the state are written one after the other as tables by input numbers, and read back in the same
+/// order; what does not fit the case is refused by name.
 #include "results/checkpoint/checkpoint.hpp"
 
 #include <fmt/format.h>

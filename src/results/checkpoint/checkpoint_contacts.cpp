@@ -1,3 +1,4 @@
+/// Points of each pair become rows by their numbers; reading finds each process's own points among them.
 #include "results/checkpoint/checkpoint_contacts.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Columns of the criteria go by nodes or elements, so that another number of processes can read them.
 #include "results/checkpoint/checkpoint_criteria.hpp"
 
 #include <algorithm>

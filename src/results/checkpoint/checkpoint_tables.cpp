@@ -1,3 +1,4 @@
+/// Writers reserve their rows together and fill in their own part; readers go through a table in pieces.
 #include "results/checkpoint/checkpoint_tables.hpp"
 
 #include <fcntl.h>

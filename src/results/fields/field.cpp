@@ -1,3 +1,4 @@
+/// Fields are found and selected by name; each is read when it is asked for.
 #include "results/fields/field.hpp"
 
 #include <fmt/format.h>

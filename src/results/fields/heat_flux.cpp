@@ -1,3 +1,4 @@
+/// Gradients at the points of an element, averaged by volume, times the conductivity.
 #include "results/fields/heat_flux.hpp"
 
 #include "mesh/block_geometry.hpp"

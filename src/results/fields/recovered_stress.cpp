@@ -1,3 +1,5 @@
+/// Around each node a linear function is fitted to the elements of its body, by least squares that are
+/// factorised once for a mesh.
 #include "results/fields/recovered_stress.hpp"
 
 #include <algorithm>

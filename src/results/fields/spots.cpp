@@ -1,3 +1,4 @@
+/// The node or element with a value is described by its body, place and surroundings.
 #include "results/fields/spots.hpp"
 
 #include <algorithm>

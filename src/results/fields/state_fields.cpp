@@ -1,3 +1,4 @@
+/// Fields are registered once with their readers, and brought up to date for each state.
 #include "results/fields/state_fields.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Rigid motions that supports leave free are found by elimination, body by body, and held at as few
+/// entries as possible.
 #include "results/formats/deck_supports.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Field files of the moments are read and checked for having one mesh.
 #include "results/formats/field_moments.hpp"
 
 #include <fmt/format.h>

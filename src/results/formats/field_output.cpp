@@ -1,3 +1,4 @@
+/// One set of files for each moment, then the collection that lists them.
 #include "results/formats/field_output.hpp"
 
 #include <fmt/format.h>

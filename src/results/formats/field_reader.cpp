@@ -1,3 +1,4 @@
+/// The ending of the file chooses the reader.
 #include "results/formats/field_reader.hpp"
 
 #include "results/formats/openfoam_reader.hpp"

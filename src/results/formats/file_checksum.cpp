@@ -1,3 +1,4 @@
+/// The sum goes over all bytes behind the first block, where it is kept.
 #include "results/formats/file_checksum.hpp"
 
 #include <fcntl.h>

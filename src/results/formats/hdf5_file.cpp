@@ -1,3 +1,4 @@
+/// Thin functions around HDF5: open, create a table, write or read rows, each with its error as text.
 #include "results/formats/hdf5_file.hpp"
 
 #include <fcntl.h>

@@ -1,3 +1,5 @@
+/// A copy of the process answers requests through a socket, under restrictions; the parent watches its
+/// memory and its end.
 #include "results/formats/hdf5_reader.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Bodies become families, moments become steps of fields; values are put into the order of MED.
 #include "results/formats/med.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Files of a mesh in polyhedra are scanned and checked; cells are cut into tetrahedra for the
+/// interpolation.
 #include "results/formats/openfoam_reader.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// A deck is written section by section, in the order in which the programs want to read it.
 #include "results/formats/structural_deck.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// The field files of a run, node by node over its moments.
 #include "results/formats/temperature_history.hpp"
 
 #include <limits>

@@ -1,3 +1,4 @@
+/// Arrays are packed in blocks behind the XML, whose offsets are known once all are written.
 #include "results/formats/vtk_data.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Mesh and fields of all moments as extendable tables, with the offsets that the format asks for.
 #include "results/formats/vtkhdf.hpp"
 
 #include <fmt/format.h>

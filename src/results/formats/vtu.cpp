@@ -1,3 +1,4 @@
+/// The part of this process is written as points, cells and fields; process 0 writes the list of parts.
 #include "results/formats/vtu.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Pieces are joined to one grid, and fields looked up by name.
 #include "results/formats/vtu_reader.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Rows are written and flushed one by one; a restart cuts off what lies behind its checkpoint.
 #include "results/output/csv.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// A tree that is built in order and written once.
 #include "results/output/json_document.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// A failure of one process becomes a failure of all.
 #include "results/output/output_error.hpp"
 
 #include "system/common_failure.hpp"

@@ -1,3 +1,4 @@
+/// Every property of a quantity under the name that readers in Python use.
 #include "results/output/quantity_json.hpp"
 
 #include "quantities/names.hpp"

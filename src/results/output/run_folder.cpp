@@ -1,3 +1,5 @@
+/// A folder is taken over only if it is empty or of a run of this case; old results go before new ones
+/// come.
 #include "results/output/run_folder.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// A file that is locked by the system, with the name of its owner for messages.
 #include "results/output/run_lock.hpp"
 
 #include <fcntl.h>

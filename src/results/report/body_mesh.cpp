@@ -1,3 +1,4 @@
+/// Nodes are put in the order of space, so that neighbours compress well; cells become simplices and skins.
 #include "results/report/body_mesh.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Fields of a moment are brought to the nodes of each body and packed.
 #include "results/report/moments.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Numbers become bytes that compress: differences, zigzag, planes of bytes, deflate, base64.
 #include "results/report/pack.hpp"
 
 #include <zlib.h>

@@ -1,3 +1,4 @@
+/// The viewer's page with its data blocks put in.
 #include "results/report/report_page.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// A table is read back as columns with their units.
 #include "results/report/report_table.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// The tree of a run: summary, tables, bodies, fields, each with the names of its blocks.
 #include "results/report/run_data.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Totals of feeding as columns with their units.
 #include "results/tables/feeding_table.hpp"
 
 #include <algorithm>

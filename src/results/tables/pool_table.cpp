@@ -1,3 +1,4 @@
+/// A row for each pool at each step.
 #include "results/tables/pool_table.hpp"
 
 #include <vector>

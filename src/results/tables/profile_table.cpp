@@ -1,3 +1,4 @@
+/// Nodes are put in order along the group once; each moment adds their values.
 #include "results/tables/profile_table.hpp"
 
 #include <fmt/format.h>

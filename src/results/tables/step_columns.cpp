@@ -1,3 +1,4 @@
+/// One row for each column: name, unit, when it is there, and how it is read.
 #include "results/tables/step_columns.hpp"
 
 #include <algorithm>
