@@ -1,3 +1,5 @@
+/// The kind of table is told by its first character; cells are split, headers matched with units, and rows
+/// checked for their length.
 #include "input/column_table.hpp"
 
 #include <fmt/format.h>

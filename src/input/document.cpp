@@ -1,3 +1,5 @@
+/// TOML is converted to a tree in which every value knows its place in the file, and written back in the
+/// same form.
 #include "input/document.hpp"
 
 #include <fmt/format.h>

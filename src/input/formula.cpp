@@ -1,3 +1,5 @@
+/// The text is checked before muParser sees it, since that accepts what would be a slip: an assignment, or
+/// a comparison of equality.
 #include "input/formula.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// The list of keys that are gone, by section.
 #include "input/gone_keys.hpp"
 
 #include <array>

@@ -1,3 +1,4 @@
+/// A reader by recursive descent of bounded depth, with the place of every value in the file.
 #include "input/json.hpp"
 
 #include <charconv>

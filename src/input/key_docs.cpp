@@ -1,3 +1,4 @@
+/// One declaration of keys gives explanations, schema and manual; each form walks the same tree.
 #include "input/key_docs.hpp"
 
 #include <fmt/format.h>

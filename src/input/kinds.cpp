@@ -1,3 +1,5 @@
+/// A kind is checked when it is added: its name, its doc and its keys must not clash with those that are
+/// there.
 #include "input/kinds.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Formula, table and file are three forms of one key; each is read with its own checks.
 #include "input/place_spec.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// The heading tells the columns. Points that form a grid are interpolated along it, others by weights that
+/// fall with the distance.
 #include "input/point_table.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// The text is scanned line by line for keys with too many dots.
 #include "input/toml_limits.hpp"
 
 #include "system/errors.hpp"

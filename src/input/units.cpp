@@ -1,3 +1,5 @@
+/// Text is split into number and unit, the unit is converted by UDUNITS, and an error says what the key
+/// expects.
 #include "input/units.hpp"
 
 #include <fmt/format.h>

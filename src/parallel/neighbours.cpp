@@ -1,3 +1,4 @@
+/// Ranges of owners tell which process has a row; each process then learns who has copies of its own.
 #include "parallel/neighbours.hpp"
 
 #include <mpi.h>

@@ -1,3 +1,4 @@
+/// Sums by MPI, and messages to the neighbours alone for ghosts.
 #include "parallel/parallel.hpp"
 
 #include <petscsys.h>

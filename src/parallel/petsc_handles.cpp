@@ -1,3 +1,4 @@
+/// One way to destroy each kind of object, and the text of an error of PETSc.
 #include "parallel/petsc_handles.hpp"
 
 #include <petscksp.h>

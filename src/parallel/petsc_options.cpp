@@ -1,3 +1,4 @@
+/// Defaults are set only where the user has not given the option.
 #include "parallel/petsc_options.hpp"
 
 #include <petscsys.h>

@@ -1,3 +1,5 @@
+/// PETSc starts MPI, with settings of the environment that make the start of a single process quick and
+/// that are taken back afterwards.
 #include "parallel/petsc_session.hpp"
 
 #include <petscsys.h>

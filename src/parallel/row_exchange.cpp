@@ -1,3 +1,4 @@
+/// Lengths first, then the rows themselves, to and from the neighbours.
 #include "parallel/row_exchange.hpp"
 
 #include <mpi.h>

@@ -1,3 +1,5 @@
+/// Each check is one property: it runs the law along the history, in a rotated frame or with half the
+/// steps, and compares.
 #include "point/check_law.hpp"
 
 #include <fmt/format.h>

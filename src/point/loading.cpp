@@ -1,3 +1,4 @@
+/// Segments of a path are cut into steps; values are linear within a segment.
 #include "point/loading.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Newton's method for the free strains, with a loop for the temperature where the point is adiabatic.
 #include "point/material_point.hpp"
 
 #include <algorithm>

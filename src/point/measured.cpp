@@ -1,3 +1,4 @@
+/// Columns are found by their headings and converted; deviations are taken where both curves have points.
 #include "point/measured.hpp"
 
 #include <fmt/format.h>

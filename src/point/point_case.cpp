@@ -1,3 +1,4 @@
+/// Keys, overrides and paths of a point file, then the curves that it asks for.
 #include "point/point_case.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Steps of the loading are taken one after the other, halved where the law asks for it; each leaves a
+/// record.
 #include "point/point_history.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// The columns of a record with their names, units and values, in the order of the file.
 #include "point/record.hpp"
 
 #include <array>

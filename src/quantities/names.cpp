@@ -1,3 +1,4 @@
+/// One switch for each enumeration; a new member without a word is a warning of the compiler.
 #include "quantities/names.hpp"
 
 namespace solidus::quantities {

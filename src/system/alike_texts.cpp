@@ -1,3 +1,5 @@
+/// Names and numbers are taken out of each text; texts of one form that differ in names are told once, with
+/// the names of the others behind.
 #include "system/alike_texts.hpp"
 
 #include <fmt/format.h>

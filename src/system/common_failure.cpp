@@ -1,3 +1,4 @@
+/// After each collective part all processes learn whether one has failed.
 #include "system/common_failure.hpp"
 
 #include <exception>

@@ -1,3 +1,4 @@
+/// How an error becomes the text that the user reads.
 #include "system/errors.hpp"
 
 #include <utility>

@@ -1,3 +1,4 @@
+/// Requests to the allocator, which differ by its thresholds.
 #include "system/free_memory.hpp"
 
 #include <cstdlib>  // which says whether the C library is GNU's

@@ -1,3 +1,4 @@
+/// A file is checked for being there, readable and of a sensible size before it is read.
 #include "system/input_file.hpp"
 
 #include <fmt/format.h>

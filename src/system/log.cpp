@@ -1,3 +1,4 @@
+/// The level decides what is printed; warnings are also kept.
 #include "system/log.hpp"
 
 #include <spdlog/sinks/stdout_color_sinks.h>

@@ -1,3 +1,4 @@
+/// Collectives of MPI behind plain functions, in pieces where counts would overflow an int.
 #include "system/processes.hpp"
 
 #include <mpi.h>

@@ -1,3 +1,4 @@
+/// A stack of running parts: the innermost one is charged when another begins or ends.
 #include "system/profile.hpp"
 
 #include <fmt/format.h>

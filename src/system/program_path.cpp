@@ -1,3 +1,4 @@
+/// The path of the executable, or of the one that a host program has named.
 #include "system/program_path.hpp"
 
 #include <errno.h>  // program_invocation_name

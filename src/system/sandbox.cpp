@@ -1,3 +1,4 @@
+/// Filters of system calls by seccomp, and limits of memory.
 #include "system/sandbox.hpp"
 
 #include <fcntl.h>
