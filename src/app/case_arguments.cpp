@@ -1,3 +1,4 @@
+/// Options that several verbs share are declared once, with what they do to the case.
 #include "app/case_arguments.hpp"
 
 #include <CLI/CLI.hpp>

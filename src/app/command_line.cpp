@@ -1,3 +1,5 @@
+/// The verbs are declared with CLI11, the line is parsed, the verb is run, and its failure becomes an exit
+/// code.
 #include "app/command_line.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Verbs and options are copied into plain data.
 #include "app/command_tree.hpp"
 
 #include <CLI/CLI.hpp>

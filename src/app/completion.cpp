@@ -1,3 +1,4 @@
+/// One script for each shell from the same declarations, in the shell's own quoting.
 #include "app/completion.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// The kinds of files by name, with the section that each begins with.
 #include "app/declared_files.hpp"
 
 #include "case/case_keys.hpp"

@@ -1,3 +1,4 @@
+/// The list of formats that have described themselves.
 #include "app/export_format.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Families become rows, as plain text or as Markdown.
 #include "app/findings_page.hpp"
 
 #include <fmt/format.h>

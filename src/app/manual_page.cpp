@@ -1,3 +1,4 @@
+/// The page is written section by section in the language of man, with special characters escaped.
 #include "app/manual_page.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Temperatures at which a table bends, and others between them, are the rows of a property's file.
 #include "app/material_tables.hpp"
 
 #include <fmt/format.h>

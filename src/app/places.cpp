@@ -1,3 +1,4 @@
+/// Where results go, and where data of the installation lie.
 #include "app/places.hpp"
 
 #include <cstdlib>

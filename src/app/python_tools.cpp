@@ -1,3 +1,4 @@
+/// The interpreter is found, given the paths of the modules, and run with the verb's arguments.
 #include "app/python_tools.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Signals set a flag that the run looks at; a second one ends the program at once.
 #include "app/signals.hpp"
 
 #include <unistd.h>

@@ -1,3 +1,5 @@
+/// A small server for one machine: requests are checked by a token, and the page is made anew when the run
+/// has gone on.
 #include "app/watch.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// The sections of a case file in the order of the manual; each room of keys declares its own.
 #include "case/case_keys.hpp"
 
 namespace solidus::model {

@@ -1,3 +1,5 @@
+/// Materials are looked for in the case's folder and in the library, and must fit what the case does with
+/// them.
 #include "case/case_materials.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Keys of thermal and mechanical conditions, in the order of the manual.
 #include "case/case_keys.hpp"
 
 namespace solidus::model {

@@ -1,3 +1,4 @@
+/// Keys of contacts, interfaces and their heat, in the order of the manual.
 #include "case/case_keys.hpp"
 #include "contact/laws/contact_law.hpp"
 #include "contact/laws/gap_law.hpp"

@@ -1,3 +1,4 @@
+/// Keys of [criteria].
 #include "case/case_keys.hpp"
 
 namespace solidus::model {

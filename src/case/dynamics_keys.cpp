@@ -1,3 +1,4 @@
+/// Keys of [dynamics].
 #include "case/case_keys.hpp"
 
 namespace solidus::model {

@@ -1,3 +1,4 @@
+/// A law from outside is loaded only with the user's word, and must go with the scheme of the case.
 #include "case/external_laws.hpp"
 
 #include <fmt/format.h>

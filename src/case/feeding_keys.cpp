@@ -1,3 +1,4 @@
+/// Keys of [feeding] and [gas].
 #include "case/case_keys.hpp"
 
 namespace solidus::model {

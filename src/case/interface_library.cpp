@@ -1,3 +1,4 @@
+/// Cards of interfaces are scored by materials and roles; the best one is taken.
 #include "case/interface_library.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Keys of [mesh]: files, built-in shapes, groups, sizes, mould and layers.
 #include "case/case_keys.hpp"
 
 namespace solidus::model {

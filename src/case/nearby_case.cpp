@@ -1,3 +1,4 @@
+/// A neighbouring case differs in the few keys that set steps or elements, which are overridden by text.
 #include "case/nearby_case.hpp"
 
 #include <fmt/format.h>

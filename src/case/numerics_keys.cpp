@@ -1,3 +1,4 @@
+/// Keys of [heat], [mechanics] and [coupling]; schemes add their own.
 #include "case/case_keys.hpp"
 #include "coupling/scheme_kind.hpp"
 #include "input/kinds.hpp"

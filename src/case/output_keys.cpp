@@ -1,3 +1,4 @@
+/// Keys of [output], probes and profiles.
 #include "case/case_keys.hpp"
 #include "coupling/all_fields.hpp"
 

@@ -1,3 +1,4 @@
+/// Documents are laid over each other key by key; sections of a list are matched by name.
 #include "case/overrides.hpp"
 
 #include <fmt/format.h>

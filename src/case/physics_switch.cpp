@@ -1,3 +1,4 @@
+/// What only mechanics needs is taken out of the document, so that the rest is checked like any case.
 #include "case/physics_switch.hpp"
 
 #include <fmt/format.h>

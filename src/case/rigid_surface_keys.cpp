@@ -1,3 +1,4 @@
+/// Keys of [[rigid_surface]].
 #include "case/case_keys.hpp"
 
 namespace solidus::model {

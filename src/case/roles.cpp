@@ -1,3 +1,4 @@
+/// A role is told by the name of a body or by its data; decisions that depend on roles are made here.
 #include "case/roles.hpp"
 
 #include <fmt/format.h>

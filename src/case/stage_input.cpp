@@ -1,3 +1,5 @@
+/// Stages and cycles are unrolled in time; names are resolved and contradictions told before anything is
+/// built.
 #include "case/stage_input.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Keys of [[stage]] and [[cycle]].
 #include "case/case_keys.hpp"
 
 namespace solidus::model {

@@ -1,3 +1,4 @@
+/// Keys of [time].
 #include "case/case_keys.hpp"
 
 namespace solidus::model {

@@ -1,3 +1,4 @@
+/// Factors and spreads are declared once for each quantity and applied to the specification.
 #include "case/variation.hpp"
 
 #include <fmt/format.h>

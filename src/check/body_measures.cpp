@@ -1,3 +1,4 @@
+/// Volumes, faces and edges are summed on each process and reduced at the end.
 #include "check/body_measures.hpp"
 
 #include <algorithm>

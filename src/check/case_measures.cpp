@@ -1,3 +1,4 @@
+/// Measures in the order in which they need each other.
 #include "check/case_measures.hpp"
 
 #include "setup/mechanics_input.hpp"

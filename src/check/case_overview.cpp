@@ -1,3 +1,4 @@
+/// Rows of the overview from bodies, contacts, conditions and pours.
 #include "check/case_overview.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// What lies beyond each face is found by contacts, shared faces and conditions; areas are then summed by
+/// it.
 #include "check/cooled_skin.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// The coupling number of each body at the temperatures that it passes, against the bound of the scheme.
 #include "check/coupling_estimate.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Places inside a casting by their distance from the cooled skin, thinned out to a few.
 #include "check/deepest.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// The list of families in the order of their numbers.
 #include "check/finding_family.hpp"
 
 #include <fmt/format.h>

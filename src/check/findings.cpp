@@ -1,3 +1,4 @@
+/// All families are asked in turn; what they find is reported together.
 #include "check/findings.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// A line through metal, gap and mould is cooled step by step; Chvorinov's rule carries its time to the
+/// casting.
 #include "check/freezing_estimate.hpp"
 
 #include <algorithm>

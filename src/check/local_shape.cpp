@@ -1,3 +1,5 @@
+/// Pieces of the skin are shared out to the deepest place and to others around it; the mould behind them is
+/// shared likewise.
 #include "check/local_shape.hpp"
 
 #include <algorithm>

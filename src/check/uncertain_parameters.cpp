@@ -1,3 +1,4 @@
+/// Each parameter that may vary gets its spread: that of the case, of the card, or the usual one.
 #include "check/uncertain_parameters.hpp"
 
 #include <fmt/format.h>

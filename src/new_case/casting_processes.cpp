@@ -1,3 +1,4 @@
+/// One row for each process: mould, temperatures, cooling and what goes with it.
 #include "new_case/casting_processes.hpp"
 
 #include <fmt/format.h>

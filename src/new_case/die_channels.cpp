@@ -1,3 +1,4 @@
+/// Bores are faces of one radius that run through the die; their film follows from the speed of the water.
 #include "new_case/die_channels.hpp"
 
 #include <Eigen/Dense>

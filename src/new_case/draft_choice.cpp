@@ -1,3 +1,4 @@
+/// Choices in the order in which they depend on each other; each leaves a line for the report.
 #include "new_case/draft_choice.hpp"
 
 #include <fmt/format.h>

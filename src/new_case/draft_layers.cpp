@@ -1,3 +1,4 @@
+/// The depth of the layers follows from how far heat gets into a body while the metal freezes.
 #include "new_case/draft_layers.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// The draft is built, looked at and changed until it is what the report says.
 #include "new_case/draft_refinement.hpp"
 
 #include <algorithm>

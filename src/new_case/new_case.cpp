@@ -1,3 +1,4 @@
+/// The verb: read the arguments, measure, choose, refine, write, report.
 #include "new_case/new_case.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Lines of the report, from what was measured to what is doubtful.
 #include "new_case/new_case_report.hpp"
 
 #include <fmt/format.h>

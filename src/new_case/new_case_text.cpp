@@ -1,3 +1,4 @@
+/// Sections of the case file as commented text.
 #include "new_case/new_case_text.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+/// Extent, volume, area, walls and largest spheres of each part, from the mesh of its file or of its skin.
 #include "new_case/part_measures.hpp"
 
 #include <algorithm>
