@@ -52,6 +52,7 @@ LocatedPoint locate(const Mesh& mesh, const Point& point, int body) {
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const ElementBlock& block = mesh.blocks[b];
     if (body >= 0 && block.body != body) continue;
+    // Only elements that this process counts, so that each element answers once over all processes.
     for (Index e = 0; e < block.n_counted; ++e) {
       if (distance_to_box(element_box(mesh, block, e), point) > best.distance) continue;
       NearestPlace here = nearest_place(mesh, block.shape, block.element(e), point);
@@ -88,6 +89,7 @@ LocatedPoint locate(const Mesh& mesh, const Point& point, int body) {
   for (std::size_t a = 0; a < values.size(); ++a)
     for (std::size_t i = 0; i < 3; ++i)
       located.xi[i] += values[a] * reference_nodes[static_cast<std::size_t>(nearest.local[a])].xi[i];
+  // The nodes of the face (or element) that holds the point, with their shape functions as weights.
   for (std::size_t a = 0; a < values.size(); ++a) {
     located.nodes.push_back(block.element(located.element)[nearest.local[a]]);
     located.weights.push_back(values[a]);

@@ -118,6 +118,8 @@ class Search {
       if (distance < best.distance) best = {distance, shape, local, xi};
       return;
     }
+    // Outside of the shape the nearest place is on its boundary: each face is searched in the same
+    // way.
     for (int f = 0; f < face_count(shape); ++f) {
       std::vector<int> face;
       for (const int a : face_nodes(shape, f)) face.push_back(local[static_cast<std::size_t>(a)]);

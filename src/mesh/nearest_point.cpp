@@ -39,6 +39,7 @@ NearestPoint::NearestPoint(const std::vector<Point>& points) : points_(points) {
 /// Makes the part of some points and its halves.
 /// @return its number
 std::size_t NearestPoint::split(std::size_t begin, std::size_t end) {
+  // The box of the part, by which a search leaves it out.
   Part part{entries_[begin].x, entries_[begin].x, begin, end};
   for (std::size_t i = begin; i < end; ++i)
     for (std::size_t d = 0; d < 3; ++d) {
@@ -48,6 +49,7 @@ std::size_t NearestPoint::split(std::size_t begin, std::size_t end) {
   const std::size_t number = parts_.size();
   parts_.push_back(part);
   if (end - begin <= k_few) return number;
+  // The median across the longest side halves the points.
   std::size_t across = 0;
   for (std::size_t d = 1; d < 3; ++d)
     if (part.high[d] - part.low[d] > part.high[across] - part.low[across]) across = d;

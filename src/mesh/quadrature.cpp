@@ -22,8 +22,10 @@ struct Gauss1 {
 std::vector<Gauss1> gauss_legendre(int n) {
   std::vector<Gauss1> rule(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
+    // The start is close to the i-th root; Newton's method needs few iterations from there.
     double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 0;
     for (int iteration = 0; iteration < 50; ++iteration) {
+      // Legendre's polynomial by its three-term recurrence.
       double p = 1, previous = 0;
       for (int k = 1; k <= n; ++k) {
         const double next = ((2 * k - 1) * x * p - (k - 1) * previous) / k;
@@ -139,6 +141,7 @@ Rule stiffness_rule(Shape shape) {
 Rule nodal_rule(Shape shape) {
   static constexpr std::array<Point, 8> corner{
       {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
+  // The weights share the reference volume equally.
   const int dim = dimension(shape), n = node_count(shape), vertices = vertex_count(shape);
   const bool simplex = row_of(shape).reference == Reference::simplex;
   double volume = 1;

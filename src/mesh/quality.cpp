@@ -154,6 +154,7 @@ GroupReport assess_group(const RawMesh& mesh, const std::string& name, const Raw
                  n_worst);
     }
   }
+  // Sums become means.
   report.n_nodes = static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
   if (n_edges > 0) {
     report.shortest_edge = shortest;

@@ -120,6 +120,7 @@ void Tetrahedra::put_back() {
     ++n;
   }
   mesh_.x.resize(n);
+  // References follow the new numbers.
   if (!mesh_.input_node.empty()) mesh_.input_node.resize(n);
   for (auto& [name, group] : mesh_.groups)
     for (RawBlock& block : group.blocks)

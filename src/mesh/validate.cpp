@@ -84,6 +84,7 @@ void check_block(RawMesh& mesh, const std::string& group, RawBlock& block, const
   const Rule interior = stiffness_rule(block.shape), nodes = affine ? Rule{} : nodal_rule(block.shape);
   const std::vector<int> mirror = mirrored(block.shape);
   for (std::size_t e = 0; e * static_cast<std::size_t>(nn) < block.nodes.size(); ++e) {
+    // The sign of the volume tells the orientation; a mirrored element is turned.
     Index* element = block.nodes.data() + e * static_cast<std::size_t>(nn);
     double sum = 0;
     for (const QuadraturePoint& p : interior) sum += p.weight * jacobian(mesh, block.shape, element, p.xi);
@@ -92,6 +93,7 @@ void check_block(RawMesh& mesh, const std::string& group, RawBlock& block, const
       for (int a = 0; a < nn; ++a)
         element[a] = old[static_cast<std::size_t>(mirror[static_cast<std::size_t>(a)])];
     }
+    // Everywhere inside the Jacobian must be positive, relative to the size of the element.
     double least = std::abs(sum);
     if (!affine)
       for (const QuadraturePoint& p : interior)

@@ -121,6 +121,7 @@ class MeshingInTurn {
 
   void attempt(int way) {
     const TimeOfWay time = time_of(way);
+    // The direct ways have one budget of time together.
     if (is_direct(way) && direct_time_ <= 0 && way != geometry_.only_way) return;
     geometry_.attempt = way;
     ++tried_;
@@ -128,6 +129,7 @@ class MeshingInTurn {
     // Complaints are kept for the message, should no way go through; a geometry that none can mesh ends the
     // search.
     try {
+      // The mesh is kept if it is better than the best so far.
       RawMesh mesh = read_in_one_way(source_, &geometry_, time, &spent);
       take(std::move(mesh), way);
       if (quality_ < enough_) note(text_of(way) + ": least quality " + std::to_string(last_).substr(0, 5));
@@ -141,6 +143,7 @@ class MeshingInTurn {
     } catch (const InputError& error) {
       note(text_of(way) + ": " + complaint_of(error, source_.path));
     }
+    // What was spent counts also where the way has failed.
     if (is_direct(way) && time.processor > 0) direct_time_ = std::max(0.0, direct_time_ - spent);
     if (kept_ != nullptr) kept_->leave_to_direct_ways(direct_time_);
   }

@@ -97,6 +97,7 @@ class Neighbours {
   Neighbours(const std::vector<Facet>& triangles, const std::vector<Point>& points,
              const std::string& path)
       : points_(points) {
+    // All edges of all triangles; how many meet at each tells whether the skin is closed.
     for (std::size_t t = 0; t < triangles.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) of_[edge_of(triangles[t], k)].push_back(t);
     std::size_t open = 0, crowded = 0;
@@ -145,6 +146,7 @@ bool has_edge(const Facet& t, Index from, Index to) {
 Shell shell_from(std::size_t first, std::vector<Facet>& triangles, const Neighbours& neighbours,
                  std::vector<char>& taken, const std::vector<Facets>& parts, const std::string& path) {
   Shell shell;
+  // The walk over neighbours gives each triangle the sense of the one that it was reached from.
   shell.name = parts[triangles[first].part].name;
   std::vector<std::size_t> waiting{first};
   taken[first] = 1;
@@ -156,6 +158,7 @@ Shell shell_from(std::size_t first, std::vector<Facet>& triangles, const Neighbo
       const Index from = triangles[t].nodes[k], to = triangles[t].nodes[(k + 1) % 3];
       const Edge edge = std::minmax(from, to);
       const std::size_t next = neighbours.beyond(t, edge);
+      // Two neighbours look to the same side if they use their edge in opposite senses.
       const bool turned = has_edge(triangles[next], from, to);
       if (taken[next] != 0) {
         if (turned)
@@ -212,6 +215,7 @@ void nest_shells(ClosedShells& all) {
     shell.around = -1;
   }
   for (std::size_t a = 0; a < all.shells.size(); ++a) {
+    // Any corner will do, because no two shells cross.
     const Point& corner = all.points[static_cast<std::size_t>(all.shells[a].triangles.front()[0])];
     for (std::size_t b = 0; b < all.shells.size(); ++b) {
       if (a == b || winding_number(all, all.shells[b], corner) < 0.5) continue;
@@ -243,6 +247,7 @@ ClosedShells closed_shells(const std::vector<Facets>& parts, const std::string& 
       if (t.nodes[0] != t.nodes[1] && t.nodes[1] != t.nodes[2] && t.nodes[2] != t.nodes[0])
         triangles.push_back(t);
     }
+  // Only after welding are the corners numbered for good.
   ClosedShells all;
   all.points = std::move(welder).points();
   const Neighbours neighbours(triangles, all.points, path);

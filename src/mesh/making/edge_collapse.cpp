@@ -64,6 +64,7 @@ bool keeps_topology(const Tetrahedra& mesh, Index from, Index to, const std::vec
   if (common(mesh.neighbours(from), mesh.neighbours(to)) != ring) return false;
   if (common(link_edges(mesh, from, to), link_edges(mesh, to, from)) != ring_edges) return false;
   if (faces.empty()) return true;
+  // On the surface the other end must be a neighbour there too, and the less important node goes.
   const SurfaceNode there(mesh, to);
   if (there.on_surface().empty()) return false;
   if (here.on_surface().count(to) == 0) return false;

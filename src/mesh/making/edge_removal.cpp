@@ -68,6 +68,7 @@ class BestTriangulation {
 /// The polygons around an edge, one of each body; empty where the edge is of more surfaces than one.
 std::vector<RingPart> ring_parts(const Tetrahedra& mesh, Index a, Index b,
                                  const std::vector<std::size_t>& around) {
+  // Each tetrahedron at the edge leads from one node of the ring to the next.
   std::map<Index, std::pair<Index, int>> next;  // and the body on the way there
   std::map<Index, int> before;
   for (const std::size_t t : around) {
@@ -84,10 +85,13 @@ std::vector<RingPart> ring_parts(const Tetrahedra& mesh, Index a, Index b,
       first = node;
       ++n_starts;
     }
+  // A ring that does not close lies at the skin of the mesh; more than two changes of bodies have
+  // no triangulation.
   const bool open = before.count(first) == 0;
   if (n_starts > (open ? 1U : 2U)) return {};
   std::vector<RingPart> parts;
   Index node = first;
+  // The walk around the edge cuts the ring into one part for each body.
   for (std::size_t i = 0; i < around.size(); ++i) {
     const auto to = next.find(node);
     if (to == next.end()) return {};
@@ -137,6 +141,7 @@ Change without_edge(const Tetrahedra& mesh, Index a, Index b) {
   Change change;
   change.old = mesh.around_edge(a, b);
   constexpr std::size_t k_most = 12;
+  // Large rings have too many triangulations to be worth it; locked ends stay.
   if (change.old.empty() || change.old.size() > k_most || (mesh.is_locked(a) && mesh.is_locked(b))) return {};
   const std::vector<RingPart> parts = ring_parts(mesh, a, b, change.old);
   if (parts.empty()) return {};
@@ -150,6 +155,7 @@ Change without_edge(const Tetrahedra& mesh, Index a, Index b) {
           (parts.front().nodes.size() > 2 && parts.back().nodes.size() > 2))
         return {};
   }
+  // Every part gets its best triangulation; the worst of all tetrahedra decides.
   change.quality = 1;
   for (const RingPart& part : parts) {
     const BestTriangulation best(mesh, a, b, part);

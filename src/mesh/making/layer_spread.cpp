@@ -81,6 +81,7 @@ void LayerSpread::find_neighbours(const RawMesh& mesh, const RawGroup& body) {
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  // Compressed rows of neighbours, in the order of the sorted edges.
   first_.assign(mesh.x.size() + 1, 0);
   for (const auto& [a, b] : edges) {
     ++first_[at(a) + 1];

@@ -66,6 +66,7 @@ RawMesh make_two_blocks(const TwoBlocks& b, Shape shape) {
     add_grid(mesh, grid);
   };
   std::vector<double> origin(b.lower.size(), 0.0);
+  // The upper block stands on the lower one, or above it by the gap.
   add("lower", origin, b.lower, b.lower_divisions, last + "_max", "lower_top");
   origin.back() = b.lower.back() + b.gap;
   add("upper", origin, b.upper, b.upper_divisions, last + "_min", "upper_bottom");
@@ -78,6 +79,7 @@ RawMesh make_cylinder_in_mould(const CylinderInMould& c, Shape shape) {
   for (const double length : {c.radius, c.height, c.mould_wall, c.mould_bottom, c.mould_height,
                               c.element_size, c.mould_element_size, c.interface_ratio})
     if (!(length > 0)) throw std::invalid_argument("lengths and the interface ratio must be positive");
+  // The mould may end at the top of the casting or rise above it.
   const double rise = c.mould_height - c.mould_bottom - c.height;  // of the wall above the casting
   if (rise < -1e-9 * c.height)
     throw std::invalid_argument("the mould must be at least as high as its bottom and the casting");
@@ -99,6 +101,7 @@ RawMesh make_cylinder_in_mould(const CylinderInMould& c, Shape shape) {
   };
   add_grid(mesh, part);
 
+  // The mould is one grid from the axis to the outside, from which the cavity is left out.
   Grid mould;
   mould.shape = shape;
   mould.body = "mould";
@@ -116,6 +119,7 @@ RawMesh make_cylinder_in_mould(const CylinderInMould& c, Shape shape) {
   const int cavity_columns = static_cast<int>(cavity_r.size()) - 1,
             bottom_rows = static_cast<int>(bottom.size()) - 1;
   mould.keep = [=](std::array<int, 3> cell) { return cell[0] >= cavity_columns || cell[1] < bottom_rows; };
+  // Each side is told from its normal and place.
   mould.surface = [&c](const Point& x, const Point& n) -> std::string {
     if (n[0] > 0.5) return "mould_outside";
     if (n[1] < -0.5) return "mould_bottom";

@@ -58,6 +58,7 @@ class Repair {
     constexpr double k_gain = 1.02;
     Change best;
     double gain = k_gain;
+    // A change counts by how much it raises the worst quality among what it replaces.
     const auto consider = [&](Change change) {
       if (!(change.quality > 0)) return;
       double before = 1;
@@ -68,6 +69,7 @@ class Repair {
         best = std::move(change);
       }
     };
+    // At each edge: without it, and drawn together to either end.
     for (const auto& [i, j] : k_edges) {
       consider(without_edge(tets_, nodes[i], nodes[j]));
       consider(with_node_on(tets_, nodes[i], nodes[j]));
@@ -81,6 +83,7 @@ class Repair {
   /// Moves a node to where the worst element around it is better, by a search along its ways.
   void move(Index node) {
     const SurfaceNode ways(tets_, node);
+    // Steps are measured by the size of the elements around.
     double size = 0;
     for (const std::size_t t : tets_.around(node)) {
       const auto& n = tets_[t].nodes;

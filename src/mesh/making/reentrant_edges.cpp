@@ -163,6 +163,7 @@ std::vector<std::pair<Index, Wedge>> reentrant_wedges(const Mesh& mesh) {
     }
   std::map<Index, std::vector<Wedge>> at_node;
   for (const auto& [edge, meeting] : at_edge) {
+    // Two faces at an edge bound one angle; more of them are edges where bodies touch.
     if (meeting.size() != 2) continue;
     const auto [i, j] = edge;
     const bool plane = i == j;
@@ -173,10 +174,12 @@ std::vector<std::pair<Index, Wedge>> reentrant_wedges(const Mesh& mesh) {
       return face_key(l->vertices.data(), l->n).vertices < face_key(r->vertices.data(), r->n).vertices;
     });
     const Wedge wedge = wedge_between(mesh, *a, *b, at, tangent);
+    // An angle of less than half a turn is no wedge.
     if (wedge.angle == 0) continue;
     at_node[i].push_back(wedge);
     if (!plane && j < mesh.n_owned_nodes) at_node[j].push_back(wedge);
   }
+  // Wedges of several edges at one node are joined to one.
   std::vector<std::pair<Index, Wedge>> result;
   for (const auto& [node, wedges] : at_node)
     if (const Wedge wedge = joined(wedges); wedge.angle > 0) result.emplace_back(node, wedge);

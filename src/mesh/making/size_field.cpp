@@ -71,6 +71,7 @@ double meet(const Point& from, const Point& direction, const SkinTriangle& trian
 SizeField::SizeField(const Point& low, const Point& high, const std::vector<SizeSample>& samples,
                      double growth, int cells)
     : low_(low) {
+  // Cells are cubes: their number along the longest side gives their size.
   double longest = 0;
   for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, high[i] - low[i]);
   size_ = longest / cells;
@@ -113,6 +114,7 @@ void SizeField::spread(double growth) {
           if (through < here * (1 - 1e-12)) here = through, changed = true;
         }
   };
+  // Two sweeps in opposite directions spread every cell as far as it reaches in most cases.
   for (int sweep = 0; changed && sweep < 20; ++sweep) {
     changed = false;
     for (int k = 0; k < n_[2]; ++k)

@@ -81,6 +81,7 @@ std::string to_text(const std::vector<SkinPatch>& patches) {
 }
 
 std::string to_vtk(const std::vector<SkinPatch>& patches) {
+  // Triangles of all patches with the number of their patch and body.
   std::string points, numbers, bodies;
   std::size_t n = 0;
   int body = -1;

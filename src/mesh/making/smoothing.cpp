@@ -80,6 +80,7 @@ class Smoothing {
 
   bool improve(std::size_t node) {
     double size = 0;  // the mean edge
+    // The sense of each element as it is must be kept.
     std::vector<bool> positive;
     for (const std::size_t tet : around_[node]) {
       positive.push_back(volume(tet) > 0);

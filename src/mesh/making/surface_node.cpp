@@ -57,6 +57,7 @@ SurfaceNode::SurfaceNode(const Tetrahedra& mesh, Index node)
   }
   mean_ = unit(mean_);
   for (const Point& n : normals_) turned_ = std::min(turned_, dot(n, mean_));
+  // A face is told by the bodies on its two sides.
   const auto sides = [this](std::size_t f) { return std::minmax(faces_[f].inside, faces_[f].outside); };
   for (const auto& [other, of] : at) {
     on_surface_.insert(other);
@@ -79,6 +80,7 @@ std::vector<Point> SurfaceNode::places(double step) const {
 }
 
 std::vector<Point> SurfaceNode::on_surface(double step) const {
+  // Two axes in the tangent plane, from the coordinate axis that is least along the normal.
   const Point axis = std::abs(mean_[0]) < 0.6 ? Point{1, 0, 0} : Point{0, 1, 0};
   const Point first = unit(cross(mean_, axis)), second = cross(mean_, first);
   std::vector<SkinFace> around;

@@ -98,6 +98,7 @@ class Builder {
 
   /// The groups whose faces meet the wall at an edge of its rim (a vertex of a plane mesh).
   void find_rim_groups() {
+    // Vertices of lines, or edges of faces, that one wall face alone has are the rim.
     std::map<Index, int> vertices;
     for (const WallFace& face : wall_.wall)
       if (face.n_vertices == 2)
@@ -106,6 +107,7 @@ class Builder {
       if (n == 1) rim_[{vertex, vertex}];
     for (const auto& [edge, n] : wall_.wall_edges)
       if (n == 1) rim_[edge];
+    // Groups with a face around the wall that has a rim edge are told apart by it.
     for (const auto& [name, group] : mesh_.groups) {
       if (group.dimension != mesh_.dimension - 1) continue;
       for (const RawBlock& block : group.blocks) {
@@ -327,6 +329,7 @@ std::vector<WallLayerReport> add_wall_layers(RawMesh& mesh, const std::vector<Wa
     assert(one.body == layers.body && one.number == layers.number && one.growth == layers.growth);
     surfaces.push_back(one.surface);
   }
+  // The wall is found on the body's own side; its topology decides where layers end.
   WallTopology wall = find_wall(mesh, surfaces, layers.body, source);
   const RawGroup& body = mesh.groups.at(layers.body);
   const std::vector<double> levels = shares(layers);
@@ -342,6 +345,7 @@ std::vector<WallLayerReport> add_wall_layers(RawMesh& mesh, const std::vector<Wa
   // The mesh makes room before layers are put in.
   std::vector<Point> u = layer_displacement(mesh, body, wall, thickness, levels);
   require_room(mesh, wall, body, u, source, together);
+  // Each report says how many columns have found room.
   for (std::size_t s = 0; s < together.size(); ++s) count_columns(wall, static_cast<int>(s), u, reports[s]);
   Builder(mesh, layers, std::move(wall), std::move(u), levels).build();
   return reports;

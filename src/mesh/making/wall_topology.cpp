@@ -73,6 +73,7 @@ std::vector<LocalEdge> edges_of(Shape shape) {
       if ((e.a == a && e.b == b) || (e.a == b && e.b == a)) return;
     edges.push_back({a, b, middle});
   };
+  // Faces of the shape have all of its edges.
   for (int f = 0; f < face_count(shape); ++f) {
     const auto local = face_nodes(shape, f);
     const auto n = static_cast<std::size_t>(vertex_count(face_shape(shape)));
@@ -142,6 +143,7 @@ WallTopology find_wall(const RawMesh& mesh, const std::vector<std::string>& surf
                            " faces of '" + surfaces[s] + "' are not faces of the body '" + body +
                            "', which gets layers there",
                        "the surface on the body's own side");
+  // Nodes that other bodies share do not move.
   hold_at_other_bodies(mesh, body, source, boundary, wall);
   return wall;
 }

@@ -202,6 +202,7 @@ void Reader::note_unit(const std::string& axis_units) {
 }
 
 void Reader::take_nodes(const Step& step) {
+  // Coordinates of all nodes at once, in the order x, y, z of each.
   const std::size_t n = count(step, MED_NODE, MED_NONE, MED_COORDINATE, MED_NO_CMODE);
   const auto dimension = static_cast<std::size_t>(step.space);
   std::vector<med_float> x = buffer<med_float>(dimension * n);
@@ -210,6 +211,7 @@ void Reader::take_nodes(const Step& step) {
     fail("the nodes of the mesh '" + step.name + "' cannot be read: the file is damaged");
   first_node_ = mesh_.x.size();
   const std::vector<med_int> own = numbers(step, MED_NODE, MED_NONE, MED_NUMBER, MEDmeshEntityNumberRd, n);
+  // Nodes of a family other than zero belong to groups of nodes.
   const std::vector<med_int> family =
       numbers(step, MED_NODE, MED_NONE, MED_FAMILY_NUMBER, MEDmeshEntityFamilyNumberRd, n);
   for (std::size_t i = 0; i < n; ++i) {

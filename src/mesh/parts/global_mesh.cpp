@@ -35,6 +35,7 @@ void choose_bodies(const RawMesh& raw, const std::vector<std::string>& bodies, G
 // Numbers the nodes that the bodies use; the graph is built on those alone.
 void number_used_nodes(const RawMesh& raw, const std::vector<BodyWork>& work, int n_processes,
                        GlobalMesh& whole) {
+  // Bodies may use a part of the nodes only; they get numbers without holes, in the order of use.
   std::vector<Index> compact(raw.x.size(), -1);
   Index n_used = 0;
   std::vector<RawBlock> renumbered;
@@ -49,6 +50,7 @@ void number_used_nodes(const RawMesh& raw, const std::vector<BodyWork>& work, in
   std::vector<const RawBlock*> pointers;
   for (const RawBlock& block : renumbered) pointers.push_back(&block);
   const NodeNeighbours graph = neighbours(n_used, pointers);
+  // Work of a node follows from what its body computes.
   std::vector<BodyWork> of_block;
   for (const int body : whole.body)
     of_block.push_back(work.empty() ? BodyWork::all : work[static_cast<std::size_t>(body)]);
@@ -64,6 +66,7 @@ void number_used_nodes(const RawMesh& raw, const std::vector<BodyWork>& work, in
       assign_owners(graph, node_work(graph, pointers, of_block, in_contact), n_processes);
   const std::vector<GlobalIndex> number = number_nodes(graph, owner, n_processes);
 
+  // Owner and number go back to the nodes of the whole mesh; `first` counts them by processes.
   whole.owner.assign(raw.x.size(), -1);
   whole.number.assign(raw.x.size(), -1);
   whole.first.assign(static_cast<std::size_t>(n_processes) + 1, 0);

@@ -135,10 +135,12 @@ std::vector<int> assign_owners(const NodeNeighbours& graph, const NodeWork& work
   const auto n = static_cast<std::size_t>(graph.n_nodes());
   std::vector<int> owner(n, 0);
   if (n_processes == 1) return owner;
+  // Fewer nodes than processes, or more edges than METIS can count, have no partition.
   if (n < static_cast<std::size_t>(n_processes))
     throw InputError({}, "the mesh has fewer nodes than there are processes", "fewer processes");
   if (graph.node.size() > static_cast<std::size_t>(std::numeric_limits<idx_t>::max()))
     throw InputError({}, "the mesh is too large for this build of METIS", "METIS with 64-bit indices");
+  // Where some bodies only conduct heat, both kinds of work are balanced separately.
   const bool only_heat = std::find(work.mechanics.begin(), work.mechanics.end(), 0.0) != work.mechanics.end();
   const std::size_t n_constraints = only_heat && sum(work.mechanics) > 0 ? 2 : 1;
   std::vector<idx_t> start(graph.start.begin(), graph.start.end()),
@@ -159,6 +161,7 @@ std::vector<int> assign_owners(const NodeNeighbours& graph, const NodeWork& work
         0, [&](std::size_t i) { return work.mechanics[i] + work.heat[i]; },
         sum(work.mechanics) + sum(work.heat));
   }
+  // What METIS may be off by, and its seed, so that every run has the same parts.
   real_t imbalance[2] = {static_cast<real_t>(k_mechanics_imbalance), static_cast<real_t>(k_heat_imbalance)};
   idx_t vertices = static_cast<idx_t>(n), constraints = static_cast<idx_t>(n_constraints),
         parts = n_processes, cut = 0;

@@ -41,6 +41,8 @@ Subdomains::Subdomains(const RawMesh& raw, const GlobalMesh& whole, const std::v
 std::vector<Subdomains::Elements> Subdomains::sort_out(const RawBlock& block, bool for_all) const {
   const int nn = node_count(block.shape), n_processes = whole_.n_processes();
   const auto n_elements = static_cast<Index>(block.nodes.size() / at(nn));
+  // Elements are sorted by their lowest node number: neighbours in memory are then neighbours in
+  // space.
   std::vector<std::pair<GlobalIndex, Index>> order(at(n_elements));
   for (Index e = 0; e < n_elements; ++e) {
     const Index* element = block.nodes.data() + at(e) * at(nn);
@@ -50,6 +52,7 @@ std::vector<Subdomains::Elements> Subdomains::sort_out(const RawBlock& block, bo
   }
   std::sort(order.begin(), order.end());
 
+  // Each process with a node of an element gets it; the owner of the lowest node counts it.
   std::vector<Elements> of_process(at(n_processes));
   std::vector<int> owners;
   for (const auto& [lowest, e] : order) {
@@ -93,6 +96,7 @@ std::vector<Index> Subdomains::nodes_of(int process) const {
         for (int a = 0; a < nn; ++a) is_here[at(element[a])] = 1;
       }
   };
+  // Nodes of elements and of faces, once each.
   for (std::size_t b = 0; b < volumes_.size(); ++b) visit(*whole_.blocks[b], volumes_[b]);
   for (std::size_t s = 0; s < faces_.size(); ++s)
     for (std::size_t b = 0; b < faces_[s].size(); ++b) visit(whole_.surfaces[s].blocks[b], faces_[s][b]);
@@ -139,6 +143,7 @@ std::vector<char> Subdomains::pack(int process) {
   Packer p;
   p.reserve(nodes.size() * (sizeof(Point) + 2 * sizeof(GlobalIndex)) + element_bytes(process) +
             sets_.size() * sizeof(Index) + k_for_names);
+  // The head: dimension, own and global nodes, and where the own numbers begin.
   const GlobalIndex first = whole_.first[at(process)], n_owned = whole_.first[at(process) + 1] - first;
   p.put(std::vector<GlobalIndex>{raw_.dimension, n_owned, whole_.first.back(), first});
   const auto put_of_nodes = [&](const auto& values) {
@@ -177,6 +182,7 @@ std::vector<char> Subdomains::pack(int process) {
     numbers.pack(p);
     elements = {};
   };
+  // Blocks of bodies, then surfaces with their blocks, then sets of nodes.
   p.put_size(volumes_.size());
   for (std::size_t b = 0; b < volumes_.size(); ++b)
     put_block(*whole_.blocks[b], whole_.body[b], volumes_[b][at(process)]);
@@ -223,6 +229,7 @@ Mesh unpack_part(const std::vector<char>& buffer) {
     block.input_element = InputNumbers(u);
     return block;
   };
+  // Blocks of bodies.
   for (std::size_t n = u.size(); n > 0; --n) mesh.blocks.push_back(take_block());
   // Nodes of a surface are those of its faces, each once.
   for (std::size_t n = u.size(); n > 0; --n) {
@@ -234,6 +241,7 @@ Mesh unpack_part(const std::vector<char>& buffer) {
     std::sort(surface.nodes.begin(), surface.nodes.end());
     surface.nodes.erase(std::unique(surface.nodes.begin(), surface.nodes.end()), surface.nodes.end());
   }
+  // Sets of nodes, with local numbers.
   for (std::size_t n = u.size(); n > 0; --n) {
     const std::string name = u.string();
     mesh.node_sets[name] = u.vector<Index>();

@@ -106,9 +106,11 @@ bool fits(const SkinFace& face, const FaceRule& rule, double slack) {
 
 void add_faces_by_rule(RawMesh& mesh, const std::vector<std::string>& bodies, const FaceRule& rule,
                        const std::string& source) {
+  // A rule may be of one body or of all.
   if (!rule.owner.empty() && std::find(bodies.begin(), bodies.end(), rule.owner) == bodies.end())
     throw InputError({source}, fmt::format("the group '{}': there is no body '{}'", rule.name, rule.owner),
                      one_of(bodies, rule.owner));
+  // The slack follows from the extent of the mesh.
   Point low{}, high{};
   low.fill(std::numeric_limits<double>::max()), high.fill(std::numeric_limits<double>::lowest());
   for (const Point& p : mesh.x)

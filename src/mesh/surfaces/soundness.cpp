@@ -97,6 +97,7 @@ std::vector<Index> first_in_place(const RawMesh& mesh, const std::vector<BodyFac
     cells.for_each(point_of(mesh, nodes[k]), point_of(mesh, nodes[k]),
                    [&](std::int64_t key) { placed.emplace_back(key, static_cast<Index>(k)); });
   std::ranges::sort(placed);
+  // Each node looks for an earlier one within the tolerance.
   bool any = false;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const Point& x = point_of(mesh, nodes[k]);
@@ -145,6 +146,7 @@ bool lies_in(const Point& x, const RawMesh& mesh, const BodyFace& face, double t
 
 }  // namespace
 
+// Elements are compared by their sets of vertices.
 std::size_t drop_repeated(RawGroup& group) {
   std::vector<VertexSet> sets;
   append_element_vertex_sets(group, sets);
@@ -153,6 +155,7 @@ std::size_t drop_repeated(RawGroup& group) {
   std::size_t dropped = 0;
   for (std::size_t k = 0; k < sets.size(); ++k) dropped += is_repeated(k) ? 1 : 0;
   if (dropped == 0) return 0;
+  // What is there twice is left out of its block; blocks that become empty go.
   std::size_t k = 0;
   for (RawBlock& block : group.blocks) {
     const auto n = static_cast<std::ptrdiff_t>(node_count(block.shape));
@@ -213,6 +216,7 @@ Crack find_crack(const RawMesh& mesh, const std::vector<BodyFace>& skin,
   if (!(tolerance > 0) || !std::isfinite(tolerance)) return crack;
   const std::vector<Index> first = first_in_place(mesh, skin, tolerance);
   if (first.empty()) return crack;
+  // Faces of the skin by the first nodes in place of their own: two with one key lie in one place.
   std::unordered_map<FaceKey, const BodyFace*, FaceKeyHash> faces;
   std::vector<Index> nodes;
   for (const BodyFace& face : skin) {
@@ -228,6 +232,7 @@ Crack find_crack(const RawMesh& mesh, const std::vector<BodyFace>& skin,
       crack.replaced.resize(mesh.x.size());
       std::iota(crack.replaced.begin(), crack.replaced.end(), 0);
     }
+    // Their nodes are to be merged.
     for (const BodyFace* side : {other->second, &face})
       for (const Index i : side->nodes)
         crack.replaced[static_cast<std::size_t>(i)] = first[static_cast<std::size_t>(i)];
@@ -259,6 +264,7 @@ HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<BodyFace>& ski
   size /= static_cast<double>(skin.size());
   constexpr double k_least = 1e-9;  // of the extent: more cells than that are none
   if (!(size > k_least * extent_of_skin(mesh, skin)) || !std::isfinite(size)) return hanging;
+  // Corners of faces by cells.
   const Cells cells(2 * size, point_of(mesh, skin[0].nodes[0]));
   std::unordered_map<std::int64_t, std::vector<Index>> corners;
   std::unordered_set<Index> seen;
@@ -268,6 +274,7 @@ HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<BodyFace>& ski
           kept_apart[static_cast<std::size_t>(node)] == 0 && seen.insert(node).second)
         cells.for_each(point_of(mesh, node), point_of(mesh, node),
                        [&](std::int64_t key) { corners[key].push_back(node); });
+  // A node within a face or edge that it is no corner of hangs there.
   std::unordered_set<Index> found;
   for (const BodyFace& face : skin) {
     Point low = point_of(mesh, face.nodes[0]), high = low;
@@ -294,6 +301,7 @@ HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<BodyFace>& ski
   return hanging;
 }
 
+// Disjoint sets of nodes: an element joins all of its own.
 std::size_t n_pieces(const RawMesh& mesh, const std::string& body) {
   std::vector<Index> root(mesh.x.size(), -1);
   const auto find = [&](Index i) {
