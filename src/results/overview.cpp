@@ -110,6 +110,7 @@ std::string skin_table(const Overview& o) {
       gap = largest < 1e-8 ? "touches" : "gap " + range(1e3 * *s.least_gap, 1e3 * *s.largest_gap, "mm");
       if (largest >= 1e-8 && s.touches) gap += ", counts as touching";
     }
+    // A surface that is faced in part is told with both areas.
     const bool part = s.paired < 0.999 * s.area;
     rows.push_back({s.name, s.surface + (s.body.empty() ? "" : " (" + s.body + ")"), s.faces,
                     area(s.area, o.kind) + (part ? ", faced " + area(s.paired, o.kind) : ""), gap, s.law});
@@ -234,6 +235,7 @@ Json json(const Overview& o) {
     skins.push_back(std::move(j));
   }
   for (const PourOverview& p : o.pours) pours.push_back(json(p));
+  // What the run is expected to cost.
   Json effort, all;
   effort.add("steps", o.effort.steps).add("seconds", o.effort.seconds).add("memory[bytes]", o.effort.bytes);
   all.add("bodies", std::move(bodies))

@@ -40,6 +40,7 @@ GlobalHistory::Options global_columns(const coupling::Phases& phases, const Reco
                                  .heat = phases.heat != nullptr,
                                  .internal_energy = follows_internal_energy(phases, options),
                                  .bodies = options.shots};
+  // Columns of each pair as far as it has friction and heat.
   if (phases.mechanics != nullptr)
     for (const contact::ContactPair* pair : phases.contacts)
       columns.pairs.push_back({pair->spec().name, pair->spec().friction.has_value(),
@@ -171,6 +172,7 @@ StepTable Recorder::step_table() const {
 
 void Recorder::begin(const coupling::State& state) {
   const profile::Part part("output");
+  // The state at the start is summarised as a step would be, so that the tables have a row of it.
   coupling::StepEffort initial;
   coupling::summarise(phases_, state, initial);
   measure_internal_energy(initial, state);
@@ -194,6 +196,7 @@ void Recorder::begin(const coupling::State& state) {
     });
     return;
   }
+  // A fresh run starts its balance here.
   coupling::EnergyAudit none;
   none.internal_at_start = initial.internal_energy;
   globals_.start(initial, none, {}, heat_content, heat_of_bodies(state));
@@ -308,6 +311,7 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
   if (progress_) progress_->end(outcome, options_.profile ? profile::text() : "");
   Summary& s = options_.summary;
   if (mechanical && phases_.mechanics != nullptr)
+    // Answers are found from the fields of the last state, with the criteria that were accumulated.
     tell_stress_jumps(mesh_, phases_.mechanics->kind(), fields_.bodies(), options_.castings);
   if (!options_.steady) {
     fields_.update_criteria(state);

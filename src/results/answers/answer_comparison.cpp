@@ -46,6 +46,7 @@ void compare_errors(ErrorPart part, double ratio, const Answers& beside,
   // Answer by answer with the same one of the other run; criteria are found by their names.
   for (std::size_t i = 0; i < answers.castings.size() && i < beside.castings.size(); ++i)
     comparison.take(answers.castings[i].froze, beside.castings[i].froze);
+  // Gaps and overlaps are matched by their contact, the others are single values.
   compare_gaps(comparison, beside.gaps, answers.gaps);
   compare_gaps(comparison, beside.overlaps, answers.overlaps);
   comparison.take(answers.distortion, beside.distortion);
@@ -55,6 +56,7 @@ void compare_errors(ErrorPart part, double ratio, const Answers& beside,
   for (auto& [name, error] : answers.criteria_errors) {
     const auto own = std::ranges::find(criteria, name, &criteria::CriterionResult::name);
     const auto other = std::ranges::find(beside_criteria, name, &criteria::CriterionResult::name);
+    // A criterion that only one of the runs has cannot be compared.
     if (own == criteria.end() || other == beside_criteria.end()) continue;
     std::optional<ErrorBand> found = error;
     comparison.take(own->value, other->value, found);

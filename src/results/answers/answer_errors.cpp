@@ -141,6 +141,7 @@ void ErrorFinder::of_gap(GapAnswer& answer) const {
 double ErrorFinder::change_of_shape(const std::optional<Spot>& spot) const {
   const FieldValues now(fields_, mechanics::fields::k_displacement.name);
   const std::span<const double> before = last_.before(mechanics::fields::k_displacement.name);
+  // Without a step before there is no change to measure.
   if (before.empty()) return 0;
   const auto n_owned = static_cast<std::size_t>(mesh_.n_owned_nodes);
   double square = 0, n = 0;
@@ -192,6 +193,8 @@ void ErrorFinder::find(Answers& answers, const std::vector<criteria::CriterionRe
     of_freezing(body);
   }
   cast_nodes_ = nodes_of(mesh_, cast);
+  // Each kind of answer by its own estimate; those that follow from freezing use what was found
+  // above.
   for (std::vector<GapAnswer>* gaps : {&answers.gaps, &answers.overlaps})
     for (GapAnswer& gap : *gaps) of_gap(gap);
   for (CastAnswer& body : answers.castings) {

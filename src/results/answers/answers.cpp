@@ -195,6 +195,7 @@ std::vector<GapAnswer> deepest_overlaps(const mesh::Mesh& mesh, const coupling::
 void add_stress(const mesh::Mesh& mesh, const FieldSet& fields, const std::vector<char>& bodies,
                 Answers& answers) {
   const FieldValues stress(fields, mechanics::fields::k_von_mises.name);
+  // A run without mechanics has no stress.
   if (stress.empty()) return;
   std::vector<Largest> of_body(mesh.bodies.size());
   std::size_t first = 0;
@@ -207,6 +208,7 @@ void add_stress(const mesh::Mesh& mesh, const FieldSet& fields, const std::vecto
                           centre(mesh, block, e));
     first += static_cast<std::size_t>(block.size());
   }
+  // The largest of each body over all processes, then of all bodies, with the body's name.
   for (std::size_t b = 0; b < of_body.size(); ++b) {
     const std::optional<ValueAt> largest = of_body[b].over_processes();
     if (!largest || largest->value <= 0 || (answers.stress && largest->value <= answers.stress->value))
@@ -242,6 +244,7 @@ std::optional<Pores> pores_in(const mesh::Mesh& mesh, AnalysisKind kind, const F
     }
     first += static_cast<std::size_t>(block.size());
   }
+  // A run in which no pore has opened has no answer.
   const std::optional<ValueAt> largest = densest.over_processes();
   volume = parallel::global_sum(volume);
   whole = parallel::global_sum(whole);

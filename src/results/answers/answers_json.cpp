@@ -58,6 +58,7 @@ Json json(const Answers& a) {
     }
     json.add("pools_cut_off", std::move(pools));
   }
+  // The yield is known only where bodies have roles.
   if (const std::optional<double> share = poured_share_of_parts(a)) json.add("yield", *share);
   if (a.pores) json.add("pores", pores_json(*a.pores));
   Json gaps;
@@ -75,6 +76,8 @@ Json json(const Answers& a) {
     of_criteria.add(name, std::move(of_one));
   }
   if (!a.criteria_errors.empty()) json.add("errors_of_criteria", std::move(of_criteria));
+  // At last what says how far the answers are right: shots, the error of fixed steps, and the
+  // balance of energy.
   if (!a.shots.empty()) json.add("shots", results::json(a.shots));
   if (a.step_error)
     json.add("largest_step_error",

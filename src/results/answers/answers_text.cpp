@@ -97,6 +97,7 @@ std::string line(std::string_view what, const std::string& answer) {
 }
 
 std::string cast_text(const CastAnswer& answer, double time, const Formatter& format) {
+  // A body that has left, or is solid, is told by when its last melt froze.
   if (!answer.there)
     return answer.froze ? fmt::format("has left; its last melt froze {} after pouring {}",
                                       with_error(answer.froze->value, answer.froze->error, 1, "s"),
@@ -118,6 +119,7 @@ std::string cast_text(const CastAnswer& answer, double time, const Formatter& fo
 
 /// The answers of a run of shots: casting and die from shot to shot.
 std::string shot_lines(const std::vector<ShotRow>& shots, const Formatter& format) {
+  // What is told of the first and of the last shot is told once where there is one shot only.
   if (shots.empty()) return "";
   const coupling::ShotRecord &first = shots.front().shot, &last = shots.back().shot;
   const auto both = [&](const std::string& of_first, const std::string& of_last) {
@@ -135,6 +137,7 @@ std::string shot_lines(const std::vector<ShotRow>& shots, const Formatter& forma
            last.periodic ? fmt::format("after {}: within {} from shot to shot", n, format.change(last.change))
                          : fmt::format("not to see after {}: it changed by up to {} in the last", n,
                                        format.change(last.change)));
+  // Casting first, then the die when a shot begins, in the mean and at its hottest place.
   text += line("time to solidify", both(solid(shots.front()), solid(shots.back())));
   text += line("die when a shot begins, mean",
                both(format.temperature(first.at_pour.mean), format.temperature(last.at_pour.mean)));
@@ -161,6 +164,8 @@ std::string margin_text(double later, double error) {
 
 /// Says of each riser whether it fed the castings to the end.
 std::string riser_lines(const Answers& answers) {
+  // The part counts as solid when all of its bodies are; its last melt and the error of that decide
+  // the margin.
   bool part_solid = true, any_part = false;
   double part = 0, part_error = 0;
   for (const CastAnswer& a : answers.castings) {
@@ -174,6 +179,8 @@ std::string riser_lines(const Answers& answers) {
   std::string text;
   for (const CastAnswer& riser : answers.castings) {
     if (!riser.cast.feeds || (!riser.there && !riser.froze) || !any_part) continue;
+    // A riser that outlives the part has done its work; one that is solid first has not, which is
+    // told plainly.
     std::string verdict;
     if (riser.froze && part_solid)
       verdict = margin_text(riser.froze->value - part, std::max(part_error, error_of(riser.froze)));
@@ -284,6 +291,7 @@ std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, 
 
 /// Pores of gas, and by how much the mould gave way to graphite.
 std::string gas_lines(const std::vector<criteria::CriterionResult>& found, const Formatter& format) {
+  // Results are looked up by name, since a run may have any of them.
   const auto result = [&](const std::string& name) {
     const auto f = std::ranges::find(found, name, &criteria::CriterionResult::name);
     return f == found.end() ? nullptr : &*f;
@@ -313,6 +321,7 @@ std::string feeding_lines(const std::vector<criteria::CriterionResult>& found, c
   };
   const criteria::CriterionResult* room = result("feeding_room");
   if (room == nullptr || !(room->value > 0)) return "";
+  // Volumes are told as shares too, because a share compares castings of different size.
   const auto share = [&](double volume) {
     return digits(100 * volume / room->value, 3) + " % of what was cast";
   };
@@ -321,6 +330,7 @@ std::string feeding_lines(const std::vector<criteria::CriterionResult>& found, c
                                         [](const CastAnswer& a) { return a.cast.body; });
     return body == answers.castings.end() ? "casting" : body->cast.name;
   };
+  // Holes are numbered by size; each gets a line with its place.
   const auto places = [&](const char* kind) {
     std::string lines;
     for (int k = 1; const criteria::CriterionResult* hole = result(fmt::format("{}_{}_volume", kind, k)); ++k)
@@ -375,6 +385,7 @@ std::string text(const Answers& a, const std::vector<criteria::CriterionResult>&
   if (const std::optional<double> share = poured_share_of_parts(a))
     text += line("yield", fmt::format("{:.3g} % of what is poured is part", 100 * *share));
   if (a.pools) text += line("pools of melt cut off", pools_text(*a.pools, format));
+  // What was cast decides whether soundness is a question at all.
   if (!a.castings.empty())
     text += criteria_lines(criteria, a, format) + feeding_lines(criteria, a, format) +
             gas_lines(criteria, format);
@@ -395,6 +406,7 @@ std::string text(const Answers& a, const std::vector<criteria::CriterionResult>&
           fmt::format(
               "{} {}: the penalty lets metal shrink into its wall; stresses are too low where that is rigid",
               format.length(overlap.gap.value), format.place(overlap.gap.where)));
+  // Mechanics' own answers, then the numbers by which the user judges the run.
   if (a.distortion)
     text += line("largest distortion",
                  fmt::format("{} {}", format.length(*a.distortion), format.place(a.distortion->where)));

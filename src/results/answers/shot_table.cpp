@@ -88,6 +88,7 @@ std::optional<double> time_to_solidify(const mesh::Mesh& mesh, const FieldSet& f
                                        const std::vector<CastBody>& castings) {
   const Field* field = fields.find(criteria::fields::k_solidified_at.name);
   if (field == nullptr || castings.empty()) return {};
+  // Without castings, or without the criterion that notes the time, nothing is known.
   std::vector<double> storage;
   const std::span<const double> solidified = field->read(storage);
   double last = 0;

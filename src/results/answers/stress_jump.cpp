@@ -42,6 +42,7 @@ std::array<double, 2> sums_of_body(const mesh::Mesh& mesh, AnalysisKind kind, in
   std::size_t first = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const std::size_t begin = first;
+    // Element values lie block after block, those of other bodies too.
     first += static_cast<std::size_t>(block.size());
     if (block.body != body) continue;
     const PackVector<Lane> integrals = mesh::basis_integrals(mesh, block, kind);
@@ -64,6 +65,7 @@ std::array<double, 2> sums_of_body(const mesh::Mesh& mesh, AnalysisKind kind, in
       }
     }
   }
+  // V |s|² of the nodal means: what they explain of the sum.
   for (const NodeSum& sum : nodes)
     if (sum.volume > 0) sums[1] += square(sum.stress) / sum.volume;
   return sums;
@@ -93,6 +95,7 @@ std::vector<double> stress_jumps(const mesh::Mesh& mesh, AnalysisKind kind, cons
 void tell_stress_jumps(const mesh::Mesh& mesh, AnalysisKind kind, const FieldSet& fields,
                        std::span<const CastBody> castings) {
   constexpr double k_much = 0.5;
+  // The share of the stress that neighbouring elements disagree about, for each body.
   const std::vector<double> jumps = stress_jumps(mesh, kind, fields);
   // Only elements of first order are meant, as those of second order follow bending.
   for (std::size_t b = 0; b < jumps.size(); ++b) {

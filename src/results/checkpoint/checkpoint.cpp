@@ -44,6 +44,8 @@ std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
 
 // Everything that is neither field nor text, in a fixed order: written and read by the same list.
 template <class C, class Visit>
+// Time and counters, control of the step, its limits, energies, audit, shots: the order is the
+// format.
 void each_number(C& c, const Visit& visit) {
   auto& k = c.continuation;
   auto& o = k.options;

@@ -68,6 +68,7 @@ void write_contacts(TableWriter& out, const std::vector<contact::ContactState>& 
     }
     out.rows<std::int64_t>(table(i) + "/point", 1, keys);
     out.rows<double>(table(i) + "/values", width, values);
+    // Worn nodes of the master are kept where it wears.
     if (contacts[i].master.empty()) continue;
     std::vector<std::int64_t> nodes;
     std::vector<double> worn;

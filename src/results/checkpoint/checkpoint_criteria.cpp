@@ -34,6 +34,7 @@ struct Part {
 std::vector<Part> parts(const mesh::Mesh& mesh, const CriterionRecord& record,
                         const CriterionColumn& column) {
   const std::string values = path(record, column.name);
+  // A column of nodes is one part; one of elements has a part for each block.
   if (column.place == mesh::FieldPlace::node)
     return {{0, static_cast<std::size_t>(mesh.n_owned_nodes), mesh.input_node.size(),
              [&mesh](std::size_t row) { return mesh.input_node[row]; }, "node", values}};
@@ -72,6 +73,7 @@ void take_part(TableReader& in, const Part& part, CriterionColumn& column) {
 
 }  // namespace
 
+// Numbers of the elements once for all columns that are stored by them.
 void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::CriteriaState& state) {
   if (has_cells(state))
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b)

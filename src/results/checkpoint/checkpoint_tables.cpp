@@ -158,6 +158,7 @@ void TableReader::each(const std::string& keys, const std::string& values, const
   run_collectively([&] {
     const std::int64_t n_rows = file_->rows(values);
     const auto width = static_cast<std::size_t>(file_->width(values));
+    // Keys and values must have as many rows; a damaged file may claim anything.
     if (file_->rows(keys) != n_rows || file_->width(keys) != 1 || width > k_widest)
       throw OutputError(path_.string(), "its '" + values + "' does not fit its '" + keys + "'");
     // A block of rows at a time; numbers out of their range are refused, for the file may be damaged.

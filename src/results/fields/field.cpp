@@ -38,6 +38,7 @@ FieldSet FieldSet::select(const std::vector<std::string>& names) const {
       if (!field.on_request) usual.add(field);
     return usual;
   }
+  // The message lists the fields that there are.
   std::string known;
   for (const Field& field : fields_) known += (known.empty() ? "" : ", ") + field.name;
   for (const std::string& name : names)

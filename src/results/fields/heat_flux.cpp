@@ -24,6 +24,7 @@ std::vector<double> element_means(const mesh::Mesh& mesh, AnalysisKind kind,
       const int lane = static_cast<int>(e % k_lanes);
       std::vector<double> sum(n_components, 0.0);
       double volume = 0;
+      // Temperature and its gradient at each point, from the nodal values.
       for (int q = 0; q < g.n_points; ++q) {
         const Lane* const gradients = g.gradients_at(batch, q);
         const double w = g.weight_at(batch, q)[lane];
@@ -37,6 +38,7 @@ std::vector<double> element_means(const mesh::Mesh& mesh, AnalysisKind kind,
         add(w, conductivity.value(theta), theta, gradient, sum);
         volume += w;
       }
+      // The mean over the element, by volume.
       for (const double value : sum) means.push_back(value / volume);
     }
   }

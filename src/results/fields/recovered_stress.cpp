@@ -74,6 +74,7 @@ void StressRecovery::measure_cells(AnalysisKind kind) {
     for (Index e = 0; e < g.n_elements; ++e) {
       std::fill(weight.begin(), weight.end(), 0.0);
       double volume = 0;
+      // The weights of the nodes are ∫ N_a dV, which sum to the volume.
       for (int q = 0; q < g.n_points; ++q) {
         const double w = g.weight_at(e / k_lanes, q)[e % k_lanes];
         volume += w;
@@ -83,6 +84,7 @@ void StressRecovery::measure_cells(AnalysisKind kind) {
       mesh::Point centre{};
       for (std::size_t a = 0; a < n_nodes; ++a)
         for (std::size_t i = 0; i < 3; ++i) centre[i] += weight[a] / volume * x(a)[i];
+      // Second moments of the nodes tell how far the element reaches in each direction.
       std::array<double, 9> moment{};
       for (std::size_t a = 0; a < n_nodes; ++a)
         for (std::size_t i = 0; i < 3; ++i)

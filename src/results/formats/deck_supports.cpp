@@ -62,6 +62,7 @@ std::vector<Index> connected_parts(const mesh::Mesh& mesh, const linear::ActiveS
     const int n = mesh::node_count(block.shape);
     for (Index e = 0; e < block.size(); ++e)
       for (int a = 0; a < n; ++a) {
+        // Disjoint sets of nodes: an element joins its nodes, and the smaller number is the root.
         const Index node = block.element(e)[a];
         if (part[static_cast<std::size_t>(node)] < 0) part[static_cast<std::size_t>(node)] = node;
         const Index mine = root(node), first = root(block.element(e)[0]);
@@ -92,6 +93,7 @@ class Motions {
   Row row(Index node, std::size_t component) const {
     Row row{};
     mesh::Point r = mesh_.x[static_cast<std::size_t>(node)];
+    // Places are scaled by the part's size, so that translations and rotations weigh alike.
     for (std::size_t i = 0; i < 3; ++i) r[i] = (r[i] - part_.centre[i]) / part_.size;
     switch (kind_) {
       case AnalysisKind::axisymmetric:
@@ -146,6 +148,7 @@ std::vector<Index> missing_supports(const mesh::Mesh& mesh, const linear::Active
   for (const auto& [first, part] : parts_of(mesh, part_of)) {
     const Motions motions(mesh, kind, part);
     Held held;
+    // What the case holds already takes away some of the free motions.
     for (const Index node : part.nodes)
       for (std::size_t k = 0; k < components && held.size() < motions.count(); ++k)
         if (fixed[static_cast<std::size_t>(node) * components + k] != 0) held.add(motions.row(node, k));
@@ -162,6 +165,8 @@ std::vector<Index> missing_supports(const mesh::Mesh& mesh, const linear::Active
         if (held.size() < motions.count()) held.add(row);
       }
     }
+    // Each missing support is where the remaining motions move the most: far from those that are
+    // there.
     while (held.size() < motions.count()) {
       double most = 0;
       Row best{};

@@ -47,6 +47,7 @@ std::string FieldOutput::write_one(const std::string& name, const mesh::Surface*
   const auto part = [&](int process) {
     return size == 1 ? name + ".vtu" : fmt::format("{}_p{}.vtu", name, process);
   };
+  // Each process writes its part; with several of them the first one writes the list.
   run_collectively([&] {
     if (surface != nullptr)
       write_surface_vtu(fields_ / part(rank), mesh_, *surface, fields, time);

@@ -39,6 +39,7 @@ std::string user_block(const std::filesystem::path& file, int descriptor) {
   std::vector<unsigned char> buffer(std::size_t{1} << 16);
   std::uint64_t size = k_user_block;
   unsigned long crc = crc32(0, nullptr, 0);
+  // The sum runs over the content in blocks, so that a large file needs no large memory.
   while (true) {
     const ssize_t n = pread(descriptor, buffer.data(), buffer.size(), static_cast<off_t>(size));
     if (n < 0 && errno == EINTR) continue;

@@ -111,6 +111,7 @@ void write_bodies(const Writer& writer, const FieldMoment& moment, const std::ve
 }
 
 void write_mesh(const Writer& writer, const FieldMoment& moment, const std::vector<CellBlock>& blocks) {
+  // A mesh of a plane analysis has cells of two dimensions in a space of three.
   const bool solid = std::any_of(blocks.begin(), blocks.end(),
                                  [](const CellBlock& block) { return block.kind->dimension == 3; });
   std::string axes, units;
@@ -129,6 +130,7 @@ void write_mesh(const Writer& writer, const FieldMoment& moment, const std::vect
   }
   writer.check(MEDmeshNodeCoordinateWr(writer.file(), k_mesh, MED_NO_DT, MED_NO_IT, 0.0, MED_FULL_INTERLACE,
                                        static_cast<med_int>(points.size() / 3), points.data()));
+  // Each kind of cell is written by itself.
   for (const CellBlock& block : blocks)
     writer.check(MEDmeshElementConnectivityWr(writer.file(), k_mesh, MED_NO_DT, MED_NO_IT, 0.0, MED_CELL,
                                               block.kind->med, MED_NODAL, MED_FULL_INTERLACE,
@@ -190,6 +192,7 @@ MedReport write_all(const std::vector<PvdCollection::Entry>& moments, const fs::
   std::vector<CellBlock> blocks;
   bool has_absent = false;
   for (const PvdCollection::Entry& entry : moments) {
+    // Files are read one after the other, since all moments would not fit into memory.
     const FieldMoment files(root / entry.file);
     if (report.times == 0) {
       if (files.pieces().empty()) throw InputError({entry.file}, "the file holds no grid");

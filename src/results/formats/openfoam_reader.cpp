@@ -63,6 +63,7 @@ class FoamFile {
   std::string_view token() {
     skip_blanks();
     if (at_ >= text_.size()) fail("the file ends too early");
+    // One character of punctuation, a text in quotes, or a word.
     const std::size_t first = at_;
     constexpr std::string_view k_single = "(){}[];";
     if (k_single.find(text_[at_]) != std::string_view::npos) {
@@ -273,6 +274,7 @@ FoamField read_values(FoamFile file, const PolyMesh& mesh) {
   const std::size_t n = field.of_points ? mesh.points.size() : mesh.n_cells;
   while (true) {
     const std::string key(file.token());
+    // The powers of the base units tell what the field is.
     if (key == "dimensions") {
       std::array<double, 7> powers{};
       file.expect("[");
@@ -321,11 +323,13 @@ FoamField read_values(FoamFile file, const PolyMesh& mesh) {
 
 ReadField read_openfoam(const fs::path& time, const std::string& name, double length,
                         const SourceLocation& where) {
+  // The mesh belongs to the case; without it the folder is no time of one.
   const fs::path folder = fs::weakly_canonical(time);
   const fs::path poly_mesh = folder.parent_path() / "constant/polyMesh";
   if (!fs::is_directory(poly_mesh))
     throw InputError(where, fmt::format("'{}' is a folder, but no time of a case of OpenFOAM", time.string()),
                      "a folder of a time, with constant/polyMesh beside it; or a .csv, .vtu or .pvtu file");
+  // A name that is not there is answered with those that are.
   std::optional<FoamFile> file = FoamFile::open(folder / name);
   if (!file) {
     std::vector<std::string> there;
@@ -384,6 +388,7 @@ ReadField read_openfoam(const fs::path& time, const std::string& name, double le
     if (weight[i] > 0) read.values[i] = sum[i] / weight[i];
   if (field.of_points) read.cell_volumes.clear();  // values are of points: sums go by the tetrahedra
 
+  // A mesh of one body that this process has alone.
   mesh.dimension = 3;
   mesh.n_owned_nodes = static_cast<Index>(mesh.x.size());
   mesh.n_global_nodes = mesh.n_owned_nodes;

@@ -43,6 +43,7 @@ PvdCollection::PvdCollection(std::filesystem::path path, double time) : path_(st
         !attribute(line, "file", name))
       throw OutputError(path_.string(),
                         "this collection was not written by Solidus; the run cannot go on with it");
+    // A time that is no number means another writer, whose file must not be overwritten.
     char* end = nullptr;
     const double at = std::strtod(text.c_str(), &end);
     if (end == text.c_str() || *end != '\0' || !std::isfinite(at))

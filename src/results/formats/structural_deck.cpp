@@ -118,6 +118,7 @@ class Writer {
 
   void elements() {
     for (std::size_t b = 0; b < d_.mesh.blocks.size(); ++b) {
+      // Only bodies of the last stage are in the deck.
       if (!there(b)) continue;
       const mesh::ElementBlock& block = d_.mesh.blocks[b];
       line("*ELEMENT, TYPE={}, ELSET={}", deck_element_type(d_.kind, block.shape), body_set(block.body));
@@ -186,6 +187,7 @@ class Writer {
           if (found != behind.end()) found->second = {first_[b] + e, deck_face_label(block.shape, k)};
         }
     }
+    // Each surface lists the faces whose element is in the deck.
     for (const auto& [name, surface] : d_.mesh.surfaces) {
       std::string lines;
       faces_of(surface, [&](const mesh::FaceKey& key) {
@@ -354,6 +356,7 @@ class Writer {
   void step() {
     line("*STEP");
     line("*STATIC");
+    // Loads below rounding are left out, or every node would have one.
     std::string loads;
     double largest = 0;
     for (const double f : d_.force) largest = std::max(largest, std::abs(f));
@@ -366,6 +369,7 @@ class Writer {
           loads += fmt::format("{}, {}, {:.12e}\n", node(i), k + 1, d_.force[at]);
       }
     }
+    // Supports come before loads, as the programs want them.
     supports();
     if (!loads.empty()) out_ += "*CLOAD\n" + loads;
     outputs();

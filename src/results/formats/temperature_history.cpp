@@ -21,6 +21,7 @@ using LocalNodes = std::unordered_map<GlobalIndex, Index>;  ///< by the input's 
 void read_file(const fs::path& path, const LocalNodes& local, std::vector<double>& temperature,
                bool part = false) {
   const mesh::VtuFile file(path);
+  // A list of parts is read part by part.
   if (file.type() == "PUnstructuredGrid" && !part) {
     for (const fs::path& each : grid_files(file, path)) read_file(each, local, temperature, true);
     return;
@@ -32,6 +33,7 @@ void read_file(const fs::path& path, const LocalNodes& local, std::vector<double
     if (numbers == nullptr || values == nullptr)
       file.fail("the file has no temperatures of numbered nodes",
                 "fields that hold the temperature: output.fields = [] or with \"temperature\"");
+    // Values go to the nodes that this process has, by their numbers.
     const std::size_t n = piece_size(file, piece).points;
     const std::vector<double> node = file.numbers(*numbers, n), value = file.numbers(*values, n);
     for (std::size_t i = 0; i < n; ++i)
@@ -50,6 +52,7 @@ std::vector<TemperatureMoment> read_temperature_history(const fs::path& collecti
   LocalNodes local;
   for (Index i = 0; i < mesh.n_nodes(); ++i)
     if (active.node(i)) local.emplace(mesh.input_node[static_cast<std::size_t>(i)], i);
+  // Only parts that are bodies have a number of zero; contact surfaces are left out.
   std::vector<TemperatureMoment> history;
   const PvdCollection all(collection, std::numeric_limits<double>::infinity());
   for (const PvdCollection::Entry& entry : all.entries()) {
@@ -63,6 +66,7 @@ std::vector<TemperatureMoment> read_temperature_history(const fs::path& collecti
         throw InputError({path.string()}, "the file has no temperature of node " + std::to_string(number));
     history.push_back(std::move(moment));
   }
+  // One moment is no history.
   if (history.size() < 2)
     throw InputError({collection.string()}, "the run has left the fields of fewer than two times",
                      "[output] with `every` or `times`");

@@ -141,6 +141,7 @@ void write_mesh(Writer& writer, const FieldMoment& moment, const std::vector<Fie
     report.points += piece.n_points;
     report.cells += piece.n_cells;
   }
+  // Counts first, then the lists that they describe.
   const auto number = [](std::size_t n) { return std::vector<std::int64_t>{static_cast<std::int64_t>(n)}; };
   writer.append("VTKHDF/NumberOfPoints", number(report.points));
   writer.append("VTKHDF/NumberOfCells", number(report.cells));

@@ -77,6 +77,7 @@ std::string add_field(AppendedData& data, const Part& part, const Field& field) 
   check_size(mesh, field, values.size());
   const auto nc = static_cast<std::size_t>(field.components);
   const auto pad = static_cast<std::size_t>(file_components(field)) - nc;
+  // Values at nodes go by the file's order of nodes, values of cells by the order of blocks.
   const bool at_nodes = field.place == mesh::FieldPlace::node;
   const std::size_t n = (at_nodes ? part.nodes.size() : part.n_cells) * (nc + pad);
   return data.add<double>(head_of(field), n, [&](const auto& put) {

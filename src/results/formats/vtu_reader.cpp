@@ -56,6 +56,7 @@ class Reader {
                          "a number of its cell data `body`");
       throw InputError(where_, fmt::format("'{}' has no areas or volumes", path.string()));
     }
+    // A mesh of one body that this process has alone.
     mesh.dimension = dimension;
     mesh.n_owned_nodes = static_cast<Index>(mesh.x.size());
     mesh.n_global_nodes = mesh.n_owned_nodes;
@@ -74,6 +75,7 @@ class Reader {
   void add_piece(const VtuFile& file, const ptree& piece) {
     const auto [n_points, n_cells] = piece_size(file, piece);
     const ptree& points = points_array(file, piece);
+    // The field must be there, at points, with one component.
     const ptree* field = mesh::find_array(piece, "PointData", field_);
     if (field == nullptr)
       throw InputError(where_, fmt::format("the file has no field '{}' at its points", field_),
@@ -82,6 +84,7 @@ class Reader {
       throw InputError(where_, fmt::format("the field '{}' of the file has several components", field_),
                        "a field of one component");
     read_.unit = mesh::array_unit(*field);
+    // Points and values of further pieces follow those before.
     const std::size_t first = read_.mesh.x.size();
     const std::vector<double> x = file.numbers(points, 3 * n_points);
     for (std::size_t i = 0; i < n_points; ++i)
@@ -95,6 +98,7 @@ class Reader {
                  std::size_t n_points) {
     const CellTable cells = read_cells(file, piece, n_cells, n_points);
     const std::vector<double> bodies = cell_data(file, piece, "body", n_cells);
+    // Copies of cells of other processes are marked as ghosts.
     const std::vector<double> ghosts = cell_data(file, piece, "vtkGhostType", n_cells);
     if (body_ >= 0 && bodies.empty() && n_cells > 0)
       throw InputError(where_, "the file has no cell data `body`", "no 'body', or a file that has it");

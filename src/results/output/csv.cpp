@@ -50,6 +50,7 @@ std::string header_row(const std::vector<CsvColumn>& columns) {
 // Cuts the file behind its last row that is finished and not later than `time`.
 void cut_after(const std::filesystem::path& path, const std::vector<CsvColumn>& columns, double time) {
   std::ifstream file(path, std::ios::binary);
+  // The columns must be those of this run, or later rows would mean something else.
   if (!file) throw OutputError(path.string(), "there is no table to go on with");
   std::stringstream buffer;
   buffer << file.rdbuf();
@@ -57,6 +58,7 @@ void cut_after(const std::filesystem::path& path, const std::vector<CsvColumn>& 
   if (text.compare(0, header.size(), header) != 0)
     throw OutputError(path.string(), "the columns of the earlier run are not those of this one",
                       "this run: " + header.substr(0, header.size() - 1));
+  // Rows are kept up to the time of the checkpoint, and only whole ones.
   std::size_t end = header.size();
   while (end < text.size()) {
     const std::size_t next = text.find('\n', end);

@@ -51,6 +51,7 @@ void Json::append(std::string& out, int depth, const std::string& key) const {
   } else if (const auto* whole = std::get_if<std::int64_t>(&value_)) {
     out += fmt::format("{}", *whole);
   } else if (const auto* number = std::get_if<double>(&value_)) {
+    // JSON has no infinity; such a number is a failure that should be seen.
     if (!std::isfinite(*number)) throw NotFiniteError("member '" + key + "' of summary.json", {});
     out += number_text(*number);
   } else if (const auto* string = std::get_if<std::string>(&value_)) {

@@ -22,6 +22,7 @@ Json unit_json(const quantities::ShownUnit& shown) {
 Json json(const quantities::Quantity& q) {
   using quantities::name;
   Json json;
+  // Only what the quantity declares is written.
   const auto text = [&](const char* key, std::string_view value) {
     if (!value.empty()) json.add(key, std::string(value));
   };

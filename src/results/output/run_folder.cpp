@@ -148,6 +148,7 @@ RunFolder::RunFolder(fs::path root, std::string_view resolved_case, bool continu
     : root_(std::move(root)) {
   on_first_process([&] {
     try {
+      // First it is made sure that the folder may be used; only then is anything removed.
       const std::vector<std::string> ours = tables_of(root_ / "case.toml");
       check_owner(root_, ours, tables);
       fs::create_directories(fields());

@@ -48,6 +48,7 @@ std::uint64_t spread(std::uint64_t bits) {
 
 /// The order of nodes along Morton's curve: neighbours in the list are neighbours in space.
 std::vector<std::int32_t> order_in_space(const std::vector<Point>& x) {
+  // Coordinates are scaled to 21 bits each; their bits are interleaved to one key.
   Point low{}, high{};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto by = [i](const Point& a, const Point& b) { return a[i] < b[i]; };
@@ -81,6 +82,7 @@ void sort_in_space(BodyMesh& body) {
   for (std::int32_t& node : sorted.triangles) node = place[static_cast<std::size_t>(node)];
   const auto n = static_cast<std::size_t>(body.corners);
   std::vector<std::array<std::int32_t, 4>> cells(body.cells.size() / n);
+  // Cells follow with their nodes renumbered.
   for (std::size_t c = 0; c < cells.size(); ++c) {
     cells[c] = {-1, -1, -1, -1};
     for (std::size_t k = 0; k < n; ++k) cells[c][k] = place[static_cast<std::size_t>(body.cells[n * c + k])];
@@ -147,6 +149,7 @@ double measure(const std::vector<Point>& x, const std::vector<int>& simplex,
 template <class F>
 void for_each_part(const FieldFile::Piece& piece, const mesh::CellTable& table, const F& use) {
   std::map<int, std::optional<mesh::CellParts>> known;
+  // Every type of cell is divided once and looked up afterwards.
   for (std::size_t c = 0; c < piece.n_cells; ++c) {
     const auto [found, is_new] = known.try_emplace(table.types[c]);
     if (is_new) found->second = mesh::parts_of(table.types[c]);

@@ -40,6 +40,7 @@ std::vector<std::vector<int>> simplices(Shape shape) {
               {4, 8, 5, 6}, {4, 8, 6, 7}, {4, 8, 7, 9}, {4, 8, 9, 5}};
     case Shape::hex8:
     case Shape::hex20:
+      // From corner 0 to the triangles of the faces that do not have it.
       for (int f = 0; f < mesh::face_count(shape); ++f) {
         const std::span<const int> nodes = mesh::face_nodes(shape, f);
         if (std::find(nodes.begin(), nodes.end(), 0) != nodes.end()) continue;

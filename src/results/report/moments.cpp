@@ -35,6 +35,7 @@ void add_columns(const FieldFile::Piece& piece, bool of_elements, const std::set
   // a column means (kept at the end alone, without value below zero) is declared with the quantity.
   const char* section = of_elements ? "CellData" : "PointData";
   for (const std::string& name : mesh::array_names(*piece.tree, section)) {
+    // Numbers of nodes and elements are no fields.
     if (is_number_of_things(name)) continue;
     const quantities::Quantity unknown{};
     const quantities::Quantity* const declared = coupling::find_field(name);
@@ -43,6 +44,8 @@ void add_columns(const FieldFile::Piece& piece, bool of_elements, const std::set
     const ptree& array = *mesh::find_array(*piece.tree, section, name);
     FieldColumn column;
     column.field = column.name = name;
+    // Vectors become three columns, the stress its largest principal value; other tensors are left
+    // out.
     column.unit = mesh::array_unit(array);
     column.n_components = array.get<int>("<xmlattr>.NumberOfComponents", 1);
     column.of_elements = of_elements;
@@ -90,6 +93,7 @@ class Reading {
   /// @param extremes  [body], of element fields
   std::vector<std::vector<float>> read(const FieldFile& file, const std::vector<PieceMap>& maps,
                                        const FieldColumn& column, std::vector<Extremes>& extremes) {
+    // Sums and weights at the nodes: element values are averaged there by volume.
     std::vector<std::vector<double>> values, weight;
     for (const BodyMesh& body : bodies_) {
       values.emplace_back(body.x.size(), column.of_elements ? 0.0 : k_none);
@@ -98,6 +102,7 @@ class Reading {
     extremes.assign(bodies_.size(), {});
     for (std::size_t p = 0; p < maps.size(); ++p)
       add(file.pieces()[p], maps[p], column, values, weight, extremes);
+    // Means, as floats; where nothing was added there is no value.
     std::vector<std::vector<float>> out;
     for (std::size_t b = 0; b < values.size(); ++b) {
       out.emplace_back().reserve(values[b].size());

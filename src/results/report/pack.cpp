@@ -15,6 +15,7 @@ namespace solidus::report {
 namespace {
 
 std::string deflated(std::string_view bytes, Bytes like) {
+  // The strategy of deflate follows from what the bytes look like.
   z_stream stream{};
   if (deflateInit2(&stream, like == Bytes::mask ? 9 : 6, Z_DEFLATED, -MAX_WBITS, 9,
                    like == Bytes::noise ? Z_RLE : Z_FILTERED) != Z_OK)

@@ -60,6 +60,7 @@ ReportText report_text(const std::vector<ReportedRun>& runs, const ReportOptions
     all.push_back(run_data(runs[i], options, room * (i + 1) / runs.size(), blocks, page.notes));
   meta.add("runs", std::move(all));
 
+  // The title names the cases, by the folders of their results.
   std::string title;
   for (const ReportedRun& run : runs)
     title += (title.empty() ? "" : ", ") + std::filesystem::absolute(run.folder / "")

@@ -18,6 +18,7 @@ using Row = std::vector<std::string>;
 
 /// Rows that end with a line end; a cell in quotes may hold commas, line ends and doubled quotes.
 std::vector<Row> rows_of(const std::string& text) {
+  // Quotes protect commas and line ends; a doubled quote is one.
   std::vector<Row> rows;
   Row row;
   std::string cell;
@@ -91,6 +92,7 @@ ReportTable read_table(const std::filesystem::path& file, std::size_t most) {
           fmt::format("the row has {} cells where the header has {}", rows[r].size(), rows[0].size()));
   table.n_in_file = rows.size() - 1;
   const std::size_t stride = table.n_in_file > most ? (table.n_in_file + most - 1) / most : 1;
+  // Rows thin out evenly, so that a curve keeps its shape.
   std::vector<const Row*> kept;
   for (std::size_t r = 1; r < rows.size(); ++r)
     if ((r - 1) % stride == 0 || r + 1 == rows.size()) kept.push_back(&rows[r]);

@@ -118,6 +118,7 @@ struct Collection {
 
 Collection collection(const fs::path& folder, std::vector<std::string>& notes) {
   Collection found;
+  // A run may have left no fields; then the page has tables only.
   const fs::path file = folder / "fields.pvd";
   if (!fs::exists(file)) return found;
   require_readable(file, {file.string(), 0, 0});
@@ -139,6 +140,7 @@ Collection collection(const fs::path& folder, std::vector<std::string>& notes) {
     else
       surfaces[entry.time].push_back(path);
   }
+  // Missing files are told on the page.
   if (missing > 0)
     notes.push_back(
         fmt::format("{} of the field files that fields.pvd lists are not there any more.", missing));
@@ -162,6 +164,7 @@ ContactParts contact_parts(const std::vector<fs::path>& files) {
         const quantities::Quantity* known = coupling::find_field(name);
         if (known != nullptr && known->of_contact()) parts.fields.insert(name);
       }
+      // Files without numbers of nodes have nothing that the page could match.
       const auto* array = mesh::find_array(*piece.tree, "PointData", "node");
       if (array == nullptr) continue;
       for (const double number : piece.file->numbers(*array, piece.n_points))
@@ -173,6 +176,7 @@ ContactParts contact_parts(const std::vector<fs::path>& files) {
 
 Json body_data(const BodyMesh& body, const std::vector<BodyMaterial>& names, const ReportOptions& options,
                Blocks& blocks, std::vector<std::string>& notes) {
+  // Names and materials come from the summary, by the body's number.
   const auto number = static_cast<std::size_t>(body.number);
   const std::string name = number < names.size() ? names[number].body : fmt::format("body {}", number);
   Json out;
