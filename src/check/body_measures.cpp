@@ -93,6 +93,8 @@ void measure_part(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Element
                   BodyMeasures& body, double& edges, double& n_edges) {
   const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
   for (Index e = 0; e < block.n_counted; ++e) {
+    // One element at a time: its volume, then its edges, of which the shortest and longest tell how
+    // flat it is. Mid-side nodes do not count, since an edge is measured from corner to corner.
     body.volume += element_volume(geometry, e);
     const Index* const nodes = block.element(e);
     double shortest = std::numeric_limits<double>::max(), longest = 0;
@@ -103,6 +105,8 @@ void measure_part(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Element
       longest = std::max(longest, length);
       edges += length, ++n_edges;
     });
+    // The extremes of the body are over all elements; the mean edge is formed at the end from the
+    // two sums.
     body.shortest_edge = std::min(body.shortest_edge, shortest);
     body.longest_edge = std::max(body.longest_edge, longest);
     if (shortest > 0) body.flattest = std::max(body.flattest, longest / shortest);
@@ -112,6 +116,7 @@ void measure_part(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Element
 /// Boxes and numbers of nodes, those that bodies share included.
 void measure_nodes(const mesh::Mesh& mesh, std::vector<BodyMeasures>& bodies) {
   std::vector<BodySet> of_node(mesh.x.size(), 0);
+  // Which bodies a node belongs to, as bits: a node on a common face has several.
   for (const mesh::ElementBlock& block : mesh.blocks)
     for (const Index node : block.nodes) of_node[static_cast<std::size_t>(node)] |= bit(block.body);
   for (Index i = 0; i < mesh.n_owned_nodes; ++i)
@@ -123,6 +128,8 @@ void measure_nodes(const mesh::Mesh& mesh, std::vector<BodyMeasures>& bodies) {
         bodies[b].low[d] = std::min(bodies[b].low[d], at(mesh, i)[d]);
         bodies[b].high[d] = std::max(bodies[b].high[d], at(mesh, i)[d]);
       }
+      // A node of two bodies counts for the pair in both directions, since either may be asked for
+      // the other.
       for (std::size_t other = 0; other < bodies.size(); ++other)
         if (other != b && (here & bit(static_cast<int>(other))) != 0) ++bodies[b].shared_nodes[other];
     }
@@ -155,6 +162,8 @@ void reduce(BodyMeasures& body, double edges, double n_edges) {
 std::vector<BodyMeasures> measure_bodies(const mesh::Mesh& mesh, AnalysisKind kind) {
   constexpr double k_huge = std::numeric_limits<double>::max();
   const std::size_t n = mesh.bodies.size();
+  // Minima start at the largest number and maxima at its negative, so that a process without a node
+  // of the body changes nothing when they are reduced.
   BodyMeasures none;
   none.low.fill(k_huge);
   none.high.fill(-k_huge);
@@ -166,6 +175,8 @@ std::vector<BodyMeasures> measure_bodies(const mesh::Mesh& mesh, AnalysisKind ki
   // Sums over the own nodes, faces and elements first, reduced over the processes at last.
   measure_nodes(mesh, bodies);
   measure_skins(mesh, kind, bodies);
+  // Elements in parts, since the geometry of all elements of a large block at once would be most of
+  // the memory of a check.
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const auto b = static_cast<std::size_t>(block.body);
     bodies[b].elements += block.n_counted;
@@ -184,6 +195,8 @@ double share_between(const mesh::Mesh& mesh, AnalysisKind kind, int body, const 
     // An element lies between when all of its nodes are marked.
     mesh::for_parts(block, [&](const mesh::ElementBlock& part, Index) {
       const mesh::BlockGeometry geometry(mesh, part, kind, mesh::stiffness_rule(part.shape));
+      // Counted elements are those of which this process owns the first node, so that none enters
+      // the sums twice.
       for (Index e = 0; e < part.n_counted; ++e) {
         const double volume = element_volume(geometry, e);
         const Index* nodes = part.element(e);

@@ -23,6 +23,7 @@ namespace {
 results::BodyOverview body_overview(const BodySpec& spec, const BodyMeasures& m,
                                     const InitialTemperatureRange& start, double density) {
   results::BodyOverview body;
+  // What the file says of the body, what the mesh measures of it, and the range in which it starts.
   body.name = spec.name;
   body.material = std::filesystem::path(spec.material).stem().string();
   body.low = m.low;
@@ -92,6 +93,8 @@ std::string with_stages(const std::string& name, const std::vector<std::string>&
 results::SkinOverview contact_overview(const CaseSpec& spec, const Assembly& a, const ContactSpec& contact,
                                        const ContactMeasures& m) {
   results::SkinOverview skin;
+  // The contact is told from its slave surface, which its pressures belong to; the master side is
+  // in a column of its own.
   skin.name = with_stages(contact.name, contact.stages);
   skin.surface = m.slave;
   skin.body = name_of(spec, m.slave_body);
@@ -99,6 +102,8 @@ results::SkinOverview contact_overview(const CaseSpec& spec, const Assembly& a, 
       "on " + m.master + (m.master_body == -1 ? " (tool)" : " (" + name_of(spec, m.master_body) + ")");
   skin.area = m.area;
   skin.paired = m.paired;
+  // Gaps exist only where something was paired; they count as closed where they are below what the
+  // search for contacts takes as touching.
   if (m.paired > 0) {
     skin.least_gap = m.least_gap;
     skin.largest_gap = m.largest_gap;
@@ -108,6 +113,8 @@ results::SkinOverview contact_overview(const CaseSpec& spec, const Assembly& a, 
   double hot = 0, cold = 1e300;
   for (const InitialTemperatureRange& r : a.start) hot = std::max(hot, r.high), cold = std::min(cold, r.low);
   if (!spec.has_heat()) return skin;
+  // Contacts of the first stage have a pair that knows its conductance; others have none yet, and
+  // are told by their file alone.
   const auto pair =
       std::ranges::find_if(a.contacts, [&](const auto& c) { return c->spec().name == contact.name; });
   const bool conducts = pair != a.contacts.end() && (*pair)->spec().heat.has_value();
@@ -120,11 +127,13 @@ results::SkinOverview condition_overview(const CaseSpec& spec, const ThermalCond
   // One row of the table that check prints: where the condition acts, what faces it there, and its value in
   // the unit that a user knows.
   using Kind = ThermalConditionSpec::Kind;
+  // Area and paired area are one, since a condition acts on its whole surface.
   results::SkinOverview skin;
   skin.name = with_stages(c.name, c.stages);
   skin.surface = c.group;
   skin.body = name_of(spec, m.body);
   skin.area = skin.paired = m.area;
+  // Each kind has its own words for what it exchanges with, and one number or a range for how much.
   switch (c.kind) {
     case Kind::film:
       skin.faces = "in " + celsius(c.ambient);
@@ -159,6 +168,7 @@ results::PourOverview pour_overview(const CaseSpec& spec, const Assembly& a, con
                                     const BodyMeasures& body) {
   results::PourOverview p;
   const material::Material& metal = a.materials[pour.body];
+  // Temperatures first: they are known also where no estimate of the freezing is possible.
   p.body = spec.bodies[pour.body].name;
   p.pouring = a.start[pour.body].high;
   p.liquidus = metal.solidification()->fraction.liquidus();
@@ -170,6 +180,8 @@ results::PourOverview pour_overview(const CaseSpec& spec, const Assembly& a, con
   p.modulus = body.volume / pour.cooled_area;
   p.local_modulus = pour.local_modulus;
   p.depth = pour.depth;
+  // How many elements lie from the cooled skin to the deepest place says whether the mesh can
+  // follow the freezing.
   p.elements_across = pour.depth / body.mean_edge;
   const double k = metal.conductivity.value(p.solidus);
   p.biot = pour.conductance * p.modulus / k;
@@ -193,10 +205,13 @@ results::Overview overview(const CaseSpec& spec, const Assembly& a, const CaseMe
     o.skins.push_back(contact_overview(spec, a, spec.contacts[c], m.contacts[c]));
   for (std::size_t c = 0; c < spec.thermal_conditions.size(); ++c)
     o.skins.push_back(condition_overview(spec, spec.thermal_conditions[c], m.surfaces[c]));
+  // Gravity matters to stresses alone: heat without flow does not know it.
   if (spec.has_mechanics() && spec.analysis.gravity != 0) o.gravity = gravity(spec.analysis);
   for (const Pour& pour : m.pours) o.pours.push_back(pour_overview(spec, a, pour, m.bodies[pour.body]));
   o.effort = {m.effort.steps, m.effort.steps_known, m.effort.seconds, m.effort.bytes};
   const bool keeps = keeps_strain(spec, a.materials, a.start);
+  // The lag is that of the one-way exchange of deformation and heat; a step that adapts has no one
+  // value for it.
   if (lags_a_step(spec, keeps)) {
     o.lag = spec.time.adaptive ? 0.0 : spec.time.step.value_or(0);
     o.end = spec.time.end.value_or(0);

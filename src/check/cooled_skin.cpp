@@ -54,6 +54,7 @@ std::vector<CooledSkin> conditions_on(std::size_t body, const Surroundings& in) 
   const CaseSpec& spec = in.spec;
   const CaseMeasures& m = in.m;
   std::vector<CooledSkin> skins;
+  // Only the conditions that hold in the stage cool, and each in the form that the run itself uses.
   const heat::ThermalConditions conditions = thermal_conditions(spec, in.stage);
   // The measures of a surface are those of the condition that names it.
   const auto add = [&](const std::string& group, const auto& law) {
@@ -69,6 +70,8 @@ std::vector<CooledSkin> conditions_on(std::size_t body, const Surroundings& in) 
         return;
       }
   };
+  // Conditions that depend on the place are averaged over their surface, for the estimate knows one
+  // temperature of the skin.
   const double end = spec.time.end.value_or(0);
   const auto by_law = [end](const auto& condition) {
     return
@@ -148,6 +151,7 @@ std::vector<CooledSkin> shared_faces_of(std::size_t body, const Surroundings& in
   const Assembly& a = in.a;
   const CaseMeasures& m = in.m;
   std::vector<CooledSkin> skins;
+  // Bodies with common faces are soldered: the skin is as cold as the other one is there.
   for (std::size_t other = 0; other < m.bodies.size(); ++other) {
     const double area = m.bodies[body].shared[other];
     if (!(area > 0)) continue;
@@ -157,6 +161,7 @@ std::vector<CooledSkin> shared_faces_of(std::size_t body, const Surroundings& in
     skin.low = a.start[other].low;
     skin.high = a.start[other].high;
     skin.conductance = [](double, double, double) { return k_no_resistance; };
+    // Points of the skin are the nodes that both bodies have, from the owners alone.
     const std::vector<char> here = nodes_of(a.mesh, body), there = nodes_of(a.mesh, other);
     std::vector<mesh::Point> points;
     for (std::size_t i = 0; i < static_cast<std::size_t>(a.mesh.n_owned_nodes); ++i)
@@ -234,6 +239,8 @@ std::function<double(double, double)> outer_heat(std::size_t mould, double coole
     skin.heat = heat_from_behind(skin, a);
     skins.push_back(std::move(skin));
   }
+  // Without anything behind it the mould is taken as endless, which the caller does where it gets
+  // no function.
   if (skins.empty()) return {};
   // Their heat flux relates to the area of the metal, of which this is one part.
   return [skins, factor = part / cooled_area](double temperature, double time) {

@@ -53,6 +53,8 @@ std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
                                                  const std::vector<material::Material>& materials,
                                                  const mesh::Mesh& mesh,
                                                  const std::vector<InitialTemperatureRange>& start) {
+  // The range of temperatures of the whole case, since a body may come to any of them. Plane strain
+  // couples more strongly than free expansion does, as the plane hinders it.
   const auto [low, high] = temperatures(spec, start);
   const bool plane = spec.analysis.kind == AnalysisKind::plane_strain ||
                      (spec.analysis.kind == AnalysisKind::axisymmetric && axially_held(spec, mesh));
@@ -61,11 +63,14 @@ std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
   // temperatures.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     if (only_conducts(spec.bodies[b])) continue;
+    // Bodies that only conduct have no strains that could couple.
     CouplingEstimate e;
     e.body = spec.bodies[b].name;
     e.where = spec.bodies[b].where;
     e.plane = plane;
     e.initial = start[b].high;
+    // The worst is looked for among all temperatures of the range, since the number grows with
+    // temperature and the properties are tables.
     e.worst = material::strongest_coupling(materials[b], low, high);
     e.at_initial = material::coupling_number(materials[b], e.initial);
     e.at_worst = material::coupling_number(materials[b], e.worst);
@@ -104,8 +109,11 @@ std::string text(const CouplingEstimate& e) {
 }
 
 void announce_isothermal(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates) {
+  // Only isothermal passes can be unstable; all other schemes are so by construction of the split
+  // for no coupling.
   const bool isothermal = spec.coupling.scheme->traits().mapping == mechanics::Mapping::isothermal;
   if (!isothermal || estimates.empty()) return;
+  // The body with the strongest coupling decides for all, for they are solved in one step.
   const CouplingEstimate& worst = *std::max_element(
       estimates.begin(), estimates.end(),
       [](const CouplingEstimate& a, const CouplingEstimate& b) { return a.decisive() < b.decisive(); });

@@ -42,14 +42,19 @@ std::vector<mesh::Point> few_of(const std::vector<mesh::Point>& places) {
 Deepest deepest_below(const mesh::Mesh& mesh, std::size_t body, const std::vector<mesh::Point>& cloud) {
   constexpr std::size_t k_most_nodes = 20000, k_most_points = 50000;
   constexpr double k_as_deep = 0.9;
+  // Candidates are the owned nodes of the body, and the cloud is that of all processes, so that no
+  // distance needs a message.
   const std::vector<char> of_body = nodes_of(mesh, body);
   std::vector<std::size_t> nodes;
   for (std::size_t i = 0; i < static_cast<std::size_t>(mesh.n_owned_nodes); ++i)
     if (of_body[i] != 0) nodes.push_back(i);
+  // Both are thinned to a fixed number, which bounds the time of a check by the product of the two.
   const std::size_t every = 1 + nodes.size() / k_most_nodes, stride = 1 + cloud.size() / k_most_points;
   double deepest = 0;    // squared, as all of these
   std::size_t hint = 0;  // the point that was near the node before
   std::vector<std::pair<double, std::size_t>> deep;
+  // The hint makes the first distance small already, since consecutive nodes are neighbours, and
+  // the search ends early for most.
   for (std::size_t n = 0; n < nodes.size() && !cloud.empty(); n += every) {
     const mesh::Point& x = mesh.x[nodes[n]];
     const double least = k_as_deep * k_as_deep * deepest;
@@ -60,8 +65,10 @@ Deepest deepest_below(const mesh::Mesh& mesh, std::size_t body, const std::vecto
     deepest = std::max(deepest, nearest);
     if (nearest > least) deep.emplace_back(nearest, nodes[n]);
   }
+  // Then the depth of all processes decides which of the deep ones remain.
   deepest = parallel::global_max(deepest);
   std::erase_if(deep, [&](const auto& one) { return one.first < k_as_deep * k_as_deep * deepest; });
+  // Places and depths are gathered in the same order, so that they belong together by their index.
   std::vector<mesh::Point> mine;
   std::vector<double> depths;
   for (const auto& [depth, node] : deep) mine.push_back(mesh.x[node]), depths.push_back(depth);

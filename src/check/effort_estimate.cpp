@@ -68,6 +68,7 @@ double adaptive_steps(const CaseSpec& spec, const Assembly& a) {
 
 Effort estimate_effort(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
   Effort effort;
+  // Steady runs are one solution; adaptive steps are guessed, and said to be.
   if (spec.time.steady) {
     effort.steps = 1;
   } else {
@@ -82,9 +83,12 @@ Effort estimate_effort(const CaseSpec& spec, const Assembly& a, const CaseMeasur
     if (spec.has_heat()) heat += nodes;
     if (spec.has_mechanics() && !only_conducts(spec.bodies[b])) mechanics += nodes;
   }
+  // The cost is per node and step, as measured on one core; passes of the coupling repeat all of
+  // it.
   const Cost by_node = cost(spec, mechanics);
   constexpr double k_start = 0.5, k_output = 1e-3, k_program = 95e6;  // [s], [s] a step, [bytes]
   const double step = by_node.heat * heat + by_node.mechanics * mechanics;
+  // Time falls with the number of processes while memory of the program itself grows with it.
   effort.seconds = k_start + effort.steps * (k_output + passes(spec) * step / n_processes);
   effort.bytes = n_processes * k_program + by_node.heat_bytes * heat + by_node.mechanics_bytes * mechanics;
   return effort;

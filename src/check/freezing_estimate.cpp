@@ -146,6 +146,7 @@ class Line {
   }
 
   void add_metal() {
+    // The place is as thick as its radius, cut into cells from the centre outwards.
     centre_ = cells_.size();
     const double width = radius_ / k_metal_cells;
     skin_half_ = width / 2;
@@ -180,6 +181,8 @@ class Line {
   /// One iteration; true where it has converged.
   bool newton(double time, double dt) {
     const std::size_t n = cells_.size();
+    // Enthalpies are the unknowns; temperatures and their slopes follow from the curve of each
+    // cell.
     std::vector<double> t(n), d(n), diagonal(n), residual(n), up(n, 0.0), down(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
       t[i] = temperature(i);
@@ -187,6 +190,8 @@ class Line {
       diagonal[i] = cells_[i].volume / dt;
       residual[i] = cells_[i].volume / dt * (cells_[i].enthalpy - old_[i]);
     }
+    // Heat from outside is linear in the temperature over a tenth of a kelvin, and enters the
+    // matrix only where it damps.
     const auto load = [&](std::size_t i, const auto& heat, double factor = 1) {
       constexpr double k_difference = 0.1;  // [K]
       const double q = heat(t[i], time + dt);
@@ -194,6 +199,8 @@ class Line {
       diagonal[i] -= factor * std::min(0.0, (heat(t[i] + k_difference, time + dt) - q) / k_difference) * d[i];
     };
     for (const OpenSide& side : problem_.open) load(n - 1, side.heat);
+    // Each cell has up to three exchanges: the air behind a mould, a neighbouring metal, and its
+    // parent.
     for (std::size_t i = 0; i < n; ++i) {
       const Cell& cell = cells_[i];
       if (cell.outside >= 0)
@@ -203,6 +210,7 @@ class Line {
         load(i, problem_.neighbours[static_cast<std::size_t>(cell.neighbour)].heat, cell.volume);
       if (cell.parent < 0) continue;
       const auto p = static_cast<std::size_t>(cell.parent);
+      // What one cell loses its parent gets, so that the sum is conserved exactly.
       const double g = conductance(cell, cells_[p], t[i], t[p]), q = g * (t[i] - t[p]);
       residual[i] += q;
       residual[p] -= q;
@@ -217,6 +225,7 @@ class Line {
       diagonal[p] -= down[i] * up[i] / diagonal[i];
       residual[p] -= down[i] * residual[i] / diagonal[i];
     }
+    // Back substitution from the root down, with the largest change as the measure of convergence.
     double change = 0;
     std::vector<double> step(n);
     for (std::size_t i = n; i-- > 0;) {
@@ -290,8 +299,10 @@ FreezingEstimate estimate_freezing(const FreezingProblem& problem) {
   const double solidus = metal.solidification()->fraction.solidus();
   const double diffusivity =
       metal.conductivity.value(solidus) / (metal.density * metal.specific_heat.value(solidus));
+  // The first step is a thousandth of the time that heat takes through the metal.
   double time = 0, dt = 1e-3 * line.radius() * line.radius() / diffusivity;
   Drops sum;
+  // Neighbours that never freeze keep the largest number.
   constexpr double k_never = std::numeric_limits<double>::max();
   estimate.neighbours.assign(problem.neighbours.size(), k_never);
   for (int n = 0; !line.frozen(); ++n) {
@@ -299,10 +310,12 @@ FreezingEstimate estimate_freezing(const FreezingProblem& problem) {
       estimate.gave_up = true;
       return estimate;
     }
+    // Time without end or steps without length: it comes to rest above its solidus.
     if (time > k_longest || !(dt > 1e-12)) {
       estimate.rest = line.hottest();
       return estimate;
     }
+    // A step that does not converge is tried again a quarter as long.
     if (!line.step(time, dt)) {
       dt /= 4;
       continue;
@@ -310,6 +323,8 @@ FreezingEstimate estimate_freezing(const FreezingProblem& problem) {
     time += dt;
     for (std::size_t o = 0; o < estimate.neighbours.size(); ++o)
       if (line.neighbour_frozen(o)) estimate.neighbours[o] = std::min(estimate.neighbours[o], time);
+    // Temperature drops over metal, interface and mould, weighted by time, tell which of them
+    // governs.
     const Drops now = drops(line, problem);
     sum.metal += dt * now.metal;
     sum.interface += dt * now.interface;
@@ -318,6 +333,7 @@ FreezingEstimate estimate_freezing(const FreezingProblem& problem) {
   }
   estimate.time = time;
   for (double& neighbour : estimate.neighbours) neighbour = std::min(neighbour, time);
+  // What takes the largest drop is what limits the freezing.
   estimate.governed_by = largest(sum, !problem.moulds.empty());
   estimate.mould_reach = reach(problem, time);
   return estimate;

@@ -100,6 +100,8 @@ std::vector<Piece> pieces_of(const mesh::Mesh& mesh, AnalysisKind kind, std::siz
   std::vector<double> mine;
   const Ball near{ball.centre, radius};
   double area_of_all = 0;
+  // Each face gives its whole area to the sum and, where it is near, its centre and what part of it
+  // lies in the ball.
   const auto add = [&](std::span<const Index> vertices) {
     const double area = skin_area(mesh, vertices, kind);
     area_of_all += area;
@@ -108,6 +110,7 @@ std::vector<Piece> pieces_of(const mesh::Mesh& mesh, AnalysisKind kind, std::siz
     mine.insert(mine.end(),
                 {centre[0], centre[1], centre[2], area, area * share_inside(mesh, vertices, ball)});
   };
+  // Without a surface of its own the skin is what two bodies share.
   if (skin.surface.empty()) {
     mesh::each_body_face(mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
       if (face.body == static_cast<int>(body) && std::ranges::any_of(same, [&](const mesh::BodyFace& o) {
@@ -121,6 +124,7 @@ std::vector<Piece> pieces_of(const mesh::Mesh& mesh, AnalysisKind kind, std::siz
         add(std::span(faces.element(f), static_cast<std::size_t>(mesh::vertex_count(faces.shape))));
   }
   all = parallel::global_sum(area_of_all);
+  // Five numbers a face go through the exchange of plain numbers.
   constexpr std::size_t k_numbers = 5;
   const std::vector<double> numbers = processes::gather(mine);
   std::vector<Piece> pieces;
@@ -141,9 +145,12 @@ Tree tree_of(const std::vector<Piece>& pieces) {
 /// Gives the volume of a body within a radius of the ball's centre to the nearest pieces.
 void share_mould(const mesh::Mesh& mesh, AnalysisKind kind, std::size_t mould, const Ball& near,
                  std::vector<Piece>& pieces) {
+  // The faces' centres in a tree, since there may be many points of the mould for each.
   std::vector<mesh::Point> centres;
   for (const Piece& piece : pieces) centres.push_back(piece.centre);
   const mesh::NearestPoint nearest(centres);
+  // A first pass counts the points, so that the second can take every so many and stay below the
+  // bound.
   double points = 0;
   each_element(mesh, kind, mould, [&](std::span<const Index> vertices, double) {
     points += near.has(centre_of(mesh, vertices)) ? static_cast<double>(vertices.size() + 1) : 0.0;
@@ -154,6 +161,7 @@ void share_mould(const mesh::Mesh& mesh, AnalysisKind kind, std::size_t mould, c
   each_element(mesh, kind, mould, [&](std::span<const Index> vertices, double volume) {
     // Every so many elements stand for all of them.
     if (number++ % every != 0) return;
+    // Each sample carries an equal part of its element's volume.
     const double part = volume * static_cast<double>(every) / static_cast<double>(vertices.size() + 1);
     each_sample(mesh, vertices, [&](const mesh::Point& x) {
       if (!near.has(x)) return;
@@ -170,10 +178,12 @@ void spread_mould(double radius, std::vector<Piece>& pieces) {
   const Tree tree = tree_of(pieces);
   std::vector<double> spread;
   for (const Piece& piece : pieces) {
+    // All faces within the radius share the mould that is nearest to any of them, by their areas.
     const Ball ball{piece.centre, radius};
     mesh::Point low = piece.centre, high = piece.centre;
     for (std::size_t d = 0; d < 3; ++d) low[d] -= radius, high[d] += radius;
     double area = 0, mould = 0;
+    // The tree knows boxes; corners of the box outside of the ball are left out after that.
     const boost::geometry::model::box<TreePoint> box(tree_point(low), tree_point(high));
     for (auto found = tree.qbegin(boost::geometry::index::intersects(box)); found != tree.qend(); ++found) {
       const Piece& other = pieces[found->second];
@@ -188,11 +198,13 @@ void spread_mould(double radius, std::vector<Piece>& pieces) {
 
 /// Splits the area in the ball into equal parts by how much mould is behind each of its faces.
 std::vector<MouldLayer> layers_of(std::vector<Piece> pieces, double inside) {
+  // Faces with little mould behind them first: cores and tongues between ribs before plain walls.
   std::ranges::stable_sort(pieces, {}, [](const Piece& piece) { return piece.mould / piece.area; });
   std::vector<MouldLayer> layers(1);
   double sum = 0;
   for (const Piece& piece : pieces) {
     if (!(piece.inside > 0)) continue;
+    // A layer is full once its share of the area is reached.
     if (layers.size() < k_layers && sum >= inside * static_cast<double>(layers.size()) / k_layers)
       layers.emplace_back();
     layers.back().area += piece.inside;
@@ -208,6 +220,7 @@ std::vector<MouldLayer> layers_of(std::vector<Piece> pieces, double inside) {
     layers[i + 1].area += layers[i].area;
     layers.erase(layers.begin() + static_cast<std::ptrdiff_t>(i));
   }
+  // Without mould at the last layer nothing can be said, and the caller takes the mean.
   if (!(layers.back().volume > 0)) layers.clear();
   return layers;
 }
@@ -217,6 +230,7 @@ std::vector<MouldLayer> layers_of(std::vector<Piece> pieces, double inside) {
 LocalShape measure_around(const mesh::Mesh& mesh, AnalysisKind kind, std::size_t body,
                           const PlaceInMetal& place, const std::vector<SkinPlace>& skins) {
   LocalShape shape;
+  // The ball of the place, and a larger one from which mould can take up its heat.
   const Ball ball{place.centre, place.radius};
   const Ball near{place.centre, place.radius + k_mould * place.depth};
   each_element(mesh, kind, body, [&](std::span<const Index> vertices, double volume) {
@@ -227,11 +241,13 @@ LocalShape measure_around(const mesh::Mesh& mesh, AnalysisKind kind, std::size_t
     double all = 0;
     // Faces beyond the mould that counts have mould of their own.
     std::vector<Piece> pieces = pieces_of(mesh, kind, body, skin, ball, 2 * near.radius, all);
+    // What area of each skin lies in the ball.
     const double inside = std::transform_reduce(pieces.begin(), pieces.end(), 0.0, std::plus<>(),
                                                 [](const Piece& piece) { return piece.inside; });
     shape.all.push_back(all);
     shape.area.push_back(inside);
     shape.layers.emplace_back();
+    // Skins without a body behind them are films, which need no mould.
     if (!skin.other || !(inside > 0)) continue;
     share_mould(mesh, kind, *skin.other, near, pieces);
     spread_mould(place.spread, pieces);

@@ -122,10 +122,12 @@ class Collector {
     const material::MaterialSpreads card =
         material::find_spreads(body.material, material_folders(), body.where);
     const auto own = spec_.spread.bodies.find(body.name);
+    // What a body is used for decides which of its properties matter.
     BodyUse use;
     use.cast = m_.is_poured(b);
     use.deforms = spec_.has_mechanics() && !only_conducts(body);
     use.weighs = use.deforms && (spec_.analysis.gravity > 0 || spec_.dynamics);
+    // A spread for every property that the material has and the case uses.
     std::map<std::string_view, Known> spreads;
     for (const material::VariedProperty& row : material::varied_properties())
       if (row.has(a_.materials[b]) && uses(row.key, use))
@@ -142,6 +144,7 @@ class Collector {
       const std::string_view key = row.key;
       const std::string quantity =
           one_capacity && key == "specific_heat" ? "heat capacity per volume" : std::string(row.name);
+      // Properties of heat alone do not need a run with stresses.
       const bool of_heat = key == "density" || key == "conductivity" || key == "specific_heat" ||
                            key == "latent_heat" || key == "freezing_temperatures" || key == "arm_spacing" ||
                            key == "melt_viscosity";
@@ -189,6 +192,7 @@ class Collector {
     for (const InterfaceCard& card : cards_)
       if (!contact.law.empty() && card.name == contact.law) by_card = card.spread;
     constexpr double k_usual = 2, k_usual_gap = 1.5;
+    // One parameter a law, not one a contact: two contacts of one law are off together.
     const auto add = [&](const char* key, const char* quantity, const Known& k, double value) {
       const std::string of = k.by_case || contact.law.empty() ? contact.name : contact.law;
       list_.add(fmt::format("{} {}", quantity, of),
@@ -230,6 +234,7 @@ class Collector {
     constexpr double k_usual = 10;  // [K]
     const Known k = known(own == spec_.spread.bodies.end() ? std::nullopt : own->second.initial_temperature,
                           {}, usual_shift(k_usual));
+    // A start that is given by place has no one number to shift.
     if (body.initial_temperature.place != nullptr) {
       list_.found.fixed.push_back(
           fmt::format("the temperature of {} at the start, for it is given by place", body.name));
@@ -237,6 +242,7 @@ class Collector {
     }
     const std::string quantity = cast ? "pouring temperature" : "temperature at the start";
     const std::string of = k.by_case ? body.name : cast ? "" : "all that is not poured";
+    // The present value of the parameter is what the case varies already, or none.
     const auto by = spec_.vary.bodies.find(body.name);
     list_.add(fmt::format("{} {}", quantity, of),
               {of.empty() ? quantity : fmt::format("{} of {}", quantity, of),
@@ -257,6 +263,7 @@ class Collector {
     const auto by = spec_.vary.conditions.find(c.name);
     const ConditionSpreads by_case = own == spec_.spread.conditions.end() ? ConditionSpreads{} : own->second;
     const ConditionFactors now = by == spec_.vary.conditions.end() ? ConditionFactors{} : by->second;
+    // Parameters of one condition share its name and its group.
     const auto add = [&](const char* key, const std::string& quantity, const Known& k, double value) {
       list_.add(fmt::format("{} {}", quantity, c.name),
                 {fmt::format("{} of {}", quantity, c.name),
@@ -268,6 +275,7 @@ class Collector {
                  k.spread,
                  k.origin});
     };
+    // Its strength is a factor, whatever kind it is; held temperatures have none.
     if (c.kind != Kind::temperature) {
       const auto [what, data, usual] = strength_of(c);
       if (data != nullptr && data->place != nullptr)

@@ -150,8 +150,11 @@ void compare_creep(const BodySpec& body, const material::Material& m, Findings& 
 void compare_melt_viscosity(const BodySpec& body, const material::Material& m, double step,
                             Findings& findings) {
   if (m.chooses_viscosity() || m.liquid_model != material::LiquidModel::maxwell || !(step > 0)) return;
+  // Compared at the solidus, where the solid is softest: melt that is stiffer than it there is so
+  // everywhere.
   const double solidus = m.solidification()->fraction.solidus();
   const double young = m.young_modulus.value(solidus), poisson = m.poisson_ratio.value(solidus);
+  // A viscosity acts within a step as a modulus of viscosity over step.
   const double shear = young / (1 + poisson), bulk = young / (3 * (1 - 2 * poisson));  // 2 G and k [Pa]
   const double viscosity = m.liquid_viscosity.max_value(), melt = viscosity / step;
   const char* usual = "no twice_shear_viscosity: the run chooses one by the weight of the melt and the step";
@@ -165,6 +168,8 @@ void compare_melt_viscosity(const BodySpec& body, const material::Material& m, d
   const bool has_source = std::ranges::any_of(m.notes, [](const material::PropertyNote& note) {
     return note.property == "twice_shear_viscosity" && !note.source.empty();
   });
+  // A source lets it pass, because such melts occur in published benchmarks that one wants to
+  // repeat.
   if (melt > shear && !has_source)
     warn(body,
          fmt::format(
@@ -191,6 +196,7 @@ void compare_casting(const BodySpec& body, const material::Material& m, Findings
 }
 
 void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings& findings) {
+  // Bodies that cannot freeze have no data of alloys to compare.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::Material& m = a.materials[b];
     if (m.solidification() == nullptr) continue;

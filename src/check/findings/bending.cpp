@@ -32,6 +32,8 @@ double slenderness(const BodyMeasures& body) {
 /// that it is on the skin where one of them has it; ghosts learn it from their owners.
 std::vector<char> skin_nodes(const mesh::Mesh& mesh, int body) {
   using Key = std::array<Index, 4>;
+  // A face that one element alone has lies on the skin; the key is its sorted vertices, which both
+  // elements of an inner face share.
   std::map<Key, int> faces;
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.body != body) continue;
@@ -45,6 +47,8 @@ std::vector<char> skin_nodes(const mesh::Mesh& mesh, int body) {
         ++faces[key];
       }
   }
+  // Marks as numbers, so that the exchange of ghosts can carry them; unused places of the key are
+  // negative.
   std::vector<double> on_skin(mesh.x.size(), 0.0);
   for (const auto& [key, elements] : faces)
     if (elements == 1)

@@ -48,6 +48,7 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
   using Kind = ThermalConditionSpec::Kind;
   for (const ThermalConditionSpec& t : spec.thermal_conditions) {
     const bool surrounded = t.kind == Kind::film || t.kind == Kind::radiation;
+    // Near zero kelvins a value was meant in another unit; above the hottest flame likewise.
     if (surrounded && is_number(t.ambient))
       if (const double ambient = t.ambient.table.value(0); ambient < k_coldest || ambient > k_hottest)
         findings.push_back({false, t.where,
@@ -60,10 +61,13 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
                             fmt::format("'{}' holds '{}' at {:.0f} degC ({:.0f} K)", t.name, t.group,
                                         units::to_display(held, "K", "degC"), held),
                             "room temperature is 20 degC, 293 K"});
+    // Sources and fluxes have no natural limit, so that only the far end is told.
     if (t.kind == Kind::source && is_number(t.power) && std::abs(t.power.table.value(0)) > k_most_source)
       findings.push_back({false, t.where,
                           fmt::format("the source '{}' has {:g} W/m3", t.name, t.power.table.value(0)),
                           "usual are 1e3 to 1e9 W/m3, under a laser 1e11"});
+    // A number below polished metal is almost always one that was meant in percent or as a
+    // reflectivity.
     if (t.kind == Kind::radiation && is_number(t.emissivity) && is_number(t.factor) &&
         t.emissivity.table.value(0) < k_least_emissivity)
       findings.push_back({false, t.where,
@@ -78,6 +82,8 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
       findings.push_back({false, t.where,
                           fmt::format("the flux '{}' has {:g} W/m2", t.name, t.flux.table.value(0)),
                           "usual are 1e2 to 1e7 W/m2"});
+    // Too small a film is mostly one in kW, too large a one in W/mm²; both are compared with air
+    // and water.
     if (t.kind == Kind::film && is_number(t.coefficient) && is_number(t.factor) &&
         t.coefficient.table.value(0) < k_least_film)
       findings.push_back({false, t.where,
@@ -102,10 +108,12 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
 void films_below_radiation(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   using Kind = ThermalConditionSpec::Kind;
   if (m.pours.empty()) return;
+  // Only films of one number on a body that is not poured: the others may be small for good reason.
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
     const ThermalConditionSpec& film = spec.thermal_conditions[t];
     if (film.kind != Kind::film || !is_number(film.coefficient) || !is_number(film.factor)) continue;
     const double h = film.coefficient.table.value(0) * film.factor.table.value(0);
+    // Radiation on the same surface makes up for what the film lacks.
     const bool radiates = std::ranges::any_of(spec.thermal_conditions, [&](const ThermalConditionSpec& c) {
       return c.kind == Kind::radiation && c.group == film.group;
     });
@@ -142,6 +150,7 @@ void rooms_in_kelvins(const CaseSpec& spec, const Assembly& a, Findings& finding
   }
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const std::string body = fmt::format("the body '{}' has an initial temperature", spec.bodies[b].name);
+    // The coldest place of the body counts, as that is the one a wrong unit makes absurd.
     compare(spec.bodies[b].where, body, a.start[b].low);
     if (a.start[b].low < k_coldest_body)
       findings.push_back({false, spec.bodies[b].where,
@@ -152,12 +161,14 @@ void rooms_in_kelvins(const CaseSpec& spec, const Assembly& a, Findings& finding
 
 /// Heat that a body does not have.
 void sinks(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  // Needs a time in which the heat is taken.
   if (spec.time.steady || !spec.time.end) return;
   for (const ThermalConditionSpec& t : spec.thermal_conditions) {
     if (t.kind != ThermalConditionSpec::Kind::source || !is_number(t.power) || !is_number(t.factor)) continue;
     const double power = t.power.table.value(0) * t.factor.table.value(0);
     for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
       if (spec.bodies[b].mesh_group() != t.group || power >= 0) continue;
+      // All the heat down to zero temperature, which no sink can exceed.
       const material::EnthalpyCurve enthalpy = a.materials[b].enthalpy();
       const double lasts = (enthalpy.upper(a.start[b].high) - enthalpy.lower(1.0)) / -power;
       if (lasts < *spec.time.end && t.stages.empty())
@@ -181,6 +192,8 @@ void heaters(const CaseSpec& spec, const Assembly& a, Findings& findings) {
     for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
       if (spec.bodies[b].mesh_group() != t.group) continue;
       const material::Material& m = a.materials[b];
+      // How fast it would heat if nothing cooled it, from the properties at the start: an estimate
+      // from above.
       const double rate = power / (m.density * m.specific_heat.value(a.start[b].high));
       if (rate < k_rate || rate * *spec.time.end < k_rise) continue;
       findings.push_back(
@@ -257,6 +270,8 @@ void tables_of_other_times(const CaseSpec& spec, Findings& findings) {
   const auto compare = [&](const std::string& what, const Function& f, const SourceLocation& where,
                            bool may_end) {
     if (f.place != nullptr || f.of != Argument::time || f.table.constant()) return;
+    // Two points describe a ramp that holds its last value on purpose, so that three and more are
+    // asked for below.
     constexpr std::size_t k_ramp = 2;  // points
     const double end = *spec.time.end;
     const auto say = [&](const char* what_it_does, double at) {
@@ -265,6 +280,7 @@ void tables_of_other_times(const CaseSpec& spec, Findings& findings) {
            fmt::format("the table of {} {} {:g} s, but the run ends at {:g} s", what, what_it_does, at, end),
            "is its argument_unit right?"});
     };
+    // One message a table, the most certain first.
     const auto x = f.table.x();
     if (x[0] >= end)
       say("begins at", x[0]);
@@ -275,6 +291,8 @@ void tables_of_other_times(const CaseSpec& spec, Findings& findings) {
     else if (!may_end && x.size() > k_ramp && x[x.size() - 1] < k_over * end)
       say("ends at", x[x.size() - 1]);
   };
+  // A clock of the stage begins with it, so that its table is compared with the length of the stage
+  // elsewhere.
   for (const ThermalConditionSpec& c : spec.thermal_conditions) {
     if (c.clock == TimeOrigin::stage) continue;  // find_in_stage_times
     for (const Function* f : {&c.coefficient, &c.ambient, &c.temperature, &c.flux, &c.emissivity, &c.power})
@@ -290,6 +308,8 @@ void tables_of_other_times(const CaseSpec& spec, Findings& findings) {
 
 /// Compares the error allowed per step with the range of temperatures of the run.
 void tolerance(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  // The bodies' starts span the range in which the run moves; an allowed error is judged as a share
+  // of it.
   double high = 0, low = std::numeric_limits<double>::max();
   for (const InitialTemperatureRange& r : a.start) high = std::max(high, r.high), low = std::min(low, r.low);
   if (const double allowed = spec.time.temperature_error.value_or(0);
@@ -303,10 +323,13 @@ void tolerance(const CaseSpec& spec, const Assembly& a, Findings& findings) {
     findings.push_back({false, spec.time.where,
                         fmt::format("{:.0f} % of the casting may freeze in one step", 100 * change),
                         "time.solid_fraction_change of 0.02 to 0.2"});
+  // The skin that lets go in one step is bounded likewise, since gaps that open at once change the
+  // cooling at once.
   if (const double change = spec.time.skin_change.value_or(0); spec.time.adaptive && change > k_most_of_step)
     findings.push_back({false, spec.time.where,
                         fmt::format("{:.0f} % of a skin may let go of its wall in one step", 100 * change),
                         "time.skin_change of 0.02 to 0.2"});
+  // Motion and temperature are judged apart: either tolerance may be the one that sets the steps.
   if (const double allowed = spec.time.displacement_error.value_or(k_most_motion);
       allowed < k_least_motion || allowed > k_most_motion)
     findings.push_back({false, spec.time.where,

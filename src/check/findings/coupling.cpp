@@ -17,10 +17,13 @@ constexpr double k_late = 0.03;  // of what changes evenly over the run
 /// A scheme that conducts heat before deformation has taken up its share is late by δ_K steps.
 void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.exchanges_heat() || !(m.effort.steps > 0)) return;
+  // The lag in steps, over the number of steps, is the share of the run by which temperatures come
+  // late.
   const std::vector<CouplingEstimate> estimates = coupling_estimates(spec, a.materials, a.mesh, a.start);
   const double steps = heat_lag(spec, estimates, keeps_strain(spec, a.materials, a.start));
   const double share = steps / m.effort.steps;
   if (share < k_late) return;
+  // The body with the strongest coupling is the one named.
   const CouplingEstimate& strongest = *std::max_element(
       estimates.begin(), estimates.end(),
       [](const CouplingEstimate& l, const CouplingEstimate& r) { return l.decisive() < r.decisive(); });

@@ -43,20 +43,25 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
   // A sleeve is judged by its amounts of heat, by the body it is in, and by whether anything there gets hot
   // enough to ignite it.
   if (!spec.has_heat()) return;
+  // What starts hottest is what could ignite the sleeve.
   double hottest = 0;
   for (const auto& start : a.start) hottest = std::max(hottest, start.high);
   for (const ThermalConditionSpec& c : spec.thermal_conditions) {
     if (c.kind != ThermalConditionSpec::Kind::exothermic) continue;
     const Burning burning{c, findings};
     amounts(burning);
+    // The body is the one whose group the sleeve names; more than one body may share a group.
     for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
       const BodySpec& body = spec.bodies[b];
       if (body.mesh_group() != c.group) continue;
+      // Heat within the casting itself would be latent heat counted twice.
       const bool poured =
           std::any_of(m.pours.begin(), m.pours.end(), [&](const Pour& p) { return p.body == b; });
       if (poured)
         burning.warn(fmt::format("burns in '{}', which is poured", body.name),
                      "the group of the sleeve, or of the cover, that burns");
+      // Ignition above all starts is never reached, below the start of its own body it is reached
+      // at once: both are mistakes of a unit or of a column.
       if (c.ignition > hottest && c.ignition < k_switched_off)
         burning.warn(fmt::format("ignites at {:.0f} degC, but nothing starts hotter than {:.0f} degC: it "
                                  "does not burn",

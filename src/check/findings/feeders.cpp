@@ -21,6 +21,7 @@ constexpr double k_low = 0.25;  // height of a feeder, of that of its casting
 /// Feeders that touch no melt, or that lie where melt does not flow down from. Collective.
 void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat() || m.pours.empty()) return;
+  // Which poured body a node belongs to; nodes of moulds keep -1.
   std::vector<int> poured(a.mesh.x.size(), -1);
   for (const mesh::ElementBlock& block : a.mesh.blocks)
     for (const Pour& pour : m.pours)
@@ -29,6 +30,8 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
   const std::array<double, 3> g = gravity(spec.analysis);
   double all = 0;                             // nodes of all that is poured
   double all_low = 1e300, all_high = -1e300;  // its ends, against gravity
+  // The ends of a box along gravity come from its corners: each direction adds its lower or higher
+  // side.
   const auto ends = [&](std::size_t body) {
     double low = 0, high = 0;
     for (std::size_t d = 0; d < 3; ++d) {
@@ -43,6 +46,7 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
     all_low = std::min(all_low, low), all_high = std::max(all_high, high);
   }
   for (const std::string& group : spec.criteria.feeders) {
+    // The mean height of the feeder's own nodes is compared with the ends of what it belongs to.
     double height = 0;                                  // sum over its nodes
     std::vector<double> of_body(m.bodies.size(), 0.0);  // its nodes
     if (const auto nodes = a.mesh.node_sets.find(group); nodes != a.mesh.node_sets.end())
@@ -54,6 +58,7 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
       }
     height = parallel::global_sum(height);
     double n = 0, lowest = 0, highest = 0;
+    // Bodies weigh in by the number of the feeder's nodes in them, as it may reach over several.
     for (std::size_t body = 0; body < of_body.size(); ++body) {
       const double nodes = parallel::global_sum(of_body[body]);
       // A riser that is a body of its own is above or below what is poured with it, a part of a body within
@@ -62,6 +67,7 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
       const auto [low, high] = whole ? std::pair(all_low, all_high) : ends(body);
       n += nodes, lowest += nodes * low, highest += nodes * high;
     }
+    // One finding a feeder, from the one that has no effect to the one that is doubtful.
     if (n == 0)
       findings.push_back({true, spec.criteria.where,
                           fmt::format("the feeder '{}' has no node of a body that is poured", group),

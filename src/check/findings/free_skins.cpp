@@ -51,23 +51,31 @@ struct Facing {
 /// run out, or gravity points the wrong way. Collective.
 void melts_open_below(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   constexpr double k_upright = 0.7;  // of the normal
+  // The direction in which melt would flow; without gravity or without any contact nothing can be
+  // said.
   const std::array<double, 3> g = gravity(spec.analysis);
   const double size = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
   if (!(size > 0) || m.pours.empty() || spec.contacts.empty()) return;
+  // Faces count as closed where a contact, a support or another body has them.
   const auto covered = mesh::body_face_keys(a.mesh, covered_surfaces(spec));
   Facing up, down;
   mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
     if (!m.is_poured(static_cast<std::size_t>(face.body))) return;
+    // The normal of each face of the melt's skin against gravity: upright walls are neither above
+    // nor below.
     std::vector<mesh::Point> corners;
     for (const Index node : face.vertices()) corners.push_back(a.mesh.x[static_cast<std::size_t>(node)]);
     const mesh::SkinFace skin = mesh::face_through(std::move(corners));
     const double along = (skin.normal[0] * g[0] + skin.normal[1] * g[1] + skin.normal[2] * g[2]) / size;
     if (std::abs(along) < k_upright) return;
+    // Facing along gravity is facing down; areas add up, all and free.
     Facing& facing = along > 0 ? down : up;
     facing.all += skin.area;
     if (same.size() == 1 && !covered.contains(face.key)) facing.free += skin.area;
   });
   for (double* sum : {&up.all, &up.free, &down.all, &down.free}) *sum = parallel::global_sum(*sum);
+  // Told only where the whole top is closed and a good part of the bottom is open: either alone is
+  // usual.
   if (!(down.all > 0) || up.free > k_closed * up.all || down.free < k_open * down.all) return;
   findings.push_back(
       {false, spec.analysis.where,
@@ -82,13 +90,16 @@ void melts_open_below(const CaseSpec& spec, const Assembly& a, const CaseMeasure
 /// A support of all directions on a free surface of a casting keeps it from shrinking there.
 void held_free_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    // All components that the analysis has must be held; in a plane or about an axis these are two.
     const bool all =
         c.kind == MechanicalConditionSpec::Kind::displacement &&
         (spec.analysis.kind == AnalysisKind::solid ? c.ux && c.uy && c.uz : (c.ux || c.ur) && (c.uy || c.uz));
+    // Only what holds from the start, and where no contact acts, which another finding judges.
     if (!all || !holds(c.stages, a.first_stage()) || in_contact(spec, c.group)) continue;
     const SurfaceMeasures surface = measure_surface(a.mesh, c.group, spec.analysis.kind);
     if (!m.is_poured(static_cast<std::size_t>(surface.body))) continue;
     const auto body = static_cast<std::size_t>(surface.body);
+    // Small patches hold a casting in place, as they must.
     if (only_conducts(spec.bodies[body]) || surface.area < k_least_share_of_skin * m.bodies[body].skin)
       continue;
     findings.push_back(

@@ -78,6 +78,7 @@ void nothing_to_wait_for(const CaseSpec& spec, const Assembly& a, const std::vec
 }
 
 void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Findings& findings) {
+  // A steady run is told at once, since nothing else here makes sense for it.
   const std::string& name = spec.bodies[pour.body].name;
   if (spec.time.steady) {
     findings.push_back({false, spec.time.where,
@@ -94,6 +95,7 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
     return;
   }
   if (!pour.no_estimate.empty() || spec.time.steady) return;
+  // The estimate says where the temperature would come to rest: above the solidus it never freezes.
   if (!pour.freezing.time) {
     findings.push_back(
         {false, spec.bodies[pour.body].where,
@@ -122,11 +124,13 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
                 : fmt::format("the run ends {} after the pour of '{}', but it takes some {} to freeze",
                               duration(there), name, duration(time)),
          leaves ? "longer stages before it leaves" : "longer stages after its pour"});
+  // Fixed steps first: a handful of them while the metal freezes cannot follow it.
   if (const double step = fixed_step(spec, a); k_fine * step > time && step < 0.99 * *spec.time.end)
     findings.push_back(
         {false, spec.time.where,
          fmt::format("steps of {}, but '{}' freezes within some {}", duration(step), name, duration(time)),
          "twenty steps and more while it freezes; time.adaptive chooses them"});
+  // Adaptive steps need a first one and a least one that are short enough to begin with.
   if (const double first = spec.time.adaptive && a.stages.empty() ? spec.time.step.value_or(0) : 0;
       k_fine * first > time)
     findings.push_back({false, spec.time.where,
@@ -139,6 +143,7 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
                         fmt::format("steps of {} at least, but '{}' freezes within some {}", duration(least),
                                     name, duration(time)),
                         "a smaller time.min_step, or none"});
+  // Many steps cost time alone, and are told where no stage asks for them.
   if (const double step = spec.time.adaptive ? spec.time.max_step.value_or(0) : fixed_step(spec, a);
       step > 0 && time > k_many * step && a.stages.empty())
     findings.push_back(
@@ -166,6 +171,8 @@ void largest_step(const CaseSpec& spec, Findings& findings) {
 void rounds_without_a_shot(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
                            Findings& findings) {
   for (const CycleSpec& cycle : spec.cycles) {
+    // A stage belongs to the cycle if the cycle names it; the casting leaves where one of those
+    // stages has no such body.
     const auto is_of_it = [&](const StageRun& stage) {
       return std::find(cycle.stages.begin(), cycle.stages.end(), stage.stage->name) != cycle.stages.end();
     };
@@ -193,6 +200,7 @@ void heating(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, con
   const double solidus = solidus_of(a, pour);
   for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
     const ThermalConditionSpec& c = spec.thermal_conditions[i];
+    // The condition must lie on this body's own skin.
     if (m.surfaces[i].body != static_cast<int>(pour.body)) continue;
     // A temperature above the solidus that lasts, heat that flows in, and surroundings above the solidus.
     if (c.kind == Kind::temperature && is_number(c.temperature) && c.temperature.table.value(0) > solidus &&
@@ -204,6 +212,7 @@ void heating(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, con
                "does not freeze there",
                c.name, c.group, name, celsius(c.temperature.table.value(0)), celsius(solidus)),
            "a film or contact; the pouring temperature is initial_temperature"});
+    // Only constants are judged: tables may start hot and fall.
     if (c.kind == Kind::flux && is_number(c.flux) && c.flux.table.value(0) > 0)
       findings.push_back(
           {false, c.where,
@@ -224,6 +233,7 @@ void heating(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, con
 /// A body that can melt, but starts cold beside one that is poured.
 void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (m.pours.empty() || !spec.criteria.follow) return;
+  // Compared body by body; what is not poured by its role is meant to start cold.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::PhaseChange* freezing = a.materials[b].solidification();
     if (freezing == nullptr || a.start[b].high >= freezing->fraction.liquidus()) continue;
@@ -244,6 +254,7 @@ void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
              "what is poured together is poured at one temperature, 20 to 150 K above the liquidus"});
       continue;
     }
+    // A riser that starts solid is worse than a casting that does, as all feeding hangs on it.
     if (spec.bodies[b].role == Role::riser) {
       findings.push_back({false, spec.bodies[b].where,
                           fmt::format("the riser '{}' starts solid at {:.0f} degC: it feeds nothing",
@@ -264,6 +275,8 @@ void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
 
 /// The temperature to which all bodies come that heat joins and nothing else cools or heats [K].
 double common_temperature(const Assembly& a, const CaseMeasures& m) {
+  // The heat of all bodies at their start, as the mean of what the coldest and the hottest start
+  // give.
   std::vector<material::EnthalpyCurve> curves;
   double heat = 0, low = std::numeric_limits<double>::max(), high = 0;
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
@@ -273,6 +286,8 @@ double common_temperature(const Assembly& a, const CaseMeasures& m) {
     high = std::max(high, a.start[b].high);
   }
   constexpr int k_halvings = 40;
+  // The common temperature holds the same heat in all: halved until the interval is far below a
+  // kelvin.
   for (int i = 0; i < k_halvings; ++i) {
     const double middle = (low + high) / 2;
     double there = 0;
@@ -319,6 +334,7 @@ void melts_side_by_side(const CaseSpec& spec, const Assembly& a, const CaseMeasu
                      spec.bodies[static_cast<std::size_t>(contact.master_body)].name),
          "a riser shares the nodes of its casting: mesh.conforming, or one geometry"});
   }
+  // Each pair once, by the order of the bodies.
   for (const Pour& one : m.pours)
     for (const Pour& other : m.pours)
       if (other.body < one.body && m.bodies[one.body].shared_nodes[other.body] > 0 &&

@@ -108,10 +108,12 @@ void shared_nodes(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
 }
 
 void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  // Without an estimate there is no depth to compare elements with.
   for (const Pour& pour : m.pours) {
     if (!pour.no_estimate.empty()) continue;
     const BodyMeasures& body = m.bodies[pour.body];
     const std::string& name = spec.bodies[pour.body].name;
+    // The modulus of the casting is the half thickness of a plate that cools alike.
     const double modulus = body.volume / pour.cooled_area;
     const std::string usual = fmt::format(
         "four elements through a wall{}: {}",
@@ -145,6 +147,8 @@ void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& find
 void shapes_and_sizes(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
     const bool conducts = !spec.has_mechanics() || only_conducts(spec.bodies[b]);
+    // Layers of a mould that conducts may be flat, for heat crosses them in one direction; stresses
+    // suffer from flatness.
     const double most = m.is_poured(b) ? k_flat_in_casting : conducts ? k_flat_in_layers : k_flat;
     if (m.bodies[b].flattest > most)
       findings.push_back({false, spec.mesh.where,
@@ -153,6 +157,8 @@ void shapes_and_sizes(const CaseSpec& spec, const CaseMeasures& m, Findings& fin
                           "up to 10, in thin layers of a mould that conducts heat up to 200"});
   }
   for (const Pour& pour : m.pours) {
+    // The largest extent of the casting against what is plausible: a file in metres read as
+    // millimetres makes it tiny.
     const BodyMeasures& body = m.bodies[pour.body];
     double largest = 0;
     for (std::size_t d = 0; d < 3; ++d) largest = std::max(largest, body.high[d] - body.low[d]);
@@ -167,15 +173,19 @@ void shapes_and_sizes(const CaseSpec& spec, const CaseMeasures& m, Findings& fin
 /// The mould's first element against the depth that heat reaches until the casting is solid.
 void coarse_moulds(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   for (const Pour& pour : m.pours) {
+    // Without a freezing time or where the mould is all soaked through there is no depth to
+    // resolve.
     if (!pour.freezing.time || !(pour.freezing.mould_reach > 0)) continue;
     for (std::size_t c = 0; c < m.contacts.size(); ++c) {
       const ContactMeasures& contact = m.contacts[c];
       const auto body = static_cast<int>(pour.body);
+      // The mould is the other partner of whichever side the casting is on.
       const int other = contact.slave_body == body    ? contact.master_body
                         : contact.master_body == body ? contact.slave_body
                                                       : -1;
       if (other < 0) continue;
       const BodyMeasures& mould = m.bodies[static_cast<std::size_t>(other)];
+      // One finding a casting is enough, as one size mends all.
       if (mould.shortest_edge < k_coarse_mould * pour.freezing.mould_reach) continue;
       findings.push_back(
           {false, spec.mesh.where,

@@ -70,6 +70,8 @@ class Groups {
 /// The bodies that meet in a node or an end of a contact, as seen from all processes.
 std::vector<std::vector<int>> meetings(const CaseSpec& spec, const mesh::Mesh& mesh, bool with_heat_only) {
   const std::size_t n = spec.bodies.size();
+  // A square of marks, any of which a process sets where it sees the two bodies in one node or one
+  // contact.
   std::vector<double> meet(n * n, 0.0);
   const auto note = [&](const std::set<int>& bodies) {
     for (const int a : bodies)
@@ -80,6 +82,7 @@ std::vector<std::vector<int>> meetings(const CaseSpec& spec, const mesh::Mesh& m
     for (const Index node : block.nodes) of_node[static_cast<std::size_t>(node)].insert(block.body);
   for (const std::set<int>& bodies : of_node)
     if (bodies.size() > 1) note(bodies);
+  // Contacts join the bodies of all the faces on their two sides.
   for (const ContactSpec& contact : spec.contacts) {
     if (with_heat_only && !contact.heat) continue;
     std::set<int> bodies;
@@ -90,6 +93,7 @@ std::vector<std::vector<int>> meetings(const CaseSpec& spec, const mesh::Mesh& m
     note(bodies);
   }
   std::vector<std::vector<int>> pairs;
+  // The maximum over the processes makes all agree; pairs are given once.
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b < a; ++b)
       if (parallel::global_max(meet[a * n + b]) > 0)
@@ -99,11 +103,13 @@ std::vector<std::vector<int>> meetings(const CaseSpec& spec, const mesh::Mesh& m
 
 /// A hot body that no heat can leave toward a cold one.
 void bodies_without_a_way_for_heat(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  // Groups of bodies that heat joins, directly or over others, and groups that touch at all.
   Groups by_heat(spec.bodies.size()), by_anything(spec.bodies.size());
   for (const std::vector<int>& pair : meetings(spec, a.mesh, true)) by_heat.join(pair[0], pair[1]);
   for (const std::vector<int>& pair : meetings(spec, a.mesh, false)) by_anything.join(pair[0], pair[1]);
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     for (std::size_t other = 0; other < b; ++other) {
+      // Bodies in different groups never exchange heat; those that start equally hot need not.
       const int one = by_heat.root(static_cast<int>(b)), two = by_heat.root(static_cast<int>(other));
       if (one == two || std::abs(a.start[other].high - a.start[b].low) < k_same_temperature) continue;
       const bool touch = by_anything.root(static_cast<int>(b)) == by_anything.root(static_cast<int>(other));
@@ -157,12 +163,14 @@ void conductances(const CaseSpec& spec, Findings& findings) {
                           fmt::format("the interface of '{}' stores {:g} J/m2/K", contact.name, capacity),
                           "1000 J/m2/K is a skin of 0.3 mm of steel"});
     if (!contact.heat) continue;
+    // Radiation across a gap needs both sides: one emissivity alone is taken as none.
     const bool of_slave = contact.heat->slave_emissivity > 0, of_master = contact.heat->master_emissivity > 0;
     if (of_slave != of_master)
       findings.push_back({false, contact.where,
                           fmt::format("'{}' has an emissivity of its {} alone: nothing radiates across it",
                                       contact.name, of_slave ? "slave" : "master"),
                           "slave_emissivity and master_emissivity, or neither"});
+    // Each law knows its own usual numbers, so that a new law brings its remarks along.
     for (const contact::ConductanceLaw* law : std::initializer_list<const contact::ConductanceLaw*>{
              contact.heat->contact_law.get(), contact.heat->gap_law.get()})
       for (const contact::Remark& remark : law->remarks(contact.name))
@@ -175,6 +183,8 @@ void conductances(const CaseSpec& spec, Findings& findings) {
 void isentropic_friction(const CaseSpec& spec, Findings& findings) {
   if (!spec.isentropic() || spec.coupling.scheme->traits().iterates) return;
   for (const ContactSpec& contact : spec.contacts) {
+    // Only contacts whose friction stores its work and whose interface stores no heat are
+    // concerned.
     if (!contact.friction || contact.interface.heat_capacity > 0 ||
         contact.friction->internal_variable != contact::InternalVariable::normal_work)
       continue;

@@ -42,11 +42,13 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
     const ContactSpec& contact = spec.contacts[c];
     const ContactMeasures& sides = m.contacts[c];
     if (contact.law.empty() || sides.slave_body < 0 || sides.master_body < 0) continue;
+    // A partner is known by its material and its role, as cards name either.
     const auto partner = [&](int b) {
       const auto body = static_cast<std::size_t>(b);
       return InterfacePartner{spec.bodies[body].material, role_of(spec.bodies[body], a.materials[body])};
     };
     const InterfacePartner one = partner(sides.slave_body), two = partner(sides.master_body);
+    // The card that the file names, and the best one without that name.
     const auto used = std::find_if(cards.begin(), cards.end(),
                                    [&](const InterfaceCard& card) { return card.name == contact.law; });
     const InterfaceCard* const best = best_card(cards, one, two);
@@ -56,6 +58,7 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
     InterfaceCard by_pair = *used;
     by_pair.by_name_alone = false;
     if (best_card({by_pair}, one, two) != nullptr) continue;
+    // Conductances are compared closed and at the hotter start, where they decide over the cooling.
     const double temperature = std::max(a.start[static_cast<std::size_t>(sides.slave_body)].high,
                                         a.start[static_cast<std::size_t>(sides.master_body)].high);
     const double h = closed_conductance(used->heat, temperature),

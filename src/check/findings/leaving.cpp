@@ -48,11 +48,14 @@ std::string with_next(std::string names, const std::string& name) {
 void leave_melt(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, const Pour& pour,
                 Findings& findings) {
   if (!pour.freezing.time) return;
+  // Pairs of successive stages of the first round: further rounds repeat them.
   for (std::size_t i = 1; i < a.stages.size() && a.stages[i].cycle <= 1; ++i) {
     const StageRun &before = a.stages[i - 1], &now = a.stages[i];
     if (!is_there(spec, pour.body, before) || !is_there(spec, pour.body, now)) continue;
+    // The time since the pour of this casting, which may itself come late in a cycle.
     const double since = now.start - time_of_pour(spec, a, pour.body, i);
     if (since >= k_solid_at_last * *pour.freezing.time) continue;
+    // Names of all that leaves at once, so that one message tells them.
     std::string names;
     for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
       const int other = partner(m.contacts[c], pour.body);
@@ -78,6 +81,8 @@ void come_too_late(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   std::vector<char> told(spec.bodies.size(), 0);
   for (std::size_t i = 1; i < a.stages.size() && a.stages[i].cycle <= 1; ++i) {
     const StageRun &before = a.stages[i - 1], &now = a.stages[i];
+    // A partner that comes while the casting is there already: the new body finds metal that has
+    // frozen without it.
     if (!is_there(spec, pour.body, before) || !is_there(spec, pour.body, now)) continue;
     for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
       const int number = partner(m.contacts[c], pour.body);
@@ -110,14 +115,17 @@ bool is_called_pouring(std::string name) {
 void pour_nothing(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   for (std::size_t i = 0; i < a.stages.size() && a.stages[i].cycle <= 1; ++i) {
     const StageRun& now = a.stages[i];
+    // Stages that say in their name that they pour, and in which no casting is new.
     if (!is_called_pouring(now.stage->name)) continue;
     const bool pours = std::ranges::any_of(m.pours, [&](const Pour& pour) {
       return is_there(spec, pour.body, now) && (i == 0 || !is_there(spec, pour.body, a.stages[i - 1]));
     });
+    // Two such stages in a row may be one pour in two parts.
     const bool follows_a_pour = i > 0 && is_called_pouring(a.stages[i - 1].stage->name);
     if (m.pours.empty() || pours || follows_a_pour) continue;
     const std::size_t casting = m.pours.front().body;
     const std::string name = spec.bodies[casting].name;
+    // The stage in which the casting really begins is named, for the two are mostly exchanged.
     const auto first =
         std::ranges::find_if(a.stages, [&](const StageRun& stage) { return is_there(spec, casting, stage); });
     findings.push_back(

@@ -71,10 +71,13 @@ bool has_shifted_point(const material::Property& property, const material::Phase
 void compare_argument(const BodySpec& body, const material::Property& property, double coldest,
                       const material::PhaseChange* freezing, Findings& findings) {
   if (property.table->constant()) return;
+  // Read as Celsius, a first point of 273, 293 or 298 is a room in kelvins.
   const double first = property.table->x().front(), last = property.table->x().back();
   const double celsius = first - k_zero_celsius;
   const auto near = [](double p, double q) { return std::abs(p - q) < 0.6; };
   const bool room = near(celsius, 273) || near(celsius, 293) || near(celsius, 298);
+  // Near 300 it is doubtful, unless another point lies where the solidus or liquidus would be in
+  // kelvins.
   const bool shifted = celsius > 270 && celsius < 330 && has_shifted_point(property, freezing);
   if ((room || shifted) && coldest < first - 150)
     findings.push_back(
@@ -83,6 +86,7 @@ void compare_argument(const BodySpec& body, const material::Property& property, 
                      "goes down to {:.0f} degC",
                      body.name, body.material, property.name, celsius, coldest - k_zero_celsius),
          "are its temperatures in K? argument_unit = \"K\""});
+  // The other mistake: degrees Celsius read as kelvins make a table start far below any case.
   if (first < k_cold_table && last < k_cold_table_end && last > 300)
     findings.push_back(
         {false, body.where,
@@ -101,10 +105,13 @@ void compare_solid(const BodySpec& body, const material::Material& m, Findings& 
                         fmt::format("body '{}', material '{}': young_modulus of {:g} Pa at most", body.name,
                                     body.material, stiffest),
                         "cold metals have 10 to 400 GPa"});
+  // Moduli of all solids next, then expansions with their sign: some materials shrink as they get
+  // warmer.
   compare(body, {"young_modulus", "Pa", k_least_modulus, k_most_modulus}, m.young_modulus.min_value(),
           m.young_modulus.max_value(), findings);
   compare(body, {"expansion", "1/K", k_most_shrinking, k_most_expansion}, m.expansion.min_value(),
           m.expansion.max_value(), findings);
+  // Three times the usual is the expansion of the volume, given for that of length.
   const double largest = std::max(std::abs(m.expansion.min_value()), std::abs(m.expansion.max_value()));
   if (m.solidification() != nullptr && m.expansion.max_value() > k_most_expansion_of_metals &&
       m.expansion.max_value() < k_most_expansion)
@@ -126,6 +133,7 @@ void compare_strength(const BodySpec& body, const material::Material& m, Finding
     findings.push_back({false, body.where,
                         fmt::format("body '{}', material '{}': {}", body.name, body.material, what), usual});
   };
+  // Any phase change counts here, those in the solid too.
   for (const material::PhaseChange& change : m.phase_changes)
     if (std::abs(change.volume_change) > k_most_change)
       say(fmt::format("'{}' changes the volume by {:.3g} %", change.name, 100 * change.volume_change),
@@ -148,6 +156,7 @@ void compare_ratios(const BodySpec& body, const material::Material& m, Findings&
   if (const double least = m.poisson_ratio.min_value();
       m.solidification() != nullptr && least < k_least_poisson)
     warn_of_material(body, fmt::format("poisson_ratio of {:g}", least), "metals have 0.2 to 0.45", findings);
+  // Only freezing: changes in the solid may well gain volume.
   for (const material::PhaseChange& change : m.phase_changes)
     if (change.solidification && change.volume_change > k_most_gain)
       warn_of_material(
@@ -156,6 +165,7 @@ void compare_ratios(const BodySpec& body, const material::Material& m, Findings&
           "metals shrink by 1 to 7 % as they freeze, volume_change = -0.07 to -0.01; grey iron and bismuth "
           "expand by up to 3.3 %, silicon by 10 %",
           findings);
+  // Hardening is compared where it is one number of a line; other laws have no one modulus.
   if (!m.flow || m.flow->isotropic != material::IsotropicHardening::linear) return;
   const double stiff = m.young_modulus.max_value(), hardening = m.flow->hardening[0].max_value();
   if (hardening > k_most_hardening * stiff)
@@ -185,10 +195,14 @@ void compare_rate(const BodySpec& body, const material::Material& m, Findings& f
 
 /// A specific heat with a hump where the metal freezes holds the latent heat already.
 void compare_latent_heat(const BodySpec& body, const material::Material& m, Findings& findings) {
+  // A hump is a value within the range of freezing, and a little to its sides, far above those
+  // around.
   const material::PhaseFraction& fraction = m.solidification()->fraction;
   constexpr double k_beside = 5;  // [K]
   const double low = fraction.solidus() - k_beside, high = fraction.liquidus() + k_beside;
   const Table& c = m.specific_heat;
+  // Around it the larger of the cold and the hot end counts, so that a rise from one to the other
+  // is none.
   const double around = std::max(c.value(c.x().front()), c.value(high + 100));
   double most = 0;
   for (std::size_t i = 0; i < c.x().size(); ++i)
@@ -249,6 +263,8 @@ double coldest(const CaseSpec& spec, const Assembly& a) {
 }
 
 void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings& findings) {
+  // The coldest temperature that the case knows, with which the first points of tables are
+  // compared.
   const double low = coldest(spec, a);
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::Material& m = a.materials[b];
@@ -260,6 +276,7 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings
     if (spec.has_mechanics() && m.mechanical() && !only_conducts(spec.bodies[b]))
       compare_solid(spec.bodies[b], m, findings), compare_strength(spec.bodies[b], m, findings),
           compare_ratios(spec.bodies[b], m, findings), compare_rate(spec.bodies[b], m, findings);
+    // Limits of metals are narrower than those of all materials.
     compare(spec.bodies[b], {"density", "kg/m3", metal ? k_least_of_metals : k_least_density, k_most_density},
             m.density, m.density, findings);
     if (!spec.has_heat()) continue;
@@ -270,6 +287,8 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings
             {"conductivity", "W/m/K", metal ? k_least_conductivity_of_metals : k_least_conductivity,
              as_melt ? k_most_conductivity_with_flow : k_most_conductivity},
             m.conductivity.min_value(), m.conductivity.max_value(), findings);
+    // What freezes has more to compare: conductivities and heats of the melt and the range of
+    // freezing.
     compare(spec.bodies[b], {"specific heat", "J/kg/K", k_least_heat, k_most_heat},
             m.specific_heat.min_value(), m.specific_heat.max_value(), findings);
     compare_phase_changes(spec.bodies[b], m, findings);

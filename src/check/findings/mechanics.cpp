@@ -32,11 +32,13 @@ std::vector<Held> held_nodes(const CaseSpec& spec, const Assembly& a) {
   // an axis uz is the second component.
   const int components = displacement_components(spec.analysis.kind);
   std::vector<std::uint8_t> directions(a.mesh.x.size(), 0);
+  // Conditions come by their groups, whose nodes are those of a surface, a volume or a set.
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
     const auto nodes = a.mesh.node_sets.find(c.group);
     if (nodes == a.mesh.node_sets.end()) continue;
     const bool held =
         c.kind == MechanicalConditionSpec::Kind::displacement && holds(c.stages, a.first_stage());
+    // Components of one node may be held by different conditions, so that bits are collected.
     unsigned bits = 0;
     if (held) bits = (c.ux || c.ur ? 1U : 0U) | (c.uy ? 2U : 0U) | (c.uz ? (components == 2 ? 2U : 4U) : 0U);
     for (const Index node : nodes->second)
@@ -46,6 +48,7 @@ std::vector<Held> held_nodes(const CaseSpec& spec, const Assembly& a) {
   const unsigned all = components == 2 ? 3U : 7U;
   std::vector<Held> of_body(spec.bodies.size());
   std::vector<int> last(a.mesh.x.size(), -1);
+  // A node of two bodies counts in both, and once in each.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     for (const mesh::ElementBlock& block : a.mesh.blocks) {
       if (block.body != static_cast<int>(b)) continue;
@@ -85,6 +88,8 @@ void held_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, 
     const bool all =
         c.kind == MechanicalConditionSpec::Kind::displacement &&
         (spec.analysis.kind == AnalysisKind::solid ? c.ux && c.uy && c.uz : (c.ux || c.ur) && (c.uy || c.uz));
+    // Either side of a contact may be held; the casting's side is the one where no gap can open
+    // then.
     if (!all) continue;
     for (std::size_t k = 0; k < m.contacts.size(); ++k) {
       const ContactMeasures& contact = m.contacts[k];
@@ -121,6 +126,7 @@ void pressed_melts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   using Kind = MechanicalConditionSpec::Kind;
   const AnalysisKind kind = spec.analysis.kind;
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    // Only pressures of one number that act from the start: melt freezes, and may be pressed later.
     if (c.kind != Kind::pressure || !is_number(c.pressure) || c.pressure.table.value(0) < k_head) continue;
     if (!holds(c.stages, a.first_stage())) continue;
     // The skin of the pressed melt that has anything against it: shared nodes, supports, contacts and the
@@ -130,6 +136,8 @@ void pressed_melts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
       const auto body = static_cast<int>(pour.body);
       if (pressed.body != body) continue;
       const BodyMeasures& measures = m.bodies[pour.body];
+      // Shared faces are covered by the other body; every surface with a condition or a contact is
+      // taken as covered too.
       double covered = std::accumulate(measures.shared.begin(), measures.shared.end(), 0.0);
       std::set<std::string> groups;
       for (const MechanicalConditionSpec& other : spec.mechanical_conditions) groups.insert(other.group);
@@ -137,6 +145,7 @@ void pressed_melts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
         for (const std::string& side : contact.sides()) groups.insert(side);
       for (const std::string& group : groups)
         if (const SurfaceMeasures s = measure_surface(a.mesh, group, kind); s.body == body) covered += s.area;
+      // What remains free must be a good part of the skin before it is told.
       if (covered > (1 - k_free) * measures.skin) continue;
       findings.push_back(
           {false, c.where,
@@ -189,6 +198,7 @@ void loads(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
     for (std::size_t d = 0; d < 3; ++d) largest = std::max(largest, body.high[d] - body.low[d]);
   using Kind = MechanicalConditionSpec::Kind;
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    // Motions of whatever direction; tables by their largest value on either side.
     for (const auto* u : {&c.ux, &c.uy, &c.uz, &c.ur})
       if (c.kind == Kind::displacement && *u && (*u)->place == nullptr) {
         const double way = std::max(std::abs((*u)->table.min_value()), std::abs((*u)->table.max_value()));
@@ -198,6 +208,8 @@ void loads(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
                                           c.name, c.group, 1e3 * way),
                               "is the unit right?"});
       }
+    // Pressures are told at both ends, since pascals and megapascals are confused in both
+    // directions.
     if (c.kind == Kind::pressure && c.pressure.place == nullptr)
       if (const double p =
               std::max(std::abs(c.pressure.table.min_value()), std::abs(c.pressure.table.max_value()));

@@ -48,6 +48,7 @@ void thick_coatings(const CaseSpec& spec, const CaseMeasures& m, Findings& findi
 /// Heat of a casting does not reach the outside of such walls while it freezes.
 void walls_of_metres(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   if (m.pours.empty()) return;
+  // The box around all that is poured, whose longest side is the measure.
   mesh::Point low, high;
   low.fill(std::numeric_limits<double>::max());
   high.fill(std::numeric_limits<double>::lowest());
@@ -59,6 +60,7 @@ void walls_of_metres(const CaseSpec& spec, const CaseMeasures& m, Findings& find
     }
     size = std::max(size, high[d] - low[d]);
   }
+  // How far each other body reaches beyond that box, on the side where it reaches farthest.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     if (m.is_poured(b)) continue;
     double reach = 0;
@@ -87,11 +89,13 @@ double distance_from_melt(const Assembly& a, const CaseMeasures& m, const Surfac
 /// Nothing keeps the outside of sand as cold as a room once heat has come through to it. Behind a wall that
 /// is thicker than that the condition has no effect, and a mould of metal may have channels. Collective.
 void cold_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  // The slowest casting decides how far heat comes.
   double freezing = 0;
   for (const Pour& pour : m.pours) freezing = std::max(freezing, pour.freezing.time.value_or(0));
   if (!(freezing > 0)) return;
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
     const ThermalConditionSpec& c = spec.thermal_conditions[t];
+    // Held temperatures of one number, at all times, near that of a room.
     if (c.kind != ThermalConditionSpec::Kind::temperature || !is_number(c.temperature) || !c.stages.empty() ||
         c.temperature.table.value(0) > k_coldest || m.surfaces[t].body < 0)
       continue;
@@ -99,6 +103,7 @@ void cold_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, F
     const material::Material& of = a.materials[b];
     const double start = a.start[b].low, k = of.conductivity.value(start);
     if (m.is_poured(b) || k >= k_sand) continue;
+    // The depth that heat reaches in that time, by the similarity solution of a half space.
     const double reached = 2 * std::sqrt(k / (of.density * of.specific_heat.value(start)) * freezing);
     const double wall = distance_from_melt(a, m, m.surfaces[t]);
     if (wall >= reached) continue;
@@ -117,11 +122,14 @@ void cold_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, F
 /// decides. Ceramic shells are thin, and stand in air.
 void thin_sand(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   double reach = 0, metal = 0, volume = 0;
+  // Metal that the mould must take the heat of: the depth is that of the slowest, the area that of
+  // all.
   for (const Pour& pour : m.pours) {
     if (pour.freezing.time) reach = std::max(reach, pour.freezing.mould_reach);
     metal += pour.cooled_area;
   }
   const BodySpec* first = nullptr;
+  // Volume of mould over area of metal is its mean thickness.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     if (m.is_poured(b) || spec.bodies[b].role != Role::mould) continue;
     volume += m.bodies[b].volume;

@@ -46,6 +46,7 @@ void search_distances(const CaseSpec& spec, const CaseMeasures& m, Findings& fin
     const ContactSpec& contact = spec.contacts[c];
     if (!contact.search_distance || m.contacts[c].slave_body < 0) continue;
     const BodyMeasures& body = m.bodies[static_cast<std::size_t>(m.contacts[c].slave_body)];
+    // The largest side of the slave's body is the measure, since castings shrink by a share of it.
     double size = 0;
     for (std::size_t d = 0; d < 3; ++d) size = std::max(size, body.high[d] - body.low[d]);
     const double distance = *contact.search_distance;
@@ -115,6 +116,8 @@ void atmospheres(const CaseSpec& spec, Findings& findings) {
 /// which resists no shear, runs through there.
 void coarse_slaves(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
+    // Nodes are one point a face, Gauss points several; segments of the mortar method see every
+    // part of both sides.
     const ContactMeasures& measures = m.contacts[c];
     const bool nodal = spec.contacts[c].integration == contact::IntegrationRule::nodal;
     const auto sliding = spec.contacts[c].formulation == contact::Formulation::large_sliding &&
@@ -124,6 +127,7 @@ void coarse_slaves(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
       return static_cast<int>(p.body) == measures.master_body;
     });
     if (!poured || !(nodal || gauss) || a.mesh.surfaces.count(measures.master) == 0) continue;
+    // Where the melt is master its nodes between two points of the slave have nothing against them.
     const double ratio = measures.face_size / measures.master_face_size;
     if (!(ratio > (nodal ? k_coarse_nodes : k_coarse_points))) continue;
     findings.push_back(

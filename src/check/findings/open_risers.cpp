@@ -40,6 +40,7 @@ std::set<std::string> contact_sides(const CaseSpec& spec) {
 std::map<std::size_t, OpenSkin> open_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
                                            const std::array<double, 3>& up) {
   constexpr double k_upright = 0.7, k_beside = 0.3;  // of the normal along `up`
+  // Only risers that are poured can be open on top.
   std::map<std::size_t, OpenSkin> skins;
   for (const Pour& pour : m.pours)
     if (spec.bodies[pour.body].role == Role::riser) skins[pour.body] = {};
@@ -57,18 +58,21 @@ std::map<std::size_t, OpenSkin> open_skins(const CaseSpec& spec, const Assembly&
   mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
     const auto found = skins.find(static_cast<std::size_t>(face.body));
     if (found == skins.end()) return;
+    // The normal of each face of a riser's skin, against the direction that is up.
     std::vector<mesh::Point> corners;
     for (const Index node : face.vertices()) corners.push_back(a.mesh.x[static_cast<std::size_t>(node)]);
     const mesh::SkinFace skin = mesh::face_through(std::move(corners));
     const double along = skin.normal[0] * up[0] + skin.normal[1] * up[1] + skin.normal[2] * up[2];
     OpenSkin& sum = found->second;
     sum.all += skin.area;
+    // Faces that another body has too are counted in the whole and are neither open nor bare.
     if (same.size() > 1) return;
     if (along > k_upright && !cooled_faces.contains(face.key)) sum.bare_up += skin.area;
     if (held_faces.contains(face.key)) return;
     if (along > k_upright) sum.up += skin.area;
     if (std::abs(along) < k_beside) sum.beside += skin.area;
   });
+  // Every process has its part of the faces.
   for (auto& [body, sum] : skins)
     for (double* area : {&sum.all, &sum.up, &sum.beside, &sum.bare_up}) *area = parallel::global_sum(*area);
   return skins;
@@ -88,6 +92,7 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
                        "nor a contact: no heat leaves there",
                        100 * skin.bare_up / skin.all, riser.name),
            "10 to 20 W/m2/K and radiation on open metal, 1 to 3 W/m2/K under a cover"});
+    // A top that is all closed and sides that are open: gravity was given along the wrong axis.
     if (spec.has_mechanics() && skin.up < 0.1 * k_least_share_of_skin * skin.all &&
         skin.beside > k_least_share_of_skin * skin.all)
       findings.push_back(

@@ -33,6 +33,8 @@ std::vector<Condition> conditions_of_surfaces(const CaseSpec& spec) {
   using Heat = ThermalConditionSpec::Kind;
   using Motion = MechanicalConditionSpec::Kind;
   std::vector<Condition> conditions;
+  // Conditions of heat and of motion alike, as long as they act on a surface and with one strength
+  // all over it.
   if (spec.has_heat())
     for (const ThermalConditionSpec& c : spec.thermal_conditions)
       if (!c.in_volume() && has_one_strength(c))
@@ -57,12 +59,14 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings
     const auto faces = mesh::body_face_keys(a.mesh, {condition.group});
     const double all = parallel::global_sum(static_cast<double>(faces.size()));
     if (!(all > 0)) continue;
+    // Only contacts that pass what the condition acts on, in a stage that both have.
     for (const ContactSpec& contact : spec.contacts) {
       if ((condition.of_heat && !contact.heat) || !share_a_stage(*condition.stages, contact.stages)) continue;
       const std::array<std::string, 2> sides = contact.sides();
       const auto in_contact = mesh::body_face_keys(a.mesh, {sides[0], sides[1]});
       const double shared = parallel::global_sum(static_cast<double>(
           std::ranges::count_if(faces, [&](const auto& face) { return in_contact.contains(face); })));
+      // No common face is the usual case, and all of them another finding.
       if (!(shared > 0) || shared == all) continue;
       findings.push_back(
           {false, condition.where,

@@ -58,9 +58,12 @@ void risers_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findings
 void castings_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   for (const material::Material& material : a.materials)
     if (material.solidification() != nullptr) return risers_that_do_not_freeze(spec, a, findings);
+  // The hottest body, or the first where none is hot: the comparison below asks again.
   const auto hot = static_cast<std::size_t>(std::max(hottest(a), 0));
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const BodySpec& body = spec.bodies[b];
+    // Three signs that a body was meant to be cast: its role, sand that is hot, and a mould around
+    // it.
     const bool told = body.role && is_poured(*body.role);
     const bool of_sand = hottest(a) >= 0 && b == hot && !body.role && a.start[b].high > k_hot &&
                          a.materials[b].conductivity.value(a.start[b].high) < k_conducts;
@@ -97,6 +100,8 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings
            "are the roles swapped?"});
   }
   const double start = a.start[poured].high;
+  // Poured below the liquidus, it is partly or wholly solid; far above, kelvins were read as
+  // degrees.
   if (const material::PhaseChange* freezing = a.materials[poured].solidification()) {
     const double liquidus = freezing->fraction.liquidus();
     if (start < liquidus)
@@ -114,6 +119,8 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings
                           "castings are poured 20 to 150 K above the liquidus; is the number in K?"});
     return;
   }
+  // Something else would be liquid at that temperature and starts cold: materials are swapped
+  // between two bodies.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     if (const material::PhaseChange* freezing = a.materials[b].solidification();
         freezing != nullptr && a.start[b].high < freezing->fraction.solidus() &&

@@ -41,6 +41,7 @@ void compare(const CaseSpec& spec, const Assembly& a, const ProbeSpec& probe, st
   const BodySpec& body = spec.bodies[b];
   const coupling::Quantity& field = coupling::field_of(probe.field);
   const bool rigid = spec.has_heat() && spec.has_mechanics() && only_conducts(body);
+  // What only conducts keeps the displacement of zero; what cannot freeze keeps its fraction.
   if (deforms(field) && rigid)
     findings.push_back({false, probe.where,
                         fmt::format("the probe '{}' takes the {} of '{}', which only conducts heat: it stays "
@@ -56,15 +57,19 @@ void compare(const CaseSpec& spec, const Assembly& a, const ProbeSpec& probe, st
 
 void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   for (const ProbeSpec& probe : spec.probes) {
+    // Differences and global sums are made of other probes or of the whole case.
     if (probe.kind == ProbeSpec::Kind::difference || probe.kind == ProbeSpec::Kind::global) continue;
+    // Probes of a group are compared with the body that has it.
     if (probe.kind != ProbeSpec::Kind::point) {
       for (std::size_t b = 0; b < spec.bodies.size(); ++b)
         if (spec.bodies[b].mesh_group() == probe.group) compare(spec, a, probe, b, findings);
       continue;
     }
+    // A point of a plane case has two coordinates; the third stays zero.
     mesh::Point point{};
     std::copy_n(probe.point.begin(), std::min(probe.point.size(), point.size()), point.begin());
     std::vector<std::size_t> bodies;
+    // Without a body the point is looked for in the boxes of all.
     if (!probe.body) {
       bodies = bodies_at(a, m, point);
     } else {

@@ -52,6 +52,7 @@ void risers_that_freeze_first(const CaseSpec& spec, const CaseMeasures& m, Findi
 
 /// A riser that touches no other melt feeds nothing.
 void risers_apart(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  // Metal passes by shared nodes; a contact at least shows that it was meant to.
   const auto touches = [&](std::size_t one, std::size_t other) {
     return m.bodies[one].shared_nodes[other] > 0 ||
            std::ranges::any_of(m.contacts, [&](const ContactMeasures& contact) {
@@ -61,6 +62,7 @@ void risers_apart(const CaseSpec& spec, const CaseMeasures& m, Findings& finding
            });
   };
   for (const Pour& riser : m.pours) {
+    // A riser counts as apart where a casting is there and nothing that is poured touches it.
     bool castings = false, apart = true;
     for (const Pour& other : m.pours) {
       if (other.body == riser.body) continue;
@@ -112,13 +114,16 @@ void risers_below_castings(const CaseSpec& spec, const CaseMeasures& m, Findings
   const std::array<double, 3> g = gravity(spec.analysis);
   if (!(std::hypot(g[0], g[1], g[2]) > 0)) return;
   for (const Pour& riser : m.pours) {
+    // Risers that the criteria name as feeders are judged with those.
     const std::vector<std::string>& named = spec.criteria.feeders;
     if (!is_riser(spec, riser) ||
         std::ranges::find(named, spec.bodies[riser.body].mesh_group()) != named.end())
       continue;
+    // Heights are counted against gravity, from the box of the body.
     const double top = heights(m.bodies[riser.body], g).high;
     const Pour* fed = nullptr;
     bool above = false;
+    // One casting whose middle is below its top is enough: it feeds that one.
     for (const Pour& casting : m.pours) {
       if (is_riser(spec, casting) || m.bodies[riser.body].shared_nodes[casting.body] == 0) continue;
       const Heights of_casting = heights(m.bodies[casting.body], g);
@@ -158,6 +163,8 @@ double covered(const Box& box, const Box& by, int dimension) {
 /// A core that lies outside all castings, and a chill that lies within one.
 void swapped_cores_and_chills(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
                               Findings& findings) {
+  // The share of the body's box that lies within the box of a casting, for the casting that covers
+  // it most.
   const auto most_covered = [&](std::size_t body) {
     double most = 0;
     for (const Pour& pour : m.pours)
@@ -165,6 +172,8 @@ void swapped_cores_and_chills(const CaseSpec& spec, const Assembly& a, const Cas
           most, covered(box_of(spec, m.bodies[body]), box_of(spec, m.bodies[pour.body]), a.mesh.dimension));
     return most;
   };
+  // Cores mostly lie within the casting, chills on its outside: a pair that is the other way round
+  // is swapped.
   for (std::size_t core = 0; core < spec.bodies.size(); ++core) {
     if (m.is_poured(core) || role_of(spec.bodies[core], a.materials[core]) != Role::core ||
         most_covered(core) > k_outside)
@@ -242,6 +251,7 @@ void castings_that_only_conduct(const CaseSpec& spec, const CaseMeasures& m, Fin
 /// Sand gives way to pressures that dies stand; a riser under pressure has less than a die has.
 void pressed_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_mechanics()) return;
+  // Sand is told from metal by its conductivity, at the coldest start of the body.
   const auto sand_around = [&](int body) {
     return std::ranges::any_of(m.contacts, [&](const ContactMeasures& contact) {
       const int other = contact.slave_body == body    ? contact.master_body
@@ -254,10 +264,12 @@ void pressed_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   };
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
     if (c.kind != MechanicalConditionSpec::Kind::pressure) continue;
+    // Pressures of tables count by their largest value.
     const double pressure = c.pressure.table.max_value();
     if (!(pressure > k_on_riser)) continue;
     const int body = measure_surface(a.mesh, c.group, spec.analysis.kind).body;
     if (body < 0 || !m.is_poured(static_cast<std::size_t>(body)) || !sand_around(body)) continue;
+    // On a riser the limit is lower, as gas presses there and no piston.
     const bool on_riser = spec.bodies[static_cast<std::size_t>(body)].role == Role::riser;
     if (!on_riser && !(pressure > k_stands)) continue;
     findings.push_back(

@@ -50,12 +50,15 @@ void insulating_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasur
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const BodySpec& body = spec.bodies[b];
     if (body.role != Role::mould || m.is_poured(b)) continue;
+    // In contact with something poured, from either side.
     const bool on_metal = std::ranges::any_of(m.contacts, [&](const ContactMeasures& c) {
       const int self = static_cast<int>(b), other = c.slave_body == self ? c.master_body : c.slave_body;
       return (c.slave_body == self || c.master_body == self) && other >= 0 &&
              m.is_poured(static_cast<std::size_t>(other));
     });
     const material::Material& of = a.materials[b];
+    // The heat that a half space takes up in a given time goes as the root of the product of
+    // conductivity, density and specific heat.
     const double start = a.start[b].high;
     const double takes_up =
         std::sqrt(of.conductivity.value(start) * of.density * of.specific_heat.value(start));
@@ -72,6 +75,8 @@ void insulating_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasur
 
 /// Where every mould lies within the casting's box, groups or roles are swapped. A core may.
 void swapped(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  // Box within box, and the smaller volume: a mould around a casting has the larger one, or at
+  // least reaches farther.
   const auto within = [&](std::size_t inner, std::size_t outer) {
     bool inside = true;
     for (std::size_t d = 0; d < static_cast<std::size_t>(a.mesh.dimension); ++d)
@@ -81,6 +86,7 @@ void swapped(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Fin
   };
   for (const Pour& pour : m.pours) {
     std::size_t moulds = 0, inside = 0, last = 0;
+    // Cores are not counted, for they do lie within.
     for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
       const Role role = role_of(spec.bodies[b], a.materials[b]);
       if (m.is_poured(b) || (role != Role::mould && role != Role::die)) continue;
@@ -101,6 +107,7 @@ void strong_films(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
     const ThermalConditionSpec& c = spec.thermal_conditions[i];
     if (c.kind != Kind::film || m.surfaces[i].body < 0 || !is_number(c.coefficient) || !is_number(c.factor))
       continue;
+    // The film acts on this body alone, with a number that is known.
     const auto b = static_cast<std::size_t>(m.surfaces[i].body);
     const double h = c.coefficient.table.value(0) * c.factor.table.value(0);
     if (is_number(c.factor) && c.factor.table.value(0) == 0)
@@ -109,6 +116,7 @@ void strong_films(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
     const std::string what =
         fmt::format("the film '{}' has {:g} W/m2/K on '{}'", c.name, h, spec.bodies[b].name);
     const bool poured = m.is_poured(b);
+    // Sand cannot give off what such a film takes, since its own resistance is far larger.
     if (!poured && h > k_on_sand && a.materials[b].conductivity.value(a.start[b].low) < k_sand)
       findings.push_back({false, c.where, what + ", which conducts as sand does",
                           "sand stands in air: 5 to 50 W/m2/K; water cools metal"});
@@ -121,6 +129,7 @@ void strong_films(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
 /// Finds films, radiation and held temperatures that keep a mould above the solidus of what is poured.
 void heated_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (m.pours.empty()) return;
+  // The highest solidus of all that is poured: below it every casting can still freeze.
   double solidus = 0;
   for (const Pour& pour : m.pours)
     solidus = std::max(solidus, a.materials[pour.body].solidification()->fraction.solidus());
@@ -128,6 +137,7 @@ void heated_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
     const ThermalConditionSpec& c = spec.thermal_conditions[i];
     const bool surrounded = c.kind == Kind::film || c.kind == Kind::radiation;
     if ((!surrounded && c.kind != Kind::temperature) || !c.stages.empty() || m.surfaces[i].body < 0) continue;
+    // Held temperatures and surroundings are compared alike, on bodies that are not poured.
     const auto b = static_cast<std::size_t>(m.surfaces[i].body);
     const Function& temperature = surrounded ? c.ambient : c.temperature;
     if (m.is_poured(b) || !is_number(temperature)) continue;
@@ -145,6 +155,7 @@ void heated_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
 /// Risers feed by their weight, and pressures are counted from that of the air.
 void weight(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_mechanics() || m.pours.empty()) return;
+  // Any component of gravity gives a weight.
   const std::array<double, 3> g = gravity(spec.analysis);
   const bool weighs = std::any_of(g.begin(), g.end(), [](double v) { return v != 0; });
   for (const Pour& pour : m.pours)
@@ -154,6 +165,7 @@ void weight(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
                           "gravity = \"9.81 m/s2\" in [analysis]"});
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
     if (c.kind != MechanicalConditionSpec::Kind::pressure || !is_number(c.pressure)) continue;
+    // Near one bar, and no farther off than the weather: this is the pressure of the air.
     if (const double p = c.pressure.table.value(0); p > k_air && p < k_air_at_most)
       findings.push_back(
           {false, c.where,

@@ -119,8 +119,12 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
   // resists turning, and around an axis there is none.
   if (!spec.has_mechanics() || spec.dynamics || spec.analysis.kind == AnalysisKind::axisymmetric) return;
   const Groups groups = joined_bodies(spec, a, m);
+  // Groups that shared nodes and contacts join move as one, and the first body speaks for its
+  // group.
   for (std::size_t first = 0; first < spec.bodies.size(); ++first) {
     if (groups.of_body[first] != static_cast<int>(first) || groups.held[first] != 0) continue;
+    // Rotations are about the middle of the body and scaled by its size, so that they compare with
+    // translations.
     const BodyMeasures& body = m.bodies[first];
     mesh::Point centre{};
     double size = 0;
@@ -139,6 +143,7 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
       if (c.kind != MechanicalConditionSpec::Kind::displacement || nodes == a.mesh.node_sets.end() ||
           !holds(c.stages, a.first_stage()))
         continue;
+      // Nodes count once, on the process that owns them.
       for (const Index node : nodes->second) {
         if (node >= a.mesh.n_owned_nodes || of_group[static_cast<std::size_t>(node)] == 0) continue;
         if (c.ux) motions.hold(node, 0);
@@ -146,6 +151,8 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
         if (c.uz && a.mesh.dimension == 3) motions.hold(node, 2);
       }
     }
+    // After the sum all processes have the same matrix: a rotation of next to no stiffness in it is
+    // free.
     motions.sum();
     if (!motions.turns()) continue;
     findings.push_back(

@@ -64,6 +64,7 @@ Skins all_skins(const CaseSpec& spec, const Assembly& a) {
 std::vector<mesh::SkinFace> gather_near(const std::vector<mesh::SkinFace>& faces, const mesh::Point& low,
                                         const mesh::Point& high, double margin) {
   std::vector<mesh::Point> mine;  // four a face, the last one repeated
+  // A face comes near where its own box, widened by the margin, meets the box asked for.
   for (const mesh::SkinFace& face : faces) {
     bool near = true;
     for (std::size_t d = 0; d < 3 && near; ++d) {
@@ -72,11 +73,13 @@ std::vector<mesh::SkinFace> gather_near(const std::vector<mesh::SkinFace>& faces
         least = std::min(least, x[d]), greatest = std::max(greatest, x[d]);
       near = greatest > low[d] - margin && least < high[d] + margin;
     }
+    // Four corners for every face, so that the gathered points can be cut apart again.
     for (std::size_t i = 0; near && i < 4; ++i)
       mine.push_back(face.corners[std::min(i, face.corners.size() - 1)]);
   }
   const std::vector<mesh::Point> all = gather(mine);
   std::vector<mesh::SkinFace> found;
+  // Repeated corners at the end tell a triangle or a line from a quadrangle.
   for (std::size_t i = 0; i + 3 < all.size(); i += 4) {
     std::vector<mesh::Point> corners(all.begin() + static_cast<std::ptrdiff_t>(i),
                                      all.begin() + static_cast<std::ptrdiff_t>(i) + 4);

@@ -45,6 +45,7 @@ void steps_of_freezing(const CaseSpec& spec, const Assembly& a, const Pour& pour
   // One finding is enough: later stages would repeat it.
   for (const StageRun* run : freezing_stages(spec, a, pour)) {
     const StageSpec& stage = *run->stage;
+    // Adaptive stages are judged by their first step, fixed ones by the step they keep.
     const double step = first_step(stage, spec.time);
     const bool first = run == a.first_stage();
     if (k_fine * step > time && (spec.time.adaptive || !first)) {
@@ -57,6 +58,7 @@ void steps_of_freezing(const CaseSpec& spec, const Assembly& a, const Pour& pour
                               : "twenty steps and more while it freezes; time.adaptive chooses them"});
       return;
     }
+    // The least step must leave some steps for the freezing, or a rough place cannot be got over.
     if (const double least = spec.time.adaptive ? stage.min_step.value_or(0) : 0;
         k_least_steps_to_freeze * least > time) {
       findings.push_back(
@@ -97,10 +99,12 @@ struct TimeTable {
 
 std::vector<TimeTable> time_tables(const CaseSpec& spec) {
   std::vector<TimeTable> tables;
+  // Only tables of time that are tables: those of place have the time within them.
   const auto add = [&](const auto& c, const Function& f) {
     if (f.place == nullptr && f.of == Argument::time && !f.table.constant())
       tables.push_back({f.table, c.stages, c.clock, c.name, c.where});
   };
+  // All functions of both kinds of conditions, components of motion included.
   for (const ThermalConditionSpec& c : spec.thermal_conditions)
     for (const Function* f :
          {&c.coefficient, &c.ambient, &c.temperature, &c.flux, &c.emissivity, &c.power, &c.factor})
@@ -116,12 +120,14 @@ std::vector<TimeTable> time_tables(const CaseSpec& spec) {
 /// A table that counts from the start of the run, and is over when its stage begins, or in the first of
 /// several rounds. Two points of a condition of all stages are a start that is over.
 void tables_of_the_run(const Assembly& a, const TimeTable& t, Findings& findings) {
+  // The stages in which the condition holds, in the order in which they run.
   std::vector<const StageRun*> runs;
   for (const StageRun& stage : a.stages)
     if (holds(t.stages, &stage)) runs.push_back(&stage);
   const double last = t.table.x().back();
   if (runs.empty()) return;
   const bool named = !t.stages.empty();
+  // The table has ended before the condition first acts, so that it only ever gives its last value.
   if (named && last <= runs.front()->start && runs.front()->start > 0) {
     findings.push_back({false, t.where,
                         fmt::format("the table of '{}' ends at {:g} s, but its stage '{}' begins at {:g} s",
@@ -129,6 +135,7 @@ void tables_of_the_run(const Assembly& a, const TimeTable& t, Findings& findings
                         "time = \"stage\": then it counts from the start of the stage"});
     return;
   }
+  // Rounds repeat a stage at later times, at which a table of the run is over.
   const int rounds = runs.back()->cycle;
   const auto first_round = std::ranges::find_if(runs, [](const StageRun* run) { return run->cycle > 1; });
   constexpr std::size_t k_ramp = 2;
@@ -162,6 +169,7 @@ void tables_of_the_stage(const Assembly& a, const TimeTable& t, Findings& findin
   double longest = 0;
   const StageRun* begins_there = nullptr;
   const double first = t.table.x().front(), last = t.table.x().back();
+  // The longest of its stages is what the table has to be spread over.
   for (const StageRun& stage : a.stages) {
     if (!holds(t.stages, &stage)) continue;
     longest = std::max(longest, stage.stage->duration);
@@ -174,6 +182,8 @@ void tables_of_the_stage(const Assembly& a, const TimeTable& t, Findings& findin
                      "counts from the start of the stage",
                      t.name, first, begins_there->stage->name),
          "a table that begins at 0 s, or time = \"run\""});
+  // Longer than the stage, and nearly flat within it: its change comes when the condition no longer
+  // acts.
   else if (last > longest && share_of_range(t.table, longest) < k_least_share_of_range)
     findings.push_back(
         {false, t.where,
@@ -186,12 +196,14 @@ void tables_of_the_stage(const Assembly& a, const TimeTable& t, Findings& findin
 /// A support that begins later pulls the nodes to their places in the mesh. Collective.
 void late_supports(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    // Relative supports hold where the node is; those that move in time are meant to.
     if (c.kind != MechanicalConditionSpec::Kind::displacement || c.relative || c.stages.empty()) continue;
     const std::array components{&c.ux, &c.uy, &c.uz, &c.ur};
     if (std::ranges::any_of(components, [](const auto* u) { return *u && !is_number(**u); })) continue;
     const int number = measure_surface(a.mesh, c.group, spec.analysis.kind).body;
     if (number < 0 || !m.is_poured(static_cast<std::size_t>(number))) continue;
     const BodySpec& body = spec.bodies[static_cast<std::size_t>(number)];
+    // A stage in which the support is new while the casting has been there before.
     for (std::size_t i = 1; i < a.stages.size() && a.stages[i].cycle <= 1; ++i) {
       const StageRun &before = a.stages[i - 1], &now = a.stages[i];
       const bool begins = holds(c.stages, &now) && !holds(c.stages, &before) && holds(body.stages, &before) &&

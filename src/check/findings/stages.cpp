@@ -23,6 +23,7 @@ constexpr double k_small = 0.2;
 /// Bodies that are there in a stage and that shared nodes join to one, itself included, [body].
 std::vector<char> joined(const CaseSpec& spec, const CaseMeasures& m, std::size_t body,
                          const StageRun& stage) {
+  // A walk over shared nodes, from body to body, among those that the stage has.
   std::vector<char> found(spec.bodies.size(), 0);
   std::vector<std::size_t> next{body};
   found[body] = 1;
@@ -42,9 +43,11 @@ std::vector<char> joined(const CaseSpec& spec, const CaseMeasures& m, std::size_
 /// Whether a condition or a contact passes heat through the skin of some bodies in a stage.
 bool exchanges_heat(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
                     const std::vector<char>& bodies, const StageRun& stage) {
+  // Measures of a surface give one body, or that there are several, any of which it may be.
   const auto among = [&](int body) {
     return body == k_several_bodies || (body >= 0 && bodies[static_cast<std::size_t>(body)] != 0);
   };
+  // Conditions first, then contacts with a law of heat on either side.
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
     const ThermalConditionSpec& condition = spec.thermal_conditions[t];
     const bool within =

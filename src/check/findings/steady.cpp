@@ -46,16 +46,20 @@ std::vector<std::size_t> groups_of(const CaseSpec& spec, const CaseMeasures& m) 
 std::vector<char> held_groups(const CaseSpec& spec, const CaseMeasures& m,
                               const std::vector<std::size_t>& group) {
   std::vector<char> held(group.size(), 0);
+  // Where the body is not known the whole case counts as held: no finding is better than a wrong
+  // one.
   const auto hold = [&](int body) {
     if (body >= 0)
       held[group[static_cast<std::size_t>(body)]] = 1;
     else  // of several bodies, or of nodes that may be any body's
       std::ranges::fill(held, 1);
   };
+  // Three kinds of conditions know a temperature; fluxes and sources do not.
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t)
     if (const Kind kind = spec.thermal_conditions[t].kind;
         kind == Kind::temperature || kind == Kind::film || kind == Kind::radiation)
       hold(m.surfaces[t].body);
+  // A tool with a temperature holds whatever its contact passes heat to.
   for (std::size_t c = 0; c < spec.contacts.size(); ++c)
     if (const RigidSurfaceSpec* tool = spec.rigid_surface(m.contacts[c].master);
         tool != nullptr && tool->temperature && spec.contacts[c].heat)
@@ -89,6 +93,7 @@ std::optional<Supply> supply_of(const CaseSpec& spec, const CaseMeasures& m,
       continue;
     }
     if (body < 0 || !is_number(c.factor)) return {};
+    // Only what acts on this group counts; the absolute sum is the measure of balance.
     if (group[static_cast<std::size_t>(body)] != which) continue;
     heat *= c.factor.table.value(0);
     supply.net += heat;
@@ -105,11 +110,14 @@ void find(const CaseSpec& spec, const Assembly&, const CaseMeasures& m, Findings
   const std::vector<char> held = held_groups(spec, m, group);
   for (std::size_t g = 0; g < group.size(); ++g) {
     if (group[g] != g || held[g] != 0) continue;
+    // All bodies of the group are named, since a condition on any of them would do.
     std::vector<std::string> names;
     for (std::size_t b = 0; b < group.size(); ++b)
       if (group[b] == g) names.push_back(fmt::format("'{}'", spec.bodies[b].name));
     const std::string bodies = fmt::format("{}", fmt::join(names, ", "));
     const std::optional<Supply> supply = supply_of(spec, m, group, g);
+    // Without balance there is no steady state, and this is an error; in balance the level is
+    // arbitrary.
     if (supply && std::abs(supply->net) > k_balanced * supply->all)
       findings.push_back(
           {true, spec.time.where,

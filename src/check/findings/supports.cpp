@@ -84,6 +84,8 @@ Translations::Translations(const CaseSpec& spec, const Assembly& a, const CaseMe
     : axisymmetric_(spec.analysis.kind == AnalysisKind::axisymmetric),
       n_(axisymmetric_ ? 1 : displacement_components(spec.analysis.kind)),
       group_(spec.bodies.size()) {
+  // One block of directions a body; the form holds what ties bodies to each other, the fixed part
+  // what ties them to the ground.
   const auto n_bodies = static_cast<int>(spec.bodies.size());
   std::iota(group_.begin(), group_.end(), 0);
   form_.setZero(n_ * n_bodies, n_ * n_bodies);
@@ -96,6 +98,7 @@ Translations::Translations(const CaseSpec& spec, const Assembly& a, const CaseMe
   add_supports(spec, a, stage);
   supports_ = fixed_;
   add_contacts(spec, a, m, stage);
+  // Shared nodes tie all directions of two bodies that are both there.
   for (std::size_t b = 0; b < m.bodies.size(); ++b)
     for (std::size_t other = 0; other < b; ++other)
       if (m.bodies[b].shared_nodes[other] > 0 && holds(spec.bodies[b].stages, stage) &&
@@ -114,10 +117,13 @@ void Translations::add_supports(const CaseSpec& spec, const Assembly& a, const S
       of_node[static_cast<std::size_t>(node)] |= bit(static_cast<std::size_t>(block.body));
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
     if (c.kind != MechanicalConditionSpec::Kind::displacement || !holds(c.stages, stage)) continue;
+    // Which bodies the nodes of the group belong to, as far as this process sees them.
     Bits touched = 0;
     if (const auto nodes = a.mesh.node_sets.find(c.group); nodes != a.mesh.node_sets.end())
       for (const Index node : nodes->second) touched |= of_node[static_cast<std::size_t>(node)];
+    // Radial motion counts as the first direction, and in two dimensions uz as the second.
     const std::array<bool, 3> along{c.ux || c.ur, c.uy || (n_ < 3 && c.uz), n_ == 3 && c.uz};
+    // All processes must hold alike, or their matrices would differ.
     for (std::size_t b = 0; b < moves_.size(); ++b) {
       if (!parallel::any_process((touched & bit(b)) != 0)) continue;
       Eigen::MatrixXd held = Eigen::MatrixXd::Zero(n_, n_);
@@ -142,6 +148,7 @@ Eigen::MatrixXd Translations::normals_of(const mesh::Mesh& mesh, const std::stri
                                                          : Eigen::Vector3d(along.y(), -along.x(), 0);
         if (area.norm() > 0) sum += area * area.transpose() / area.norm();
       }
+  // Scaled to a trace of one, so that large and small surfaces hold alike.
   for (double& entry : sum.reshaped()) entry = parallel::global_sum(entry);
   if (sum.trace() > 0) sum /= sum.trace();
   const auto first = static_cast<int>(axis(0));
@@ -154,6 +161,7 @@ void Translations::add_contacts(const CaseSpec& spec, const Assembly& a, const C
     const ContactSpec& contact = spec.contacts[c];
     const ContactMeasures& sides = m.contacts[c];
     if (!holds(spec, contact, a.mesh, stage)) continue;
+    // With friction a contact holds in all directions; without it along its normals alone.
     const Eigen::MatrixXd normals = contact.friction ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(n_, n_))
                                                      : normals_of(a.mesh, sides.slave);
     // A side of several bodies is taken to stand still: no finding is better than a wrong one.
@@ -162,6 +170,7 @@ void Translations::add_contacts(const CaseSpec& spec, const Assembly& a, const C
     else
       for (const int body : {sides.slave_body, sides.master_body})
         if (body >= 0) hold(body, normals);
+    // With several bodies on a side every one of them may be the one that is held.
     if (sides.slave_body == k_several_bodies || sides.master_body == k_several_bodies)
       for (std::size_t b = 0; b < moves_.size(); ++b)
         hold(static_cast<int>(b), Eigen::MatrixXd::Identity(n_, n_));
@@ -213,16 +222,22 @@ std::string direction_text(const Translations& t, const Eigen::VectorXd& directi
 /// @param when  " in the stage 'air'"; empty: when the run begins
 void loose_groups(const CaseSpec& spec, const Translations& t, const std::string& when,
                   std::vector<char>& told, Findings& findings) {
+  // The first body of a group speaks for it.
   for (std::size_t first = 0; first < spec.bodies.size(); ++first) {
     if (t.group()[first] != static_cast<int>(first)) continue;
+    // Directions in which the group can move without resistance are those of next to no stiffness.
     const SymmetricEigen modes = modes_of(t.held(static_cast<int>(first)));
     if (modes.values.front() >= k_nothing || told[first] != 0) continue;
+    // All bodies of the group are named and marked, so that the later stages and the weight do not
+    // tell them again.
     std::string names;
     for (std::size_t b = first; b < spec.bodies.size(); ++b)
       if (t.group()[b] == static_cast<int>(first)) {
         names += (names.empty() ? "'" : ", '") + spec.bodies[b].name + "'";
         told[b] = 1;
       }
+    // One body with nothing at all, a group that is free in all directions, and one that is free
+    // along some are told in different words.
     const bool alone = names == "'" + spec.bodies[first].name + "'",
                nowhere = modes.values.back() < k_nothing;
     std::string what = fmt::format("nothing holds {}{}{}", alone ? "the body " : "", names, when);
@@ -250,10 +265,13 @@ Eigen::VectorXd direction_of_weight(const CaseSpec& spec, const Translations& t)
 /// Bodies whose weight neither a support nor a contact takes.
 void falling_bodies(const CaseSpec& spec, const Translations& t, const std::string& when,
                     std::vector<char>& told, Findings& findings) {
+  // Without weight nothing falls.
   const Eigen::VectorXd weight = direction_of_weight(spec, t);
   if (weight.isZero()) return;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     if (told[b] != 0 || !t.moves(b)) continue;
+    // The motion that the weight would cause, past supports and contacts: none where they all
+    // resist.
     if (const Eigen::VectorXd motion = t.followed(b, weight); motion.norm() > k_falls) {
       told[b] = 1;
       findings.push_back(
@@ -285,6 +303,8 @@ void lifted_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   if (weight.isZero()) return;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     if (told[b] != 0 || !t.moves(b)) continue;
+    // The bodies that shared nodes join to this one, found by repeating until nothing more is
+    // added.
     std::vector<char> one(spec.bodies.size(), 0);
     one[b] = 1;
     for (bool more = true; more;) {
@@ -293,11 +313,13 @@ void lifted_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
         for (std::size_t k = 0; k < i; ++k)
           if (one[i] != one[k] && m.bodies[i].shared_nodes[k] > 0) one[i] = one[k] = 1, more = true;
     }
+    // Held by a body that does not move, by a support, or by a contact that lies below.
     bool held = false, touches = false;
     for (std::size_t i = 0; i < one.size(); ++i)
       held |= one[i] != 0 && (!t.moves(i) || t.supported(i, weight));
     for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
       const ContactMeasures& sides = m.contacts[c];
+      // Contacts count from the start only; with several bodies on a side it may be held there.
       if (!holds(spec, spec.contacts[c], a.mesh, a.first_stage())) continue;
       held |= sides.slave_body == k_several_bodies || sides.master_body == k_several_bodies ||
               carries(spec.contacts[c], sides, one);

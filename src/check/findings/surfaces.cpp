@@ -33,6 +33,7 @@ bool lies_on(const ContactSpec& contact, const std::string& group) {
 void heat_beside_contacts(const CaseSpec& spec, Findings& findings) {
   for (const ThermalConditionSpec& c : spec.thermal_conditions)
     for (const ContactSpec& contact : spec.contacts) {
+      // Both act on one surface at one time, and the contact passes heat.
       if (!contact.heat || !lies_on(contact, c.group) || !share_a_stage(c.stages, contact.stages)) continue;
       if (c.kind == Heat::temperature && is_number(c.temperature))
         findings.push_back(
@@ -42,6 +43,7 @@ void heat_beside_contacts(const CaseSpec& spec, Findings& findings) {
                  "behind it has no effect on the other body",
                  c.name, c.group, units::to_display(c.temperature.table.value(0), "K", "degC"), contact.name),
              "temperatures on outer surfaces alone, or channels"});
+      // Numbers alone, since functions of place may be zero under the contact.
       const bool radiates = c.kind == Heat::radiation && is_number(c.emissivity) && is_number(c.factor);
       const bool flows = c.kind == Heat::flux && is_number(c.flux) && is_number(c.factor);
       if (radiates || flows)
@@ -64,6 +66,7 @@ void beside_held_temperatures(const CaseSpec& spec, Findings& findings) {
     for (std::size_t k = 0; k < spec.thermal_conditions.size(); ++k) {
       const ThermalConditionSpec& other = spec.thermal_conditions[k];
       const bool twice = other.kind == Heat::temperature;
+      // A pair of two held temperatures is told once, by the later of them.
       if (k == i || (twice && k > i) || other.in_volume() || other.group != held.group ||
           !share_a_stage(held.stages, other.stages))
         continue;
@@ -79,6 +82,7 @@ void beside_held_temperatures(const CaseSpec& spec, Findings& findings) {
 /// Two films on one face add up, as one of a channel and one of the whole outside around it. One of less than
 /// a fifth of the other changes little. Films of one surface: findings/interface.cpp. Collective.
 void films_in_one_place(const CaseSpec& spec, const mesh::Mesh& mesh, Findings& findings) {
+  // Films of one number are compared pair by pair over their faces, of whatever group they are.
   std::vector<const ThermalConditionSpec*> films;
   for (const ThermalConditionSpec& c : spec.thermal_conditions)
     if (c.kind == Heat::film && is_number(c.coefficient) && is_number(c.factor)) films.push_back(&c);
@@ -90,9 +94,11 @@ void films_in_one_place(const CaseSpec& spec, const mesh::Mesh& mesh, Findings& 
     const double all = parallel::global_sum(static_cast<double>(faces.size()));
     for (std::size_t k = 0; k < i; ++k) {
       const double one = strength(*films[i]), other = strength(*films[k]);
+      // Weak films beside strong ones are part of how a mould is cooled.
       if (films[i]->group == films[k]->group || !share_a_stage(films[i]->stages, films[k]->stages) ||
           std::min(one, other) < k_least_ratio_of_films * std::max(one, other))
         continue;
+      // How many faces both have, over all processes.
       const auto others = mesh::body_face_keys(mesh, {films[k]->group});
       const double shared = parallel::global_sum(static_cast<double>(
           std::ranges::count_if(faces, [&](const auto& face) { return others.contains(face); })));
@@ -125,11 +131,13 @@ void pressures(const CaseSpec& spec, Findings& findings) {
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
     if (c.kind != Motion::pressure || !is_number(c.pressure)) continue;
     const double pressure = c.pressure.table.value(0);
+    // A negative one pulls, which melt and sand cannot bear.
     if (pressure < 0)
       findings.push_back(
           {false, c.where,
            fmt::format("the pressure '{}' of {:.4g} MPa pulls at '{}'", c.name, 1e-6 * pressure, c.group),
            "a pressure is positive into the body"});
+    // Where a contact acts its pressure is an unknown of the run, and a load adds to it.
     for (const ContactSpec& contact : spec.contacts)
       if (lies_on(contact, c.group) && share_a_stage(c.stages, contact.stages))
         findings.push_back(
@@ -149,6 +157,7 @@ const std::optional<Function>& along(const MechanicalConditionSpec& c, std::size
 void opposed_supports(const CaseSpec& spec, Findings& findings) {
   for (std::size_t i = 0; i < spec.mechanical_conditions.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
+      // Only motions by numbers can be compared; equal ones may be stated twice.
       const MechanicalConditionSpec &one = spec.mechanical_conditions[k],
                                     &two = spec.mechanical_conditions[i];
       if (one.kind != Motion::displacement || two.kind != Motion::displacement || one.group != two.group ||
@@ -174,6 +183,7 @@ struct Ends {
 
 Ends ends_of(const mesh::Mesh& mesh, const std::vector<Index>& group, const std::vector<char>& of_body,
              const BodyMeasures& body, std::size_t axis) {
+  // Near is a thousandth of the length, which takes in the roughness of a mesh and no more.
   const double near = 1e-3 * (body.high[axis] - body.low[axis]);
   Ends found;
   bool elsewhere = false;
@@ -213,6 +223,7 @@ void clamped_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasure
       const bool round = spec.analysis.kind == AnalysisKind::axisymmetric && axis == 0;
       const double extent = measures.high[axis] - measures.low[axis];
       if (round || !(extent > 0)) continue;
+      // The last condition found at an end gives the name in the message.
       std::string low, high;
       for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
         const std::optional<Function>& u = along(c, axis);
@@ -224,6 +235,7 @@ void clamped_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasure
         if (ends.low) low = c.name;
         if (ends.high) high = c.name;
       }
+      // Both ends are held from the start, along the same axis.
       if (low.empty() || high.empty()) continue;
       findings.push_back(
           {false, body.where,

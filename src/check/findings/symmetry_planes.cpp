@@ -13,6 +13,7 @@ namespace {
 void find(const CaseSpec& spec, const Assembly&, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat() || !spec.has_mechanics()) return;
   using Film = ThermalConditionSpec::Kind;
+  // Films and radiation on a skin of the casting, by the body that its surface belongs to.
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
     const ThermalConditionSpec& film = spec.thermal_conditions[t];
     const bool poured = std::any_of(m.pours.begin(), m.pours.end(), [&](const Pour& p) {
@@ -20,6 +21,7 @@ void find(const CaseSpec& spec, const Assembly&, const CaseMeasures& m, Findings
     });
     if (!poured || (film.kind != Film::film && film.kind != Film::radiation)) continue;
     for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+      // Exactly one direction is held: two or three would be a clamp.
       const int held = (c.ux || c.ur ? 1 : 0) + (c.uy ? 1 : 0) + (c.uz ? 1 : 0);
       if (c.kind != MechanicalConditionSpec::Kind::displacement || c.group != film.group || held != 1)
         continue;
