@@ -116,6 +116,7 @@ void check_mechanics(const CaseSpec& spec, Admissibility& a) {
       a.violations.push_back(fmt::format("the support '{}' moves", c.name));
     else if (begins_later(spec, c))
       a.violations.push_back(fmt::format("the support '{}' is put on in a later stage", c.name));
+    // A load of one number that holds at all times has a potential, and its work is counted there.
     const bool varies =
         c.kind == Kind::pressure
             ? !steady(c.pressure)

@@ -138,14 +138,17 @@ void build_heat(const CaseSpec& spec, const InitialTemperatures& start, Assembly
   for (const auto& pair : a.contacts)
     if (pair->heat() != nullptr) contributions.push_back(pair->heat());
   if (a.structural) contributions.push_back(a.structural.get());
+  // One contact without a symmetric matrix is enough to make that of the whole unsymmetric.
   heat::HeatOptions options = heat_options(spec);
   for (const auto& pair : a.contacts) options.symmetric = options.symmetric && pair->symmetric_heat();
   heat::ThermalConditions conditions = thermal_conditions(spec, a.first_stage());
   conditions.absent_bodies.clear();  // they leave when the first stage begins
+  // The phase keeps references to the mesh and the materials, which the assembly outlives it with.
   a.heat = std::make_unique<heat::ThermalPhase>(a.mesh, spec.analysis.kind, a.materials, conditions, options,
                                                 contributions);
   a.phases.heat = a.heat.get();
   a.initial.heat = a.heat->initial_state_of([&](Index node, int body) { return start.enthalpy(node, body); });
+  // What has burned is part of the state, where something can burn at all.
   const bool burns = std::ranges::any_of(spec.thermal_conditions, [](const ThermalConditionSpec& c) {
     return c.kind == ThermalConditionSpec::Kind::exothermic;
   });
@@ -163,12 +166,14 @@ std::string listed(const std::vector<std::string>& names) {
 void announce_bodies(const CaseSpec& spec, const StageRun& stage, const StageRun* before,
                      const coupling::BodyHeat& heat, const std::vector<std::string>& idle) {
   if (before == nullptr) return;
+  // Compared with the stage before: first who leaves, then who comes.
   std::vector<std::string> leaving, coming;
   for (const BodySpec& body : spec.bodies) {
     const bool there = holds(body.stages, &stage), was = holds(body.stages, before);
     if (was && !there) leaving.push_back(body.name);
     if (there && !was) coming.push_back(body.name);
   }
+  // One sentence for each, in the singular or the plural, with the heat that they carry.
   const auto sentence = [&](const std::vector<std::string>& bodies, const char* one, const char* several,
                             double joule) {
     return fmt::format("{} {}{}", listed(bodies), bodies.size() == 1 ? one : several,
@@ -192,6 +197,7 @@ void renew_contacts(const CaseSpec& spec, const std::vector<char>& fresh, coupli
   for (std::size_t b = 0; b < fresh.size(); ++b)
     if (fresh[b] != 0) groups.push_back(spec.bodies[b].mesh_group());
   const linear::ActiveSet others(a.mesh, groups);
+  // A surface is new where any of its faces belongs to a body that comes; all processes must agree.
   const auto is_new = [&](const std::string& surface) {
     const auto group = a.mesh.surfaces.find(surface);
     bool any = false;
@@ -201,6 +207,7 @@ void renew_contacts(const CaseSpec& spec, const std::vector<char>& fresh, coupli
     return parallel::any_process(any);
   };
   for (std::size_t i = 0; i < a.contacts.size(); ++i) {
+    // Of a new side the history is forgotten, that of the other one stays.
     const contact::ContactParameters& pair = a.contacts[i]->spec();
     const bool slave = is_new(pair.slave), master = is_new(pair.master);
     if (slave || master)
@@ -221,14 +228,17 @@ coupling::BodyHeat apply(const CaseSpec& spec, std::size_t number, const std::ve
                          coupling::State* begins, Assembly& a) {
   const StageRun& stage = a.stages[number];
   if (begins != nullptr) check_no_bare_melt(spec, a, number, *begins);
+  // Conditions whose body is not there do nothing in this stage, and are named in the log.
   const std::vector<std::string> idle = without_body(spec, a.mesh, &stage);
   const std::vector<char> fresh = new_bodies(spec, a.stages, number);
   const bool comes =
       begins != nullptr && std::any_of(fresh.begin(), fresh.end(), [](char f) { return f != 0; });
   for (std::size_t i = 0; i < a.contacts.size(); ++i)
     a.contacts[i]->activate(holds(spec, spec.contacts[i], a.mesh, &stage));
+  // Burned sleeves that come anew have all their heat again.
   if (comes && !begins->burning.lit.empty())
     heat::renew(mechanics::nodes_of_bodies(a.mesh, fresh), begins->burning);
+  // Motion first, as contacts of new bodies start from the displacement that is left then.
   if (a.mechanics) {
     if (comes) mechanics::renew_nodes(a.mesh, fresh, begins->mechanics);
     a.mechanics->set_conditions(mechanical_conditions(spec, &stage),

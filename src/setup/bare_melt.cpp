@@ -30,16 +30,19 @@ void add_faces(const Assembly& a, AnalysisKind kind, const std::string& surface,
                const std::vector<double>& solid, Skin& skin) {
   const auto group = a.mesh.surfaces.find(surface);
   if (group == a.mesh.surfaces.end()) return;
+  // A skin that is not coherent yet cannot hold the melt behind it.
   const double coherency = a.materials[static_cast<std::size_t>(body)].casting.coherency_fraction;
   for (const mesh::ElementBlock& faces : group->second.faces) {
     if (faces.body != body) continue;
     const mesh::FaceGeometry geometry(a.mesh, faces, kind, mesh::stiffness_rule(faces.shape));
     for (Index f = 0; f < faces.n_counted; ++f) {
+      // The area of a face, by the weights of its quadrature points.
       double area = 0;
       for (int p = 0; p < geometry.n_points; ++p)
         area += geometry.weight[static_cast<std::size_t>(f * geometry.n_points + p)];
       const auto nodes = faces.element(f);
       const int vertices = mesh::vertex_count(faces.shape);
+      // Its solid fraction is the mean of its vertices; nodes on its edges would count these twice.
       double fraction = 0;
       for (int n = 0; n < vertices; ++n) fraction += solid[static_cast<std::size_t>(nodes[n])] / vertices;
       skin.all += area;

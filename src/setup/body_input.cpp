@@ -79,6 +79,7 @@ void check_bodies(const CaseSpec& spec) {
   for (const BodySpec& body : spec.bodies) {
     check_stages_of(spec, body);
     if (!only_conducts(body)) continue;
+    // A body that conducts alone makes sense only among others that deform.
     if (!spec.coupled())
       throw InputError(
           body.where,
@@ -92,6 +93,7 @@ void check_bodies(const CaseSpec& spec) {
                        "no initial_velocity, or physics = \"all\"");
   }
   const auto all = [&](const auto& of) { return std::all_of(spec.bodies.begin(), spec.bodies.end(), of); };
+  // Where all of them conduct alone the coupling has nothing to do.
   if (all(only_conducts))
     throw InputError(spec.bodies.front().where, "no body deforms: all have physics = \"heat\"",
                      "physics = \"heat\" in [analysis]");
@@ -127,6 +129,7 @@ void check_new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, c
       for (const mesh::ElementBlock& block : mesh.blocks) {
         const auto b = static_cast<std::size_t>(block.body);
         const BodySpec& body = spec.bodies[b];
+        // Bodies that conduct alone have no displacements to share.
         if (only_conducts(body) || !holds(body.stages, &runs[i]) || (fresh[b] != 0) != is_new) continue;
         bool shared = false;
         for (const Index node : block.nodes) {
@@ -136,6 +139,7 @@ void check_new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, c
           else
             there = 1;
         }
+        // All processes must know it before any of them throws.
         if (parallel::any_process(shared)) shares = body.name, where = body.where;
       }
     if (!shares.empty())
@@ -155,6 +159,7 @@ void set_walls(const CaseSpec& spec, const mesh::Mesh& mesh, contact::ContactPar
     if (only_conducts(body)) conductors.push_back(body.mesh_group());
   const linear::ActiveSet deforms(mesh, conductors);
   if (deforms.complete()) return;
+  // Gone in the sense of the set of deforming bodies, and with nothing on the surface that deforms.
   const auto is_wall = [&](const std::string& surface) {
     const Sides side = sides(mesh, deforms, surface);
     return side.gone && !side.there;

@@ -71,12 +71,15 @@ Case load_case(const std::filesystem::path& path, const std::vector<std::string>
   result.variant = name.variant;
   Value document = load_layers(name);
   for (const std::string& assignment : overrides) apply_override(document, assignment);
+  // A change of physics takes out what the other kind does not know, and says so.
   if (physics)
     if (const std::string left_out = switch_physics(document, *physics); !left_out.empty())
       logging::info("heat alone, without {}", left_out);
+  // Paths are relative to the file that names them, which is known only until layers are merged.
   resolve_paths(document);
   result.document = case_keys().info().completed(document, "");
   case_keys().assign(result.spec, result.document);
+  // Stages first, since conditions refer to them; then checks, then what follows from the whole.
   resolve_stages(result.spec);
   check_case(result.spec);
   vary_conditions(result.spec);

@@ -79,6 +79,7 @@ class Layers {
   }
   /// A variant with the case.toml that it lies over.
   Value variant(const CaseName& name) {
+    // A variant needs the folder's file of variants, and a section of its name in it.
     const fs::path from = variants_file(name.file);
     if (!is_there(from))
       throw InputError(
@@ -91,6 +92,7 @@ class Layers {
     if (section == nullptr)
       throw InputError({from.string()}, fmt::format("there is no variant '{}'", name.variant),
                        meant(names_in(tables), name));
+    // Laid over its base, with the chain of names that tells a circle.
     Value base = file(name.file);
     const Chain chain(*this, ":" + name.variant);
     lay_over(base, merged(*section, &variants));

@@ -13,6 +13,7 @@ std::vector<results::CastBody> cast_bodies(const CaseSpec& spec,
                                            const std::vector<InitialTemperatureRange>& start) {
   std::vector<results::CastBody> cast;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    // What can freeze and starts above its solidus somewhere counts, unless its role denies it.
     const material::PhaseChange* freezing = materials[b].solidification();
     if (freezing == nullptr || start[b].high <= freezing->fraction.solidus()) continue;
     const BodySpec& body = spec.bodies[b];

@@ -79,6 +79,7 @@ bool meets(const mesh::Mesh& mesh, int body, const contact::ContactParameters& p
 /// The body that has most nodes on a surface; -1: none. Collective.
 int body_on(const mesh::Mesh& mesh, const std::string& surface) {
   const auto found = mesh.surfaces.find(surface);
+  // Nodes of the surface, and for each body how many of them it has.
   std::vector<char> on(mesh.x.size(), 0);
   if (found != mesh.surfaces.end())
     for (const Index node : found->second.nodes) on[static_cast<std::size_t>(node)] = 1;
@@ -100,8 +101,10 @@ int body_on(const mesh::Mesh& mesh, const std::string& surface) {
 
 /// 2 k_1 k_2/(k_1 + k_2) at the points of both tables and between them.
 Table harmonic_mean(const Table& one, const Table& two) {
+  // The mean of two tables that are linear is not: between their points it is sampled.
   constexpr int k_parts = 16;  // of an interval of both tables
   std::vector<double> x(one.x().begin(), one.x().end()), at, mean;
+  // The points of both, each once.
   x.insert(x.end(), two.x().begin(), two.x().end());
   std::ranges::sort(x);
   x.erase(std::unique(x.begin(), x.end()), x.end());
@@ -125,6 +128,8 @@ std::vector<contact::ContactParameters> contact_specs(const CaseSpec& spec) {
   // or, where it depends on the mesh, when the pair is made.
   std::vector<contact::ContactParameters> result;
   for (const ContactSpec& c : spec.contacts) {
+    // Names, sides and geometry first, then how the contact is computed, at last what passes
+    // through it.
     contact::ContactParameters pair;
     pair.name = c.name;
     pair.slave = c.sides()[0];
@@ -140,12 +145,15 @@ std::vector<contact::ContactParameters> contact_specs(const CaseSpec& spec) {
     // Means around nodes bear a stiffer penalty than points of faces do.
     const double factor =
         c.integration == contact::IntegrationRule::mortar ? k_penalty_factor_of_means : k_penalty_factor;
+    // The penalty of the case, or a factor that is multiplied with the stiffness of what meets
+    // there.
     pair.penalty = c.penalty.value_or(c.penalty_factor.value_or(factor));
     pair.stabilisation = c.stabilisation;
     pair.integration = c.integration;
     pair.gauss_degree = c.gauss_degree;
     pair.search_distance = c.search_distance;
     pair.touching = c.touching;
+    // The pressure of the air acts on wet sides alone.
     pair.atmosphere = c.wet ? c.atmosphere : 0.0;
     pair.heat = c.heat;
     add_friction(c, spec.analysis.physics, pair);
@@ -174,6 +182,7 @@ void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
   double least = 0;
   for (std::size_t b = 0; b < materials.size(); ++b) {
     const material::Material& m = materials[b];
+    // Only bodies that deform, freeze and lie on one of the two sides.
     if (only_conducts(spec.bodies[b]) || !m.mechanical() || m.solidification() == nullptr) continue;
     if (!meets(mesh, static_cast<int>(b), pair)) continue;
     const double liquidus = m.solidification()->fraction.liquidus();
@@ -183,6 +192,7 @@ void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
     if (gap > 0 && (least == 0 || gap < least)) least = gap;
   }
   pair.leaving_gap = least;
+  // The gap and the penalty go with the pair, for its skin and its force need them both.
   const ContactSpec& c = *std::ranges::find(spec.contacts, pair.name, &ContactSpec::name);
   if (least > 0 && pair.atmosphere > 0 && !c.penalty_factor)
     pair.largest_penalty = pair.atmosphere / (k_wet_share * least);

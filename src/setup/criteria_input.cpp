@@ -35,6 +35,7 @@ double mould_rigidity(const CaseSpec& spec, const std::vector<material::Material
 criteria::FeedingOptions feeding_options(const CaseSpec& spec, const mesh::Mesh& mesh,
                                          const std::vector<material::Material>& materials,
                                          const std::vector<InitialTemperatureRange>& start) {
+  // Which bodies are followed, what is up, and which surfaces air can enter by.
   criteria::FeedingOptions options{.bodies = followed_bodies(spec, materials, start),
                                    .risers = std::vector<char>(spec.bodies.size(), 0),
                                    .up = upward(spec.analysis),
@@ -48,8 +49,10 @@ criteria::FeedingOptions feeding_options(const CaseSpec& spec, const mesh::Mesh&
   if (options.vented.empty())
     for (const std::string& feeder : spec.criteria.feeders)
       if (mesh.surfaces.contains(feeder)) options.vented.push_back(feeder);
+  // Risers by role or by name, as everywhere else.
   for (const results::CastBody& cast : cast_bodies(spec, materials, start))
     if (cast.feeds) options.risers[static_cast<std::size_t>(cast.body)] = 1;
+  // Skins that something touches or cools are no free surfaces.
   for (const ContactSpec& contact : spec.contacts)
     for (const std::string& side : contact.sides()) options.touched.insert(side);
   for (const ThermalConditionSpec& condition : spec.thermal_conditions)
@@ -68,6 +71,8 @@ std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const me
   const bool melts = std::any_of(materials.begin(), materials.end(),
                                  [](const material::Material& m) { return m.solidification() != nullptr; });
   if (!spec.criteria.follow || !melts || spec.time.steady) return nullptr;
+  // What every criterion may ask for, gathered once: mesh, materials, phases and the options of the
+  // case.
   const criteria::CriterionContext context{
       .mesh = mesh,
       .kind = spec.analysis.kind,

@@ -67,6 +67,7 @@ std::optional<mechanics::DynamicsOptions> dynamics_options(const CaseSpec& spec)
 
 void check_dynamics(const CaseSpec& spec) {
   for (const BodySpec& body : spec.bodies) check_velocity(body, spec);
+  // Without the section there is no inertia, and nothing to contradict.
   if (!spec.dynamics) return;
   const DynamicsSpec& d = *spec.dynamics;
   if (!spec.has_mechanics())

@@ -27,10 +27,12 @@ class EventList {
 
   /// @param at_ends  its values at the ends of steps count, rather than its mean over them
   void add(const Function& f, TimeOrigin clock, bool at_ends, std::optional<double> of_values = {}) {
+    // Times are counted from the clock of the condition.
     const double start = clock == TimeOrigin::stage && stage_ != nullptr ? stage_->start : 0;
     const double from = from_ - start, to = to_ - start;
     if (f.place != nullptr) return add(*f.place, from, to, start, at_ends);
     if (f.of != Argument::time || f.table.constant()) return;
+    // The range of values within the interval decides how small a bend is that still counts.
     double low = HUGE_VAL, high = -HUGE_VAL;
     const auto see = [&](double y) {
       low = std::min(low, y);
@@ -44,6 +46,7 @@ class EventList {
     const double tolerance =
         std::max((at_ends ? k_of_motions : k_of_loads) * (high - low),
                  of_values.value_or(at_ends ? 0 : k_of_loads) * std::max(std::abs(low), std::abs(high)));
+    // Every corner of the table beyond that tolerance is an event that a step should end at.
     for (const double time : corners(f.table, from, to, tolerance))
       events.push_back({start + time, at_ends, false});
   }

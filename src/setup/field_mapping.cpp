@@ -65,6 +65,7 @@ double enthalpy(const material::EnthalpyCurve& curve, double temperature, double
 }
 
 Source read_source(const PlaceSpec& place, AnalysisKind kind, const material::EnthalpyCurve& curve) {
+  // The field of the file with the mesh it lives on, which must have the dimension of the analysis.
   results::ReadField field =
       results::read_field(place.file, place.column, place.body, place.length, place.where);
   if (field.mesh.dimension != (kind == AnalysisKind::solid ? 3 : 2))
@@ -79,6 +80,7 @@ Source read_source(const PlaceSpec& place, AnalysisKind kind, const material::En
       throw InputError(place.where, fmt::format("the field '{}': {}", place.column, error.what()));
     }
   }
+  // Cell values come along where the file had its field on cells.
   const std::vector<double> cell_values = std::move(field.cell_values),
                             cell_volumes = std::move(field.cell_volumes);
   Source source{std::move(field.mesh), std::move(field.values)};
@@ -88,6 +90,7 @@ Source read_source(const PlaceSpec& place, AnalysisKind kind, const material::En
   const std::vector<double> weight = closed_weights(source.mesh, 0, kind);
   source.low = std::numeric_limits<double>::infinity();
   source.high = -source.low;
+  // Bounds, volume and content are summed in one sweep.
   for (std::size_t i = 0; i < weight.size(); ++i) {
     if (weight[i] == 0) continue;  // a point of no cell
     const double temperature = to_kelvin(source.enthalpy[i]);
@@ -142,6 +145,7 @@ MappedEnthalpy map_enthalpy(const PlaceSpec& place, AnalysisKind kind, const mat
     const mesh::ElementSearch search(source.mesh);
     const double far = k_far_outside * diagonal(source.mesh);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
+      // An element that holds the node, or the nearest one to it.
       const mesh::Point& x = mesh.x[static_cast<std::size_t>(nodes[k])];
       const auto found = search.find(x);
       if (place.outside_is_error && found.distance > 1e-6 * std::hypot(x[0], x[1], x[2]))
@@ -170,6 +174,7 @@ MappedEnthalpy map_enthalpy(const PlaceSpec& place, AnalysisKind kind, const mat
   total = parallel::global_sum(total);
   above = parallel::global_sum(above);
   below = parallel::global_sum(below);
+  // Only between bodies of the same volume can the heat be kept.
   mapped.kept = std::abs(volume - source.volume) <= k_same_shape * source.volume;
   if (!mapped.kept) return mapped;
   // Mapping loses or gains a little heat. The difference is shared out in proportion to the way of each value
@@ -177,6 +182,7 @@ MappedEnthalpy map_enthalpy(const PlaceSpec& place, AnalysisKind kind, const mat
   const double missing = source.total / source.volume * volume - total;
   const double room = missing > 0 ? above : below;
   if (missing == 0 || !(room > 0)) return mapped;
+  // The share of its way that every value goes.
   mapped.share = std::clamp(missing / room, -1.0, 1.0);
   const double toward = missing > 0 ? source.high : source.low;
   for (double& h : mapped.values) h += std::abs(mapped.share) * (toward - h);

@@ -82,6 +82,7 @@ std::uint64_t sum_of(std::uint64_t own) {
 
 /// A hash of every node with its place, and every element with its nodes, by their numbers in the input.
 std::uint64_t mesh_hash(const mesh::Mesh& mesh) {
+  // A sum of the hashes does not depend on the order in which processes have nodes and elements.
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(mesh.n_owned_nodes); ++i) {
     Hash node;
@@ -89,6 +90,7 @@ std::uint64_t mesh_hash(const mesh::Mesh& mesh) {
     for (const double x : mesh.x[i]) node.add_bits(x);
     sum += node.value();
   }
+  // Elements count on the process of their first node, as everywhere.
   for (const mesh::ElementBlock& block : mesh.blocks)
     for (Index e = 0; e < block.n_counted; ++e) {
       Hash element;
@@ -125,6 +127,7 @@ std::string initial_text(const mesh::Mesh& mesh, const std::vector<double>& temp
 }
 
 std::string mesh_text(const mesh::Mesh& mesh) {
+  // Numbers of nodes and of each shape can be read by a human; the hash behind them tells the rest.
   const results::MeshCounts counts = results::count(mesh);
   std::string text = fmt::format("{} nodes", counts.nodes);
   for (const auto& [shape, n] : counts.elements_of_shape) text += fmt::format(", {} {}", n, shape);
@@ -192,6 +195,7 @@ std::string material_text(const material::Material& m) {
         m.casting.crack_strain.value_or(0), m.casting.crack_rate_exponent, m.casting.crack_range_exponent,
         m.casting.rigidity})
     hash.add(number);
+  // Gas in the melt is optional, and a material without it hashes as one did before there was any.
   if (m.gas)
     for (const double number : {m.gas->melt[0], m.gas->melt[1], m.gas->solid[0], m.gas->solid[1],
                                 m.gas->content, m.gas->surface_tension})

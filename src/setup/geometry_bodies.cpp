@@ -21,6 +21,7 @@ std::map<std::string, Role> wanted_roles(const std::vector<std::string>& as) {
   const std::vector<Role> all = {Role::casting, Role::riser,  Role::gating, Role::mould,     Role::core,
                                  Role::chill,   Role::sleeve, Role::die,    Role::insulation};
   std::map<std::string, Role> wanted;
+  // All roles by the names that a case gives them.
   std::vector<std::string> names;
   for (const Role role : all) names.emplace_back(name(role));
   // Each assignment names a body and one of the roles.
@@ -49,6 +50,7 @@ int body_preference(const std::string& group) {
 std::vector<GeometryBody> bodies_of(const mesh::RawMesh& mesh, const std::vector<std::string>& as,
                                     const std::string& path) {
   std::map<std::string, Role> wanted = wanted_roles(as);
+  // The names of assignments preferred, so that a group which the user names is a body in any case.
   std::vector<GeometryBody> bodies;
   std::vector<std::string> names;
   const mesh::BodyPartition partition = mesh::partition_of(mesh, path, [&](const std::string& group) {

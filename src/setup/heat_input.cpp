@@ -24,7 +24,9 @@ heat::ThermalConditions thermal_conditions(const CaseSpec& spec, const StageRun*
   for (const auto& c : spec.thermal_conditions) {
     if (!holds(c.stages, stage)) continue;
     const AnalysisKind kind = spec.analysis.kind;
+    // Functions of place and time get the clock of the condition here.
     const auto placed = [&](const Function& f) { return place_function(f, c.clock, stage, kind); };
+    // Each kind has what it needs: what is held, what flows, or to what and how well heat passes.
     switch (c.kind) {
       case Kind::temperature:
         conditions.temperatures.push_back({c.name, c.group, placed(c.temperature)});

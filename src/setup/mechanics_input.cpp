@@ -33,10 +33,12 @@ mechanics::MechanicalConditions mechanical_conditions(const CaseSpec& spec, cons
   const bool axisymmetric = spec.analysis.kind == AnalysisKind::axisymmetric;
   for (const auto& c : spec.mechanical_conditions) {
     if (!holds(c.stages, stage)) continue;
+    // Loads are functions of time on the clock of the condition.
     const auto of_time = [&](const Function& f) { return on_clock(f, c.clock, stage); };
     const auto prescribe = [&](const std::optional<Function>& value, int component) {
       if (value) conditions.displacements.push_back({c.group, component, of_time(*value), c.relative});
     };
+    // Components are listed one by one, since each may be held or left free.
     switch (c.kind) {
       case Kind::displacement:
         prescribe(c.ux, 0);
@@ -63,6 +65,7 @@ mechanics::MechanicalConditions mechanical_conditions(const CaseSpec& spec, cons
 
 mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec) {
   mechanics::MechanicsOptions options;
+  // Tolerances and limits of the iteration come as they are in the case.
   options.newton.tolerance = spec.mechanics.tolerance;
   options.newton.step_tolerance = spec.mechanics.displacement_tolerance;
   options.newton.max_iterations = spec.mechanics.max_iterations;

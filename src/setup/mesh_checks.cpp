@@ -120,6 +120,7 @@ void warn_of_forgotten_bodies(const CaseSpec& spec, const RawMesh& mesh) {
 /// take no part: a film or a contact would be smaller than its group without a word.
 void warn_of_loose_faces(const CaseSpec& spec, const RawMesh& mesh) {
   const std::vector<char> carried = nodes_of_bodies(spec, mesh);
+  // Groups that something acts on, of one dimension less than the mesh.
   std::set<std::string> used;
   for (const auto& c : spec.thermal_conditions) used.insert(c.group);
   for (const auto& c : spec.mechanical_conditions) used.insert(c.group);
@@ -129,6 +130,7 @@ void warn_of_loose_faces(const CaseSpec& spec, const RawMesh& mesh) {
     if (group == mesh.groups.end() || group->second.dimension != mesh.dimension - 1) continue;
     std::size_t faces = 0, loose = 0;
     for (const mesh::RawBlock& block : group->second.blocks) {
+      // A face is loose where one of its nodes lies on no body.
       const auto n = static_cast<std::size_t>(node_count(block.shape));
       for (std::size_t first = 0; first < block.nodes.size(); first += n, ++faces)
         loose += std::any_of(block.nodes.begin() + static_cast<std::ptrdiff_t>(first),
@@ -144,11 +146,13 @@ void warn_of_loose_faces(const CaseSpec& spec, const RawMesh& mesh) {
 void refuse_shared_elements(const CaseSpec& spec, const RawMesh& mesh) {
   std::vector<mesh::VertexSet> sets;
   std::vector<std::size_t> body_of_set;
+  // All elements of all bodies as sets of vertices, of which equal ones are found by sorting.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     mesh::append_element_vertex_sets(mesh.groups.at(spec.bodies[b].mesh_group()), sets);
     body_of_set.resize(sets.size(), b);
   }
   const std::vector<Index> first = mesh::first_equal_set(sets);
+  // Counted by pairs of bodies, the first of which is told.
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> n_shared;  // (later body, earlier body)
   for (std::size_t i = 0; i < sets.size(); ++i)
     if (const std::size_t other = body_of_set[static_cast<std::size_t>(first[i])]; other != body_of_set[i])

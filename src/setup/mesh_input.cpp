@@ -56,6 +56,7 @@ mesh::GeometryChoice geometry_choice(const MeshSpec& m) {
   choice.conforming = m.conforming;
   // Groups by rule are found later, in the mesh; here are those by numbers, labels and boxes of the geometry.
   for (const MeshGroupSpec& g : m.groups) {
+    // Name and kind of the group, then exactly one way to choose it.
     if (g.by_rule()) continue;
     mesh::GeometryGroup& group = choice.groups.emplace_back();
     group.name = g.name;
@@ -80,6 +81,7 @@ mesh::CastingGeometry casting_geometry(const MeshSpec& m) {
                        "a smallest size of at most the largest one");
     geometry.sizes.push_back({s.body, s.size, s.smallest.value_or(s.size / 4), s.across, s.growth});
   }
+  // One wall for all sides, or six.
   if (m.mould) {
     mesh::MouldBlock& mould = geometry.mould.emplace();
     mould.name = m.mould->name;
@@ -113,6 +115,7 @@ void add_layers(const std::vector<MeshLayersSpec>& sections, const std::string& 
   std::vector<char> done(sections.size(), 0);
   for (std::size_t i = 0; i < sections.size(); ++i) {
     if (done[i] != 0 || sections[i].number == 0) continue;
+    // Sections that belong together are collected from the rest of the list.
     std::vector<mesh::WallLayers> together;
     for (std::size_t k = i; k < sections.size(); ++k) {
       const MeshLayersSpec& l = sections[k];
@@ -121,6 +124,7 @@ void add_layers(const std::vector<MeshLayersSpec>& sections, const std::string& 
       done[k] = 1;
       together.push_back({l.surface, l.body, l.number, l.growth, l.first});
     }
+    // What has come of each is told, with a warning where there was too little room.
     const std::vector<mesh::WallLayerReport> reports = mesh::add_wall_layers(mesh, together, source);
     for (std::size_t k = 0; k < reports.size(); ++k) {
       const mesh::WallLayerReport& report = reports[k];
@@ -184,6 +188,7 @@ mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) 
 /// Distributes the interfaces that process 0 has found to all processes.
 std::vector<FoundInterface> everywhere(const std::vector<FoundInterface>& found) {
   mesh::Packer packer;
+  // Numbers of a fixed order, which the receiving side takes apart in the same one.
   packer.put_size(found.size());
   for (const FoundInterface& f : found) {
     packer.put(std::vector<GlobalIndex>{static_cast<GlobalIndex>(f.section), f.a, f.b});
@@ -193,6 +198,7 @@ std::vector<FoundInterface> everywhere(const std::vector<FoundInterface>& found)
   }
   std::vector<char> buffer = std::move(packer).buffer();
   processes::broadcast(buffer);
+  // On the first process too, so that all have the same list.
   mesh::Unpacker unpacker(buffer);
   std::vector<FoundInterface> all(unpacker.size());
   for (FoundInterface& f : all) {
@@ -227,6 +233,7 @@ mesh::Mesh load_mesh(CaseSpec& spec) {
     const profile::Part part("reading and meshing");
     std::vector<FoundInterface> found;
     results::on_first_process([&] {
+      // The case is copied, for contacts are added to it where the interfaces are found.
       CaseSpec own = spec;
       raw = make_raw_mesh(own, found);
     });
@@ -235,6 +242,7 @@ mesh::Mesh load_mesh(CaseSpec& spec) {
     const profile::Part part("reading and meshing");
     results::on_first_process([&] { raw = raw_mesh(spec); });
   }
+  // Factors on contacts can be applied only when all of them are there.
   vary_contacts(spec);
   // A body that only conducts costs less than one with mechanics; the partition weighs them so. Sides of
   // contacts are present on every process.
@@ -246,6 +254,7 @@ mesh::Mesh load_mesh(CaseSpec& spec) {
     work.push_back(body.physics == BodySpec::ActivePhysics::heat ? mesh::BodyWork::heat
                                                                  : mesh::BodyWork::all);
   }
+  // Rigid surfaces are no part of the mesh, and known to all anyway.
   for (const ContactSpec& contact : spec.contacts)
     for (const std::string& surface : contact.sides())
       if (spec.rigid_surface(surface) == nullptr) replicated.push_back(surface);

@@ -78,6 +78,7 @@ std::map<std::string, SourceLocation> wanted_surfaces(const CaseSpec& spec) {
 void make_sound(const CaseSpec& spec, mesh::RawMesh& mesh) {
   // What is there twice goes first, as it would hide faces of the skins, on which all that follows looks.
   drop_repeated_things(spec, mesh);
+  // The skin of each body is found once for all checks.
   Skins skins;
   for (const BodySpec& body : spec.bodies) skins.push_back(mesh::faces_on_skin(mesh, body.mesh_group()));
   refuse_inner_faces(spec, mesh, skins);
@@ -96,6 +97,7 @@ void make_sound(const CaseSpec& spec, mesh::RawMesh& mesh) {
       mesh::replace_nodes(mesh, crack.replaced);
       skin = mesh::faces_on_skin(mesh, body.mesh_group());
     }
+    // Nodes that hang make the mesh unsound, which is told when it is used.
     const mesh::HangingNodes hanging = mesh::hanging_nodes(mesh, skin, in_contact);
     if (hanging.n > 0 && !mesh.unsound)
       mesh.unsound.emplace(
@@ -105,9 +107,11 @@ void make_sound(const CaseSpec& spec, mesh::RawMesh& mesh) {
               "the mesh is not joined there, no heat and no force would go across",
               hanging.n, body.name, in_mm(hanging.where)),
           "a mesh whose elements share their faces; or two bodies, and a [[contact]] between their surfaces");
+    // Pieces are no mistake by themselves: a body may be two chills.
     if (const std::size_t pieces = mesh::n_pieces(mesh, body.mesh_group()); pieces > 1)
       logging::info("the body '{}' is in {} pieces that share no nodes", body.name, pieces);
   }
+  // At last whether one body lies within another.
   for (std::size_t a = 0; a < skins.size(); ++a)
     for (std::size_t b = 0; b < skins.size(); ++b) {
       constexpr double k_most = 0.5;

@@ -26,6 +26,7 @@ struct SkinFace {
 /// The faces of one element of the bodies alone whose vertices are all marked.
 std::vector<SkinFace> marked_skin(const CaseSpec& spec, const mesh::RawMesh& mesh,
                                   const std::vector<char>& marked) {
+  // Each face by its sorted vertices, with how many elements have it.
   std::unordered_map<mesh::FaceKey, SkinFace, mesh::FaceKeyHash> faces;
   std::vector<Index> nodes;
   for (const BodySpec& body : spec.bodies)
@@ -38,6 +39,7 @@ std::vector<SkinFace> marked_skin(const CaseSpec& spec, const mesh::RawMesh& mes
           nodes.clear();
           for (const int a : face_nodes(block.shape, f))
             nodes.push_back(block.nodes[e * n + static_cast<std::size_t>(a)]);
+          // All vertices of the face must be marked; nodes on edges need not.
           if (!std::all_of(nodes.begin(), nodes.begin() + vertices,
                            [&](Index i) { return marked[static_cast<std::size_t>(i)] != 0; }))
             continue;
@@ -46,6 +48,7 @@ std::vector<SkinFace> marked_skin(const CaseSpec& spec, const mesh::RawMesh& mes
             face = {shape, nodes, block.input_element.empty() ? 0 : block.input_element[e], 1};
         }
     }
+  // Faces of two elements lie inside.
   std::vector<SkinFace> skin;
   for (auto& [key, face] : faces)
     if (face.n_elements == 1) skin.push_back(std::move(face));

@@ -84,11 +84,13 @@ Evaluate points(const PlaceSpec& spec, AnalysisKind kind, std::shared_ptr<const 
           allowed_names(kind, spec.with_time));
     component.push_back(*found);
   }
+  // The law keeps the table and the text for its messages, as it outlives this function.
   return [=, key = spec.key, file = spec.file, where = spec.where, refuse = spec.outside_is_error](
              const Position& x, double time) {
     std::array<double, 4> at{};
     for (std::size_t i = 0; i < component.size(); ++i) at[i] = component[i] == 3 ? time : x[component[i]];
     const std::span<const double> coordinates(at.data(), component.size());
+    // Where the case refuses values from outside, the place is told.
     if (refuse && table->outside(coordinates))
       throw InputError(where,
                        fmt::format("'{}' is asked for at {}, t = {:g} s, outside of the points of '{}'", key,
@@ -105,11 +107,13 @@ class Field {
       : spec_(spec),
         kind_(kind),
         read_(results::read_field(spec.file, spec.column, spec.body, spec.length, spec.where)) {
+    // The file must have as many dimensions as the analysis.
     const int dimension = kind == AnalysisKind::solid ? 3 : 2;
     if (read_.mesh.dimension != dimension)
       throw InputError(spec.where, fmt::format("'{}' has {} dimensions, the analysis {}", spec.file,
                                                read_.mesh.dimension, dimension));
     search_.emplace(read_.mesh);
+    // A unit in the case goes before the one in the file.
     conversion_ = spec.unit;
     if (!spec.unit_given && !read_.unit.empty()) {
       try {
@@ -142,11 +146,13 @@ class Field {
 class CheckedLaw : public PlaceLaw {
  public:
   CheckedLaw(const PlaceSpec& spec, AnalysisKind kind) : spec_(spec), kind_(kind) {
+    // A velocity has a component for each direction of the mesh.
     const bool third = spec.velocity_components == 3;
     if (spec.moves() && third != (kind == AnalysisKind::solid))
       throw InputError(spec.where,
                        fmt::format("'moving' of '{}' has {} components", spec.key, spec.velocity_components),
                        fmt::format("{} in this analysis", third ? 2 : 3));
+    // Each kind knows whether it depends on time, on place, or on both.
     switch (spec.kind) {
       case PlaceSpec::Kind::formula:
         evaluate_ = formula(spec, kind);
@@ -206,17 +212,20 @@ class CheckedLaw : public PlaceLaw {
   /// Coordinates at which comparisons of the formula that have one coordinate and no time change.
   void find_breaks() {
     for (const auto& comparison : spec_.formula->comparisons()) {
+      // A comparison of exactly one coordinate has its jump on planes of that coordinate.
       int used = -1, n_used = comparison->uses(k_variable_t) ? 2 : 0;
       for (std::size_t v = 0; v < k_variable_t; ++v)
         if (comparison->uses(v)) used = static_cast<int>(v), ++n_used;
       if (n_used != 1) continue;
       for (const Coordinate& c : coordinates(kind_)) {
         if (static_cast<int>(c.variable) != used) continue;
+        // Its value along that coordinate, all others zero.
         const auto value = [&](double x) {
           std::array<double, 5> variables{};
           variables[c.variable] = x;
           return comparison->value(variables);
         };
+        // Finer near the origin, where castings lie, and coarse far away.
         constexpr double k_nearby = 1, k_farthest = 30, k_spacing = 0.01;  ///< [m]
         for (const auto& [low, high] :
              {std::pair(-k_farthest, -k_nearby), {-k_nearby, k_nearby}, {k_nearby, k_farthest}})

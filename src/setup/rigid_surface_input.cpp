@@ -101,6 +101,8 @@ void check_contact(const CaseSpec& spec, const ContactSpec& c) {
     throw InputError(where, fmt::format("the contact '{}' with {} has {}", c.name, text(*master), what),
                      allowed);
   };
+  // What follows from an exact shape: motion, large sliding, no smoothing, and heat only with a
+  // temperature.
   if (!spec.has_mechanics())
     refuse(c.where, "no mechanics in this analysis, and no heat passes", "physics with mechanics");
   if (c.formulation != contact::Formulation::large_sliding)
