@@ -63,9 +63,12 @@ std::vector<std::string> cells_of(const std::string& line, char separator) {
     cell.clear();
   };
   for (const char c : line) {
+    // A quote begins and ends a part in which separators are text.
     if (c == '"') quoted = !quoted;
     const bool blank = separator == ' ' && (c == ' ' || c == '\t');
     if (!quoted && (c == separator || blank)) {
+      // Several blanks are one separator; every other separator counts by itself, and leaves empty
+      // cells.
       if (separator != ' ' || !trimmed(cell).empty()) finish();
     } else {
       cell += c;
@@ -146,6 +149,7 @@ ColumnTable parse_csv(const std::string& text, const std::string& name) {
                      "there is no table: no line of names is followed by as many numbers",
                      "columns with a header, separated by commas, semicolons, tabs or blanks");
   ColumnTable table{name, {}};
+  // A name for every column from the cells of the header.
   for (std::string& header : header_cells(lines[found->header].text, found->separator, found->columns))
     table.columns.push_back(column_of(std::move(header)));
   // A cell that is no number leaves a gap in its column; a line with another number of cells is an error.

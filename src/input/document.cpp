@@ -27,8 +27,10 @@ void check_text(const std::string& text, const SourceLocation& where) {
 /// A copy of a TOML node with its places.
 Value convert(const toml::node& node, const std::string& file, int depth = 0) {
   const SourceLocation where = location(node.source(), file);
+  // Nesting is bounded, as every level is a call of this function.
   if (depth > 2 * k_most_key_parts) throw InputError(where, "tables stand too deep in tables");
   Value result;
+  // Each kind of node has its own conversion; tables and lists go down into their items.
   if (const auto* table = node.as_table()) {
     for (const auto& [key, child] : *table) {
       check_text(std::string(key.str()), location(key.source(), file));
@@ -49,6 +51,7 @@ Value convert(const toml::node& node, const std::string& file, int depth = 0) {
   } else if (const auto* integer = node.as_integer()) {
     result = Value(std::int64_t{integer->get()});
   } else if (const auto* number = node.as_floating_point()) {
+    // Infinity and NaN are numbers of TOML, and of no key.
     if (!std::isfinite(number->get())) throw InputError(where, "the number is not finite", "a finite number");
     result = Value(number->get());
   } else if (const auto* truth = node.as_boolean()) {
@@ -95,6 +98,7 @@ std::string inline_toml(const Value& value) {
   if (value.is_number()) {
     std::string number = fmt::format("{}", value.number());
     if (number.find_first_of(".e") == std::string::npos) number += ".0";
+    // A number without a point or exponent would be read as an integer again.
     return number;
   }
   // Lists and tables are written in one line, their items by the same rules.
@@ -121,6 +125,7 @@ void write_section(const Value& table, const std::string& path, std::string& out
   // Plain keys come first, as TOML would count them to the section above them otherwise.
   for (const auto& [key, where, value] : table.entries())
     if (!deferred(value)) out += fmt::format("{} = {}\n", bare_or_quoted(key), inline_toml(value));
+  // Tables and lists of tables follow as sections, under their whole path.
   for (const auto& [key, where, value] : table.entries()) {
     if (!deferred(value)) continue;
     const std::string inner = (path.empty() ? "" : path + ".") + bare_or_quoted(key);
@@ -194,6 +199,7 @@ Value load_document(const std::filesystem::path& path) {
 
 Value parse_value(std::string_view text, const std::string& name) {
   const std::string line = fmt::format("value = {}", text);
+  // Text is what the argument is if it cannot be read as a value.
   Value result(std::string{text});
   check_key_lengths(line, name);
   try {

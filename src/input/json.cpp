@@ -84,6 +84,7 @@ class Reader {
       if (value.find(key) != nullptr) throw InputError(where, "the member '" + key + "' stands twice");
       if (peek() != ':') fail("expected ':' behind the name of a member");
       ++at_;
+      // The value of a member may be anything, one level deeper.
       Value member = next_value(depth + 1);
       value.entries().push_back({std::move(key), where, std::move(member)});
       const char c = peek();
@@ -145,6 +146,7 @@ class Reader {
       result += meaning[known];
       return;
     }
+    // An escape by number: four hexadecimal digits, written in UTF-8.
     unsigned code = 0;
     const char* const begin = text_.data() + at_ + 1;
     const bool room = text_[at_] == 'u' && at_ + 4 < text_.size();

@@ -114,6 +114,7 @@ std::string when_text(const Key& key) {
 }
 
 void explain_key(const Key& key, const std::string& path, std::string& out) {
+  // Name, meaning, type and default are always there.
   out += fmt::format("{}\n  {}\n  type:    {}\n  default: {}\n", path, key.doc_text, type_text(key),
                      default_text(key));
   if (const std::string range = range_text(key); !range.empty()) out += "  range:   " + range + "\n";
@@ -122,6 +123,7 @@ void explain_key(const Key& key, const std::string& path, std::string& out) {
     out += fmt::format("  {}{}{}\n", i == 0 ? "choices: " : "         ", key.allowed[i],
                        i < key.allowed_docs.size() ? "  " + key.allowed_docs[i] : "");
   if (!key.when_key.empty()) out += "  used:    " + when_text(key) + "\n";
+  // Quantities and functions get an example with a unit that fits.
   if (key.kind == Key::Kind::quantity && key.unit != "1")
     out += fmt::format("  write:   \"{}\" or any unit of {}\n", units::example(key.unit),
                        units::dimension_name(key.unit));
@@ -296,6 +298,7 @@ void manual_of_section(const SectionInfo& info, const std::string& title, const 
   }
   if (!rows.empty()) out += "| key | type | default | meaning |\n|---|---|---|---|\n" + rows + "\n";
   std::vector<const SectionInfo*> shown;
+  // Sections of the section come behind its own table; those that stand for many are written once.
   for (const Key& key : info.keys) {
     if (!is_section(key)) continue;
     if (is_one_of_many(key, info)) {
@@ -339,6 +342,7 @@ std::string explain(const SectionInfo& root, const std::string& path) {
   const Key* key = nullptr;
   std::string walked;
   std::istringstream parts(path);
+  // One part of the path at a time, with the section that it is looked for in.
   for (std::string part; std::getline(parts, part, '.');) {
     if (key && key->kind == Key::Kind::named_sections && !info) {  // the name of the user's choice
       info = key->section.get();

@@ -35,6 +35,7 @@ void check_kind(const std::string& family, const std::string& name, const Sectio
 void SectionInfo::add_kind(const std::string& chosen_by, const std::string& kind,
                            const SectionInfo& of_kind) {
   for (const Key& key : of_kind.keys) {
+    // A kind's keys have the kind for their condition, so that they cannot have another.
     if (!key.when_key.empty())
       throw std::logic_error(
           fmt::format("the key '{}' of the kind '{}' has a condition of its own", key.name, kind));

@@ -48,12 +48,14 @@ double si_value(const Value& value, const std::string& name) {
 }
 
 Formula::Constants constants_of(const Value& table, const Key& key) {
+  // No table of constants is no error: a formula may use coordinates alone.
   Formula::Constants constants;
   const Value* given = table.find("constants");
   if (given == nullptr) return constants;
   if (!given->is_table())
     throw InputError(given->where, fmt::format("'constants' of '{}' is {}", key.name, given->describe()),
                      "a table: { speed = \"2.5 mm/s\" }");
+  // Names that the formula knows already cannot be given again, and each constant has its own unit.
   for (const auto& entry : given->entries()) {
     const bool taken =
         std::find(k_place_variables.begin(), k_place_variables.end(), entry.key) != k_place_variables.end();
@@ -82,6 +84,7 @@ void read_formula(const Value& table, const Key& key, bool with_time, PlaceSpec&
 void read_velocity(const Value& table, const Key& key, bool with_time, PlaceSpec& place) {
   const Value* moving = table.find("moving");
   if (moving == nullptr) return;
+  // Something that moves needs a time, and a velocity of two or three components.
   if (!with_time)
     throw InputError(moving->where, fmt::format("'{}' has no time: it cannot move", key.name), "no 'moving'");
   if (!moving->is_list() || moving->items().size() < 2 || moving->items().size() > 3)
@@ -141,12 +144,14 @@ void read_file(const Value& table, const Key& key, PlaceSpec& place) {
   if (place.column.empty())
     throw InputError(table.where, fmt::format("'{}' does not say which field of the file it is", key.name),
                      "field = \"temperature\"");
+  // The field of one body, where several overlap in the file.
   if (const Value* body = table.find("body")) {
     if (!body->is_integer() || body->integer() < 0 || body->integer() > 1000000)
       throw InputError(body->where, fmt::format("'body' of '{}' is {}", key.name, body->describe()),
                        "a number of the file's cell data `body`, from 0");
     place.body = static_cast<int>(body->integer());
   }
+  // Files have no unit of length, so that it may be said here.
   if (const std::string length = text_of(table, "length_unit", key); !length.empty()) {
     try {
       place.length = units::convert(1.0, length, "m");
@@ -171,6 +176,7 @@ std::shared_ptr<const PlaceSpec> read_place(const Value& table, const Key& key, 
   place->lower = key.lower, place->upper = key.upper, place->lower_open = key.lower_open;
   place->where = table.where;
   place->with_time = with_time;
+  // Exactly one of formula and file, and each has its own keys.
   if (table.find("formula") != nullptr && table.find("file") != nullptr)
     throw InputError(table.where, fmt::format("'{}' has both a formula and a file", key.name), "one of them");
   if (table.find("formula") != nullptr)

@@ -75,6 +75,8 @@ Layout layout(const std::vector<std::string_view>& row, const std::string& colum
   std::vector<Heading> headings;
   for (const std::string_view cell : row) headings.push_back(heading(cell, where));
   Layout result;
+  // Every column is kept with the conversion of its unit, so that rows are read without asking
+  // again.
   const auto add = [&](std::size_t i, std::string_view si) {
     try {
       result.to_si.push_back(units::conversion(headings[i].unit, si));
@@ -99,10 +101,12 @@ Layout layout(const std::vector<std::string_view>& row, const std::string& colum
   if (result.names.empty())
     throw InputError(where, "the table has no coordinate",
                      fmt::format("columns of {}", fmt::join(k_coordinates, ", ")));
+  // With one column of values no name is needed; with more it is.
   if (column.empty() && others.size() != 1)
     throw InputError(where, fmt::format("the table has {} columns of values", others.size()),
                      others.empty() ? "one beside the coordinates" : "column = \"...\", " + one_of(others));
   const std::string value = column.empty() ? others.front() : column;
+  // The value is the last column of a point, behind its coordinates.
   const auto found =
       std::find_if(headings.begin(), headings.end(), [&](const Heading& h) { return h.name == value; });
   if (found == headings.end())
@@ -131,6 +135,7 @@ PointTable::PointTable(const std::filesystem::path& file, const std::string& col
       n_cells = row.size();
       continue;
     }
+    // A row that is short or long is told by its line number.
     if (row.size() != n_cells)
       throw InputError(here, fmt::format("there are {} cells for {} columns", row.size(), n_cells));
     std::vector<double>& point = points_.emplace_back();
@@ -198,6 +203,7 @@ double PointTable::scattered(std::span<const double> at, std::size_t first, std:
   const std::size_t n_near = std::min<std::size_t>(last - first, 4 * n_space_ + 1);
   std::vector<std::pair<double, std::size_t>> near;  // distance, point
   near.reserve(last - first);
+  // Outside of the box of all points the nearest place on it counts.
   for (std::size_t k = first; k < last; ++k) {
     double squared = 0;
     for (std::size_t i = 0; i < n_space_; ++i) {
@@ -207,7 +213,10 @@ double PointTable::scattered(std::span<const double> at, std::size_t first, std:
     near.emplace_back(std::sqrt(squared), k);
   }
   std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(n_near), near.end());
+  // A point that is met exactly, or is the only one, gives its own value.
   if (near.front().first == 0 || n_near == 1) return points_[near.front().second].back();
+  // The weight falls to zero at the farthest neighbour, so that values are continuous where
+  // neighbours change.
   const bool all = n_near == last - first;
   const double reach = all ? 2 * near[n_near - 1].first : near[n_near - 1].first;
   double sum = 0, weights = 0;

@@ -39,6 +39,7 @@ void check_key_lengths(std::string_view text, const std::string& name) {
     if (c == '#') {
       while (i < text.size() && text[i] != '\n') ++i;
     } else if (c == '"' || c == '\'') {
+      // Line numbers go on within strings of several lines.
       const std::size_t end = behind_string(text, i);
       for (; i < end; ++i) line += text[i] == '\n' ? 1 : 0;
     } else {

@@ -135,6 +135,7 @@ std::string advice_on_brackets(std::string_view unit, std::string_view expected_
 }  // namespace
 
 Quantity split_quantity(std::string_view text) {
+  // Blanks and a plus in front are allowed, which the conversion of numbers does not take.
   std::string_view rest = text;
   rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
   if (!rest.empty() && rest.front() == '+') rest.remove_prefix(1);
@@ -143,6 +144,7 @@ Quantity split_quantity(std::string_view text) {
   if (error != std::errc{} || !std::isfinite(quantity.value))
     throw std::invalid_argument("'" + std::string(text) + "' does not begin with a finite number");
   rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
+  // What follows the number is the unit, without blanks around it.
   rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
   quantity.unit = rest.substr(0, rest.find_last_not_of(" \t") + 1);
   // UDUNITS would take the rest of "1 500 K" for the unit of 500 kelvin.
@@ -154,6 +156,7 @@ Quantity split_quantity(std::string_view text) {
 }
 
 Conversion conversion(std::string_view unit, std::string_view expected_unit, Temperature kind) {
+  // The program's own unit must be known, or the source is wrong; the user's need not be.
   Database& database = Database::instance();
   const ut_unit* to = database.find(expected_unit);
   if (to == nullptr)
@@ -170,8 +173,10 @@ Conversion conversion(std::string_view unit, std::string_view expected_unit, Tem
     throw std::invalid_argument(found + " does not fit; " + expectation(expected_unit) +
                                 advice_on_brackets(unit, expected_unit));
   }
+  // The converter of the library, freed at the end of the scope.
   const std::unique_ptr<cv_converter, FreeConverter> converter(
       ut_get_converter(const_cast<ut_unit*>(from), const_cast<ut_unit*>(to)));
+  // Temperatures have an offset; all other units are a factor.
   const double offset = cv_convert_double(converter.get(), 0.0);
   if (offset == 0) return {cv_convert_double(converter.get(), 1.0), 0.0};
   constexpr double far = 1LL << 40;  // far from zero the offset takes no digits from the scale
