@@ -88,10 +88,12 @@ class Checks {
     // Along the history of the case every step is checked: at some the answers against differences, at all
     // the rotated law and the energies.
     for (const Segment& segment : program_.segments) {
+      // The path of a segment starts where the last one ended.
       const Path path(segment, point_.state().strain, point_.state().stress, point_.state().temperature);
       point_.restart();
       double start = 0;
       const std::vector<double> steps = path.steps();
+      // Samples are spread over all steps, since differences cost many answers each.
       const std::size_t every = std::max<std::size_t>(1, steps.size() * program_.segments.size() / k_samples);
       for (std::size_t i = 0; i < steps.size(); ++i) {
         const StepResult step = point_.attempt(path.at(start + steps[i]), steps[i]);
@@ -103,6 +105,8 @@ class Checks {
         check_rotated(step, steps[i]);
         check_energies(step, steps[i]);
         point_.accept(step);
+        // The state is accepted only after its checks, which ask for other answers from the same
+        // start.
         start += steps[i];
         ++n_steps_;
       }
@@ -181,8 +185,10 @@ class Checks {
   void check_moduli(std::vector<LawCheck>& checks) const {
     Worst worst;
     for (const double temperature : temperatures_of_law(material_)) {
+      // A fresh point at each temperature, without history.
       const MaterialPoint fresh(material_, {.temperature = temperature, .strain_reference = temperature});
       const Answer answer = fresh.answer(temperature, Tensor{}, 1.0);
+      // The isotropic moduli that the file gives, for a solid without melt.
       const auto expected = material::properties_at(material_, temperature, temperature,
                                                     material::PhaseState<double>{1.0, 0.0});
       const Sym4<double> moduli = Sym4<double>::isotropic(expected.bulk, 2 * expected.shear);
@@ -204,6 +210,7 @@ class Checks {
     // repetition, isotropy, dissipation and energy. Each has its worst place and its limit.
     const bool symmetric = outside_ != nullptr ? outside_->symmetric() : point_.law().symmetric();
     std::vector<LawCheck> checks;
+    // Finite answers first: the figures below mean nothing without them.
     checks.push_back({"finite", finite_,
                       finite_ ? fmt::format("{} steps and all strains around {} of them have an answer",
                                             n_steps_, n_tangents_)

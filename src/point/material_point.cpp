@@ -42,8 +42,10 @@ bool correction(const std::vector<int>& free, const Target& target, const Answer
                 Sym<double>& change) {
   const Sym4<double>& tangent = answer.tangent;
   const Law::Response<double>& r = answer.response;
+  // A little stiffness keeps the equations solvable where the law has none, as for melt.
   const Sym4<double> least = Sym4<double>::isotropic(0, k_least_stiffness * r.bulk);
   Matrix6 a{};
+  // Only the components whose stress is prescribed are unknowns.
   Vector6 b{}, x{};
   for (std::size_t row = 0; row < free.size(); ++row) {
     const int i = free[row];
@@ -66,6 +68,7 @@ constexpr double k_temperature_tolerance = 1e-9;
 
 MaterialPoint::MaterialPoint(const material::Material& material, const Options& options)
     : law_(material), outside_(external_law(material)), options_(options) {
+  // A law from outside must be trusted by the user before it is loaded.
   if (outside_ != nullptr) {
     const SourceLocation& where = outside_->data().where;
     if (!outside_->loaded())
@@ -100,13 +103,16 @@ StepResult MaterialPoint::attempt(const Target& end, double dt) const {
 
 /// Newton's method in the temperature with the capacity as its slope; a bracket where latent heat bends it.
 StepResult MaterialPoint::attempt_adiabatic(const Target& end, double dt) const {
+  // The energy after the step must be that before it and the work done.
   const Stored before = stored(now_);
   double temperature = now_.temperature, low = 0.5 * temperature, high = 2 * temperature;
+  // The bracket halves the step where Newton's would leave it.
   StepResult result;
   for (int i = 0; i < k_max_iterations; ++i) {
     result = attempt_at(temperature, end, dt);
     if (!result.converged) return result;
     const Stored now = stored(result.state);
+    // Work by the mean stress, as the step itself has it.
     const double work = 0.5 * dot(now_.stress + result.state.stress, result.state.strain - now_.strain);
     const double excess = now.energy - before.energy - work;
     if (std::abs(excess) <= k_temperature_tolerance * now.capacity) return result;
@@ -140,6 +146,7 @@ Answer MaterialPoint::answer(const Law::Properties<double>& p, double temperatur
   // A law from outside answers into its own list of numbers, from which the response is filled as far as it
   // knows it.
   using Outside = material::ExternalLaw;
+  // Numbers of the law's own, then the tensors that the program knows the places of.
   a.outside.resize(outside_->size());
   const auto r = outside_->update(Outside::Properties<double>{p.elastic, temperature, strain_reference()},
                                   now_.outside.data(), a.outside.data(), strain, step.dt, &a.complaint);

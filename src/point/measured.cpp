@@ -44,6 +44,7 @@ struct Heading {
 Heading heading(std::string_view text, const SourceLocation& where) {
   // A name of a column, and a unit in brackets that can be converted to that of the column.
   const std::size_t bracket = text.find('[');
+  // The name decides the column, and the unit in brackets how its numbers are converted.
   const std::string name(trimmed(text.substr(0, bracket)));
   const RecordColumn* column = find_column(name);
   if (column == nullptr) {
@@ -55,6 +56,7 @@ Heading heading(std::string_view text, const SourceLocation& where) {
     throw InputError(where, fmt::format("the column '{}' has no unit", name),
                      fmt::format("{}, or another unit in the brackets", column->header()));
   const std::string unit(text.substr(bracket + 1, text.size() - bracket - 2));
+  // A unit that does not fit is told with the place of its heading.
   try {
     return {column, units::conversion(unit, column->unit)};
   } catch (const std::invalid_argument& error) {
@@ -98,6 +100,7 @@ Measured read_measured(const std::filesystem::path& file, const SourceLocation& 
   std::ifstream in(file);
   if (!in) throw InputError(where, fmt::format("the measured points '{}' cannot be read", file.string()));
   Measured measured;
+  // Headings from the first row that holds something.
   std::vector<Heading> headings;
   std::string line;
   // The first row that is neither empty nor a comment holds the headings; each other one is a point.
@@ -115,6 +118,7 @@ Measured read_measured(const std::filesystem::path& file, const SourceLocation& 
     if (row.size() != headings.size())
       throw InputError(here, fmt::format("there are {} cells for {} columns", row.size(), headings.size()));
     std::vector<double>& values = measured.rows.emplace_back();
+    // Values are in the units in which the history is shown.
     for (std::size_t i = 0; i < row.size(); ++i) values.push_back(headings[i].to_shown(number(row[i], here)));
   }
   if (measured.rows.empty()) throw InputError({file.string(), 0, 0}, "the table has no rows");
@@ -124,6 +128,7 @@ Measured read_measured(const std::filesystem::path& file, const SourceLocation& 
 std::vector<Deviation> deviations(const Measured& measured, const std::vector<MaterialPointRecord>& history) {
   std::vector<Deviation> result;
   const RecordColumn& x = *measured.columns.front();
+  // Only where the abscissa runs one way does it tell a point of the history.
   if (!one_way(x, history)) return result;
   // The root of the mean square of the differences at those abscissas that the history reaches.
   for (std::size_t c = 1; c < measured.columns.size(); ++c) {

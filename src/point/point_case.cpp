@@ -55,6 +55,7 @@ std::array<ComponentRamp, 6> named_components(const SegmentSpec& s) {
   for (int i = 0; i < 6; ++i) {
     const std::string name = k_component_names[i];
     const bool held = std::find(s.hold_strain.begin(), s.hold_strain.end(), name) != s.hold_strain.end();
+    // A component may have its strain, its stress, or neither prescribed.
     const bool strain = s.strains.of(i) || s.strain_rates.of(i);
     const bool stress = s.stresses.of(i) || s.stress_rates.of(i);
     if (int{held} + int{strain} + int{stress} > 1)
@@ -90,6 +91,7 @@ std::vector<Segment> make_segments(std::vector<SegmentSpec> specs, const CurveSp
   // A repetition copies the segments before it; the curve may change the rate and the stress of each.
   for (SegmentSpec& s : specs) {
     if (s.kind == SegmentKind::repeat) {
+      // The last segments again, as often as asked for.
       const auto last = static_cast<std::size_t>(s.last);
       if (last > segments.size())
         throw InputError(s.where, fmt::format("the last {} segments are to be repeated, and there are {}",
@@ -98,6 +100,7 @@ std::vector<Segment> make_segments(std::vector<SegmentSpec> specs, const CurveSp
       for (int i = 0; i < s.times; ++i) segments.insert(segments.end(), cycle.begin(), cycle.end());
       continue;
     }
+    // A curve may replace the rate or the stress of all segments that have one.
     if (curve.strain_rate && s.strain_rate) s.strain_rate = curve.strain_rate;
     if (curve.stress && s.stress) s.stress = curve.stress;
     segments.push_back(make_segment(s));
@@ -142,6 +145,7 @@ Curve make_curve(const PointSpec& spec, const CurveSpec& curve, std::span<const 
   const SourceLocation& where = curve.where.file.empty() ? spec.where : curve.where;
   check_overrides(curve, spec.segments);
   Curve result{curve.name, curve.label.empty() ? curve.name : curve.label, {}, {}, std::nullopt};
+  // The material of the curve, or that of the case, with the place of whichever names it.
   result.material = material::find_material(curve.material.value_or(spec.material), library,
                                             curve.material ? curve.where : spec.where);
   if (!result.material.mechanical())
@@ -158,6 +162,7 @@ Curve make_curve(const PointSpec& spec, const CurveSpec& curve, std::span<const 
 
 void check_picture(const PictureSpec& picture) {
   check_file_name(picture.file, picture.where);
+  // Columns by their names, and all of one axis in one unit.
   std::vector<std::string> names;
   for (const RecordColumn& column : columns()) names.push_back(column.name);
   const auto find = [&](const std::string& name) {
@@ -209,6 +214,7 @@ PointCase make_point_case(Value document, std::span<const fs::path> library) {
   resolve_paths(document);
   PointCase result;
   result.document = point_section().info().completed(document, "");
+  // Keys first, with defaults, then the values of them.
   PointSpec spec;
   point_section().assign(spec, result.document);
   result.title = spec.title;

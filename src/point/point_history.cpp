@@ -28,6 +28,7 @@ double strength(const MaterialPoint& point, double temperature) {
 /// Makes the record of a state: stress, strain and the quantities that follow from them.
 MaterialPointRecord record_of(const MaterialPoint& point, const MaterialPointState& state) {
   const material::Material& material = point.law().material();
+  // Properties at the temperature of the state, from which strains and strengths follow.
   const auto p = point.law().properties_at(state.temperature, point.strain_reference());
   MaterialPointRecord r;
   r.time = state.time;
@@ -42,6 +43,7 @@ MaterialPointRecord record_of(const MaterialPoint& point, const MaterialPointSta
   const Stored stored = point.stored(state);
   r.internal_energy = stored.energy;
   r.entropy = stored.entropy;
+  // Without plastic flow the remaining entries are zero.
   if (!material.flow) return r;
   const Flow& flow = *material.flow;
   const double xi = state.history.hardening;
@@ -106,11 +108,13 @@ std::string failure(const MaterialPoint& point, const MaterialPointRecord& last,
 /// One step of the loading, halved where it must be.
 bool march(MaterialPoint& point, const Path& path, double start, double dt, const MaterialPointRecord& first,
            std::vector<MaterialPointRecord>& records, StepResult& step) {
+  // Parts of the step, halved after each failure.
   double done = 0, part = dt;
   int cuts = 0;
   while (done < dt) {
     const bool last = part >= dt - done;
     const double size = last ? dt - done : part;
+    // The target of the part lies on the path of the whole segment.
     step = point.attempt(path.at(start + done + size), size);
     if (!step.converged) {
       if (++cuts > k_max_cuts) return false;
@@ -132,6 +136,7 @@ bool march(MaterialPoint& point, const Path& path, double start, double dt, cons
 History run(const material::Material& material, const Program& program) {
   MaterialPoint point(material, program.options);
   History history;
+  // The first record gives the origin of the energies.
   const MaterialPointRecord first = record_of(point, point.state());
   history.records.push_back(first);
   history.records.back().internal_energy = history.records.back().entropy = 0;  // counted from here
@@ -142,6 +147,7 @@ History run(const material::Material& material, const Program& program) {
     point.restart();
     double start = 0;
     StepResult step;
+    // Steps of the segment, each of which may be cut on its way.
     for (const double dt : path.steps()) {
       if (!march(point, path, start, dt, first, history.records, step)) {
         history.finished = false;
