@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> material_folders() {
   std::vector<fs::path> folders;
+  // Folders that do not exist are left out without a word: most of the places below are not there.
   const auto add = [&folders](const fs::path& folder) {
     std::error_code error;
     if (fs::is_directory(folder, error)) folders.push_back(folder);
@@ -29,6 +30,7 @@ std::vector<fs::path> material_folders() {
     for (std::string path; std::getline(paths, path, ':');)
       if (!path.empty()) add(path);
   }
+  // From the program upwards, since it may lie in an installation or in a folder of a build.
   fs::path folder = program_path().parent_path();
   constexpr int k_levels = 3;  // as far as build/release/solidus lies below the sources
   for (int level = 0; level < k_levels && folder.has_relative_path();
@@ -45,6 +47,7 @@ std::vector<material::Material> load_materials(const CaseSpec& spec) {
   std::vector<material::Material> materials;
   for (const BodySpec& body : spec.bodies) {
     materials.push_back(material::find_material(body.material, folders, body.where));
+    // What the case varies of the material is applied to its copy.
     if (const auto by = spec.vary.bodies.find(body.name); by != spec.vary.bodies.end())
       material::vary(materials.back(), by->second, spec.vary.where);
     // The material of a chill or a die may melt, but it is no casting that solidifies.
@@ -62,6 +65,7 @@ std::vector<material::Material> load_materials(const CaseSpec& spec) {
 
 void check_melts(const CaseSpec& spec, const std::vector<material::Material>& materials,
                  const std::vector<double>& highest) {
+  // Inertia resists shear while the melt has no stiffness.
   if (!spec.has_mechanics() || spec.dynamics) return;
   for (std::size_t b = 0; b < materials.size(); ++b) {
     const BodySpec& body = spec.bodies[b];

@@ -78,6 +78,7 @@ void apply_override(Value& base, const std::string& assignment) {
   constexpr std::size_t k_shown = 200;
   const std::string shown = assignment.size() > k_shown ? assignment.substr(0, k_shown) + "..." : assignment;
   const SourceLocation where{"--set " + shown, 0, 0};
+  // What is left of the first equals sign is a path, what is right of it a value.
   const std::size_t equals = assignment.find('=');
   const auto trimmed = [](std::string text) {
     text.erase(0, text.find_first_not_of(" \t"));
@@ -90,10 +91,12 @@ void apply_override(Value& base, const std::string& assignment) {
     throw InputError(where, "this is no assignment",
                      "--set path=value, for example --set time.step=\"0.5 s\"");
 
+  // Included files are merged already when assignments are applied.
   if (path == "include")
     throw InputError(where, "'include' holds in a case file only", "a case file that includes both");
   if (std::count(path.begin(), path.end(), '.') >= k_most_key_parts)
     throw InputError(where, "the path has too many parts", fmt::format("at most {}", k_most_key_parts));
+  // The place in the tree, and the path so far for messages.
   Value* place = &base;
   std::string walked;
   for (std::size_t begin = 0;;) {

@@ -77,6 +77,7 @@ void take_out_of_contacts(Value& document, Removal& removal) {
 }
 
 void take_out_of_probes(Value& document, Removal& removal) {
+  // A difference goes with either of its probes, so that names are collected.
   std::set<std::string> gone;
   const auto mechanical = [&](const Value& probe) {
     bool goes = is_mechanical(text_of(probe, "field"));
@@ -88,6 +89,7 @@ void take_out_of_probes(Value& document, Removal& removal) {
     if (goes) gone.insert(text_of(probe, "name"));
     return goes;
   };
+  // First every probe is asked, then those that go are taken out.
   if (const Value* probes = document.find("probe"); probes != nullptr && probes->is_list())
     for (const Value& probe : probes->items())
       if (probe.is_table()) mechanical(probe);
@@ -116,6 +118,7 @@ void take_out_of_output(Value& document, Removal& removal) {
 }  // namespace
 
 std::string switch_physics(Value& document, Physics physics) {
+  // A document without [analysis] gets one: the command line may say it alone.
   Value* analysis = document.find("analysis");
   if (analysis == nullptr) analysis = &document.set("analysis", Value());
   if (!analysis->is_table()) return {};  // the keys say what is wrong
@@ -129,6 +132,7 @@ std::string switch_physics(Value& document, Physics physics) {
   for (const char* section : {"mechanics", "dynamics", "coupling"}) removal.section(section);
   removal.items(document, "mechanical_condition", [](const Value&) { return true; });
   take_out_of_contacts(document, removal);
+  // Keys of bodies, times and probes that mean nothing without mechanics.
   if (Value* bodies = document.find("body"); bodies != nullptr && bodies->is_list())
     for (Value& body : bodies->items()) {
       const std::string of = fmt::format("body '{}'", text_of(body, "name"));

@@ -81,6 +81,7 @@ void decide_physics(CaseSpec& spec) {
   std::vector<std::size_t> conductors;
   bool deforms = false;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    // Left open, a body takes part in all physics until its material says otherwise.
     BodySpec& body = spec.bodies[b];
     const bool open = body.physics == BodySpec::ActivePhysics::automatic;
     if (open) body.physics = BodySpec::ActivePhysics::all;
@@ -100,6 +101,7 @@ void decide_physics(CaseSpec& spec) {
     deforms = deforms || !conducts;
   }
   if (conductors.empty() || !deforms) return;
+  // The log names each body that only conducts, with its material.
   std::string said;
   for (const std::size_t b : conductors) {
     spec.bodies[b].physics = BodySpec::ActivePhysics::heat;

@@ -43,6 +43,7 @@ void check_stage(const CaseSpec& spec, const StageSpec& s) {
   if (!s.step && !s.steps && !spec.time.step)
     throw InputError(s.where, fmt::format("the stage '{}' has no time step", s.name),
                      "step or steps in the stage, or step in [time] for all stages");
+  // The first step must fit the stage and lie between its limits, or those of [time].
   const double step = first_step(s, spec.time);
   if (step > s.duration)
     throw InputError(s.where,
@@ -104,6 +105,7 @@ std::vector<const CycleSpec*> cycles_of_stages(const CaseSpec& spec) {
   for (const CycleSpec& cycle : spec.cycles) {
     if (cycle.stages.empty())
       throw InputError(cycle.where, fmt::format("the cycle '{}' has no stages", cycle.name));
+    // Stages of a cycle come in a row, as in the case, and belong to no other one.
     std::size_t next = 0;
     for (std::size_t i = 0; i < cycle.stages.size(); ++i) {
       const std::size_t stage =
@@ -131,6 +133,7 @@ std::vector<StageRun> stage_runs(const CaseSpec& spec) {
   std::vector<StageRun> runs;
   double time = 0;
   int shot = 0;
+  // A stage of the run has its place in time and the number of its round.
   const auto add = [&](std::size_t i, int cycle) {
     const double end = time + spec.stages[i].duration;
     StageRun& run = runs.emplace_back();
@@ -152,6 +155,7 @@ std::vector<StageRun> stage_runs(const CaseSpec& spec) {
       add(i++, 0);
       continue;
     }
+    // Rounds of shots are counted through all cycles.
     const std::size_t n = cycle_of[i]->stages.size();
     const bool shots = is_of_shots(spec, *cycle_of[i]);
     for (int cycle = 1; cycle <= cycle_of[i]->repeat; ++cycle) {
@@ -222,6 +226,7 @@ void resolve_stages(CaseSpec& spec) {
   if (spec.time.end)
     throw InputError(spec.time.where, "'end' is given, but the case has stages: their durations make the end",
                      "no end in [time]");
+  // At last each stage and cycle by itself.
   for (const StageSpec& stage : spec.stages) check_stage(spec, stage);
   for (const CycleSpec& cycle : spec.cycles) check_periodic(spec, cycle);
   spec.time.end = stage_runs(spec).back().end;
