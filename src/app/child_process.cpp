@@ -43,19 +43,23 @@ bool take_all(int from, double seconds, std::string& text) {
 /// Starts it as the first of a group of processes of its own, so that all of them can be ended.
 /// @return zero, or the number of an error
 int start(std::vector<std::string>& command, int output, pid_t& child) {
+  // Arguments and environment as the call of the system takes them.
   std::vector<std::string> inherited = environment();
   std::vector<char*> argv = pointers_to(command), envp = pointers_to(inherited);
   posix_spawn_file_actions_t actions;
+  // It reads nothing, and both of its outputs go into the pipe.
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
+  // Signals that this program ignores would be ignored by the child too.
   sigset_t by_default;
   sigemptyset(&by_default);
   sigaddset(&by_default, SIGPIPE);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setsigdefault(&attributes, &by_default);
+  // Group zero is one of its own, named by the child's number.
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   const int error = posix_spawnp(&child, argv[0], &actions, &attributes, argv.data(), envp.data());
@@ -84,6 +88,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 
 ChildOutcome run_and_listen(std::vector<std::string> command, double seconds) {
   ChildOutcome outcome;
+  // The reading end stays here; both are closed for every other child.
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
     outcome.failure = std::strerror(errno);
@@ -91,6 +96,7 @@ ChildOutcome run_and_listen(std::vector<std::string> command, double seconds) {
   }
   pid_t child = 0;
   const int error = start(command, ends[1], child);
+  // Without this the end of the output would never come.
   ::close(ends[1]);
   if (error != 0) {
     outcome.failure = std::strerror(error);
@@ -101,6 +107,7 @@ ChildOutcome run_and_listen(std::vector<std::string> command, double seconds) {
       outcome.failure = fmt::format("it took longer than {:.0f} s", seconds);
       ::kill(-child, SIGKILL);
     }
+    // A child that was killed by a signal is told by the name of that.
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }

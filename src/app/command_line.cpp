@@ -47,10 +47,12 @@ std::optional<ExitCode> parse(CLI::App& program, int argc, char** argv) {
               : program.help("", CLI::AppFormatMode::All));
     return k_done;
   } catch (const CLI::ParseError& error) {
+    // A command line without anything is answered by an example.
     if (argc == 1)
       throw InputError({}, "which verb?",
                        "`solidus run CASE`, for example; `solidus --help` shows all of them");
     const auto named = program.get_subcommands();
+    // The verb at hand says where its options are explained.
     throw InputError({}, error.what(),
                      named.empty() ? "`solidus --help` shows verbs and options"
                                    : "`solidus help " + named[0]->get_name() + "` shows its options");
@@ -77,12 +79,14 @@ ExitCode parse_and_run(int argc, char** argv) {
       "Ctrl-C.");
   program.set_version_flag("--version", "Solidus " + program_version(), "Print the version");
   std::string level = "info";
+  // One level of the log for all verbs, before or behind the verb.
   program.add_option("--log", level, "debug, info, warn or silent")->type_name("LEVEL");
   std::vector<std::unique_ptr<Verb>> all;
   // Verbs register themselves; the one chosen runs after the whole line is understood.
   for (const MakeVerb make : verbs()) all.push_back(make(program));
   for (CLI::App* verb : program.get_subcommands({})) verb->fallthrough();
 
+  // An unknown verb is told with the nearest name, which the library does not do.
   if (argc > 1 && argv[1][0] != '-') verb_named(program, argv[1]);
   if (const std::optional<ExitCode> code = parse(program, argc, argv)) return *code;
   set_log_level(level);

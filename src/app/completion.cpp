@@ -24,6 +24,8 @@ struct Candidates {
 };
 
 Candidates candidates(const std::string& value, const CommandTree& tree, const KnownWords& known) {
+  // What is placed for the value in the help says what may follow: keys, materials, verbs, or
+  // files.
   using Kind = Candidates::Kind;
   if (value == "KEY") return {Kind::words, known.keys};
   if (value == "KEY=VALUE") return {Kind::words, known.keys, true};
@@ -118,6 +120,7 @@ _solidus() {
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case $word in
 )";
+  // The first word that is a verb decides for all that follows.
   const Candidates verbs = candidates("VERB", tree, known);
   out += fmt::format("      {}) verb=$word; break ;;\n    esac\n  done\n  case $verb in\n",
                      fmt::join(verbs.words, "|"));
@@ -130,6 +133,7 @@ _solidus() {
       if (!option.positional() && !option.value.empty())
         out += fmt::format("        {}) {}; return ;;\n", fmt::join(option.names, "|"),
                            bash_action(candidates(option.value, tree, known)));
+    // Options after a dash, with those that all verbs have.
     out += "      esac\n";
     out += fmt::format("      if [[ $cur == -* ]]; then _solidus_words {}; return; fi\n",
                        quoted(fmt::format("{}", fmt::join(option_names(options), " "))));
@@ -140,6 +144,7 @@ _solidus() {
       }
     out += "      ;;\n";
   }
+  // Before any verb: verbs and general options.
   Words first = verbs.words;
   for (const std::string& name : option_names(tree.options)) first.push_back(name);
   return out + fmt::format("    *) _solidus_words {} ;;\n  esac\n}}\ncomplete -F _solidus solidus\n",
@@ -185,12 +190,14 @@ std::string zsh_spec(const OptionInfo& option, const std::string& name, const Co
 }
 
 std::string zsh(const CommandTree& tree, const KnownWords& known) {
+  // Built like that for bash, with the descriptions that zsh shows.
   std::string out =
       "#compdef solidus\n# Completion of solidus for zsh; written by `solidus completion zsh`.\n"
       "_solidus() {\n  local verb='' word\n  for word in ${words[2,CURRENT-1]}; do\n"
       "    case $word in\n";
   out += fmt::format("      {}) verb=$word; break ;;\n    esac\n  done\n  case $verb in\n",
                      fmt::join(candidates("VERB", tree, known).words, "|"));
+  // Every option of the verb, and its positional arguments by their kind.
   for (const VerbInfo& verb : tree.verbs) {
     out += fmt::format("    {})\n      _arguments '1:verb: '", verb.name);
     for (const OptionInfo& option : options_with(verb, tree)) {
@@ -200,6 +207,7 @@ std::string zsh(const CommandTree& tree, const KnownWords& known) {
     }
     out += "\n      ;;\n";
   }
+  // In front of a verb all verbs are offered with what they do.
   out += "    *)\n      local -a verbs=(\n";
   for (const VerbInfo& verb : tree.verbs)
     out += "        " + quoted(verb.name + ":" + zsh_doc(verb.doc)) + "\n";

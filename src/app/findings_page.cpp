@@ -56,6 +56,7 @@ std::string page_of_findings() {
       "ask why. An *error* ends both with exit code 1: no sensible case looks so. A *warning* gives the "
       "number "
       "and the usual range.\n";
+  // One table for each topic, of the rows of all families.
   for (const Topic topic : k_topics) {
     std::string title(name(topic));
     title[0] = static_cast<char>(title[0] - 'a' + 'A');

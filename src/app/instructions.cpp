@@ -40,6 +40,7 @@ Instructions instructions_here() {
 #if defined(__x86_64__)
   __builtin_cpu_init();
   Instructions set = 0;
+  // Bits in the order in which the other file sets those of the build.
   const auto has = [&set](unsigned bit, int answer) { set |= answer != 0 ? 1U << bit : 0U; };
   has(0, __builtin_cpu_supports("sse4.2"));
   has(1, __builtin_cpu_supports("popcnt"));

@@ -75,6 +75,7 @@ ExitCode guarded(const std::function<ExitCode()>& verb) {
 
 int main(int argc, char** argv) {
   set_program_version(built_version());
+  // Only a run answers to signals by writing a checkpoint.
   const auto runs = [](const char* argument) { return std::string_view(argument) == "run"; };
   const bool run_wanted = std::any_of(argv + 1, argv + argc, runs);
   // A downstream reader that has ended is no failure: output to it is lost.
@@ -83,6 +84,7 @@ int main(int argc, char** argv) {
     listen_to_signals();
     mesh::give_up_reading_when(stop_asked);
   }
+  // What is kept here must be read before libraries change the environment.
   keep_environment();
   profile::begin();
   give_large_arrays_back();
@@ -91,6 +93,7 @@ int main(int argc, char** argv) {
   char** const end = argv + argc;
   char** const separator = std::find_if(argv, end, [](const char* a) { return std::string_view(a) == "--"; });
   const std::vector<std::string> for_petsc(separator == end ? end : separator + 1, end);
+  // Libraries first, as they take their own arguments.
   std::optional<profile::Part> start(std::in_place, "start of the program");
   try {
     if (!petsc::start(for_petsc)) {
@@ -104,6 +107,7 @@ int main(int argc, char** argv) {
   start.reset();
   if (run_wanted && !stop_asked()) listen_to_signals();  // MPI and PETSc may have put theirs in place
   const int own_argc = static_cast<int>(separator - argv);
+  // Errors become exit codes here, and nowhere else.
   const ExitCode code = guarded([&] { return parse_and_run(own_argc, argv); });
   petsc::end();
   return code;

@@ -62,6 +62,7 @@ std::vector<VerbInfo> with_those_below(const std::vector<VerbInfo>& verbs) {
 std::string manual_page(const CommandTree& tree) {
   std::string out = fmt::format(".TH SOLIDUS 1 \"\" \"Solidus {}\" \"User commands\"\n", program_version());
   out += ".SH NAME\nsolidus \\- how a metal casting solidifies in its mould\n.SH SYNOPSIS\n";
+  // The synopsis of every verb, then each with its options, in the order of the help.
   const std::vector<VerbInfo> verbs = with_those_below(tree.verbs);
   for (const VerbInfo& verb : verbs) out += synopsis(verb) + "\n.br\n";
   out +=
@@ -73,6 +74,7 @@ std::string manual_page(const CommandTree& tree) {
     out += ".SS " + synopsis(verb) + "\n" + escaped(verb.doc) + ".\n";
     for (const OptionInfo& option : verb.options) out += option_entry(option);
   }
+  // General options, then what the program itself does not know of: exit codes and variables.
   out += ".SH OPTIONS\n";
   for (const OptionInfo& option : tree.options) out += option_entry(option);
   out +=

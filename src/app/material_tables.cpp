@@ -84,12 +84,14 @@ void write_properties(const Material& m, const fs::path& file) {
        [&](double theta) { return 1e-3 * (enthalpy.upper(theta) - at_room) / m.density; }}};
   if (m.solidification())
     columns.push_back({{"solid_fraction", "1"}, [&](double theta) { return m.solid_fraction(theta); }});
+  // Every table of the card is a column, the overstress one more where rates matter.
   const std::vector<material::Property> properties = m.properties();
   for (const material::Property& p : properties) columns.push_back(property_column(p));
   if (m.flow && !m.flow->rate_independent())
     columns.push_back({{"overstress_at_rate_1e-3", "MPa"}, [&](double theta) {
                          return 1e-6 * material::tensile_overstress(*m.flow, k_test_rate, theta);
                        }});
+  // One row for each temperature that the tables have.
   std::vector<CsvColumn> header;
   for (const SampledColumn& c : columns) header.push_back(c.column);
   CsvTable table(file, header);
@@ -124,6 +126,7 @@ double largest_strain(const Flow& flow) {
 }
 
 void write_flow_curves(const Flow& flow, const fs::path& file) {
+  // A column for each temperature of the curves.
   const std::vector<double> temperatures = curve_temperatures(flow);
   std::vector<CsvColumn> header{{"plastic_strain", "1"}};
   for (const double theta : temperatures)

@@ -53,6 +53,7 @@ ExitCode run_python(const std::string& module, const std::vector<std::string>& a
   if (module.find('.') == std::string::npos) command.emplace_back("solidus_plots.verb");
   command.push_back(module);
   command.insert(command.end(), arguments.begin(), arguments.end());
+  // The environment as it was at the start, with three variables of our own.
   std::vector<std::string> inherited;
   std::string path = modules().string();
   for (const std::string& entry : kept_environment()) {
@@ -68,6 +69,7 @@ ExitCode run_python(const std::string& module, const std::vector<std::string>& a
   std::vector<char*> argv = pointers_to(command), envp = pointers_to(inherited);
   // Ctrl-C is for the child, which may have runs to stop first: this program waits for it.
   std::signal(SIGINT, SIG_IGN);
+  // Signals that are ignored here are not for the child.
   sigset_t by_default;
   sigemptyset(&by_default);
   sigaddset(&by_default, SIGINT);
@@ -82,6 +84,7 @@ ExitCode run_python(const std::string& module, const std::vector<std::string>& a
   if (error != 0)
     throw InputError({}, fmt::format("'{}' cannot be started: {}", python, std::strerror(error)),
                      "a Python with numpy and matplotlib; SOLIDUS_PYTHON names another one");
+  // Its exit code becomes that of the program.
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return k_our_bug;

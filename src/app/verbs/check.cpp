@@ -59,15 +59,19 @@ ExitCode check_case(const CaseArguments& arguments) {
   const model::CheckedRun checked = model::check_run(c);
   const results::MeshCounts& counts = checked.mesh;
 
+  // Title, kind and mesh at the head.
   std::string out = fmt::format("{}\n  analysis    {}, {}\n  mesh        {} nodes", spec.title,
                                 text(spec.analysis.kind), text(spec.analysis.physics), counts.nodes);
   for (const auto& [shape, n] : counts.elements_of_shape) out += fmt::format(", {} {}", n, shape);
+  // The tables of bodies, skins and pours, then conditions of mechanics and coupling in one line
+  // each.
   out += results::text(checked.overview);
   for (const auto& m : spec.mechanical_conditions)
     out += fmt::format("\n  mechanics   {} on {}", m.name, m.group);
   for (const model::CouplingEstimate& estimate : checked.couplings)
     out += "\n  coupling    " + model::text(estimate);
   out += stage_lines(spec);
+  // At last the time, or the stages in place of it.
   if (!spec.stages.empty())
     out += fmt::format("\n  time        {:.6g} s", *spec.time.end);
   else

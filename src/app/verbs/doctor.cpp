@@ -91,6 +91,7 @@ Finding try_reader() {
                         "TMPDIR=FOLDER names one",
                         temporary_folder())};
   try {
+    // The smallest mesh that either reader takes, in a folder that is deleted again.
     const TemporaryFolder folder(temporary);
     const std::string file = (folder.path() / (gmsh ? "square.geo" : "square.inp")).string();
     std::ofstream(file) << (gmsh ? "Point(1) = {0, 0, 0};\nl[] = Extrude {1, 0, 0} { Point{1}; };\n"
@@ -174,6 +175,7 @@ Finding try_two_processes() {
 }
 
 Finding try_python() {
+  // The modules that the pictures need are imported, with the time that a cold disk may take.
   const std::string python = python_program();
   constexpr double k_patience = 60;  // [s]
   const ChildOutcome outcome =

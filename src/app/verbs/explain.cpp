@@ -96,6 +96,7 @@ std::string page_of_fields() {
         "|\n|---|---|---|---|---|---|---|\n",
         title);
     for (const Quantity* field : coupling::all_fields()) {
+      // Each field is in the table of its group, with what it needs of a case.
       if (field->group != group) continue;
       const bool asked = field->written == quantities::Written::on_request;
       text += fmt::format(

@@ -36,6 +36,7 @@ class Export final : public Verb {
              "start of a structural analysis, or its fields"),
         files_(export_formats().size()) {
     command().add_option("FOLDER", folder_, "Folder of the run's results")->required();
+    // One option for each format that has registered itself; they share the other ones.
     for (std::size_t i = 0; i < files_.size(); ++i) {
       const ExportFormat& format = export_formats()[i];
       command()

@@ -30,6 +30,7 @@ std::string taplo_rules(const fs::path& folder) {
   // Paths of patterns and schemas are those of the tool's working folder unless they are absolute.
   const std::string root = fs::canonical(folder).string();
   std::string text = std::string(k_marker) + ": schemas of the files below this folder.\n";
+  // One rule for each kind of file, told by its name or by the folder that it is in.
   const auto rule = [&](const char* comment, const std::vector<std::string>& include,
                         const std::vector<std::string>& exclude, const char* schema) {
     const auto list = [&](const std::vector<std::string>& patterns) {
@@ -92,6 +93,7 @@ void make_folder(const fs::path& folder) {
 /// Writes schemas and rules for editors into a folder; empty: the present one.
 ExitCode init_editor(const std::string& wanted) {
   const fs::path folder = wanted.empty() ? fs::path(".") : fs::path(wanted);
+  // The user's own rules are never overwritten; they are printed to be added by hand.
   if (!fs::is_directory(folder))
     throw InputError({}, fmt::format("there is no folder '{}'", folder.string()), "the folder of your cases");
   const fs::path rules = folder / ".taplo.toml";
@@ -100,6 +102,7 @@ ExitCode init_editor(const std::string& wanted) {
                      "to add these rules to it yourself:\n" + taplo_rules(folder));
   std::string said;
   results::on_first_process([&] {
+    // All schemas are those of this very program.
     make_folder(folder / ".solidus");
     const std::vector<std::pair<std::string, std::string>> files = {
         {".solidus/case.schema.json", json_schema(model::case_keys().info(), "Solidus case")},

@@ -82,6 +82,7 @@ std::string describe(const Material& m) {
     out += fmt::format("  {:<29} {}\n", "expansion_reference", celsius(m.expansion_reference));
   if (m.flow) out += plasticity(*m.flow);
   if (curves) out += flow_curves(m.flow->curves);
+  // The law of the melt matters only where the material has one for the solid.
   if (m.mechanical() && m.solidification()) {
     const material::LiquidLaw& liquid = material::liquid_law(m.liquid_model);
     out += fmt::format("  {:<29} {}\n", "liquid_model", liquid.name());
@@ -93,6 +94,7 @@ std::string describe(const Material& m) {
                        celsius(change.fraction.solidus()), celsius(change.fraction.liquidus()),
                        change.latent_heat, change.volume_change,
                        change.solidification ? ", solidification" : "");
+  // Where every number comes from, and over which temperatures it was measured.
   out += "Sources and validity\n";
   for (const auto& note : m.notes)
     out +=
@@ -153,6 +155,7 @@ CLI::App* add_solidification(CLI::App& materials, SolidificationArguments& argum
 /// @param output a folder for its tables (CSV); empty: none
 ExitCode list_materials(const std::string& name, const std::string& output) {
   const auto folders = model::material_folders();
+  // One material in full, or the names of all.
   if (!name.empty()) {
     const Material material = material::find_material(name, folders);
     std::string out = describe(material) + spreads(material::find_spreads(name, folders));

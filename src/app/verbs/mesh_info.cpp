@@ -95,9 +95,11 @@ ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit,
   results::on_first_process([&] {
     const NamedMesh named = read(arguments, unit);
     const RawMesh& mesh = named.mesh;
+    // The unit that the file itself names goes first, since everything below is in it.
     if (named.unit) text = fmt::format("the file says that its lengths are in {}\n", named.unit->name);
     text += mesh::to_text(mesh::assess(mesh));
     const std::vector<std::string> bodies = bodies_of(named, arguments.path, text);
+    // Faces of the bodies are numbered by where their skin has an edge.
     constexpr double k_edge = std::numbers::pi / 6;  // neighbours that bend by more begin a face
     std::vector<mesh::SkinPatch> patches = mesh::skin_patches(mesh, bodies, k_edge);
     for (mesh::SkinPatch& patch : patches)

@@ -39,6 +39,7 @@ double shell_of(const NewArguments& arguments) {
 }
 
 ExitCode new_case(const NewArguments& arguments) {
+  // The words of the command line, one by one.
   model::NewCaseOptions options;
   options.geometry = arguments.geometry;
   options.process = arguments.process;
@@ -56,6 +57,7 @@ ExitCode new_case(const NewArguments& arguments) {
   options.riser = arguments.riser == "auto";
   if (!(options.fineness >= 0.3 && options.fineness <= 5))
     throw InputError({"--fineness"}, fmt::format("{:g} is out of range", options.fineness), "0.3 to 5");
+  // All else is chosen by the rules of the process.
   const model::NewCaseReport report = model::make_new_case(options);
   print(fmt::format("{}\nWritten to {}. Next: solidus check {}; solidus run --heat-only {}\n", report.text,
                     report.file.string(), report.file.parent_path().string(),

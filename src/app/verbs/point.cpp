@@ -42,6 +42,8 @@ std::string table(const std::vector<MaterialPointRecord>& records) {
   std::string text;
   for (const point::RecordColumn& column : point::columns())
     text += (text.empty() ? "" : ",") + column.header();
+  // Every record is a row, with the columns of the heading; a number that is not finite is a bug
+  // and no result.
   for (const MaterialPointRecord& record : records) {
     text += '\n';
     const char* separator = "";
@@ -68,6 +70,7 @@ std::string table(const point::Measured& measured) {
 
 /// Makes the folder, unless it holds files that Solidus did not write.
 void prepare(const fs::path& folder, const PointCase& point_case, const std::string& file) {
+  // A folder that has such a file from elsewhere is left alone.
   const fs::path echo = folder / "point.toml";
   std::string first_line;
   std::ifstream in(echo);
@@ -83,6 +86,7 @@ void prepare(const fs::path& folder, const PointCase& point_case, const std::str
   if (error)
     throw results::OutputError(folder.string(), "cannot make the results folder: " + error.message(),
                                "choose another folder with -o");
+  // The point file itself goes into the folder, with defaults filled in.
   results::write_file(
       echo, fmt::format("{}\n# from {}\n{}", k_marker, fs::absolute(file).lexically_normal().string(),
                         to_toml(point_case.document)));
@@ -91,6 +95,7 @@ void prepare(const fs::path& folder, const PointCase& point_case, const std::str
 /// Returns a warning about properties whose data do not hold at the temperatures of the history; empty: there
 /// are none. Throws InputError for a table whose extrapolation is an error.
 std::string warning(const Curve& curve, const std::vector<MaterialPointRecord>& records) {
+  // The coldest and the hottest state of the history decide.
   const auto [coldest, hottest] = std::minmax_element(
       records.begin(), records.end(), [](const MaterialPointRecord& a, const MaterialPointRecord& b) {
         return a.temperature < b.temperature;
@@ -102,6 +107,7 @@ std::string warning(const Curve& curve, const std::vector<MaterialPointRecord>& 
                                                  hottest->temperature - k_rounding)) {
     const std::string text =
         fmt::format("{} ({} to {})", range.property, celsius(range.valid_from), celsius(range.valid_to));
+    // The table itself may forbid what lies outside of it.
     if (range.refused)
       throw InputError(
           {}, fmt::format("{}: outside the data of '{}': {} degC", curve.name, curve.material.name, text),
@@ -151,6 +157,7 @@ void write_curve(const Curve& curve, const point::History& history, const fs::pa
   // is written as far as it came.
   const std::string outside = warning(curve, history.records);
   results::write_file(folder / (curve.name + ".csv"), table(history.records));
+  // The summary has an entry for each curve, of the same numbers as the table.
   Json entry;
   entry.add("name", curve.name).add("label", curve.label).add("material", curve.material.name);
   entry.add("file", curve.name + ".csv").add("steps", history.records.size() - 1);
@@ -213,6 +220,7 @@ ExitCode run_point(const PointArguments& arguments) {
   const PointCase point_case = load_point_case(arguments, file);
   const fs::path folder = arguments.output.empty() ? results_root() / results::default_run_folder(file)
                                                    : fs::path(arguments.output);
+  // All are computed first, so that a mistake in one leaves no half folder.
   std::vector<point::History> histories;  // all of them before anything is written
   for (const Curve& curve : point_case.curves) histories.push_back(point::run(curve.material, curve.program));
   prepare(folder, point_case, file.string());

@@ -29,6 +29,7 @@ Json numbers(std::span<const double> values) {
 
 Json card(const material::Material& m) {
   Json out;
+  // Title and density at the head, in SI units with their names.
   out.add("title", m.title).add("density[kg/m3]", m.density);
   Json::Array properties, changes, sources;
   // Tables of all properties, phase changes, and where each property comes from.

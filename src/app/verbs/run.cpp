@@ -66,11 +66,13 @@ model::RunResult run_all(const RunArguments& arguments, const model::Case& c,
     displacement_error =
         model::displacement_error(c.spec.time, model::sections_of(c.spec, session.assembly().mesh));
   }
+  // The runs beside it differ in some keys alone; all else is as given on the command line.
   const auto load = [&](const std::vector<std::string>& overrides) {
     CaseArguments beside = arguments;
     beside.set.insert(beside.set.end(), overrides.begin(), overrides.end());
     return load_case(beside);
   };
+  // Their errors of the answers are printed below the summary.
   const model::ErrorRuns made =
       model::run_beside(c, std::move(*summary), displacement_error, options, load,
                         [](const std::string& text) { print("--sure: " + text + "\n"); });

@@ -28,6 +28,7 @@ const char* text(UncertainParameter::Group group) {
 
 Json json(const UncertainParameter& p) {
   Json::Array places;
+  // The keys to be set for a change of this parameter, with their present values.
   for (const UncertainParameter::Place& place : p.places) {
     Json at;
     at.add("key", place.key).add("value", place.value);
