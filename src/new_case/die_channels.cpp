@@ -100,9 +100,11 @@ std::vector<DieChannel> die_channels(const mesh::RawMesh& mesh, const std::strin
                                      const std::string& free, const std::vector<std::string>& shared) {
   constexpr double k_slender = 2;  // a channel is so many times as long as it is wide; a hollow is not
   constexpr double k_narrowest = 4e-3, k_widest = 25e-3;  // [m]
+  // Faces of the free skin of the die, in parts that bend no more than a curved surface does.
   const std::vector<SkinFace> skin = mesh::skin_of(mesh, die);
   const std::vector<const SkinFace*> faces = faces_in(mesh.groups.at(free), skin);
   const mesh::SmoothParts parts = mesh::smooth_parts(faces, mesh::k_smooth_bend, mesh.drawn_faces);
+  // Nodes at surfaces that the die shares with others: a hole that ends there is for a pin.
   const std::unordered_set<Index> at_others = nodes_of(mesh, shared);
   std::map<std::size_t, std::vector<const SkinFace*>> faces_of;
   for (std::size_t f = 0; f < faces.size(); ++f) faces_of[parts.of_face[f]].push_back(faces[f]);
@@ -114,6 +116,7 @@ std::vector<DieChannel> die_channels(const mesh::RawMesh& mesh, const std::strin
       return std::ranges::any_of(face->nodes, [&](Index node) { return at_others.contains(node); });
     });
     if (opens) continue;
+    // Axis, diameter and length as the faces of the part have them.
     DieChannel channel = bore(part, radius_of(*part.front(), mesh.drawn_faces));
     if (channel.diameter < k_narrowest || channel.diameter > k_widest ||
         channel.length < k_slender * channel.diameter)
@@ -121,6 +124,7 @@ std::vector<DieChannel> die_channels(const mesh::RawMesh& mesh, const std::strin
     channel.die = die;
     channels.push_back(channel);
   }
+  // The longest first, as the report names them in this order.
   std::ranges::stable_sort(channels, std::ranges::greater{}, &DieChannel::length);
   return channels;
 }

@@ -87,6 +87,7 @@ class Choice {
   }
 
   void choose_symmetry() {
+    // The plane lies in the middle of the part along the axis.
     const auto axis = static_cast<std::size_t>(options_.symmetry[0] - 'x');
     const double middle = 0.5 * (part_.low[axis] + part_.high[axis]);
     // The box is that of the facets of a coarse mesh, and so is the centre of its bodies: the CAD kernel has

@@ -81,6 +81,7 @@ class Refinement {
         time_of_direct_ways_(time_of_direct_ways) {}
 
   DraftEstimate refine() {
+    // Meshes, overlaps and messages of the many tries are kept from the user until the last one.
     mesh::KeptMesh kept;  // the case is built again and again, often with the same elements
     const OverlapListener listener(estimate_.overlap);
     const QuietLog quiet;
@@ -91,6 +92,7 @@ class Refinement {
       bool of_sizes = true;
       constexpr int k_most_tries = 6;
       for (int attempt = 0; attempt < k_most_tries; ++attempt) {
+        // Each try writes the case, checks it, and adapts the sizes to what the check has found.
         if (attempt == 0) find_skins();  // sizes do not change which skins there are
         write_draft(draft_);
         const Case c = load_case(draft_.folder / "case.toml", {}, Physics::heat);
@@ -98,6 +100,8 @@ class Refinement {
         write_draft(draft_);
         const bool sound = !kept.way() || kept.way()->quality >= mesh::k_sound_quality;
         if (good && (sound || !of_sizes)) break;
+        // Once the sizes are right, or the tries are used up, the best way of meshing is looked
+        // for.
         if (good || attempt + 2 == k_most_tries) {
           of_sizes = false;
           kept.be_content_with(mesh::k_sound_quality);
@@ -109,10 +113,12 @@ class Refinement {
         draft_.way = way->number + 1;
         write_draft(draft_);
       }
+      // A mesh that stayed poor is told in the report.
       if (const auto way = kept.way(); way && way->quality < mesh::k_sound_quality) {
         estimate_.least_quality = way->quality;
         estimate_.worst_element = way->worst;
       }
+      // The coupled case is built once too, so that its own mistakes are found here.
       if (draft_.coupled) check_run(load_case(draft_.folder / "case.toml", {}, Physics::thermomechanical));
     } catch (...) {
       std::error_code error;  // no case that does not run
@@ -162,6 +168,7 @@ class Refinement {
           draft_.cavity.push_back(die.name + "_to_" + body.name);
     find_heated_walls(mesh);
     find_channels(mesh);
+    // Free skins get films, and planes of symmetry supports.
     for (const DraftBody& body : draft_.bodies) {
       if (mesh.groups.contains(body.name + "_free")) draft_.films.push_back(body.name);
       if (is_poured(body.role) && mesh.groups.contains(body.name + "_symmetry"))
@@ -259,6 +266,7 @@ class Refinement {
     // The estimate errs long for a riser in a sleeve, and for a casting that others enclose.
     constexpr double k_outlives = 2;
     const double of_castings = longest_freezing(checked);
+    // Times and depths of all castings: the longest of either decides.
     std::vector<PouredTime> times;
     for (const results::PourOverview& pour : checked.overview.pours) {
       double own = pour.freezing_time.value_or(0), deep = pour.mould_reach;
@@ -268,6 +276,7 @@ class Refinement {
       time = std::max(time, own);
       reach = std::max(reach, deep);
     }
+    // Nodes and edges in metal, and of all.
     for (const results::BodyOverview& body : checked.overview.bodies) {
       estimate_.nodes += static_cast<double>(body.nodes);
       for (const DraftBody& draft : draft_.bodies)
@@ -280,10 +289,12 @@ class Refinement {
     // The estimate is of one dimension: the run ends when all is solid, well before this where it is right.
     constexpr double k_latest = 6, k_usual = 1.8, k_margin_of_shots = 2.5;
     estimate_.freezing = time;
+    // A step is a six-hundredth of the usual time to freeze, an output a twentieth.
     if (time > 0) {
       draft_.end = two_digits(std::max(k_latest * time, 1.0));
       draft_.step = two_digits(std::max(k_usual * time, 1.0) / 600);
       draft_.every = two_digits(std::max(k_usual * time, 1.0) / 20);
+      // Shots have their own times, from the process and the estimate.
       if (draft_.shots) {
         draft_.shots->solidify = two_digits(std::max(k_margin_of_shots * time, 1.0));
         draft_.shots->cooling = cooling_of_die(checked);
@@ -298,7 +309,9 @@ class Refinement {
       draft_.layers = std::move(layers);
       good = false;
     }
+    // Layers or sizes that change want another try.
     good = may_keep_sizes() && good;
+    // Walls of moulds reach twice as far as heat does, else they grow.
     constexpr double k_reaches = 2;
     if (draft_.mould && process_.walls > 0 && process_.mould == Role::mould)
       for (double& wall : draft_.mould->walls)

@@ -20,6 +20,7 @@ namespace {
 
 /// The alloy of the options, which are checked as far as no geometry is needed for it. Throws InputError.
 material::Material alloy_of(const NewCaseOptions& options, const CastingProcess& process) {
+  // Options that need no geometry are checked first, in the order in which they are documented.
   if (processes::count() > 1) throw InputError({}, "`solidus new` works on one process", "no mpirun");
   if (std::error_code error; !std::filesystem::exists(options.geometry, error))
     throw InputError({options.geometry.string()}, "there is no such file",
@@ -53,9 +54,11 @@ NewCaseReport make_new_case(const NewCaseOptions& options) {
   const material::Material alloy = alloy_of(options, process);
   const std::filesystem::path folder =
       options.folder.empty() ? std::filesystem::path(options.geometry.stem().string()) : options.folder;
+  // A case that is there is never overwritten.
   if (std::filesystem::exists(folder / "case.toml"))
     throw InputError({(folder / "case.toml").string()}, "there is a case already",
                      "another folder: -o FOLDER");
+  // What the part is, what is chosen for it, and what an estimate makes of that.
   const PartMeasures part = measure_part(options);
   Draft draft = choose_draft(options, process, alloy, part);
   draft.folder = folder;

@@ -126,6 +126,7 @@ std::string channels_text(const Draft& draft, const std::string& die) {
   std::set<std::string> widths;
   int number = 0;
   double speed = 0;
+  // Widths are collected as text, so that equal ones are named once.
   for (const DieChannel& c : draft.channels) {
     if (c.die != die) continue;
     widths.insert(fmt::format("{:.3g}", 1e3 * c.diameter));
@@ -151,6 +152,7 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
   std::string out = fmt::format("{}: {} at {:.0f} degC, process {}", draft.geometry.filename().string(),
                                 draft.alloy, draft.pouring, draft.process);
   if (part.file_unit) out += fmt::format("\n  unit        {}, as the file says", part.file_unit->name);
+  // Bodies with their size, as far as they are drawn.
   for (const DraftBody& body : draft.bodies) {
     out += fmt::format("\n  {:<10}  {} of {}, {:.0f} degC", name(body.role), body.name, body.material,
                        body.start);
@@ -160,6 +162,7 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
   out += fmt::format(
       "\n  walls       {:.3g} mm (a tenth is thinner) to {:.3g} mm (a tenth is thicker), V/A {:.3g} mm",
       1e3 * part.thickness_at(0.1), 1e3 * part.thickness_at(0.9), 1e3 * part.volume / part.area);
+  // Hot spots by the spheres that fit into them.
   for (const mesh::InscribedSphere& s : draft.hot_spots)
     out += fmt::format("\n  hot spot    a sphere of {:.3g} mm at ({:.4g}, {:.4g}, {:.4g}) mm", 2e3 * s.radius,
                        1e3 * s.centre[0], 1e3 * s.centre[1], 1e3 * s.centre[2]);
@@ -171,6 +174,7 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
   if (draft.symmetry)
     out += fmt::format("\n  symmetry    the half below {} = {:.4g} mm is computed",
                        "xyz"[draft.symmetry->axis], 1e3 * draft.symmetry->at);
+  // Mould, mesh and time to freeze, which an estimate has given.
   if (draft.mould) {
     const std::string open = draft.mould->walls[5] == 0 ? ", open at the top, where the metal ends" : "";
     out += draft.shell ? fmt::format("\n  {:<10}  {:.3g} mm thick, on all of the skin{}", draft.shell->name,
@@ -196,6 +200,7 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
                     draft.shots->cooling);
   for (const DraftBody& die : draft.bodies) out += channels_text(draft, die.name);
   out += overlap_text(estimate);
+  // Notes last, from overlaps to thin walls.
   for (const std::string& note : estimate.skin_notes) out += "\n  note        " + note;
   out += poor_mesh_text(estimate);
   out += twin_riser_text(draft);

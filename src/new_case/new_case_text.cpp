@@ -32,6 +32,7 @@ std::string quoted(const std::string& text) {
 std::string mesh_text(const Draft& d) {
   // Behind layers of sand elements that grow fast would take up too much heat.
   constexpr double k_growth_of_sand = 0.2, k_growth = 0.6;
+  // The file and its unit, and the way of meshing that was found best.
   std::string t = fmt::format("[mesh]\nfile = {}\n", quoted(d.geometry.filename().string()));
   if (!d.unit.empty()) t += fmt::format("unit = {}\n", quoted(d.unit));
   if (d.way > 0)
@@ -78,6 +79,7 @@ std::string mesh_text(const Draft& d) {
   if (d.symmetry)
     t += fmt::format("[mesh.symmetry]   # the half below this plane\naxis = \"{}\"\nat = {}\n\n",
                      "xyz"[d.symmetry->axis], mm(d.symmetry->at));
+  // Layers are there where heat goes less deep than the elements are long.
   if (!d.layers.empty())
     t += "# Thin elements on what is poured, as deep as heat goes until it is solid: sqrt(a t), by an "
          "estimate.\n";
@@ -112,6 +114,7 @@ std::string time_text(const Draft& d) {
     if (duration < d.step) t += fmt::format("step = \"{:g} s\"\n", duration);
     t += "\n";
   };
+  // The stages of a shot, in their order, with the durations of the process.
   stage("pour", s.pour, "the die is full at once: the flow of the metal is not computed");
   stage("solidify", s.solidify,
         "2.5 times an estimate, which knows of no gaps and of a die that is still cold");
@@ -248,6 +251,7 @@ std::string case_text(const Draft& d) {
       "# Made by `solidus new`. Change what you know better; `solidus check` reads it.\n"
       "title = {}\n\n",
       quoted(d.geometry.stem().string() + " of " + d.alloy + ", " + d.process));
+  // Kind and physics, and gravity for what deforms.
   t += "[analysis]\nkind = \"solid\"\n";
   t += d.coupled ? "physics = \"thermomechanical\"   # `solidus run --heat-only` computes heat alone\n"
                  : "physics = \"heat\"   # the alloy has no elastic properties\n";
@@ -255,6 +259,7 @@ std::string case_text(const Draft& d) {
   t += mesh_text(d);
   t += channel_groups_text(d);
   t += time_text(d);
+  // Each body, then what joins them, then what cools them.
   for (const DraftBody& b : d.bodies) t += body_text(b, d.shots.has_value());
   t += interface_text(d);
   for (const std::string& body : d.films) t += film_text(d, body);

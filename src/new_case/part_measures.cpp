@@ -36,8 +36,10 @@ PartMeasures measure_part(const NewCaseOptions& options) {
   PartMeasures m;
   const std::string path = options.geometry.string();
   mesh::check_readable(path);
+  // A unit of the user goes before that of the file.
   mesh::MeshSource source{path, mesh::metres_of_unit(path, options.unit, "mm", {"--unit"})};
   m.file_unit = mesh::unit_of_file(path);
+  // Solids are meshed coarsely, meshes are taken as they are, and skins are filled.
   const mesh::FileHolds holds = mesh::file_format(source.path).holds;
   const bool solids = holds == mesh::FileHolds::shapes, meshed = !solids && holds != mesh::FileHolds::skin;
   refuse_cuts(options, solids);
