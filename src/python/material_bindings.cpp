@@ -130,10 +130,12 @@ py::dict update(const Shared& m, const Array& strain, const Array& temperature, 
   require_mechanics(*m);
   const Viscoplastic law(*m);
   const py::ssize_t n = strain.shape(0);
+  // Flat arrays with one part a point, which become arrays of Python without a copy.
   const auto size = static_cast<std::size_t>(n);
   std::vector<double> stress(6 * size), state(k_state * size), tangent(with_tangent ? 36 * size : 0),
       dissipation(size), flow(size), fraction(size);
   std::vector<double> converged(size);
+  // Other threads of Python may go on, since nothing here touches its objects.
   {
     const py::gil_scoped_release others_may_work;
     for (std::size_t i = 0; i < size; ++i) {
@@ -166,6 +168,7 @@ py::dict update(const Shared& m, const Array& strain, const Array& temperature, 
 
 /// Bulk and shear modulus, thermal strain, solid fraction, flow stress at temperatures.
 py::dict moduli(const Shared& m, const Array& temperature, double reference) {
+  // Only what has elastic properties has these.
   require_mechanics(*m);
   const Viscoplastic law(*m);
   py::dict result;
@@ -246,6 +249,7 @@ void bind_materials(py::module_& core) {
         const material::EnthalpyCurve curve = m.enthalpy();
         return each(h, [&](double value) { return curve.temperature(value); });
       });
+  // Functions of the library, and the law of many points at once.
   core.def("find_material", &find);
   core.def("material_names", [] { return material::material_names(model::material_folders()); });
   core.def("update", &update);

@@ -81,6 +81,7 @@ void translate(std::exception_ptr thrown) {
   } catch (const StepRejected& error) {
     raise("RunStopped", nullptr, error.what());
   } catch (const linear::Interrupted& error) {
+    // Python's own exception, such as that of Ctrl-C, goes before the program's.
     try {
       raise_if_interrupted(error.what());
     } catch (py::error_already_set& exception) {
@@ -131,6 +132,7 @@ py::array_t<double> array_of(std::vector<double> values, std::vector<py::ssize_t
 PYBIND11_MODULE(_core, core) {
   using namespace solidus::python;
   core.doc() = "The compiled part of solidus_casting. Use the package's own functions and classes.";
+  // The package has the version of the program that it was built with.
   solidus::set_program_version(solidus::app::built_version());
   core.attr("version") = solidus::app::built_version();
   core.def("initialize", &initialize, py::arg("communicator") = py::none(),

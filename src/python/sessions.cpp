@@ -74,6 +74,7 @@ class Driver {
   Driver(const std::string& path, const std::vector<std::string>& assignments,
          std::optional<std::string> physics, const std::string& folder, bool restart, bool trust_script,
          bool trust_laws) {
+    // Heat alone is a change of the case as it is read, and as that of the command line.
     std::optional<model::Physics> wanted;
     if (physics) wanted = *physics == "heat" ? model::Physics::heat : model::Physics::thermomechanical;
     model::Case c = model::load_case(path, assignments, wanted);
@@ -82,6 +83,7 @@ class Driver {
     model::RunOptions options;
     options.folder = folder;
     options.restart = restart;
+    // A signal of Python stops the run between steps.
     options.stop_asked = interrupted;
     const py::gil_scoped_release others_may_work;
     session_ = std::make_unique<model::Session>(std::move(c), std::move(options));
@@ -121,6 +123,7 @@ class Driver {
   /// nodes.
   py::dict mesh() {
     bring_up_to_date(false);
+    // Coordinates in one flat list, three a node.
     const mesh::Mesh& m = session_->assembly().mesh;
     std::vector<double> points;
     points.reserve(3 * m.x.size());
@@ -135,6 +138,7 @@ class Driver {
       body.push_back(block.body);
       element.push_back(block.input_element[static_cast<std::size_t>(e)]);
     });
+    // Numbers of nodes and cells are those of the input, so that scripts can compare runs.
     py::dict d;
     d["points"] = array_of(std::move(points), {static_cast<py::ssize_t>(m.x.size()), 3});
     d["connectivity"] = py::array_t<std::int64_t>(py::cast(connectivity));
@@ -160,6 +164,7 @@ class Driver {
   py::array_t<double> field(const std::string& name) {
     const results::Field* found = state_fields().bodies().find(name);
     if (found == nullptr) throw py::key_error(name);
+    // A criterion has no value for a step that may still be taken back.
     if (is_criterion(name) && pending())
       throw InputError({},
                        "'" + name + "' is a criterion, which follows committed steps, and a step is pending",
@@ -167,6 +172,7 @@ class Driver {
     bring_up_to_date(is_criterion(name));
     std::vector<double> storage;
     const std::span<const double> values = found->read(storage);
+    // Vectors of the plane get a third component, as the readers of such arrays expect.
     const auto nc = static_cast<std::size_t>(found->components);
     const std::size_t padded = nc == 2 ? 3 : nc;
     std::vector<double> taken;

@@ -39,6 +39,7 @@ std::size_t end_of_number(const std::string& text, std::size_t begin) {
     while (end < text.size() && (is_digit(text[end]) || text[end] == '.')) ++end;
   };
   digits();
+  // An exponent belongs to the number only where digits follow.
   if (end < text.size() && text[end] == 'e') {
     const std::size_t sign = end + 1 < text.size() && (text[end + 1] == '-' || text[end + 1] == '+') ? 1 : 0;
     if (end + 1 + sign < text.size() && is_digit(text[end + 1 + sign])) {
@@ -54,6 +55,7 @@ Text read(const std::string& text) {
   // is the form.
   Text out;
   for (std::size_t i = 0; i < text.size();) {
+    // A name stands between two quotes; a quote without an end is text.
     if (text[i] == '\'') {
       if (const std::size_t end = end_of_name(text, i); end != std::string::npos) {
         out.names.push_back(text.substr(i, end + 1 - i));
@@ -98,6 +100,7 @@ std::vector<std::string> told_once(const std::vector<std::string>& texts) {
     const std::string other = fmt::format("{}", fmt::join(different, " with "));
     if (std::ranges::find(kind->others, other) == kind->others.end()) kind->others.push_back(other);
   }
+  // Each kind with its first text, and the names of the others behind.
   std::vector<std::string> told;
   for (const Kind& k : kinds)
     told.push_back(k.others.empty() ? k.text

@@ -44,6 +44,7 @@ void run_collectively(const std::function<void()>& work, const ThrowInputError& 
   const int failing = processes::least(caught.error ? processes::rank() : processes::count());
   if (failing == processes::count()) return;
 
+  // The lowest process that failed gives the kind and the words of the failure.
   int kind = caught.kind;
   processes::broadcast(std::span(&kind, 1), failing);
   std::string message = caught.message;

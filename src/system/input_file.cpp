@@ -15,6 +15,7 @@ void require_readable(const std::filesystem::path& file, const SourceLocation& w
   // large, or not permitted.
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
+  // Messages that name the file already say `this` in its place.
   const std::string name = where.file == file.string() ? "this" : "'" + file.string() + "'";
   if (!std::filesystem::exists(status))
     throw InputError(
@@ -23,6 +24,7 @@ void require_readable(const std::filesystem::path& file, const SourceLocation& w
   if (!std::filesystem::is_regular_file(status))
     throw InputError(where, name + " is no regular file but a device, a pipe or a socket",
                      "a file on a disk: what a device or a pipe gives may never end");
+  // Size before rights: reading a huge file would end in the same message too late.
   const auto size = static_cast<double>(std::filesystem::file_size(file, error));
   if (size > most)
     throw InputError(where, fmt::format("{} has {:.0f} MB", name == "this" ? "the file" : name, size / 1e6),

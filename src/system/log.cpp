@@ -67,6 +67,7 @@ void message(Level level, std::string_view text) {
     if (std::find(log.warnings.begin(), log.warnings.end(), text) != log.warnings.end()) return;
     log.warnings.emplace_back(text);
   }
+  // Below the level nothing is printed; a warning has been collected all the same.
   if (level < log.level || !first_process()) return;
   if (log.sink) {
     log.sink(level, text);

@@ -92,6 +92,7 @@ double total() {
 std::string text() {
   auto all = rows();
   const double whole = total();
+  // Equal times keep the order in which the parts began.
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   std::string lines;
   double rest = 0;

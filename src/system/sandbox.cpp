@@ -87,6 +87,7 @@ std::vector<sock_filter> filter_program() {
   program.push_back(load(offsetof(seccomp_data, arch)));
   program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, k_architecture, 1, 0));
   program.push_back(answer(k_refuse));  // the calls of another architecture have other numbers
+  // From here on the number of the call decides.
   program.push_back(load(offsetof(seccomp_data, nr)));
 #if defined(__x86_64__)
   constexpr std::uint32_t k_x32 = 0x40000000;
