@@ -67,6 +67,11 @@ class Page(unittest.TestCase):
             self.assertIn(number, found)
             self.assertTrue(any(path.startswith("src/") for path, _ in found[number]), number)
 
+    def test_laws_of_the_interface_are_found_by_their_equations(self):
+        found = equations.places()
+        for number, law in (("3.47", "spots_contact"), ("3.48", "spots_contact"), ("3.49", "power_contact")):
+            self.assertIn(f"src/contact/laws/{law}.hpp", {path for path, _ in found[number]}, number)
+
 
 if __name__ == "__main__":
     unittest.main()
