@@ -73,10 +73,9 @@ NearbyCase longer_steps(const CaseSpec& spec, double displacement_error) {
       made.overrides.push_back(fmt::format("time.solid_fraction_change={}",
                                            std::min(1.0, k_steps * t.solid_fraction_change.value_or(0.1))));
     }
-    if (spec.has_heat() && spec.has_mechanics())
-      made.overrides.push_back(
-          fmt::format("time.skin_change={}",
-                      std::min(1.0, k_steps * t.skin_change.value_or(coupling::StepLimits{}.skin))));
+    // A share of the skin that is not given follows the error of the displacement.
+    if (t.skin_change)
+      made.overrides.push_back(fmt::format("time.skin_change={}", std::min(1.0, k_steps * *t.skin_change)));
     if (spec.has_mechanics()) {
       made.overrides.push_back(fmt::format("time.displacement_error={} m", k_errors * displacement_error));
       made.overrides.push_back(

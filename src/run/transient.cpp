@@ -44,10 +44,12 @@ coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
   std::optional<coupling::ErrorEstimate> estimate;
   if (!spec.time.steady) {
     coupling::BodyNorm norm(a.mesh, spec.analysis.kind);
-    const double error = displacement_error(spec.time, sections_of(spec, a.mesh));
+    const std::vector<double> sections = sections_of(spec, a.mesh);
+    const double error = displacement_error(spec.time, sections);
     const bool cast = !cast_bodies(spec, a.materials, a.start).empty();
     const auto limit = [&](coupling::StepLimits& limits) {
       limits.displacement = error;
+      limits.skin = skin_change(spec.time, sections);
       limits.inertia = spec.dynamics.has_value();
       limits.last_melt = spec.has_mechanics() && cast;
       // A gap is between two displacements.

@@ -66,6 +66,16 @@ void check_number_of_steps(const TimeSpec& t, double steps) {
     throw InputError(t.where, fmt::format("{:.3g} steps would be needed", steps), "at most 1e8");
 }
 
+/// The error of the displacement that a step may commit where the case does not say it [m].
+double default_displacement_error(std::span<const double> sections) {
+  // A casting shrinks by 1e-2: across a wall, of four sections, by a hundred times this.
+  constexpr double k_share_of_section = 3e-4;
+  double thinnest = std::numeric_limits<double>::max();  // of heat alone
+  for (const double section : sections)
+    if (section > 0) thinnest = std::min(thinnest, section);
+  return k_share_of_section * thinnest;
+}
+
 coupling::StepOptions step_options(const TimeSpec& t, double step) {
   coupling::StepOptions options;
   // A limit that the case does not give has the default of the documentation.
@@ -80,7 +90,7 @@ coupling::StepOptions step_options(const TimeSpec& t, double step) {
   options.limits.temperature = t.temperature_error.value_or(1.0);
   options.limits.stress = t.stress_error.value_or(0.005);
   options.limits.solid_fraction = t.solid_fraction_change.value_or(0.1);
-  options.limits.skin = t.skin_change.value_or(coupling::StepLimits{}.skin);
+  options.limits.skin = skin_change(t, {});
   return options;
 }
 
@@ -123,12 +133,18 @@ void check_time(const CaseSpec& spec) {
 }
 
 double displacement_error(const TimeSpec& t, std::span<const double> sections) {
-  // A casting shrinks by 1e-2: across a wall, of four sections, by a hundred times this.
-  constexpr double k_share_of_section = 3e-4;
-  double thinnest = std::numeric_limits<double>::max();  // of heat alone
-  for (const double section : sections)
-    if (section > 0) thinnest = std::min(thinnest, section);
-  return t.displacement_error.value_or(k_share_of_section * thinnest);
+  return t.displacement_error ? *t.displacement_error : default_displacement_error(sections);
+}
+
+double skin_change(const TimeSpec& t, std::span<const double> sections) {
+  constexpr double k_least = 1e-3, k_most = 0.5;
+  if (t.skin_change) return *t.skin_change;
+  const double standard = coupling::StepLimits{}.skin;
+  const bool deforms = std::ranges::any_of(sections, [](double section) { return section > 0; });
+  if (!t.displacement_error || !deforms) return standard;
+  // Four times the error is twice the step, and the share of a skin goes with the step.
+  const double ratio = *t.displacement_error / default_displacement_error(sections);
+  return std::clamp(standard * std::sqrt(ratio), k_least, k_most);
 }
 
 coupling::TimeOptions time_options(const CaseSpec& spec) {

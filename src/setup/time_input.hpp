@@ -19,4 +19,9 @@ coupling::TimeOptions time_options(const CaseSpec& spec);
 /// @param sections  of the bodies that deform (sections_of), [body] [m]
 double displacement_error(const TimeSpec& t, std::span<const double> sections);
 
+/// The share of a skin in contact that may become coherent in a step [1]: the one given, else
+/// StepLimits::skin times the root of the displacement error asked for over the default one, 0.001 to 0.5.
+/// @param sections  as above; empty: not known, so that the displacement error does not count
+double skin_change(const TimeSpec& t, std::span<const double> sections);
+
 }  // namespace solidus::model

@@ -85,5 +85,18 @@ TEST(TimeKeys, WhatIsNotGivenHasItsDefault) {
                    3e-6);
 }
 
+TEST(TimeKeys, TheShareOfASkinFollowsTheErrorOfTheDisplacement) {
+  const std::vector<double> sections{0.1};  // a default of 30 micrometres
+  const auto share = [&](const std::string& keys) {
+    return skin_change(spec("adaptive = true\n" + keys).time, sections);
+  };
+  EXPECT_DOUBLE_EQ(share(""), 0.04);
+  EXPECT_DOUBLE_EQ(share("temperature_error = \"9 K\""), 0.04);
+  EXPECT_DOUBLE_EQ(share("displacement_error = \"120 um\""), 0.08);
+  EXPECT_DOUBLE_EQ(share("displacement_error = \"7.5 um\""), 0.02);
+  EXPECT_DOUBLE_EQ(share("displacement_error = \"1 m\""), 0.5);
+  EXPECT_DOUBLE_EQ(share("displacement_error = \"120 um\"\nskin_change = 0.03"), 0.03);
+}
+
 }  // namespace
 }  // namespace solidus::model
