@@ -34,7 +34,7 @@ std::vector<DraftLayers> choose_layers(const Draft& draft, const std::vector<Hea
   // take.
   constexpr double k_number = 7, k_growth = 1.2, k_depth = 1.4, k_most = 20;
   constexpr double k_of_body = 0.7;  // of a thin body's volume over its heated skin
-  // Heat is through a shell at once, and its temperature nearly linear: few layers, with room behind them.
+  // Heat is through a thin shell at once, and its temperature nearly linear: few layers, with room behind.
   constexpr double k_number_in_shell = 4, k_of_shell = 0.6;
   const double finer = std::max(1.0, fineness);
   std::vector<DraftLayers> layers;
@@ -46,16 +46,17 @@ std::vector<DraftLayers> choose_layers(const Draft& draft, const std::vector<Hea
     one.name = wall.body + "_on_" + wall.poured;
     one.surface = wall.surface;
     one.body = body->group;
-    const bool in_shell = draft.shell && wall.body == draft.shell->name;
-    const double number = in_shell ? k_number_in_shell : k_number;
-    one.number = static_cast<int>(std::lround(std::min(k_most, number * finer)));
-    one.growth = std::round(1e3 * std::pow(k_growth, 1 / finer)) / 1e3;
     double heated = 0;
     for (const HeatedWall& other : walls)
       if (other.body == wall.body) heated += other.area;
     double depth = k_depth * std::sqrt(diffusivity(*body, time->solidus) * time->freezing);
     if (heated > 0) depth = std::min(depth, k_of_body * wall.volume / heated);
-    if (in_shell) depth = std::min(depth, k_of_shell * draft.shell->thickness);
+    const bool in_shell =
+        draft.shell && wall.body == draft.shell->name && k_of_shell * draft.shell->thickness < depth;
+    if (in_shell) depth = k_of_shell * draft.shell->thickness;
+    one.number =
+        static_cast<int>(std::lround(std::min(k_most, (in_shell ? k_number_in_shell : k_number) * finer)));
+    one.growth = std::round(1e3 * std::pow(k_growth, 1 / finer)) / 1e3;
     one.first = two_digits(depth * (one.growth - 1) / (std::pow(one.growth, one.number) - 1));
   }
   return layers;
