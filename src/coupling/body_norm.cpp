@@ -1,5 +1,3 @@
-/// Weights of nodes are shares of the volume of their body, so that a norm does not depend on the mesh.
-/// Distortion takes the best rigid motion of each body off first.
 #include "coupling/body_norm.hpp"
 
 #include <algorithm>
@@ -14,12 +12,10 @@
 
 namespace solidus::coupling {
 
-namespace {
-
 using mesh::Point;
 
 /// Sums over nodes of the weight w, the place x and the displacement u.
-struct Moments {
+struct BodyNorm::Moments {
   static constexpr int k_size = 17;
   double weight = 0, square = 0;            ///< Σ w, Σ w |u|²
   Point place{}, displacement{}, moment{};  ///< Σ w x, Σ w u, Σ w x × u
@@ -41,33 +37,37 @@ struct Moments {
   /// Σ w |u − t − θ × (x − c)|² at the t and θ that make it least: what they explain is |Σ w u|² / Σ w and
   /// mᵀ I⁻¹ m, with moment m and inertia I about the centre c of the nodes.
   double distortion(AnalysisKind kind) const;
+  /// These t and θ themselves.
+  struct Rigid {
+    Point centre{}, translation{}, rotation{};
+    Point at(const Point& x) const;
+  };
+  Rigid rigid(AnalysisKind kind) const;
+
+ private:
+  /// I = L D Lᵀ without the directions in which nothing turns (D = 0), and y of L y = m.
+  struct Turning {
+    std::array<Point, 3> l{};
+    Point d{}, y{};
+  };
+  Turning turning(AnalysisKind kind) const;
 };
 
-double Moments::distortion(AnalysisKind kind) const {
-  if (weight <= 0) return square;
-  // What a rigid translation explains of the mean square is the square of the mean.
-  const auto explained_by = [&](std::size_t i) { return displacement[i] * displacement[i] / weight; };
-  // A ring that widens does not move.
-  if (kind == AnalysisKind::axisymmetric) return std::max(square - explained_by(1), 0.0);
-  // Of three axes translation and rotation are taken off; the moment m and the inertia count from
-  // the centre of the nodes that take part.
-  double rest = square;
+BodyNorm::Moments::Turning BodyNorm::Moments::turning(AnalysisKind kind) const {
+  Turning of;
   Point m{};
   std::array<Point, 3> inertia{};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    rest -= explained_by(i);
     m[i] = moment[i] - (place[j] * displacement[k] - place[k] * displacement[j]) / weight;
     inertia[i][i] = second[0][j] + second[0][k] - (place[j] * place[j] + place[k] * place[k]) / weight;
     inertia[j][k] = inertia[k][j] = place[j] * place[k] / weight - second[1][i];
   }
-  // I = L D Lᵀ: mᵀ I⁻¹ m = Σ y_i² / D_i with L y = m. Nodes on a line do not turn about it, and a node alone
-  // does not turn: what is left of its inertia is rounding of the second moments.
+  // Nodes on a line do not turn about it, and a node alone does not turn: what is left of its inertia is
+  // rounding of the second moments.
   constexpr double k_singular = 1e-9;
   const double least = k_singular * (second[0][0] + second[0][1] + second[0][2]);
-  std::array<Point, 3> l{};
-  // In plane strain the one rotation is about z.
-  Point d{}, y{};
+  auto& [l, d, y] = of;
   for (std::size_t i = kind == AnalysisKind::plane_strain ? 2 : 0; i < 3; ++i) {
     d[i] = inertia[i][i];
     y[i] = m[i];
@@ -79,15 +79,51 @@ double Moments::distortion(AnalysisKind kind) const {
       d[i] -= l[i][j] * l[i][j] * d[j];
       y[i] -= l[i][j] * y[j];
     }
-    if (d[i] > least)
-      rest -= y[i] * y[i] / d[i];
-    else
-      d[i] = 0;
+    if (!(d[i] > least)) d[i] = 0;
   }
+  return of;
+}
+
+double BodyNorm::Moments::distortion(AnalysisKind kind) const {
+  if (weight <= 0) return square;
+  const auto explained_by = [&](std::size_t i) { return displacement[i] * displacement[i] / weight; };
+  // A ring that widens does not move.
+  if (kind == AnalysisKind::axisymmetric) return std::max(square - explained_by(1), 0.0);
+  const Turning turns = turning(kind);
+  double rest = square;
+  for (std::size_t i = 0; i < 3; ++i) rest -= explained_by(i);
+  // mᵀ I⁻¹ m = Σ y_i² / D_i.
+  for (std::size_t i = 0; i < 3; ++i)
+    if (turns.d[i] > 0) rest -= turns.y[i] * turns.y[i] / turns.d[i];
   return std::isnan(rest) ? rest : std::max(rest, 0.0);
 }
 
-}  // namespace
+BodyNorm::Moments::Rigid BodyNorm::Moments::rigid(AnalysisKind kind) const {
+  Rigid motion;
+  if (weight <= 0) return motion;
+  for (std::size_t i = 0; i < 3; ++i) {
+    motion.centre[i] = place[i] / weight;
+    if (kind != AnalysisKind::axisymmetric || i == 1) motion.translation[i] = displacement[i] / weight;
+  }
+  if (kind == AnalysisKind::axisymmetric) return motion;
+  // I θ = m from the last to the first: Lᵀ θ = D⁻¹ y.
+  const Turning turns = turning(kind);
+  for (std::size_t i = 3; i-- > 0;) {
+    if (turns.d[i] <= 0) continue;
+    motion.rotation[i] = turns.y[i] / turns.d[i];
+    for (std::size_t j = i + 1; j < 3; ++j) motion.rotation[i] -= turns.l[j][i] * motion.rotation[j];
+  }
+  return motion;
+}
+
+Point BodyNorm::Moments::Rigid::at(const Point& x) const {
+  Point u = translation;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    u[i] += rotation[j] * (x[k] - centre[k]) - rotation[k] * (x[j] - centre[j]);
+  }
+  return u;
+}
 
 BodyNorm::BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind)
     : mesh_(&mesh),
@@ -110,14 +146,12 @@ BodyNorm::BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind)
               nodal[static_cast<std::size_t>(e / k_lanes) * n_nodes + a][static_cast<int>(e % k_lanes)];
       }
   }
-  // Weights become shares of the body, so that sums over nodes are means over its volume.
   for (std::size_t b = 0; b < n_bodies_; ++b) {
     const double volume = parallel::global_sum(std::accumulate(weight[b].begin(), weight[b].end(), 0.0));
     for (std::size_t i = 0; i < n_owned; ++i)
       if (weight[b][i] > 0)
         shares_.push_back({static_cast<Index>(i), static_cast<int>(b), weight[b][i] / volume});
   }
-  // The centre of each body, summed over processes like the volumes.
   for (const Share& share : shares_)
     for (std::size_t k = 0; k < 3; ++k)
       centre_[static_cast<std::size_t>(share.body)][k] +=
@@ -149,25 +183,51 @@ double BodyNorm::largest(const std::vector<double>& squares) const {
   return std::sqrt(largest);
 }
 
-double BodyNorm::of_distortion(std::span<const double> displacement, std::span<const char> counts) const {
+template <class Take>
+void BodyNorm::each_displaced(std::span<const double> displacement, std::span<const char> counts,
+                              const Take& take) const {
   const auto width = static_cast<std::size_t>(displacement_components(kind_));
-  std::vector<Moments> moments(n_bodies_);
   // Places count from the centre of the body, which keeps the moments well conditioned.
   for (const Share& share : shares_) {
     const auto node = static_cast<std::size_t>(share.node), body = static_cast<std::size_t>(share.body);
-    // Nodes that do not count leave the fit to the others.
     if (displacement.empty() || (!counts.empty() && counts[node] == 0)) continue;
     Point u{}, x = mesh_->x[node];
     for (std::size_t k = 0; k < width; ++k) u[k] = displacement[node * width + k];
     for (std::size_t k = 0; k < 3; ++k) x[k] -= centre_[body][k];
-    moments[body].add(share.weight, x, u);
+    take(share, x, u);
   }
-  // Moments are plain numbers, so they are summed over processes as one array.
+}
+
+std::vector<BodyNorm::Moments> BodyNorm::moments(std::span<const double> displacement,
+                                                 std::span<const char> counts) const {
+  std::vector<Moments> moments(n_bodies_);
+  each_displaced(displacement, counts, [&](const Share& share, const Point& x, const Point& u) {
+    moments[static_cast<std::size_t>(share.body)].add(share.weight, x, u);
+  });
   static_assert(sizeof(Moments) == Moments::k_size * sizeof(double));
   processes::sum(std::span(reinterpret_cast<double*>(moments.data()), Moments::k_size * n_bodies_));
+  return moments;
+}
+
+double BodyNorm::of_distortion(std::span<const double> displacement, std::span<const char> counts) const {
   std::vector<double> square;
-  for (const Moments& of_body : moments) square.push_back(of_body.distortion(kind_));
+  for (const Moments& of_body : moments(displacement, counts)) square.push_back(of_body.distortion(kind_));
   return largest(square);
+}
+
+double BodyNorm::farthest_distortion(std::span<const double> displacement,
+                                     std::span<const char> counts) const {
+  std::vector<Moments::Rigid> rigid;
+  for (const Moments& of_body : moments(displacement, counts)) rigid.push_back(of_body.rigid(kind_));
+  // The distance of each node from where the rigid motion of its body would have it.
+  double farthest = 0;
+  each_displaced(displacement, counts, [&](const Share& share, const Point& x, const Point& u) {
+    const Point moved = rigid[static_cast<std::size_t>(share.body)].at(x);
+    const double distance = std::hypot(u[0] - moved[0], u[1] - moved[1], u[2] - moved[2]);
+    // A distance that is not a number stays.
+    if (!std::isnan(farthest) && !(distance <= farthest)) farthest = distance;
+  });
+  return parallel::global_max(farthest);
 }
 
 double BodyNorm::mean(std::span<const double> values) const {

@@ -27,6 +27,9 @@ class BodyNorm {
   /// the analysis is axisymmetric. Fitted to the nodes that count. Collective.
   /// @param displacement [local node][component] [m]
   double of_distortion(std::span<const double> displacement, std::span<const char> counts) const;
+  /// What is left at the node that lies farthest from there [m]; a value that is not a number stays one.
+  /// Collective.
+  double farthest_distortion(std::span<const double> displacement, std::span<const char> counts) const;
   /// max_b |Σ_i w_ib v_i| / Σ_i w_ib of values with one component: how far the mean of a body is off. As
   /// above.
   double mean(std::span<const double> values) const;
@@ -37,6 +40,13 @@ class BodyNorm {
     int body;
     double weight;  ///< share of the body's volume
   };
+  struct Moments;  ///< of the displacement of a body
+  std::vector<Moments> moments(std::span<const double> displacement, std::span<const char> counts) const;
+  /// Calls `take` with each share of a node that counts, its place from the centre of the body and its
+  /// displacement.
+  template <class Take>
+  void each_displaced(std::span<const double> displacement, std::span<const char> counts,
+                      const Take& take) const;
   double largest(const std::vector<double>& squares) const;
 
   const mesh::Mesh* mesh_;

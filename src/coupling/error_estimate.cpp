@@ -47,7 +47,10 @@ std::vector<double> ErrorEstimate::coherency(const State& state) const {
 
 double ErrorEstimate::size_of_displacement(std::span<const double> error,
                                            std::span<const char> counts) const {
-  return displacement_ == Displacement::motion ? norm_(error, counts) : norm_.of_distortion(error, counts);
+  if (displacement_ == Displacement::motion) return norm_(error, counts);
+  // The largest distortion of a casting is that of one node, which may move by as much as all others together
+  // while the last melt freezes beside it.
+  return counts.empty() ? norm_.of_distortion(error, counts) : norm_.farthest_distortion(error, counts);
 }
 
 bool ErrorEstimate::measures(const heat::StageFlows& flows) const {

@@ -28,6 +28,10 @@
 /// leaves no stress in what it becomes (docs/theory/melt.md). Its volume counts in the mean, with an error of
 /// zero.
 ///
+/// Where something melts and nothing has inertia, the node counts whose displacement is farthest off, not the
+/// root mean square over the body: the largest distortion and the widest gap are those of one node (decision
+/// 0075).
+///
 /// Where nothing has inertia only the distortion of a body counts, not where the body lies: a casting that
 /// has come off its walls is held by hardly anything, and stress, which is what a step has to resolve, knows
 /// nothing of a rigid motion. What it does to gaps shows in the temperatures.

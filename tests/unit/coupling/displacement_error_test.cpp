@@ -98,6 +98,24 @@ TEST(BodyNorm, OfADistortionTakesRigidMotionsAway) {
     EXPECT_LT(in_space.of_distortion(space, alone_counts(block, i)), 1e-6) << i;
 }
 
+TEST(BodyNorm, TheFarthestDistortionIsThatOfOneNode) {
+  // A bar moves as a rigid body, but for one node.
+  const mesh::Mesh block = test::make_mesh(
+      {.shape = mesh::Shape::tet4, .cells = {16, 3, 2}, .size = {2, 1, 1}, .distortion = 0.1});
+  const coupling::BodyNorm norm(block, AnalysisKind::solid);
+  std::vector<double> u;
+  std::vector<char> counts;
+  for (std::size_t i = 0; i < block.x.size(); ++i) {
+    const mesh::Point& x = block.x[i];
+    const double more = block.global_node[i] == 7 ? 0.01 : 0;
+    u.insert(u.end(), {3 - 2 * x[1] + 5 * x[2] + more, -1 + 2 * x[0] - 4 * x[2], 7 - 5 * x[0] + 4 * x[1]});
+    counts.push_back(more > 0 ? 0 : 1);
+  }
+  EXPECT_NEAR(norm.farthest_distortion(u, {}), 0.01, 5e-4);
+  EXPECT_LT(norm.of_distortion(u, {}), 2e-3);
+  EXPECT_LT(norm.farthest_distortion(u, counts), 1e-12);
+}
+
 TEST(SkinOpening, IsTheWidestGapOfAPointThatLetsGoOfItsWallInTheStep) {
   const mesh::Mesh mesh = test::make_mesh({.shape = mesh::Shape::quad4, .cells = {1, 1, 1}});
   const coupling::ErrorEstimate estimate(coupling::BodyNorm(mesh, AnalysisKind::plane_strain));
