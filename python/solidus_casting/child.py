@@ -49,7 +49,7 @@ class Progress:
         return None if not self.end else min(1.0, self.time / self.end)
 
 
-def run(case: Case | str | Path, output: str | Path | None = None, *, restart: bool = False, processes: int = 1,
+def run(case: Case | str | Path, output: str | Path | None = None, *, restart: bool = False, processes: int | None = None,
         physics: str | None = None, progress: Callable[[Progress], Any] | None = None, sure: bool = False,
         stop: threading.Event | None = None, options: tuple[str, ...] | list[str] = (), in_process: bool = False) -> Any:
     """Runs a case and returns its :class:`Results`: with the program ``solidus`` as a child process, or in this one.
@@ -64,7 +64,7 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
     restart:
         Go on from the checkpoint in that folder.
     processes:
-        More than one: under ``mpirun``.
+        ``None``: as many as pay for the case and find a core that is free, as ``solidus run`` takes.
     physics:
         ``"heat"`` or ``"thermomechanical"``, in place of what the case says.
     progress:
@@ -76,8 +76,8 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
     options:
         Options of PETSc.
     in_process:
-        Run in this process, by :class:`Simulation`; `output` is needed then, and `processes` and `options` go to
-        :func:`initialize` and ``mpirun``.
+        Run in this process, by :class:`Simulation`; `output` is needed then, `options` go to :func:`initialize`, and several
+        processes are started by ``mpirun``.
 
     Raises
     ------
@@ -95,7 +95,7 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
     if in_process:
         from .simulation import Simulation
 
-        if output is None or processes != 1 or options or sure or stop is not None:
+        if output is None or processes not in (None, 1) or options or sure or stop is not None:
             raise ValueError("a run in this process needs a folder for its results, has the processes and options of "
                              "solidus_casting.initialize(), and knows neither sure nor stop")
         with Simulation(case, output, restart=restart, physics=physics) as simulation:
@@ -109,17 +109,18 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
         command += ["-o", str(Path(output).absolute())] if output is not None else []
         command += ["--restart"] if restart else []
         command += ["--sure"] if sure else []
+        if processes is not None:
+            if processes > 1:
+                verbs.launcher()  # or says that there is none
+            command += ["--processes", str(processes)]
         command += ["--", *options] if options else []
-        if processes > 1:
-            command = [verbs.launcher(), "-n", str(processes), "--bind-to", "none", "--oversubscribe", *command]
-        return _Child(command, case, None if output is None else Path(output).absolute(), note, processes > 1,
-                      progress, stop).wait()
+        return _Child(command, case, None if output is None else Path(output).absolute(), note, progress, stop).wait()
 
 
 class _Child:
-    def __init__(self, command: list[str], case: Case, folder: Path | None, note: IO[str], parallel: bool,
+    def __init__(self, command: list[str], case: Case, folder: Path | None, note: IO[str],
                  progress: Callable[[Progress], Any] | None, stop: threading.Event | None) -> None:
-        self._folder, self._note, self._parallel, self._progress = folder, note, parallel, progress
+        self._folder, self._note, self._progress = folder, note, progress
         self._stop, self._asked = stop, False
         self._messages: list[str] = []
         self._end = _end_time(case) if progress else None
@@ -189,8 +190,7 @@ class _Child:
 
     def _ask_to_stop(self) -> None:
         self._asked = True
-        # mpirun ends its processes within a second of an interrupt, but hands SIGUSR1 on.
-        self._process.send_signal(signal.SIGUSR1 if self._parallel else signal.SIGINT)
+        self._process.send_signal(signal.SIGINT)
 
 
 class _Rows:

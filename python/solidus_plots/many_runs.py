@@ -23,7 +23,10 @@ def jobs_from(text):
     """Runs at a time: what the option says, without it one a core. Throws ResultError."""
     if text and not (text.isdigit() and int(text) > 0):
         raise ResultError(f"--jobs is a whole number of runs at a time, not '{text}'")
-    return int(text) if text else len(os.sched_getaffinity(0))
+    if text:
+        return int(text)
+    # The program that called knows which processors share a core, and what its container may use.
+    return int(os.environ.get("SOLIDUS_CORES") or len(os.sched_getaffinity(0)))
 
 
 def how_it_ended(record):
@@ -62,7 +65,7 @@ class Runner:
                 if self._stopped:
                     return None
                 process = subprocess.Popen([program(), "run", str(self._case), "-o", str(folder), "--no-progress",
-                                            *words], stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                                            "--processes", "1", *words], stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
                                            start_new_session=True,  # Ctrl-C is handed on by stop(), once
                                            env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})
                 self._processes.add(process)

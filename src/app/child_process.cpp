@@ -24,6 +24,11 @@ std::vector<std::string>& environment() {
   return kept;
 }
 
+std::vector<std::string>& arguments() {
+  static std::vector<std::string> kept;
+  return kept;
+}
+
 /// Reads until the other end is closed. Returns whether that happened in time.
 bool take_all(int from, double seconds, std::string& text) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
@@ -77,6 +82,14 @@ void keep_environment() {
 
 const std::vector<std::string>& kept_environment() {
   return environment();
+}
+
+void keep_arguments(int argc, char** argv) {
+  arguments().assign(argv + 1, argv + argc);
+}
+
+const std::vector<std::string>& kept_arguments() {
+  return arguments();
 }
 
 std::vector<char*> pointers_to(std::vector<std::string>& texts) {

@@ -13,6 +13,11 @@ void keep_environment();
 /// The variables that keep_environment() remembered, as "NAME=value".
 const std::vector<std::string>& kept_environment();
 
+/// Remembers the words of the command line, with which further processes of this program are started.
+void keep_arguments(int argc, char** argv);
+/// All but the name of the program.
+const std::vector<std::string>& kept_arguments();
+
 /// The end of a program that was waited for.
 struct ChildOutcome {
   std::string failure;  ///< why it could not be started or was ended; empty where it ended by itself

@@ -17,6 +17,8 @@
 #include "app/child_process.hpp"
 #include "app/command_line.hpp"
 #include "app/exit_code.hpp"
+#include "app/launched.hpp"
+#include "app/patient_waits.hpp"
 #include "app/python_tools.hpp"
 #include "app/signals.hpp"
 #include "mesh/making/reader_process.hpp"
@@ -86,9 +88,14 @@ int main(int argc, char** argv) {
   }
   // What is kept here must be read before libraries change the environment.
   keep_environment();
+  keep_arguments(argc, argv);
   profile::begin();
   give_large_arrays_back();
   use_one_thread_of_blas();
+  if (petsc::all_on_one_machine()) {
+    wait_patiently();
+    petsc::yield_in_waits();
+  }
   // Arguments behind "--" are PETSc's.
   char** const end = argv + argc;
   char** const separator = std::find_if(argv, end, [](const char* a) { return std::string_view(a) == "--"; });
@@ -105,6 +112,10 @@ int main(int argc, char** argv) {
     return k_bad_input;
   }
   start.reset();
+  if (!join_launcher()) {
+    petsc::end();
+    return k_done;
+  }
   if (run_wanted && !stop_asked()) listen_to_signals();  // MPI and PETSc may have put theirs in place
   const int own_argc = static_cast<int>(separator - argv);
   // Errors become exit codes here, and nowhere else.

@@ -14,6 +14,7 @@
 
 #include "app/child_process.hpp"
 #include "app/places.hpp"
+#include "app/process_choice.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 #include "system/program_path.hpp"
@@ -66,6 +67,7 @@ ExitCode run_python(const std::string& module, const std::vector<std::string>& a
   inherited.emplace_back("PYTHONSAFEPATH=1");
   inherited.push_back("PYTHONPATH=" + path);
   inherited.push_back("SOLIDUS_PROGRAM=" + program_path().string());
+  inherited.push_back("SOLIDUS_CORES=" + std::to_string(usable_cores()));
   std::vector<char*> argv = pointers_to(command), envp = pointers_to(inherited);
   // Ctrl-C is for the child, which may have runs to stop first: this program waits for it.
   std::signal(SIGINT, SIG_IGN);

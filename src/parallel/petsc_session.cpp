@@ -87,12 +87,7 @@ constexpr std::pair<const char*, const char*> k_on_one_machine[] = {
     {"OMPI_MCA_btl", "^tcp,uct,openib,ofi"},
 };
 
-/// Whether mpirun says that all processes run on this machine.
-bool on_one_machine() {
-  const char* all = std::getenv("OMPI_COMM_WORLD_SIZE");
-  const char* here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
-  return all != nullptr && here != nullptr && std::string_view(all) == here;
-}
+bool waits_yield = false;
 
 #if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION >= 5
 constexpr bool k_needs_temporary_folder = true;
@@ -119,12 +114,24 @@ bool initialize(int* n, char*** list) {
   if (!launched()) {
     for (const auto& [name, value] : k_alone) settings.emplace_back(name, value);
     choose_temporary_folder(settings);
-  } else if (on_one_machine())
+  } else if (all_on_one_machine()) {
     for (const auto& [name, value] : k_on_one_machine) settings.emplace_back(name, value);
+    if (waits_yield) settings.emplace_back("OMPI_MCA_mpi_yield_when_idle", "1");
+  }
   return PetscInitialize(n, list, nullptr, nullptr) == 0;
 }
 
 }  // namespace
+
+bool all_on_one_machine() {
+  const char* all = std::getenv("OMPI_COMM_WORLD_SIZE");
+  const char* here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+  return all != nullptr && here != nullptr && std::string_view(all) == here;
+}
+
+void yield_in_waits() {
+  waits_yield = true;
+}
 
 bool start(const std::vector<std::string>& options) {
   if (running()) {  // another part of the program has started it

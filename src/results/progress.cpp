@@ -7,20 +7,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <string_view>
 #include <utility>
 
 #include "coupling/energy_scale.hpp"
 #include "system/terminal.hpp"
 
 namespace solidus::results {
-
-bool is_terminal(int descriptor) {
-  if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr) return false;
-  const char* kind = std::getenv("TERM");
-  return isatty(descriptor) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
-}
 
 std::string duration_text(double seconds) {
   if (seconds < 1) return fmt::format("{:.0f} ms", 1000 * std::max(seconds, 0.0));

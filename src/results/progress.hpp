@@ -11,10 +11,6 @@
 
 namespace solidus::results {
 
-/// True when the descriptor is a terminal that understands control sequences. False under mpirun, which gives
-/// its processes a terminal of its own even where its output goes to a file.
-bool is_terminal(int descriptor);
-
 /// "850 ms", "12 s", "3 min 05 s", "2 h 10 min".
 std::string duration_text(double seconds);
 

@@ -122,7 +122,8 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
   part.emplace("materials");
   a.materials = load_materials(c.spec);
   part.reset();
-  a.mesh = load_mesh(c.spec);
+  const double made_in = o.mesh != nullptr ? o.mesh->seconds : 0;
+  a.mesh = load_mesh(c.spec, o.mesh.get());
   const double loaded = processes::wall_time();
   part.emplace("set-up");
   build(c.spec, a);
@@ -169,7 +170,7 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
   for (const ProfileSpec& profile : c.spec.profiles) tables.push_back(profile.name + ".csv");
   // The folder gets the resolved case at once, so that a run that dies can be understood.
   parts_->folder.emplace(o.folder, c.toml(), o.restart, tables);
-  r.summary.seconds.emplace_back("mesh", loaded - start);
+  r.summary.seconds.emplace_back("mesh", made_in + loaded - start);
   r.summary.seconds.emplace_back("set_up", processes::wall_time() - loaded);
   parts_->recorder.emplace(*parts_->folder, a.mesh, a.phases, std::move(r));
   if (!c.spec.time.steady) parts_->transient.emplace(c.spec, o, a, &*parts_->recorder);

@@ -19,6 +19,8 @@
 
 namespace solidus::model {
 
+struct MadeMesh;
+
 struct RunOptions {
   std::filesystem::path folder;  ///< of the results; only a Session may go without, and leaves no files then
   std::ostream* progress = nullptr;  ///< where steps are shown; null: nowhere (process 0 only)
@@ -26,6 +28,9 @@ struct RunOptions {
   bool restart = false;              ///< go on from the checkpoint in `folder`
   bool profile = false;              ///< show at the end where the wall time went
   std::function<bool()> stop_asked;  ///< asked before each step; true on any process ends the run there
+  /// The mesh where the first process has it already (setup/made_mesh.hpp), which is moved from; null: the
+  /// case's mesh is read or made.
+  std::shared_ptr<MadeMesh> mesh = {};
 };
 
 struct RunResult {

@@ -25,6 +25,7 @@
 #include "system/log.hpp"
 #include "system/processes.hpp"
 #include "system/profile.hpp"
+#include "system/stopwatch.hpp"
 
 namespace solidus::model {
 
@@ -216,8 +217,18 @@ std::vector<FoundInterface> everywhere(const std::vector<FoundInterface>& found)
 }  // namespace
 
 mesh::RawMesh raw_mesh(CaseSpec spec) {
-  std::vector<FoundInterface> found;
-  return make_raw_mesh(spec, found);
+  return make_mesh(std::move(spec)).mesh;
+}
+
+MadeMesh make_mesh(CaseSpec spec) {
+  MadeMesh made;
+  double seconds = 0;
+  {
+    const Stopwatch watch(seconds);
+    made.mesh = make_raw_mesh(spec, made.interfaces);
+  }
+  made.seconds = seconds;
+  return made;
 }
 
 void require_sound_mesh(const CaseSpec& spec) {
@@ -226,22 +237,15 @@ void require_sound_mesh(const CaseSpec& spec) {
   });
 }
 
-mesh::Mesh load_mesh(CaseSpec& spec) {
-  mesh::RawMesh raw;
-  // Interfaces of geometry are found by the first process alone and told to the others.
-  if (!spec.interfaces.empty()) {
+mesh::Mesh load_mesh(CaseSpec& spec, MadeMesh* made) {
+  MadeMesh own;
+  {
     const profile::Part part("reading and meshing");
-    std::vector<FoundInterface> found;
-    results::on_first_process([&] {
-      // The case is copied, for contacts are added to it where the interfaces are found.
-      CaseSpec own = spec;
-      raw = make_raw_mesh(own, found);
-    });
-    add_contacts(everywhere(found), spec);
-  } else {
-    const profile::Part part("reading and meshing");
-    results::on_first_process([&] { raw = raw_mesh(spec); });
+    results::on_first_process([&] { own = made != nullptr ? std::move(*made) : make_mesh(spec); });
+    // Interfaces of geometry are found by the first process alone and told to the others.
+    if (!spec.interfaces.empty()) add_contacts(everywhere(own.interfaces), spec);
   }
+  mesh::RawMesh raw = std::move(own.mesh);
   // Factors on contacts can be applied only when all of them are there.
   vary_contacts(spec);
   // A body that only conducts costs less than one with mechanics; the partition weighs them so. Sides of

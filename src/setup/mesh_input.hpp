@@ -3,6 +3,7 @@
 
 #include "case/case_spec.hpp"
 #include "mesh/raw_mesh.hpp"
+#include "setup/made_mesh.hpp"
 
 namespace solidus::model {
 
@@ -10,10 +11,15 @@ namespace solidus::model {
 /// case. On process 0 only. Throws InputError.
 mesh::RawMesh raw_mesh(CaseSpec spec);
 
+/// The same with the interfaces that were found. Not collective.
+MadeMesh make_mesh(CaseSpec spec);
+
 /// The part of the mesh that this process holds; the surfaces in contact are on all of them. Collective: what
 /// goes wrong on process 0 is thrown on all. The contacts that interfaces make are added to those of the
 /// case.
-mesh::Mesh load_mesh(CaseSpec& spec);
+/// @param made  the mesh where process 0 has it already, which is moved from; null: it is made. Other
+///              processes have none.
+mesh::Mesh load_mesh(CaseSpec& spec, MadeMesh* made = nullptr);
 /// Throws InputError where the mesh that was loaded is not sound, after the findings of a case have told what
 /// else is wrong. Collective.
 void require_sound_mesh(const CaseSpec& spec);

@@ -6,12 +6,26 @@
 
 namespace solidus {
 
-bool has_colours(int descriptor) {
-  const char *none = std::getenv("NO_COLOR"), *kind = std::getenv("TERM");
-  if (none != nullptr && *none != '\0') return false;
-  // mpirun gives its processes a terminal of their own, wherever their output goes.
-  if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr) return false;
+namespace {
+
+bool trusted = false;
+
+}  // namespace
+
+void trust_terminal() {
+  trusted = true;
+}
+
+bool is_terminal(int descriptor) {
+  const bool by_mpirun = std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr;
+  if (by_mpirun && !trusted) return false;
+  const char* kind = std::getenv("TERM");
   return isatty(descriptor) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
+}
+
+bool has_colours(int descriptor) {
+  const char* none = std::getenv("NO_COLOR");
+  return (none == nullptr || *none == '\0') && is_terminal(descriptor);
 }
 
 std::string painted(std::string_view text, Colour colour, bool wanted) {

@@ -67,8 +67,9 @@ class Study(ProgramTest):
         self.write("case.toml", CASE)
         self.write("study.toml", STUDY)
         self.assertIn("4000 W/m2/K", self.done("study", "study.toml", "--dry-run"))
-        said = self.done("study", "study.toml", "-o", "out", "-j", "2")
+        said = self.done("study", "study.toml", "-o", "out", "-j", "2", env={"SOLIDUS_PROCESSES": "2"})
         self.assertIn("4 runs, 2 failed", said)
+        self.assertRegex((self.folder / "out/run_1/log.txt").read_text(), r"^1 process of ")  # many runs have a core each
         table = rows(self.folder / "out/study.csv")
         self.assertEqual([row["run"] for row in table], ["run_1", "run_2", "run_3", "run_4"])
         self.assertEqual([row["film[W/m2/K]"] for row in table], ["1000.0", "1000.0", "4000.0", "4000.0"])

@@ -10,10 +10,10 @@
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <thread>
 
 #include "app/case_arguments.hpp"
 #include "app/child_process.hpp"
+#include "app/process_choice.hpp"
 #include "app/python_tools.hpp"
 #include "app/verb.hpp"
 #include "case/case_materials.hpp"
@@ -45,8 +45,7 @@ using Kind = Finding::Kind;
 Finding look_at_machine() {
   const double memory =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  return {"machine", Kind::works,
-          fmt::format("{} cores, {:.1f} GB of memory", std::thread::hardware_concurrency(), memory / 1e9)};
+  return {"machine", Kind::works, fmt::format("{} cores, {:.1f} GB of memory", usable_cores(), memory / 1e9)};
 }
 
 Finding look_for_materials() {

@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <utility>
 
 #include "app/case_arguments.hpp"
 #include "app/places.hpp"
+#include "app/process_choice.hpp"
 #include "app/report_page.hpp"
 #include "app/signals.hpp"
 #include "app/verb.hpp"
@@ -17,7 +19,6 @@
 #include "linear/interruption.hpp"
 #include "parallel/parallel.hpp"
 #include "results/output/run_folder.hpp"
-#include "results/progress.hpp"
 #include "run/error_runs.hpp"
 #include "setup/mechanics_input.hpp"
 #include "setup/time_input.hpp"
@@ -31,14 +32,17 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RunArguments : CaseArguments {
-  std::string output;        ///< results folder; empty: by the case
-  bool progress_bar = true;  ///< on a terminal
-  bool restart = false;      ///< go on from the checkpoint
-  bool profile = false;      ///< show at the end where the time went
-  bool watch = false;        ///< serve the report while the run goes on
-  bool report = false;       ///< write the report at the end
-  bool sure = false;         ///< compare with runs beside it for the errors of the answers
+  std::string output;            ///< results folder; empty: by the case
+  bool progress_bar = true;      ///< on a terminal
+  bool restart = false;          ///< go on from the checkpoint
+  bool profile = false;          ///< show at the end where the time went
+  bool watch = false;            ///< serve the report while the run goes on
+  bool report = false;           ///< write the report at the end
+  std::optional<int> processes;  ///< absent: as many as pay
+  bool sure = false;             ///< compare with runs beside it for the errors of the answers
 };
+
+constexpr int k_most_processes = 1024;  // of one machine
 
 /// -o, else the case's own wish (seen from the present folder), else results/CASE/VARIANT.
 fs::path results_folder(const RunArguments& arguments, const model::Case& c) {
@@ -54,8 +58,7 @@ std::string shown_path(const fs::path& folder) {
 }
 
 /// Runs the case, and what --sure asks for beside it.
-model::RunResult run_all(const RunArguments& arguments, const model::Case& c,
-                         const model::RunOptions& options) {
+model::RunResult run_all(const RunArguments& arguments, const model::Case& c, model::RunOptions options) {
   std::optional<results::Summary> summary;
   double displacement_error = 0;
   {
@@ -63,6 +66,7 @@ model::RunResult run_all(const RunArguments& arguments, const model::Case& c,
     const model::RunResult result = session.run();
     if (!result.finished || !arguments.sure) return result;
     summary = *session.summary();
+    options.mesh.reset();  // those beside it have others
     displacement_error =
         model::displacement_error(c.spec.time, model::sections_of(c.spec, session.assembly().mesh));
   }
@@ -94,10 +98,13 @@ ExitCode run_case(const RunArguments& arguments) {
   const int rank = processes::rank();
   // The first process alone talks; the others compute.
   options.progress = rank == 0 ? &std::cout : nullptr;
-  options.terminal = rank == 0 && arguments.progress_bar && results::is_terminal(STDOUT_FILENO);
+  options.terminal = rank == 0 && arguments.progress_bar && is_terminal(STDOUT_FILENO);
   options.restart = arguments.restart;
   options.profile = arguments.profile;
   options.stop_asked = stop_asked;
+  RunStart start = start_run(arguments.processes, c, options);
+  if (start.code) return *start.code;
+  options.mesh = std::move(start.mesh);
   linear::interrupt_when(stop_asked);
   std::optional<Watch> watch;
   if (arguments.watch && rank == 0) {
@@ -127,12 +134,20 @@ class Run final : public Verb {
  public:
   explicit Run(CLI::App& program) : Verb(program, "run", "Run a case") {
     RunArguments& a = arguments_;
+    // The case comes first, then where the results go and on how many processes, how the run is shown, and
+    // what it may do beside it.
     add_case(command(), a);
     command()
         .add_option("-o,--output", a.output, "Folder of the results; default results/CASE/VARIANT")
         ->type_name("FOLDER");
     command().add_flag_callback(
         "--no-progress", [&a] { a.progress_bar = false; }, "Print plain lines, also on a terminal");
+    command()
+        .add_option("--processes", a.processes,
+                    "Run on so many processes of this machine; default as many as pay for the case and find "
+                    "a core that is free")
+        ->type_name("NUMBER")
+        ->check(CLI::Range(1, k_most_processes));
     command().add_flag("--restart", a.restart,
                        "Continue a run that was stopped, from its checkpoint in the folder of the results");
     command().add_flag("--profile", a.profile,

@@ -1,0 +1,104 @@
+#include "run/process_count.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "case/roles.hpp"
+#include "case/stage_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+// Measured by bench/processes.py model on one process and on two (docs/decisions/0077-all-cores.md). What a
+// casting costs that is mush, yields or touches a mould is more: more processes than said here would pay.
+
+/// What a phase costs.
+struct Cost {
+  double node;    ///< a step on one process, for each node [s]
+  double growth;  ///< of the work where it is divided: solvers take more iterations, seams are computed twice
+  double serial;  ///< part of the work that is not divided: reading, dividing, writing, waiting for memory
+  double messages;  ///< of a step, for each doubling of the processes [s]
+};
+constexpr Cost k_heat{3.5e-6, 1.2, 0.1, 4e-3};
+constexpr Cost k_mechanics_solid{12e-6, 1.1, 0.08, 10e-3};
+constexpr Cost k_mechanics_plane{11e-6, 1.1, 0.08, 60e-3};  // of factors, divided among processes
+/// To start several processes and to divide the mesh among them takes as long as this [s].
+constexpr double k_start = 0.8;
+/// An adaptive run takes at least as many steps as this, even where its first one would reach the end.
+constexpr double k_adaptive_steps = 30;
+/// The most that a further number of processes may leave of the time of fewer, or it is not taken.
+constexpr double k_gain_of_two = 0.85, k_gain_of_more = 0.97;
+
+/// Number of different nodes of some groups.
+double count_nodes(const std::vector<const BodySpec*>& bodies, const mesh::RawMesh& mesh) {
+  std::vector<char> there(mesh.x.size(), 0);
+  for (const BodySpec* body : bodies) {
+    const auto group = mesh.groups.find(body->mesh_group());
+    if (group == mesh.groups.end()) continue;  // load_mesh() says so
+    for (const mesh::RawBlock& block : group->second.blocks)
+      for (const Index node : block.nodes)
+        if (node >= 0 && static_cast<std::size_t>(node) < there.size())
+          there[static_cast<std::size_t>(node)] = 1;
+  }
+  return static_cast<double>(std::count(there.begin(), there.end(), 1));
+}
+
+double steps_of(std::optional<double> duration, std::optional<double> step, bool adaptive) {
+  if (!duration || !step || !(*step > 0)) return 1;
+  const double equal = std::max(*duration / *step, 1.0);
+  return adaptive ? std::min(equal, k_adaptive_steps) : equal;
+}
+
+double expected_steps(const CaseSpec& spec) {
+  if (spec.time.steady) return 1;
+  const std::vector<StageRun> stages = stage_runs(spec);
+  if (stages.empty()) return steps_of(spec.time.end, spec.time.step, spec.time.adaptive);
+  double steps = 0;
+  for (const StageRun& run : stages)
+    steps +=
+        steps_of(run.end - run.start, run.stage->step ? run.stage->step : spec.time.step, spec.time.adaptive);
+  return steps;
+}
+
+}  // namespace
+
+RunWork run_work(const CaseSpec& spec, const mesh::RawMesh& mesh) {
+  std::vector<const BodySpec*> warm, moving;
+  const bool mechanics = spec.has_mechanics(), heat = spec.has_heat();
+  for (const BodySpec& body : spec.bodies) {
+    if (heat) warm.push_back(&body);
+    if (mechanics && !only_conducts(body)) moving.push_back(&body);
+  }
+  return {count_nodes(warm, mesh), count_nodes(moving, mesh), spec.dimension() == 3, expected_steps(spec)};
+}
+
+double expected_seconds(const RunWork& work, int processes) {
+  const Cost& mechanics = work.solid ? k_mechanics_solid : k_mechanics_plane;
+  const double doublings = std::log2(static_cast<double>(processes));
+  const auto of_phase = [&](const Cost& cost, double nodes) {
+    if (!(nodes > 0)) return 0.0;
+    const double alone = nodes * cost.node;
+    return processes == 1 ? alone
+                          : alone * (cost.serial + cost.growth / processes) + cost.messages * doublings;
+  };
+  return (processes == 1 ? 0 : k_start) +
+         work.steps * (of_phase(k_heat, work.heat_nodes) + of_phase(mechanics, work.mechanics_nodes));
+}
+
+int processes_that_pay(const RunWork& work, int cores) {
+  int best = 1;
+  double least = expected_seconds(work, 1);
+  for (int n = 2; n <= cores; ++n) {
+    const double seconds = expected_seconds(work, n);
+    if (seconds > least * (best == 1 ? k_gain_of_two : std::pow(k_gain_of_more, n - best))) continue;
+    best = n;
+    least = seconds;
+  }
+  return best;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,26 @@
+/// How many processes pay for a case, by what its steps cost (decision 0077). All numbers that decide stand
+/// in process_count.cpp.
+#pragma once
+
+#include "case/case_spec.hpp"
+#include "mesh/raw_mesh.hpp"
+
+namespace solidus::model {
+
+/// What a run has to do.
+struct RunWork {
+  double heat_nodes = 0, mechanics_nodes = 0;  ///< of the mesh that have a temperature, a displacement
+  bool solid = false;                          ///< in three dimensions
+  double steps = 1;                            ///< as many as the run takes at least, or is likely to take
+};
+
+/// Counts the nodes of the bodies that take part.
+RunWork run_work(const CaseSpec& spec, const mesh::RawMesh& mesh);
+
+/// The wall clock that a run is expected to take on free cores [s].
+double expected_seconds(const RunWork& work, int processes);
+
+/// The number of processes beyond which another one is hardly worth its core, from one to `cores`.
+int processes_that_pay(const RunWork& work, int cores);
+
+}  // namespace solidus::model
