@@ -102,6 +102,16 @@ def for_python_markdown(text):
     return "\n".join(lines) + "\n"
 
 
+def with_words(index):
+    """The index of the search with the words of docs/site/words.yml, as tags of the entries that stand for whole pages."""
+    words = yaml.safe_load((ROOT / "docs/site/words.yml").read_text())
+    for entry in index["docs"]:
+        tags = words.get(entry["location"].removesuffix(".html") + ".md")
+        if tags:
+            entry["tags"] = tags
+    return index
+
+
 def build(folder):
     folder = pathlib.Path(folder).resolve()
     shutil.rmtree(folder, ignore_errors=True)
@@ -126,7 +136,8 @@ def build(folder):
                           env={**os.environ, "PYTHONWARNINGS": "ignore"})
     if done.returncode:
         raise SystemExit(f"mkdocs:\n{done.stdout}{done.stderr}")
-    index = json.loads((folder / "site/search/search_index.json").read_text())
+    index = with_words(json.loads((folder / "site/search/search_index.json").read_text()))
+    (folder / "site/search/search_index.json").write_text(json.dumps(index, separators=(",", ":")))
     (folder / "site/search/search_index.js").write_text(
         f"var __search = {{index: Promise.resolve({json.dumps(index, separators=(',', ':'))})}};\n")
     return folder / "site/index.html"

@@ -18,6 +18,67 @@ for (const [page, text, displayMode] of JSON.parse(require("fs").readFileSync(0,
   try { katex.renderToString(text, {displayMode, throwOnError: true}); } catch (error) { console.log(page + ": " + text + ": " + error.message); }
 """
 
+# Asks the search of a site, as the browser does it, for each line of a JSON list; prints the pages that it finds, best first.
+SEARCH = """
+const fs = require("fs"), vm = require("vm"), folder = process.argv[1], workers = folder + "/assets/javascripts/workers/";
+let answered;
+const world = {console, addEventListener: (_, listen) => { world.listen = listen; }, postMessage: message => answered(message)};
+world.self = world;
+vm.runInNewContext(fs.readFileSync(workers + fs.readdirSync(workers).find(name => /^search.*[.]min[.]js$/.test(name)), "utf8"), world);
+const ask = data => new Promise(resolve => { answered = resolve; world.listen({data}); });
+(async () => {
+  const index = JSON.parse(fs.readFileSync(folder + "/search/search_index.json"));
+  await ask({type: 0, data: {...index, options: {pipeline: ["trimmer", "stopWordFilter"], suggestions: false}}});
+  const found = [];
+  for (const query of JSON.parse(fs.readFileSync(0, "utf8")))
+    found.push((await ask({type: 2, data: query})).data.items.map(([best]) => best.location.split("#")[0]));
+  console.log(JSON.stringify(found));
+})();
+"""
+
+# What somebody types who wants to do what a page of the guide is for: in the words of its heading, in words of his own, and in others.
+TASKS = {
+    "assistants": ["let an assistant compute a casting", "chatbot or language model", "use ChatGPT with Solidus"],
+    "block_iterative": ["solve both phases in alternation", "iterate between heat and mechanics", "coupling scheme that iterates"],
+    "case_file": ["write a case file", "describe a casting in a text file", "keys of a case"],
+    "citing": ["cite Solidus in a paper", "reference for a publication", "how do I cite the program"],
+    "command_line": ["which commands can I type", "options of the command line", "list of commands"],
+    "compare": ["compare two runs", "difference between two results", "compare a run with another run"],
+    "contact": ["contact with friction between two bodies", "friction coefficient", "friction of the casting in the die"],
+    "criteria": ["find hot spots and porosity", "shrinkage porosity Niyama", "where will there be porosity"],
+    "export": ["residual stress for a structural analysis", "export to Abaqus or CalculiX", "take residual stress to Ansys"],
+    "external_laws": ["use my own constitutive law", "MFront law", "my UMAT subroutine"],
+    "feeding": ["is the riser large enough", "riser pipe and shrinkage cavity", "does the feeder reach the hot spot"],
+    "findings": ["what does the warning of check mean", "check finds mistakes in my case", "what does check look at"],
+    "formats": ["read a mesh of another program", "Abaqus, Nastran or UNV mesh", "import a Nastran mesh"],
+    "gas": ["gas pores from hydrogen", "hydrogen porosity in aluminium", "nitrogen blowholes in steel"],
+    "getting_started": ["build from the sources", "compile Solidus", "build Solidus myself"],
+    "heat_through_contact": ["heat through an air gap", "heat transfer coefficient between casting and mould", "heat transfer coefficient of a die coating"],
+    "install": ["install on Debian", "install the Debian package", "how to install on Ubuntu"],
+    "interfaces": ["find the faces between casting and mould", "interface between bodies of a STEP file", "interfaces found automatically"],
+    "material_import": ["import a material from JMatPro", "Thermo-Calc table", "material from pycalphad"],
+    "materials": ["write a material card", "alloy is not in the library", "add an alloy"],
+    "melt": ["how the melt is described", "viscosity of the melt", "stress in liquid metal"],
+    "new_case": ["from a STEP file to a case", "start with a STEP file", "case from CAD geometry"],
+    "parallel": ["run on several processes", "how many processors", "run with mpirun on a cluster"],
+    "places": ["film coefficient that varies over place", "temperature given by a formula", "spray only on part of the surface"],
+    "plots": ["draw pictures of a run", "plot a temperature curve", "picture of the temperature field"],
+    "point": ["test a material at a point", "tensile test of a material", "creep curve of a material"],
+    "python": ["drive a run from Python", "Python script", "run Solidus in a Jupyter notebook"],
+    "report": ["look at a run in the browser", "share the result with a colleague", "HTML report"],
+    "reporting": ["report a problem", "I have found a bug", "where do I report a bug"],
+    "restart": ["stop a run and restart it", "computer was switched off during a run", "continue an interrupted run"],
+    "results": ["what the files of results hold", "open results in ParaView", "which files does a run write"],
+    "shots": ["many shots into a warm die", "die temperature after ten shots", "temperature of the die in the periodic state"],
+    "simultaneous": ["solve both fields at once", "monolithic scheme", "fully coupled solution"],
+    "stages": ["open the mould after a time", "shake out the casting", "eject the casting after 60 s"],
+    "study": ["run many variants of a case", "parameter study", "vary a parameter"],
+    "time_steps": ["choose the time step", "run is too slow", "adaptive time steps"],
+    "troubleshooting": ["understand an error message", "step does not converge", "Newton fails"],
+    "uncertain": ["how uncertain is the answer", "uncertain material data", "sensitivity to material data"],
+    "versions": ["what changes between versions", "compatible with an older version", "will my case run with the next version"],
+}
+
 
 def page(folder, name, text):
     file = folder / name
@@ -109,6 +170,19 @@ class Site(unittest.TestCase):
         index = (self.root / "search/search_index.js").read_text()
         self.assertTrue(index.startswith("var __search = {index: Promise.resolve("))
         self.assertIn("Niyama", index)
+
+    def test_the_search_finds_each_page_of_the_guide_by_its_task_among_the_first_three(self):
+        self.assertEqual(set(TASKS), {file.stem for file in (links.ROOT / "docs/guide").glob("*.md")})
+        wanted = [(f"docs/guide/{page}.html", task) for page, tasks in TASKS.items() for task in tasks]
+        done = subprocess.run(["node", "-e", SEARCH, self.root], input=json.dumps([task for _, task in wanted]), capture_output=True,
+                              text=True, check=True)
+        found = json.loads(done.stdout)
+        self.assertEqual([f"{task}: {pages[:3]}" for (place, task), pages in zip(wanted, found) if place not in pages[:3]], [])
+
+    def test_words_of_the_search_are_single_and_belong_to_pages(self):
+        words = site.yaml.safe_load((links.ROOT / "docs/site/words.yml").read_text())
+        self.assertEqual([name for name in words if not (links.ROOT / name).is_file()], [])
+        self.assertEqual([(name, word) for name, list_ in words.items() for word in list_ if not word.isalnum() or word != word.lower()], [])
 
 
 if __name__ == "__main__":
