@@ -15,7 +15,7 @@ namespace solidus::app {
 CLI::App& verb_named(CLI::App& program, const std::string& name);
 
 /// Throws InputError for a command line that cannot be read, and what the verb throws.
-/// @param argc, argv  without what stands behind --
+/// @param argc, argv  without what is behind --
 ExitCode parse_and_run(int argc, char** argv);
 
 }  // namespace solidus::app

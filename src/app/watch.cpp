@@ -1,4 +1,4 @@
-/// A small server for one machine: requests are checked by a token, and the page is made anew when the run
+/// A small server for one machine: requests are checked by a token, and the page is made again when the run
 /// has gone on.
 #include "app/watch.hpp"
 
