@@ -1,5 +1,5 @@
 /// The pair calls its parts in the order of the data: geometry, motion of each point, forces, history,
-/// heat. An update leaves the state at t_{n+1} beside that at t_n, and nothing of it is read by a later
+/// heat. An update leaves the state at t_{n+1} next to that at t_n, and nothing of it is read by a later
 /// step.
 #include "contact/pair.hpp"
 

@@ -118,7 +118,7 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, Au
   std::vector<double> step_of_point;
   if (!by_means) step_of_point = step_of_points(now, step);
   const ContactKinematics& kinematics = geometry_.kinematics();
-  // Sticking keeps the compliance of its penalty where nobody asked for multipliers, and where augmentations
+  // Sticking keeps the compliance of its penalty where no one asked for multipliers, and where augmentations
   // by means have not settled: points that are more than a face can follow would drive their tangential
   // tractions to and fro from one augmentation to the next.
   const bool tangential = !pressure_tolerance_ && by_means;

@@ -89,7 +89,7 @@ struct InterfaceHeat {
 ///
 /// Without storage in the interface that is D_c,mech alone, split as h_1 : h_2, which changes no matrix. With
 /// C_co it is a capacity spread over the nodes of a face: the matrix stays of non-negative type where C_co/Δt
-/// is small beside the conductance k/l of an element.
+/// is small against the conductance k/l of an element.
 ///
 /// A master without nodes (a rigid surface) has the temperature that it is given, the same everywhere, and
 /// takes what comes; without one it takes no heat.

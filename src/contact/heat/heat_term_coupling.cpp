@@ -131,7 +131,7 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
     per_gap.assign(n, 0.0);
     add_gap_slope(s, temperature, per_gap);
     add(per_gap, [&](std::size_t b) -> const Point& { return rates.penetration[b]; });
-    // Then the weight of the point, where segments are cut anew as bodies slide: the heat itself is
+    // Then the weight of the point, where segments are cut again as bodies slide: the heat itself is
     // proportional to it.
     if (!rates.weight.empty()) {
       per_weight.assign(n, 0.0);

@@ -2,7 +2,7 @@
 ///
 ///   q = h (Θ_s − Θ_m) + σ_r F (Θ_s⁴ − Θ_m⁴)        [W/m²], from slave to master
 ///
-///   closed (g_N >= 0)  h = h_c(t_N, Θ_g), beside what the gap conducts where the law says so  (3.46-3.49)
+///   closed (g_N >= 0)  h = h_c(t_N, Θ_g), plus what the gap conducts where the law says so  (3.46-3.49)
 ///   open (g_N < 0)     h = h_o(g, Θ_g), g = −g_N                                              (3.50, 7.9)
 ///
 /// g_N [m] penetration, g [m] width of the gap, t_N [Pa] contact pressure, Θ_g [K] mean of the two surfaces'
@@ -14,13 +14,13 @@
 /// of two grey diffuse surfaces of which the smaller one sees the other alone: 1/(1/ε_s + 1/ε_m − 1) of
 /// parallel planes, and exact for concentric cylinders and spheres, whichever of the two is the slave.
 ///
-/// Beside a closed law the gap conducts h_o(0), or, where the surfaces are rough and the law of the gap holds
-/// for the gas between them too, h_o(Y(t_N)), Y the distance of their mean planes. Such a gap begins where
-/// that ends: h_o(g + Y(0)).
+/// In addition to a closed law the gap conducts h_o(0), or, where the surfaces are rough and the law of the
+/// gap holds for the gas between them too, h_o(Y(t_N)), Y the distance of their mean planes. Such a gap
+/// begins where that ends: h_o(g + Y(0)).
 ///
 /// Continuity where contact is lost, at t_N = 0 and g = 0: a closed law that conducts beside the gap's
 /// vanishes with the pressure. One that is all of the conductance must meet the law of the gap: a law that
-/// jumps there is refused. Radiation acts in both states (it is small beside h when closed), so it does not
+/// jumps there is refused. Radiation acts in both states (it is small against h when closed), so it does not
 /// jump either.
 ///
 /// C¹ with `smooth`: over the pressures 0 to p_t and over the gaps 0 to g_t the law is the cubic that joins
@@ -53,7 +53,7 @@ struct HeatTransferSpec {
   std::shared_ptr<const ContactLaw> contact_law;  ///< null: PowerContact with no conductance
   std::shared_ptr<const GapLaw> gap_law;          ///< null: ConstantGap with the conductance of contact
 
-  /// Tables that change with the temperature stand here instead, in the order of the temperatures.
+  /// Tables that change with the temperature are here instead, in the order of the temperatures.
   struct AtTemperature {
     double temperature = 0;  ///< [K]
     std::optional<Table> contact_conductance, gap_table;

@@ -13,7 +13,7 @@
 ///
 /// z is the internal variable in the unit of the data. From the integral come the energy K_c that friction
 /// stores (3.41c) and, where μ depends on temperature, its entropy; all derivatives are by AD. In a step μ −
-/// μ_0 follows its tangent in temperature, as tables follow their lines. What a law may declare beside:
+/// μ_0 follows its tangent in temperature, as tables follow their lines. What a law may declare besides:
 ///
 ///   std::optional<Objection> objection() const;             // what is wrong with its numbers together
 ///   CoefficientBounds slopes(double from, double to, double temperature) const;  // of ∂μ/∂z over [from,

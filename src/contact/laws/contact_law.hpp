@@ -39,7 +39,7 @@ struct Separation {
 
 class ContactLaw : public ConductanceLaw {
  public:
-  /// The gas of the gap conducts beside it.
+  /// The gas of the gap conducts as well.
   virtual bool beside_gas() const = 0;
   virtual std::optional<double> without_pressure() const = 0;
   virtual bool rough() const = 0;  ///< it has a separation

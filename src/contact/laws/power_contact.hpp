@@ -1,4 +1,4 @@
-/// Contact conduction by a power of the pressure (monograph 3.49 beside the gas):
+/// Contact conduction by a power of the pressure (monograph 3.49, in addition to the gas):
 ///
 ///   h = h_open(0, Θ_g) + h_co (t_N/H_e)^ε   for ε > 0
 ///   h = h_co                                for ε = 0

@@ -1,5 +1,5 @@
-/// Conduction through the spots where rough surfaces meet, beside the gas between them (monograph 3.46-3.48,
-/// contact/interface/asperities.hpp): h = h_S(t_N, Θ_g) + h_G(t_N, Θ_g).
+/// Conduction through the spots where rough surfaces meet, in addition to the gas between them
+/// (monograph 3.46-3.48, contact/interface/asperities.hpp): h = h_S(t_N, Θ_g) + h_G(t_N, Θ_g).
 #pragma once
 
 #include "contact/interface/asperities.hpp"

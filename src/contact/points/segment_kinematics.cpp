@@ -1,4 +1,4 @@
-/// When bodies move, the faces of the slave are cut anew and every piece gets its place on the master; a
+/// When bodies move, the faces of the slave are cut again and every piece gets its place on the master; a
 /// cell's motion is the mean over its pieces, by area.
 #include "contact/points/segment_kinematics.hpp"
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double k_plane = 1e-8;
 /// Where κ_1 g and κ_2 g differ by less, they count as one.
 constexpr double k_alike = 1e-6;
-/// Weight of a vanishing curvature beside the neighbours: what they do not tell is zero.
+/// Weight of a vanishing curvature against the neighbours: what they do not tell is zero.
 constexpr double k_untold = 1e-9;
 
 double stretched(double curvature, double distance) {
