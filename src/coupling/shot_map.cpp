@@ -12,9 +12,10 @@ namespace solidus::coupling {
 
 namespace {
 
-constexpr double k_worse = 2;           ///< change of a shot over that of the one before: begin again
-constexpr double k_independent = 1e-6;  ///< what is left of a difference of changes beside the newer ones
-constexpr double k_farthest = 0.5;      ///< of the range of temperatures, by which a node may be moved
+constexpr double k_worse = 2;  ///< change of a shot over that of the one before: begin again
+constexpr double k_independent =
+    1e-6;                           ///< what is left of a difference of changes in addition to the newer ones
+constexpr double k_farthest = 0.5;  ///< of the range of temperatures, by which a node may be moved
 
 double dot(const std::vector<double>& weight, const std::vector<double>& a, const std::vector<double>& b,
            Index n_owned) {
