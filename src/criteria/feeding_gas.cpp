@@ -1,4 +1,4 @@
-// Gas and graphite in the balance of feeding: what takes room beside the metal, and what expands.
+// Gas and graphite in the balance of feeding: what takes room in addition to the metal, and what expands.
 #include <algorithm>
 
 #include "criteria/feeding_step.hpp"

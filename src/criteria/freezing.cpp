@@ -243,7 +243,7 @@ Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& s
     result.behind_magnitude += g.volume * length(g.value);
     for (std::size_t k = 0; k < 3; ++k) behind[k] += g.volume * g.value[k];
   }
-  // Means by volume; the mean of lengths is kept beside the length of the mean, which cancels where
+  // Means by volume; the mean of lengths is kept as well as the length of the mean, which cancels where
   // fronts meet.
   if (volume > 0) {
     result.all = length(all) / volume;
