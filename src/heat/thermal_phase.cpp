@@ -56,7 +56,7 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
     of_others.keep_bodies(others);
     consistent_ = std::make_unique<ConsistentHeat>(mesh, points_, std::move(of_others));
   }
-  // The printed forms of sensible heat (4.43a) are a contribution beside the enthalpy of the nodes.
+  // The printed forms of sensible heat (4.43a) are a contribution in addition to the enthalpy of the nodes.
   if (nodal && options_.sensible != SensibleForm::enthalpy) {
     printed_ = std::make_unique<PrintedHeat>(at_nodes_ ? *at_nodes_ : *storage_, options_.sensible);
     contributions_.push_back(printed_.get());

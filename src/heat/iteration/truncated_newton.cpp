@@ -198,7 +198,7 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
     report.linear_iterations += linear.iterations;
     solver_.release();  // sweeps have copies of their own
     // A step that the search cuts short has met kinks of the curves: another correction is tried,
-    // by chords or beside the kinks.
+    // by chords or away from the kinks.
     if (linear.converged && !search(by_chords ? 0 : may_use_chords ? k_short_step : k_stuck_step)) {
       by_chords = may_use_chords;
       linear = by_chords ? correct_by_chords(to) : correct_beside_kinks(to);

@@ -30,7 +30,7 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
   std::sort(breaks_.begin(), breaks_.end());
   breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
 
-  // Nearly all nodes belong to one body: what others have of a node stands apart.
+  // Nearly all nodes belong to one body: what others have of a node is kept apart.
   constexpr int k_none = -1;
   const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
   std::vector<int> body_of(n_owned, k_none);
