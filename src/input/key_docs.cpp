@@ -27,7 +27,7 @@ std::string child_path(const std::string& path, const Key& key) {
   return path.empty() ? key.name : path + "." + key.name;
 }
 
-/// The path under which the keys of a section stand.
+/// The path under which the keys of a section are.
 std::string inside(const Key& key, const std::string& path) {
   return key.kind == Key::Kind::named_sections ? path + ".NAME" : path;
 }
@@ -84,7 +84,7 @@ std::string type_text(const Key& key) {
   return (key.single ? single() + " or list of " : "list of ") + single();
 }
 
-/// A value as it would stand in a file.
+/// A value as it would be in a file.
 std::string value_text(const Value& value) {
   Value table;
   table.set("x", value);

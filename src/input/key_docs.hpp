@@ -23,7 +23,7 @@ std::string json_schema(const SectionInfo& root, const std::string& title);
 std::string reference_manual(const SectionInfo& root, const std::string& title);
 
 /// The paths of all keys that --set can change, "time.step", in the order of their declaration; keys of
-/// sections that have names of the user's stand under NAME.
+/// sections that have names of the user's are under NAME.
 std::vector<std::string> key_paths(const SectionInfo& root);
 
 }  // namespace solidus

@@ -77,7 +77,7 @@ double checked_range(double number, const Value& value, const Key& key) {
 }
 
 /// A number with the unit of the declaration, from "90 s" or, where no unit is needed, 0.3.
-/// @param unit_beside the unit that stands elsewhere for bare numbers; may be empty
+/// @param unit_beside the unit that is elsewhere for bare numbers; may be empty
 double read_quantity(const Value& value, const Key& key, std::string_view unit,
                      std::string_view unit_beside) {
   try {

@@ -75,7 +75,7 @@ class Key {
   enum class Place { none, position, position_and_time };
 
   Key& doc(std::string text) { return doc_text = std::move(text), *this; }
-  /// The value when the key is absent, as it would stand in the file.
+  /// The value when the key is absent, as it would be in the file.
   Key& initially(Value value);
   /// The least and greatest value, in SI, both allowed.
   Key& range(double least, double greatest);
@@ -259,7 +259,7 @@ class Section {
     });
     return key;
   }
-  /// One of several kinds of object (input/kinds.hpp), whose keys stand in this section too.
+  /// One of several kinds of object (input/kinds.hpp), whose keys are in this section too.
   template <class Interface>
   Key& kinds(const std::string& name, std::shared_ptr<const Interface> T::*member,
              const Kinds<Interface>& family) {

@@ -38,7 +38,7 @@ Kind<Interface> kind_of() {
           }};
 }
 
-/// Throws std::logic_error with the reason where a kind cannot stand beside the others: its name is taken, or
+/// Throws std::logic_error with the reason where a kind cannot be added to the others: its name is taken, or
 /// another one declares one of its keys otherwise.
 void check_kind(const std::string& family, const std::string& name, const SectionInfo& keys,
                 const std::string& other_name, const SectionInfo& other_keys);

@@ -35,7 +35,7 @@ double parse_quantity(std::string_view text, std::string_view expected_unit,
 /// 0.0025, "600 degC" 873.15, "3" 3. Throws std::invalid_argument as parse_quantity does.
 double si_quantity(std::string_view text);
 
-/// The same for a number whose unit stands elsewhere (tables with one unit).
+/// The same for a number whose unit is elsewhere (tables with one unit).
 double convert(double value, std::string_view unit, std::string_view expected_unit,
                Temperature kind = Temperature::absolute);
 
