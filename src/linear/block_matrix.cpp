@@ -343,7 +343,7 @@ void BlockMatrix::copy_to_petsc() {
   const multigrid::MatrixView blocks = view();
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row)
     for (int p = 0; p < bs; ++p) {
-      // Owned columns stand before ghosts in local order.
+      // Owned columns are before ghosts in local order.
       blocks.each(row, [&](Index column, Slot s, bool mirrored) {
         if (column >= mesh_.n_owned_nodes) return;
         const double* const from = block(s);

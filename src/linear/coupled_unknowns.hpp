@@ -12,7 +12,7 @@
 
 namespace solidus::linear {
 
-/// Displacements, pressures and temperatures on owned nodes stand one behind the other in what is called the
+/// Displacements, pressures and temperatures on owned nodes follow one another in what is called the
 /// whole.
 class CoupledUnknowns {
  public:

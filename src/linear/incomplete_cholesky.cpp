@@ -25,7 +25,7 @@ std::size_t at(std::int64_t i) {
 
 }  // namespace
 
-/// Columns of other processes stand last.
+/// Columns of other processes are last.
 std::int64_t IncompleteCholesky::end_of_owned(std::size_t row) const {
   std::int64_t end = start_[row + 1];
   while (column_[at(end) - 1] >= static_cast<Index>(work_.size())) --end;

@@ -8,7 +8,7 @@
 /// perturbation). A row that is diagonally dominant by more than its fill stays as it is: there nothing is
 /// smooth, and fill on the diagonal would be in the way.
 ///
-/// Entries beside the diagonal that are positive, as quadratic elements have them, may make a pivot negative,
+/// Entries off the diagonal that are positive, as quadratic elements have them, may make a pivot negative,
 /// and factors that go on from it have no bound. Then they are made of A + α diag A, with the least of some
 /// rising α for which no pivot is negative (T. A. Manteuffel, Math. Comp. 34 (1980) 473).
 ///
@@ -17,7 +17,7 @@
 /// with all of them as if each equalled that of its row; something between the two couples the parts best, as
 /// in optimised Schwarz methods (M. J. Gander, SIAM J. Numer. Anal. 44 (2006) 699).
 ///
-/// Made from half a BlockMatrix as it stands, whose pattern the factors share: a sixth of the memory of
+/// Made from half a BlockMatrix as it is, whose pattern the factors share: a sixth of the memory of
 /// PETSc's copy and factors. Meijerink and van der Vorst, Math. Comp. 31 (1977) 148.
 #pragma once
 

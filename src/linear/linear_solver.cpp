@@ -144,7 +144,7 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
 
 void LinearSolver::forget() {
   // MUMPS chooses the order of elimination by the values of the first matrix that it analyses, for LU and,
-  // where the diagonal is small beside the rest, for LDLᵀ too. A hierarchy that is only set up again keeps
+  // where the diagonal is small against the rest, for LDLᵀ too. A hierarchy that is only set up again keeps
   // its interpolation and goes on with its random numbers. All of them are made again.
   if (implementation_->ksp) reset();
 }

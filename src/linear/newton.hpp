@@ -50,7 +50,7 @@ struct NewtonReport {
   }
 };
 
-/// A system r(x) = 0 in nodal fields [local node][component], which stand one behind the other in x; so do
+/// A system r(x) = 0 in nodal fields [local node][component], which follow one another in x; so do
 /// their residuals [owned node][component] in r. What the tangent's matrix says of prescribed and tied
 /// degrees of freedom is about the first field; of others, entries that are no unknowns have residuals and
 /// steps of zero. With several fields r is to be the monotone form of the problem (the product of r and

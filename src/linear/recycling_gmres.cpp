@@ -1,5 +1,5 @@
 /// Directions that converge slowly are kept and deflated; they are renewed for each new operator and chosen
-/// anew after each cycle.
+/// again after each cycle.
 #include "linear/recycling_gmres.hpp"
 
 #include <algorithm>

@@ -13,7 +13,7 @@
 
 namespace solidus::linear {
 
-/// Displacements and pressures on owned nodes stand one behind the other in what is called the whole.
+/// Displacements and pressures on owned nodes follow one another in what is called the whole.
 class SaddleUnknowns {
  public:
   /// @param no_pressure  [local node][field], ghosts included: nodes without a pressure of this field
