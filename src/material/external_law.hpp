@@ -48,7 +48,7 @@ struct ExternalData {
   std::string behaviour;
   ExternalInterface interface = ExternalInterface::mfront;
   std::vector<double> properties;                ///< in the order and the units of the library
-  std::vector<double> external_state_variables;  ///< MFront: those beside the temperature
+  std::vector<double> external_state_variables;  ///< MFront: those besides the temperature
   std::optional<int> state_variables;            ///< of a UMAT
   std::vector<double> initial_state;             ///< of the state variables; empty: zero
   bool unsymmetric = false;

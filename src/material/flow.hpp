@@ -43,7 +43,7 @@ struct Flow {
   std::array<Table, k_kinematic_parameters> recall;  ///< the parameters of that law in its order
 
   RateDependence rate_dependence = RateDependence::perzyna;
-  /// The parameters of that law in its order, such as rate[Perzyna::viscosity]; as they stand here, with a
+  /// The parameters of that law in its order, such as rate[Perzyna::viscosity]; as they are here, with a
   /// viscosity of zero everywhere, the flow is rate independent.
   std::array<Table, k_rate_parameters> rate{Table(0.0), Table(1.0), Table(1.0)};
 

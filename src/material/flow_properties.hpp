@@ -16,7 +16,7 @@ struct FlowProperties {
   T hardening_origin{};  ///< σ_0 of the hardening potential (2.49d), equal unless frozen
   std::array<T, k_hardening_parameters> hardening{};  ///< the parameters of the law of isotropic hardening
   T kinematic_modulus{};                              ///< K [Pa]
-  std::array<T, k_kinematic_parameters> recall{};     ///< those of the law of kinematic hardening beside K
+  std::array<T, k_kinematic_parameters> recall{};     ///< those of the law of kinematic hardening besides K
   std::array<T, k_rate_parameters> rate{};            ///< those of the law of rate dependence
   T temperature{};                                    ///< Θ [K], for measured flow curves
   T beyond{};      ///< [K] from there along the line of the measured curves

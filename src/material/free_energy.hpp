@@ -30,7 +30,7 @@
 
 namespace solidus::material {
 
-/// The state variables beside temperature.
+/// The state variables besides temperature.
 template <class T>
 struct StateVariables {
   Sym<T> elastic_strain;  ///< ε^E = ε − ε^v − ε^vp

@@ -68,7 +68,7 @@ MeltModulus melt_modulus(const Material& material, double gravity, double extent
   const double strength = shell_strength(material);
   if (strength > 0 && k_melt_strengths * strength < melt.modulus)
     set(k_melt_strengths, strength, Bound::strength);
-  // The least modulus keeps a share of the bulk modulus, since both stand in one matrix.
+  // The least modulus keeps a share of the bulk modulus, since both are in one matrix.
   const double bulk =
       material.young_modulus.value(liquidus) / (3 * (1 - 2 * material.poisson_ratio.value(liquidus)));
   if (k_least_melt_share * bulk > melt.modulus) set(k_least_melt_share, bulk, Bound::arithmetic);

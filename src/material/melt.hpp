@@ -8,7 +8,7 @@
 ///
 /// p    [Pa] the metallostatic head ρ g H of the body, H its extent along gravity; without gravity
 ///      k_weightless_head
-/// σ_s  [Pa] what the shell stands: its yield stress at the solidus, or without plasticity G times
+/// σ_s  [Pa] what the shell bears: its yield stress at the solidus, or without plasticity G times
 ///      k_shell_strain
 /// k    [Pa] the bulk modulus at the liquidus
 /// M    [m] the section, volume over the surface through which the body cools (mechanics/section.hpp)
@@ -33,7 +33,7 @@
 /// more than the strength of the shell where little melt is left. Strengths of solidifying alloys rise as
 /// steeply (D. G. Eskin, Suyitno, L. Katgerman, Prog. Mater. Sci. 49 (2004) 629-711). Below coherency melt
 /// flows between the dendrites and feeds what shrinks: the thin melt. The two meet within
-/// k_mush_onset_width, so that a skin that has just become coherent does not stand before a liquid.
+/// k_mush_onset_width, so that a skin that has just become coherent does not lie next to a liquid.
 #pragma once
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 ///   K(f_S) = λ₂² (1 − f_S)³/(180 f_S²)  Blake and Kozeny, λ₂ the spacing of secondary dendrite arms
 ///
 /// λ₂ is that of the material's [casting] (casting.hpp) after k_coarsening_time, within a factor of two that
-/// of parts which freeze in 10 to 1000 s; K hardly depends on it beside (1 − f_S)³. Below k_least_solid K
+/// of parts which freeze in 10 to 1000 s; K hardly depends on it except by (1 − f_S)³. Below k_least_solid K
 /// rises no more: nothing holds melt back there. K. D. Carlson, C. Beckermann, Metall. Mater. Trans. A 40
 /// (2009) 163-175; M. C. Flemings, Solidification Processing, 1974, section 7.4.
 #pragma once

@@ -13,7 +13,7 @@
 
 namespace solidus::material {
 
-/// Factors and shifts; as they stand here they change nothing.
+/// Factors and shifts; as they are here they change nothing.
 struct MaterialFactors {
   double density = 1, conductivity = 1, specific_heat = 1, latent_heat = 1, volume_change = 1,
          young_modulus = 1, poisson_ratio = 1, expansion = 1, strength = 1, creep_viscosity = 1,

@@ -58,8 +58,8 @@ class Viscoplastic {
     Sym<T> back_strain;     ///< ζ, deviatoric; q = −⅔ K ζ
     T hardening{};          ///< ξ, the equivalent plastic strain
     T inelastic_entropy{};  ///< S^I (4.43b, 4.48c) [J/(m³ K)]
-    /// Energy of plastic work that is stored beside that of hardening, with a Taylor–Quinney factor only; its
-    /// force acts on nothing [J/m³].
+    /// Energy of plastic work that is stored in addition to that of hardening, with a Taylor–Quinney factor
+    /// only; its force acts on nothing [J/m³].
     T cold_work{};
   };
 

@@ -30,7 +30,7 @@ struct ImportOptions {
 };
 
 struct ImportedCard {
-  Value document;                    ///< as it stands in a material file
+  Value document;                    ///< as it is in a material file
   std::vector<std::string> remarks;  ///< notes on values taken, left out or chosen
 };
 

@@ -35,7 +35,8 @@ struct FlowData {
 const Section<FlowData>& flow_section();
 
 /// Checks the flow data against each other and the rest of the material, whose elastic properties, phase
-/// changes and viscosity stand already, and adds them with their sources. Throws InputError with the place.
+/// changes and viscosity are there already, and adds them with their sources. Throws InputError with the
+/// place.
 void add_flow(Material& material, const FlowData& data);
 
 }  // namespace solidus::material

@@ -88,7 +88,7 @@ units::Conversion conversion_of(const Quantity& quantity, const Column& column, 
   const SourceLocation where{file, 0, 0};
   const std::string expected = quantity.unit;
   // A header without a unit will do for a fraction only: a unit that is guessed wrong is an error
-  // that nobody sees.
+  // that no one sees.
   if (column.unit.empty()) {
     if (!quantity.unit_needed) return {};
     // pycalphad's Scheil has kelvins without saying so.

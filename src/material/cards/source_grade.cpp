@@ -12,7 +12,7 @@
 namespace solidus::material {
 namespace {
 
-/// Whether "word:" stands in the text, in upper or lower case, not as the end of another word.
+/// Whether "word:" is in the text, in upper or lower case, not as the end of another word.
 bool names(std::string_view text, std::string_view word) {
   const auto same = [](char a, char b) {
     return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));

@@ -151,7 +151,7 @@ std::vector<Factor> factors_of(const std::string& unit) {
       ++i;
       continue;
     }
-    // The letters of the symbol, then what may stand between it and its power: brackets and a
+    // The letters of the symbol, then what may be between it and its power: brackets and a
     // caret.
     std::size_t end = i;
     while (end < unit.size() && is_letter(unit[end])) ++end;

@@ -135,8 +135,8 @@ class Variation {
     return d;
   }
 
-  /// The energy of plastic work that is stored beside that of hardening, since the start of the step [J/m³];
-  /// the material has a Taylor–Quinney factor.
+  /// The energy of plastic work that is stored in addition to that of hardening, since the start of the step
+  /// [J/m³]; the material has a Taylor–Quinney factor.
   Derivatives<T> cold_work() const {
     const Derivatives<T> free = unstored(), heat = shared_heat(free);
     return {free.value - heat.value, free.temperature - heat.temperature, free.strain - heat.strain};

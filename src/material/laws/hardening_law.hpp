@@ -12,7 +12,7 @@
 ///   const AddHardening<Ludwik> k_ludwik;   // at namespace scope: the key isotropic_hardening knows "ludwik"
 ///
 /// p.hardening[i] is parameter i at the temperature, p.hardening_origin is σ_0. A law has to harden, K_ξξ >=
-/// 0 for ξ >= 0, with K_ξ(0) = 0. What it may declare beside: `kinks` (its slope jumps in ξ), `saturation`
+/// 0 for ξ >= 0, with K_ξ(0) = 0. What it may declare besides: `kinks` (its slope jumps in ξ), `saturation`
 /// (the plastic strain at which a plot may end) and `objection` (what is wrong with its tables together).
 #pragma once
 

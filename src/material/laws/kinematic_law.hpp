@@ -9,7 +9,7 @@
 ///
 ///   struct Marquis {
 ///     static constexpr std::string_view name = "marquis", equation = "…";
-///     static constexpr LawParameter parameters[] = {…};      // at most k_kinematic_parameters, beside K
+///     static constexpr LawParameter parameters[] = {…};      // at most k_kinematic_parameters, besides K
 ///     template <class T> static Recall<T> recall(const FlowProperties<T>& p, const T& xi);
 ///   };
 ///   const AddKinematic<Marquis> k_marquis;   // at namespace scope: kinematic_hardening knows "marquis"

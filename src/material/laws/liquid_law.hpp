@@ -18,7 +18,7 @@
 ///   const AddLiquid<Tough> k_tough;   // at namespace scope: the key liquid_model knows "tough"
 ///
 /// Return mapping, entropy, energy, heat, the isentropic mapping and their derivatives follow. What a model
-/// may declare beside: `holds_modulus` (G is that of the solidus where it is hotter, 2.77) and `needs_rate`
+/// may declare besides: `holds_modulus` (G is that of the solidus where it is hotter, 2.77) and `needs_rate`
 /// (a liquid is held by the rate dependence of [plasticity] alone).
 #pragma once
 

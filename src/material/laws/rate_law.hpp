@@ -15,7 +15,7 @@
 /// p.rate[i] is parameter i at the temperature; within a step of the isentropic mapping it is held, since the
 /// viscous potential does not depend on temperature (2.119a). x' may be infinite at a rate of zero, where the
 /// law is not asked. The return mapping solves Φ(γ) = x(γ/(m Δt)) for any such law (return_mapping.hpp);
-/// Perzyna (laws/perzyna.hpp) has solvers of its own. What a law may declare beside: `complete` (what is
+/// Perzyna (laws/perzyna.hpp) has solvers of its own. What a law may declare besides: `complete` (what is
 /// wrong with its tables together, or what stands for one that is left out) and `reads` (whether it reads a
 /// parameter).
 ///

@@ -166,7 +166,7 @@ class MfrontLibrary final : public ExternalLibrary {
       for (std::size_t j = 0; j < n; ++j)
         names_.push_back(n == 1 ? names[i] : fmt::format("{}[{}]", names[i], j));
     }
-    // External state variables beside temperature, and which energies it computes.
+    // External state variables besides temperature, and which energies it computes.
     external_ = data.external_state_variables;
     read_external(s, data);
     stores_ = s.own_number("ComputesInternalEnergy") == 1;
