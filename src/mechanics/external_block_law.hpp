@@ -93,7 +93,7 @@ inline Sym<Lane> inelastic_strain(const ExternalBlockLaw::State<Lane>& state) {
 inline Lane inelastic_volume(const ExternalBlockLaw::State<Lane>& state) {
   return trace(state.tensor(material::ExternalLaw::k_inelastic));
 }
-/// Energy that is stored beside the elastic one is in cold_work(): the library's law of hardening is not
+/// Energy that is stored besides the elastic one is in cold_work(): the library's law of hardening is not
 /// known.
 inline std::array<Lane, 2> hardening_of(const ExternalBlockLaw::State<Lane>&) {
   return {Lane(0.0), Lane(0.0)};

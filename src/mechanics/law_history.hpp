@@ -182,7 +182,7 @@ class LawHistory : public BlockKernel {
   }
 
   /// The base of the state at t_n, behind its law's history; zero where nothing has been solved yet. Where
-  /// energy is evaluated again, or nobody asked for structural heat, that of this step.
+  /// energy is evaluated again, or no one asked for structural heat, that of this step.
   StructuralBase old_base(Index batch, int q) const {
     if (!keeps_base_ || !points_->carries_energy()) return points_->base(batch, q, is_solid(batch, q));
     const Lane* from = base_of(*old_history_, batch, q);

@@ -121,7 +121,8 @@ struct PlasticPower {
   Lane power{}, dissipation{};
 };
 
-/// S^I of a state [J/(m³ K)], and the energy of plastic work that is stored beside that of hardening [J/m³].
+/// S^I of a state [J/(m³ K)], and the energy of plastic work that is stored in addition to that of hardening
+/// [J/m³].
 template <class T>
 T inelastic_entropy(const material::Viscoelastic::State<T>&) {
   return T(0.0);

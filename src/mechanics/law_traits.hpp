@@ -37,7 +37,7 @@ concept KeepsStateInPlace = requires {
   typename Law::StateInPlace;
 };
 
-/// A law that needs no memory beside its arguments and results.
+/// A law that needs no memory besides its arguments and results.
 struct NoWorkspace {
   template <class Law>
   explicit NoWorkspace(const Law&) {}

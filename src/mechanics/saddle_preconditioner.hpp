@@ -42,7 +42,7 @@ class SaddlePreconditioner {
 
   /// New factors or hierarchy of S̃, and W, for the moduli of now. Collective.
   void set_up_schur();
-  /// A new hierarchy for A as it stands. Collective.
+  /// A new hierarchy for A as it is. Collective.
   void set_up_displacement();
   /// z ≈ K⁻¹ r on owned degrees of freedom, displacements and then pressures. Collective.
   void apply(std::span<const double> r, std::span<double> z);

@@ -17,10 +17,10 @@ struct Deformation {
   Lane elastic_squared;  ///< dev ε^E : dev ε^E, zero unless solid
   Lane hardening;        ///< ξ
   Lane back_squared;     ///< ζ : ζ
-  Lane cold_work{0.0};   ///< energy of plastic work that is stored beside that of hardening [J/m³]
+  Lane cold_work{0.0};   ///< energy of plastic work that is stored in addition to that of hardening [J/m³]
 };
 
-/// The data with which energy and entropy of a point are evaluated, beside its deformation and temperature:
+/// The data with which energy and entropy of a point are evaluated, besides its deformation and temperature:
 /// the tables' lines (material/derivatives/structural_lines.hpp) and the phases, those of the last mechanical
 /// phase. A part of the state: the energy of a state is a function of the state alone.
 struct StructuralBase {
