@@ -103,7 +103,7 @@ bool before(const BodyFace& a, const BodyFace& b) {
 /// Visits faces by their lowest vertex, of the local nodes before `n_lowest`, as each_body_face().
 ///
 /// The vertices are taken in portions, each of which holds its faces, 275 bytes a node of tetrahedra.
-/// Elements stand in the order of their lowest numbers, and those of a portion are found among their ranges.
+/// Elements are in the order of their lowest numbers, and those of a portion are found among their ranges.
 template <class Visit>
 void visit_faces(const Mesh& mesh, Index n_lowest, const Visit& visit) {
   constexpr Index k_portion = 32'768;

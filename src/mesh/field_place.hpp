@@ -1,4 +1,4 @@
-/// Where the values of a field of numbers stand.
+/// Where the values of a field of numbers are.
 #pragma once
 
 namespace solidus::mesh {

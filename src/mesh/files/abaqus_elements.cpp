@@ -14,7 +14,7 @@ struct Family {
   std::string_view prefix;
   int dimension;
 };
-// The number of nodes stands behind the prefix. Longer prefixes first where one begins another.
+// The number of nodes is behind the prefix. Longer prefixes first where one begins another.
 constexpr std::array<Family, 23> k_families{
     {{"DC3D", 3}, {"AC3D", 3}, {"F3D", 3},  {"C3D", 3},  {"CPEG", 2},  {"CPE", 2}, {"CPS", 2}, {"CAX", 2},
      {"DC2D", 2}, {"DCAX", 2}, {"AC2D", 2}, {"ACAX", 2}, {"SFM3D", 2}, {"M3D", 2}, {"R3D", 2}, {"STRI", 2},

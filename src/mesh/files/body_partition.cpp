@@ -31,12 +31,12 @@ struct Candidates {
   std::vector<Candidate> all;
   Index n_elements = 0;
   std::size_t n_entries = 0;  ///< of all groups together; an element counts once in a group
-  std::size_t n_sets = 0;     ///< elements of all groups together, as they stand there
+  std::size_t n_sets = 0;     ///< elements of all groups together, as they are there
 };
 
 Candidates candidates_of(const RawMesh& mesh, const NamePreference& preference) {
   // Groups of elements of the full dimension may be bodies; their elements are compared by their
-  // vertices, since the same element may stand in several groups under different numbers.
+  // vertices, since the same element may be in several groups under different numbers.
   Candidates result;
   std::vector<VertexSet> sets;
   for (const auto& [name, group] : mesh.groups) {

@@ -66,7 +66,7 @@ std::vector<long> references(const std::string& text) {
   return all;
 }
 
-/// What stands in the brackets behind a word.
+/// What is in the brackets behind a word.
 std::string arguments_of(const std::string& text, const std::string& word) {
   const std::size_t at = text.find(word + "(");
   if (at == std::string::npos) return {};

@@ -56,7 +56,7 @@ class Bytes {
     at_ = end == std::string::npos ? size() : static_cast<std::ptrdiff_t>(end) + 1;
     return text;
   }
-  /// A number that stands as text.
+  /// A number that is written as text.
   template <class T>
   T text() {
     const std::string_view found = word();
@@ -117,7 +117,7 @@ using EntityKey = std::pair<int, int>;  ///< dimension and tag
 struct Elements {
   std::vector<std::int64_t> tags, nodes;
 };
-/// Entity, and of version 2 the physical group that stands with each element.
+/// Entity, and of version 2 the physical group that comes with each element.
 struct PieceKey {
   int dimension = 0, physical = 0, entity = 0;
   auto operator<=>(const PieceKey&) const = default;
@@ -236,7 +236,7 @@ void Reader::read_nodes_4() {
     std::vector<std::int64_t> tags(n);
     for (std::int64_t& tag : tags) tag = file_.number<std::int64_t>();
     for (const std::int64_t tag : tags) {
-      // Parametric coordinates stand behind the others and say nothing here.
+      // Parametric coordinates are behind the others and say nothing here.
       Point x{};
       for (double& coordinate : x) coordinate = file_.number<double>();
       if (parametric != 0)

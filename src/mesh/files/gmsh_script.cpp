@@ -100,7 +100,7 @@ void ScriptCheck::check_word(std::size_t i) {
   if (!is_harmless_keyword(word.text)) check_operand(i);
 }
 
-// Checks a word that Gmsh may read as a value: it then stands before a symbol; two words, or a word and a
+// Checks a word that Gmsh may read as a value: it is then before a symbol; two words, or a word and a
 // text, are a command.
 void ScriptCheck::check_operand(std::size_t i) {
   const GmshToken &word = at(i), &next = at(i + 1);

@@ -182,7 +182,7 @@ class Scanner {
   std::vector<GmshToken> tokens_;
   std::size_t at_ = 0, line_start_ = 0;
   int line_ = 1;
-  bool code_in_line_ = false;  ///< whether a token stands before in this line
+  bool code_in_line_ = false;  ///< whether this line has had a token
 };
 
 }  // namespace

@@ -111,7 +111,7 @@ void Cards::take(const std::string& line, int depth) {
   const std::string_view text = without_blanks(line);
   if (text.empty()) return;
   const std::string begin = capitals(text.substr(0, 12));
-  // Included files and the beginning and end of the bulk data come first; what stands before the bulk is for
+  // Included files and the beginning and end of the bulk data come first; what is before the bulk is for
   // the solver.
   if (begin.starts_with("INCLUDE") && text.size() > 8 && (text[7] == ' ' || text[7] == '\'')) {
     finish();

@@ -1,4 +1,4 @@
-/// Cards are kept as they come and evaluated at the end, because systems, defaults and names may stand
+/// Cards are kept as they come and evaluated at the end, because systems, defaults and names may be
 /// anywhere in the file.
 #include "mesh/files/nastran_input.hpp"
 

@@ -210,7 +210,7 @@ void Reader::points() {
     if (!std::isfinite(x)) fail("a coordinate is no number");
 }
 
-// Up to version 5.0 the number of corners stands before those of each cell.
+// Up to version 5.0 the number of corners is before those of each cell.
 void Reader::cells() {
   const std::size_t n = count(), size = count(), before = at_;
   // From version 5.1 on offsets and corners are two arrays with a head each.

@@ -185,7 +185,7 @@ std::string VtuFile::stored(std::string_view data, bool base64, std::size_t n) c
 }
 
 std::string VtuFile::bytes(const pt::ptree& array, std::size_t n) const {
-  // An array stands in the text, or at an offset of the data appended to the file; in the text it is in
+  // An array is in the text, or at an offset of the data appended to the file; in the text it is in
   // base64.
   const std::string format = attribute(array, "format");
   std::string inline_text;

@@ -42,7 +42,7 @@ inline std::int64_t whole_number(double value) {
 /// The element below <VTKFile>. Throws InputError where the file has none of that name.
 const boost::property_tree::ptree& children(const VtuFile& file, const char* name);
 /// The files of a grid: the file itself, or the parts that a .pvtu lists, as paths. Throws InputError where a
-/// part stands there twice or is the list itself; whether a part lists further ones is for its reader.
+/// part is there twice or is the list itself; whether a part lists further ones is for its reader.
 std::vector<std::filesystem::path> grid_files(const VtuFile& file, const std::filesystem::path& path);
 /// The array of the points. Throws InputError where there is none.
 const boost::property_tree::ptree& points_array(const VtuFile& file,

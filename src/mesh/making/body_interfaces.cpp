@@ -217,7 +217,7 @@ std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& b
     add_surface(mesh, facing.surface_b, sides[1].faces, source);
     found.push_back(std::move(facing));
   }
-  // What faces nobody is free skin, or lies in the plane of symmetry.
+  // What faces no one is free skin, or lies in the plane of symmetry.
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     std::vector<const SkinFace*> free, symmetric;
     // A face that is one with another body's is no free skin: the joint of a casting and its riser, which

@@ -24,7 +24,7 @@ namespace solidus::mesh {
 
 namespace {
 
-/// A text of fixed width, without what stands behind its end and blanks.
+/// A text of fixed width, without what is behind its end and blanks.
 std::string text_of(const char* from, std::size_t width) {
   std::string text(from, std::find(from, from + width, '\0'));
   text.erase(text.find_last_not_of(' ') + 1);

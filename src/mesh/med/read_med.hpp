@@ -12,7 +12,7 @@ namespace solidus::mesh {
 /// of elements and nodes; of groups of one name and several dimensions those of the lower ones get "_2d",
 /// "_1d" or "_0d" behind. Elements of full dimension in no group are a body with the name of their mesh,
 /// faces in no group MESH_2d. Where the file holds several meshes and a name is that of groups of more than
-/// one, the name of the mesh and a dot stand before it. A unit of length that the file names and that is not
+/// one, the name of the mesh and a dot are before it. A unit of length that the file names and that is not
 /// `unit_in_metres` is told in the notes.
 /// Throws InputError for structured meshes, other than Cartesian coordinates, cells that are none of
 /// mesh/files/med_cells.hpp, versions before 3, a file that is damaged or takes data from other files, and in
