@@ -123,7 +123,7 @@ PackedRows::PackedRows(const MatrixView& a, Index n_local, bool symmetric, Patte
 void PackedRows::copy_upper_pattern(const MatrixView& a) {
   own_start_.assign(1, 0);
   own_start_.reserve(a.start.size());
-  // Where the diagonal of each row stands: what follows it is kept.
+  // Where the diagonal of each row is: what follows it is kept.
   std::vector<std::int64_t> diagonal(a.start.size() - 1);
   for (Index row = 0; row < a.n_rows(); ++row) {
     const auto first = a.column.begin() + a.begin(row), last = a.column.begin() + a.end(row);
