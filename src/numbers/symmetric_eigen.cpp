@@ -1,4 +1,4 @@
-/// Sweeps of Jacobi's rotations until all entries beside the diagonal are rounding.
+/// Sweeps of Jacobi's rotations until all entries off the diagonal are rounding.
 #include "numbers/symmetric_eigen.hpp"
 
 #include <algorithm>
