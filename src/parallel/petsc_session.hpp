@@ -9,7 +9,7 @@ namespace solidus::petsc {
 /// Starts PETSc, and MPI, where neither runs yet.
 /// @param options  of PETSc, as on a command line. A .petscrc of the present folder or the home is not read,
 ///                 for it would change answers in silence, and signals stay the caller's.
-/// Returns false where PETSc cannot start; its message then stands on the standard error. Throws InputError
+/// Returns false where PETSc cannot start; its message then is on the standard error. Throws InputError
 /// where MPI needs a folder for temporary files and none can be written.
 bool start(const std::vector<std::string>& options);
 /// Whether a launcher of MPI has started this process, and all others of the run on this machine. Before
