@@ -24,7 +24,7 @@ enum class Extreme { none, least, greatest };
 enum class Written { always, on_request };
 
 /// The moments that the page of a run keeps: `last` where the end says all (criteria) or where the quantity
-/// follows from others that are kept; `none` for what tells nothing beside another quantity.
+/// follows from others that are kept; `none` for what tells nothing in addition to another quantity.
 enum class Kept { every, last, none };
 
 /// The colours that suit a quantity: from low to high; as of hot metal; of a share; apart by the sign.
