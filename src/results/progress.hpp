@@ -54,7 +54,7 @@ class Progress {
   RemainingTime remaining_;
   std::string stage_;                     ///< of the last step
   std::optional<double> solid_at_start_;  ///< share that was solid where a run that goes on began
-  bool bar_ = false;                      ///< a bar stands on the present line
+  bool bar_ = false;                      ///< a bar is on the present line
   coupling::EnergyAudit sum_;             ///< over all steps
   double heat_content_ = 0;               ///< at the start [J]
 };

@@ -60,7 +60,7 @@ std::vector<Reading> with_shot(std::vector<Reading> readings, int shot, double s
   return readings;
 }
 
-// The columns of history.csv beside time and probes, all with the value zero: what probes may repeat.
+// The columns of history.csv besides time and probes, all with the value zero: what probes may repeat.
 std::vector<Reading> global_readings(const coupling::Phases& phases, const RecorderOptions& options) {
   std::vector<Reading> readings = GlobalHistory(global_columns(phases, options, {})).all();
   if (options.shots) readings = with_shot(std::move(readings), 0, 0);

@@ -23,7 +23,7 @@ Json object(const std::vector<std::pair<std::string, T>>& members) {
   return json;
 }
 
-// Values by their names; places [m] beside those that have one.
+// Values by their names; places [m] next to those that have one.
 Json findings(const std::vector<criteria::CriterionResult>& found) {
   Json json;
   for (const criteria::CriterionResult& f : found) {

@@ -29,7 +29,7 @@ class FieldMoment {
   std::size_t n_cells() const;
 
  private:
-  /// @param part  the file stands in a list of parts, and is none itself
+  /// @param part  the file is in a list of parts, and is none itself
   void add(const std::filesystem::path& path, bool part = false);
 
   std::vector<std::unique_ptr<mesh::VtuFile>> files_;

@@ -1,4 +1,4 @@
-/// The collection is written anew with each moment, so that it is whole whenever the run ends.
+/// The collection is written again with each moment, so that it is whole whenever the run ends.
 #include "results/formats/pvd.hpp"
 
 #include <fmt/format.h>

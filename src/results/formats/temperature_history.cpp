@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using boost::property_tree::ptree;
 using LocalNodes = std::unordered_map<GlobalIndex, Index>;  ///< by the input's number
 
-/// @param part  the file stands in a list of parts, and is none itself
+/// @param part  the file is in a list of parts, and is none itself
 void read_file(const fs::path& path, const LocalNodes& local, std::vector<double>& temperature,
                bool part = false) {
   const mesh::VtuFile file(path);

@@ -30,7 +30,7 @@ class Reader {
   Reader(const std::string& field, int body, double length, const SourceLocation& where)
       : field_(field), body_(body), length_(length), where_(where) {}
 
-  /// @param part  the file stands in a list of parts, and is none itself
+  /// @param part  the file is in a list of parts, and is none itself
   void read(const fs::path& path, bool part = false) {
     if (!fs::exists(path))
       throw InputError(where_, fmt::format("the file '{}' does not exist", path.string()));

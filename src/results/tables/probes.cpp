@@ -311,7 +311,7 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
 }
 
 Probes::Sample Probes::linear_sample(const LinearProbe& probe) const {
-  // A probe that combines others: each has to stand before it, and all measure the same.
+  // A probe that combines others: each has to be before it, and all measure the same.
   Sample sample;
   sample.reduce = Reduce::linear;
   double sum = 0;
