@@ -20,7 +20,7 @@ void check_restart(const CaseSpec& spec, const RunOptions& options) {
 
 std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOptions& options, Assembly& a,
                                               const results::Fingerprint& fingerprint) {
-  // Without --restart a run begins anew.
+  // Without --restart a run begins again.
   if (!options.restart) return {};
   const results::CheckpointFolder folder(options.folder);
   results::Checkpoint found = folder.read(a.mesh, fingerprint, a.initial);

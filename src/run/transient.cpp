@@ -125,7 +125,7 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
 }
 
 void Transient::begin(std::optional<results::Checkpoint> from) {
-  // A state is large: the one at the start is not needed beside those of the run.
+  // A state is large: the one at the start is not needed in addition to those of the run.
   coupling::State start = std::move(from ? from->state : a_.initial);
   a_.initial = {};
   simulation_.begin(
