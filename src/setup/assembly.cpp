@@ -235,7 +235,7 @@ coupling::BodyHeat apply(const CaseSpec& spec, std::size_t number, const std::ve
       begins != nullptr && std::any_of(fresh.begin(), fresh.end(), [](char f) { return f != 0; });
   for (std::size_t i = 0; i < a.contacts.size(); ++i)
     a.contacts[i]->activate(holds(spec, spec.contacts[i], a.mesh, &stage));
-  // Burned sleeves that come anew have all their heat again.
+  // Burned sleeves that come new have all their heat again.
   if (comes && !begins->burning.lit.empty())
     heat::renew(mechanics::nodes_of_bodies(a.mesh, fresh), begins->burning);
   // Motion first, as contacts of new bodies start from the displacement that is left then.

@@ -1,6 +1,6 @@
 /// Files of a case laid over each other: `include`, and the variants of a case in one file.
 ///
-/// Beside a case.toml a file variants.toml may stand:
+/// Beside a case.toml a file variants.toml may be:
 ///
 ///   [part.stiff]               # what several variants share
 ///   mechanics.tolerance = 1e-9

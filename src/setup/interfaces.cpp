@@ -86,7 +86,7 @@ std::vector<std::pair<BodyPair, std::size_t>> wanted_pairs(const CaseSpec& spec,
   // Metal that was drawn as several bodies is one where they share nodes.
   for (const mesh::SplitNodes& s : shared)
     if (metal(s.bodies.first) && metal(s.bodies.second)) taken.insert(s.bodies);
-  // Sections for all get every pair that nobody has taken yet.
+  // Sections for all get every pair that no one has taken yet.
   const auto n = static_cast<int>(spec.bodies.size());
   for (std::size_t i = 0; i < spec.interfaces.size(); ++i) {
     if (!spec.interfaces[i].all()) continue;
