@@ -55,7 +55,7 @@ Text read(const std::string& text) {
   // is the form.
   Text out;
   for (std::size_t i = 0; i < text.size();) {
-    // A name stands between two quotes; a quote without an end is text.
+    // A name is between two quotes; a quote without an end is text.
     if (text[i] == '\'') {
       if (const std::size_t end = end_of_name(text, i); end != std::string::npos) {
         out.names.push_back(text.substr(i, end + 1 - i));
