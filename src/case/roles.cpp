@@ -31,8 +31,8 @@ constexpr std::array<std::pair<std::string_view, Role>, 28> k_words = {{
     {"guss", Role::casting},
 }};
 
-/// Whether a text has a word: a short one has to be a word of its own ("die" is no part of "diesel"), one of more than four
-/// letters may begin or end another.
+/// Whether a text has a word: a short one has to be a word of its own ("die" is no part of "diesel"), one of
+/// more than four letters may begin or end another.
 bool has_word(const std::string& text, std::string_view word) {
   const auto letter = [&](std::size_t i) { return std::isalpha(static_cast<unsigned char>(text[i])) != 0; };
   for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
