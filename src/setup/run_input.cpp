@@ -55,6 +55,8 @@ results::PointProbe point_probe(const CaseSpec& spec, const ProbeSpec& probe) {
 std::vector<results::Probe> probes(const CaseSpec& spec) {
   std::vector<results::Probe> result;
   for (const ProbeSpec& probe : spec.probes) {
+    // A difference is one of two other probes, and a global one a column of the history under
+    // another name.
     switch (probe.kind) {
       case ProbeSpec::Kind::point:
         result.emplace_back(point_probe(spec, probe));

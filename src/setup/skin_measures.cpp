@@ -125,6 +125,8 @@ SurfaceMeasures measure_surface(const mesh::Mesh& mesh, const std::string& name,
       const mesh::FaceGeometry geometry(mesh, faces, kind, mesh::stiffness_rule(faces.shape));
       const int vertices = mesh::vertex_count(faces.shape);
       for (Index f = 0; f < faces.n_counted; ++f) {
+        // The area is that of the mesh as it bends, by quadrature; corners and centres are for
+        // distances alone.
         for (int p = 0; p < geometry.n_points; ++p)
           m.area += geometry.weight[static_cast<std::size_t>(f * geometry.n_points + p)];
         mesh::Point centre{};
@@ -137,6 +139,7 @@ SurfaceMeasures measure_surface(const mesh::Mesh& mesh, const std::string& name,
         centres.push_back(centre);
       }
     }
+  // Every process ends with the same numbers and points.
   m.area = parallel::global_sum(m.area);
   m.corners = gather(corners);
   const std::vector<mesh::Point> all = gather(centres);

@@ -26,6 +26,7 @@ void check_limits(const TimeSpec& t, const CaseSpec& spec) {
   const char* error_key = t.temperature_error    ? "temperature_error"
                           : t.displacement_error ? "displacement_error"
                                                  : "stress_error";
+  // Fixed steps have neither bounds nor errors to be controlled by.
   if (!t.adaptive) {
     const char* needs = "without adaptive = true";
     refuse(t, t.max_step.has_value(), "max_step", needs, "adaptive = true, or no max_step");
@@ -34,10 +35,12 @@ void check_limits(const TimeSpec& t, const CaseSpec& spec) {
     refuse(t, t.solid_fraction_change.has_value(), "solid_fraction_change", needs, "adaptive = true");
     refuse(t, t.skin_change.has_value(), "skin_change", needs, "adaptive = true");
   }
+  // Errors and the skin are judged by an estimate of the error, which has to be there.
   refuse(t, errors && t.error_control == ErrorControl::none, error_key, "with error_control = \"none\"",
          "error_control = \"predictor\" or \"doubling\"");
   refuse(t, t.skin_change && t.error_control == ErrorControl::none, "skin_change",
          "with error_control = \"none\"", "error_control = \"predictor\" or \"doubling\"");
+  // Limits of heat mean nothing without heat, those of motion nothing without motion.
   if (!spec.has_heat()) {
     refuse(t, t.temperature_error.has_value(), "temperature_error", "in an analysis without heat",
            "displacement_error");
@@ -125,6 +128,7 @@ void check_time(const CaseSpec& spec) {
   if (!t.end || !t.step)
     throw InputError(t.where, fmt::format("the key '{}' is missing in [time]", t.end ? "step" : "end"),
                      "end and step, or [[stage]] sections, or steady = true");
+  // The least and the largest step enclose the first one.
   if (*t.step > *t.end) throw InputError(t.where, "the time step is longer than the whole time");
   if (t.min_step && *t.min_step > *t.step) throw InputError(t.where, "'min_step' is above 'step'");
   if (t.max_step && *t.max_step < *t.step) throw InputError(t.where, "'max_step' is below 'step'");
@@ -150,6 +154,8 @@ double skin_change(const TimeSpec& t, std::span<const double> sections) {
 coupling::TimeOptions time_options(const CaseSpec& spec) {
   const TimeSpec& t = spec.time;
   coupling::TimeOptions options;
+  // End, or the moment at which all is solid, and the steps on the way there, with or without
+  // stages.
   options.end = *t.end;
   options.until_solid = t.until == TimeSpec::Until::solid;
   if (spec.stages.empty()) options.step = step_options(t, *t.step);
