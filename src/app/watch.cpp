@@ -99,12 +99,14 @@ Watch::Watch(fs::path folder)
     if (socket_ >= 0) ::close(socket_);
     throw InputError({}, fmt::format("--watch cannot listen on this machine: {}", std::strerror(error)));
   }
+  // The address names the port and the token, without which nothing is answered.
   host_ = fmt::format(":{}", ntohs(here.sin_port));
   address_ = fmt::format("http://127.0.0.1{}/{}/", host_, token_);
   // Signals are for the run: this thread hears none.
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
+  // The thread is started with all signals blocked, and inherits that.
   try {
     thread_ = std::thread([this] { serve(); });
   } catch (const std::system_error& error) {
@@ -133,6 +135,8 @@ void Watch::serve() {
   std::vector<Visitor> visitors;
   std::vector<pollfd> wait;
   while (!stop_) {
+    // Waits for a new visitor or for words of one that is there, a tenth of a second at most, so
+    // that it ends soon when asked to.
     wait.assign(1, {socket_, POLLIN, 0});
     for (const Visitor& visitor : visitors) wait.push_back({visitor.connection, POLLIN, 0});
     ::poll(wait.data(), wait.size(), 100);
@@ -147,6 +151,7 @@ void Watch::serve() {
     if (wait[0].revents == 0) continue;
     const int connection = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC);
     if (connection < 0) continue;
+    // The number of visitors is bounded: whoever has waited longest goes.
     if (visitors.size() == k_most_visitors) {  // the one that has been here longest leaves
       ::close(visitors.front().connection);
       visitors.erase(visitors.begin());
@@ -171,6 +176,7 @@ bool Watch::hear(Visitor& visitor) {
 }
 
 void Watch::answer(int connection, const std::string& text) {
+  // A visitor that does not read or write for two seconds is given up.
   const timeval patience{2, 0};
   ::setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   ::setsockopt(connection, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
@@ -196,6 +202,8 @@ std::string Watch::reply(const std::string& request) {
   const std::string path = request.substr(4, request.find(' ', 4) - 4);
   if (path.size() < token_.size() + 2 || !same(path.substr(0, token_.size() + 2), "/" + token_ + "/"))
     return none;
+  // Behind the token either nothing, which asks for the page, or the stamp by which the page knows
+  // that it is old.
   const std::string what = path.substr(token_.size() + 2);
   if (!what.empty() && what != "stamp") return none;
   asked_ = Clock::now().time_since_epoch().count();

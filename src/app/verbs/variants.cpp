@@ -18,6 +18,7 @@ ExitCode list_variants(const std::string& path) {
     print(fmt::format("{} has no variants: there is no variants.toml beside it.\n", name.file.string()));
     return k_done;
   }
+  // Names in a column as wide as the longest, with the titles behind them.
   std::size_t widest = 0;
   for (const model::VariantInfo& variant : variants) widest = std::max(widest, variant.name.size());
   std::string out;
