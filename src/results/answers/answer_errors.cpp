@@ -143,6 +143,7 @@ double ErrorFinder::change_of_shape(const std::optional<Spot>& spot) const {
   const std::span<const double> before = last_.before(mechanics::fields::k_displacement.name);
   // Without a step before there is no change to measure.
   if (before.empty()) return 0;
+  // All nodes of castings count alike, over all processes.
   const auto n_owned = static_cast<std::size_t>(mesh_.n_owned_nodes);
   double square = 0, n = 0;
   for (std::size_t i = 0; i < n_owned; ++i) n += cast_nodes_[i];

@@ -223,6 +223,7 @@ std::optional<Pores> pores_in(const mesh::Mesh& mesh, AnalysisKind kind, const F
                               const std::vector<char>& bodies) {
   const FieldValues fraction(fields, mechanics::fields::k_pore_fraction.name);
   if (fraction.empty()) return {};
+  // The densest element and the volume of all pores; the whole volume, of which that is a share.
   Largest densest;
   double volume = 0, whole = 0;
   std::size_t first = 0;

@@ -37,6 +37,7 @@ Json json(const Answers& a) {
   // every value that has one carries its error and its place.
   Json json;
   Json castings;
+  // Bodies one by one, under their names; a casting that has left has no present values.
   for (const CastAnswer& cast : a.castings) {
     Json of_body;
     of_body.add("riser", cast.cast.feeds).add("gating", cast.cast.gates).add("there", cast.there);
@@ -48,6 +49,7 @@ Json json(const Answers& a) {
     castings.add(cast.cast.name, std::move(of_body));
   }
   json.add("time[s]", a.time).add("castings", std::move(castings));
+  // How many pools were cut off from their feeders, with the largest.
   if (a.pools) {
     Json pools;
     pools.add("number", a.pools->number);
@@ -61,12 +63,14 @@ Json json(const Answers& a) {
   // The yield is known only where bodies have roles.
   if (const std::optional<double> share = poured_share_of_parts(a)) json.add("yield", *share);
   if (a.pores) json.add("pores", pores_json(*a.pores));
+  // Contacts by their names, with the widest gap and the deepest overlap of each.
   Json gaps;
   for (const GapAnswer& gap : a.gaps) gaps.add(gap.contact, value_json(gap.gap, "m"));
   json.add("largest_gaps", std::move(gaps));
   Json overlaps;
   for (const GapAnswer& overlap : a.overlaps) overlaps.add(overlap.contact, value_json(overlap.gap, "m"));
   json.add("deepest_overlaps", std::move(overlaps));
+  // What deforms has a largest distortion and a largest stress.
   if (a.distortion) json.add("largest_distortion", value_json(*a.distortion, "m"));
   if (a.stress) json.add("largest_von_mises", value_json(*a.stress, "Pa").add("body", a.stressed_body));
   Json of_criteria;

@@ -256,12 +256,14 @@ std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, 
   // Fields that have an answer, in the order of the fields.
   for (const quantities::Quantity* field : coupling::all_fields()) {
     if (field->answer.empty()) continue;
+    // What the criterion has found, by the name of its extreme; without it no line is written.
     const std::string wanted = worst_of(*field);
     const bool low = field->worst == quantities::Extreme::least;
     const auto f = std::find_if(found.begin(), found.end(), [&](const criteria::CriterionResult& finding) {
       return finding.name == wanted;
     });
     if (f == found.end()) continue;
+    // The error comes with the answers, by the same name.
     std::optional<ErrorBand> error;
     for (const auto& [name, of_finding] : answers.criteria_errors)
       if (name == wanted) error = of_finding;
@@ -279,6 +281,8 @@ std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, 
       answer += " everywhere";
     else if (f->somewhere)
       answer += " " + format.place(value.where);
+    // Where the field has a threshold the share beyond it comes first, for one value of the worst
+    // spot says little.
     const auto share = std::ranges::find(found, criteria::beyond(*field), &criteria::CriterionResult::name);
     if (field->threshold && share != found.end())
       answer = fmt::format("{} {:g} in {} % of what was cast; {} {}", low ? "below" : "above",
@@ -298,6 +302,7 @@ std::string gas_lines(const std::vector<criteria::CriterionResult>& found, const
   };
   std::string text;
   const criteria::CriterionResult* room = result("gas_pores_room");
+  // Gas is told even where no pore has opened: it stays in solution then.
   const criteria::CriterionResult* densest = result(criteria::largest_of(criteria::fields::k_gas_pores));
   if (room != nullptr && room->value > 0 && densest != nullptr) {
     const double volume = result("gas_pores_volume")->value;
@@ -348,7 +353,9 @@ std::string feeding_lines(const std::vector<criteria::CriterionResult>& found, c
                              format.length(of_pipe("depth")), format.place(pipe->where),
                              format.length(std::max(0.0, of_pipe("left"))), name));
   }
+  // Closed cavities next, then what is seen only from outside or under a microscope.
   text += places("cavity");
+  // What is less than a hundred-thousandth of the casting is rounding of the balance.
   constexpr double k_told = 1e-5;  // of what was cast
   if (const double sink = result("feeding_sink")->value; sink > k_told * room->value)
     text += line("sinks of the soft skin", fmt::format("{}, {}", format.volume(sink), share(sink))) +

@@ -40,6 +40,8 @@ std::vector<CsvColumn> shot_columns() {
 std::vector<double> numbers_of(const ShotRow& row) {
   const coupling::ShotRecord& s = row.shot;
   const auto celsius = [](double kelvin) { return kelvin - k_zero_celsius; };
+  // Numbers in the order of the columns above; temperatures in degrees Celsius, as a foundry reads
+  // them.
   return {s.end,
           static_cast<double>(s.number),
           s.poured,
@@ -141,6 +143,7 @@ std::string shot_text(const ShotRow& row) {
 
 Json json(const std::vector<ShotRow>& rows) {
   Json::Array all;
+  // Every shot as an object, with the state of the die before and after it.
   for (const ShotRow& row : rows) {
     const coupling::ShotRecord& s = row.shot;
     Json json;

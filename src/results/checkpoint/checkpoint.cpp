@@ -149,6 +149,7 @@ void take_nodes(TableReader& in, const std::string& name, const Places& places, 
 
 void take_history(TableReader& in, const std::string& name, const std::string& values,
                   const mesh::ElementBlock& block, mechanics::BlockHistory& history) {
+  // Elements without history have no rows in the file.
   const auto per_element = static_cast<std::size_t>(history.n_points * history.n_components);
   if (per_element == 0) return;
   // Rows are found by the element's number, so that another division into processes can go on.
@@ -191,6 +192,7 @@ void take_shots(TableReader& in, const Places& nodes, const coupling::State& sta
   if (in.text("shots") != k_known) return;
   shots.start.resize(state.heat.temperature.size());
   take_nodes(in, "shot_start", nodes, shots.start, k_temperatures);
+  // A damaged number of iterates would ask for any amount of memory.
   constexpr unsigned long k_most = 1000;
   const std::string count = in.text("shot_iterates");
   const unsigned long n = std::strtoul(count.c_str(), nullptr, 10);
@@ -220,6 +222,8 @@ void compare(const fs::path& path, TableReader& in, const Fingerprint& fingerpri
 
 Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerprint& fingerprint,
                      const coupling::State& layout) {
+  // Format and fingerprint first: a file of another version or another case is refused before
+  // anything is read of it.
   TableReader in(path);
   if (in.text("format") != k_format)
     throw OutputError(path.string(), "is no checkpoint that this version of Solidus can read");
@@ -261,12 +265,14 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
       take_nodes(in, "coherency", nodes, rates.coherency);
     }
   }
+  // First guesses of the next step are part of the state, for the same bits.
   if (in.text("first_guess") == k_known) {
     c.state.displacement_rate.resize(c.state.mechanics.displacement.size());
     take_nodes(in, "rate_of_last_step", nodes, c.state.displacement_rate);
     c.state.pressure_rate.resize(c.state.mechanics.pressure.size());
     take_nodes(in, "pressure_rate_of_last_step", nodes, c.state.pressure_rate);
   }
+  // One mark for each contact, or none at all.
   const std::string steady = in.text("steady_gaps");
   if (!steady.empty() && steady.size() != c.state.contacts.size())
     in.refuse(fmt::format("its 'steady_gaps' are of {} contacts, the case has {}", steady.size(),

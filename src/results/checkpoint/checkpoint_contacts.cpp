@@ -55,6 +55,7 @@ void take_point(const TableReader& in, const std::string& table, std::int64_t nu
 }  // namespace
 
 void write_contacts(TableWriter& out, const std::vector<contact::ContactState>& contacts) {
+  // The number of values a point has is that of an empty one.
   const auto width = static_cast<int>(numbers_of({}).size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     std::vector<std::int64_t> keys;
@@ -66,6 +67,7 @@ void write_contacts(TableWriter& out, const std::vector<contact::ContactState>& 
       const std::vector<double> numbers = numbers_of(point);
       values.insert(values.end(), numbers.begin(), numbers.end());
     }
+    // Keys and values are two tables with as many rows.
     out.rows<std::int64_t>(table(i) + "/point", 1, keys);
     out.rows<double>(table(i) + "/values", width, values);
     // Worn nodes of the master are kept where it wears.

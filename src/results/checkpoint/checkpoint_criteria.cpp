@@ -39,6 +39,8 @@ std::vector<Part> parts(const mesh::Mesh& mesh, const CriterionRecord& record,
     return {{0, static_cast<std::size_t>(mesh.n_owned_nodes), mesh.input_node.size(),
              [&mesh](std::size_t row) { return mesh.input_node[row]; }, "node", values}};
   std::vector<Part> result;
+  // Blocks are numbered through, with all rows of this process, of which the counted ones are
+  // written.
   std::size_t first = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const mesh::ElementBlock& block = mesh.blocks[b];
@@ -81,6 +83,7 @@ void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::Cr
           element_path(b, "element"), 1,
           mesh.blocks[b].input_element.part(0, static_cast<std::size_t>(mesh.blocks[b].n_counted)));
   for (const CriterionRecord& record : state.records) {
+    // Columns of nodes or elements first, then tables whose rows belong to no place.
     for (const criteria::CriterionColumn& column : record.columns) {
       const auto width = static_cast<std::size_t>(column.components);
       for (const Part& part : parts(mesh, record, column))

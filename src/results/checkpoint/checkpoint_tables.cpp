@@ -156,6 +156,7 @@ void TableReader::refuse(const std::string& what) const {
 void TableReader::each(const std::string& keys, const std::string& values, const AllowedValues& allowed,
                        const std::function<void(std::int64_t, std::span<const double>)>& take) {
   run_collectively([&] {
+    // How many rows and columns there are is in the file.
     const std::int64_t n_rows = file_->rows(values);
     const auto width = static_cast<std::size_t>(file_->width(values));
     // Keys and values must have as many rows; a damaged file may claim anything.

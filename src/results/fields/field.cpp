@@ -41,6 +41,7 @@ FieldSet FieldSet::select(const std::vector<std::string>& names) const {
   // The message lists the fields that there are.
   std::string known;
   for (const Field& field : fields_) known += (known.empty() ? "" : ", ") + field.name;
+  // Every name is checked before the first field is taken.
   for (const std::string& name : names)
     if (find(name) == nullptr)
       throw InputError({}, "this analysis has no field '" + name + "'", "fields: " + known);

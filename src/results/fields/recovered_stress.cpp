@@ -101,11 +101,13 @@ StressRecovery::StressRecovery(const mesh::Mesh& mesh, AnalysisKind kind) : mesh
   const std::vector<ElementOfCell> cells = cells_of(mesh);
   // Around each node of each body the cells that have it, and the directions in which their centroids spread.
   std::map<std::pair<int, Index>, std::vector<std::size_t>> around;  // of body and owned node
+  // A node has one patch in each of its bodies, since stresses jump from body to body.
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (int a = 0; a < mesh::node_count(cells[c].block->shape); ++a) {
       const Index node = cells[c].block->element(cells[c].element)[a];
       if (node < mesh.n_owned_nodes) around[{cells[c].block->body, node}].push_back(c);
     }
+  // Each patch knows in how many directions it can tell a slope.
   for (auto& [key, list] : around) {
     Patch patch;
     patch.body = key.first;
@@ -119,10 +121,12 @@ StressRecovery::StressRecovery(const mesh::Mesh& mesh, AnalysisKind kind) : mesh
 /// The directions in which the centroids of a patch spread, measured by the extent of its elements in each,
 /// and the inverse there.
 void StressRecovery::spread(Patch& patch) const {
+  // The middle of the centroids, around which the stress is fitted.
   const std::size_t dim = at(mesh_.dimension);
   const double n = static_cast<double>(patch.cells.size());
   for (const std::size_t c : patch.cells)
     for (std::size_t i = 0; i < 3; ++i) patch.centre[i] += centroid_[c][i] / n;
+  // How the centroids spread against each other, and how far each element extends by itself.
   Small between{}, within{};
   for (const std::size_t c : patch.cells)
     for (std::size_t i = 0; i < dim; ++i)
@@ -130,6 +134,8 @@ void StressRecovery::spread(Patch& patch) const {
         between[3 * i + j] += (centroid_[c][i] - patch.centre[i]) * (centroid_[c][j] - patch.centre[j]);
         within[3 * i + j] += moment_[c][3 * i + j];
       }
+  // Directions are compared after scaling by the extent, so that long elements do not count as
+  // spread.
   Small& scale = within;
   if (!cholesky(scale, dim)) return;
   for (std::size_t j = 0; j < dim; ++j) solve_lower(scale, dim, &between[j], 3);
@@ -138,6 +144,8 @@ void StressRecovery::spread(Patch& patch) const {
   for (std::size_t i = 0; i < dim; ++i)
     for (std::size_t j = 0; j < dim; ++j)
       scaled[i * dim + j] = 0.5 * (between[3 * i + j] + between[3 * j + i]);
+  // Only directions in which the centroids spread enough are kept for a slope; in the others it is
+  // constant.
   SymmetricEigen modes = symmetric_eigen(std::move(scaled), dim);
   for (std::size_t k = 0; k < dim; ++k) {
     if (!(modes.values[k] > k_spread)) continue;

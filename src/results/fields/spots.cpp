@@ -38,6 +38,7 @@ std::optional<Spot> node_spot(const mesh::Mesh& mesh, const mesh::Point& where,
   while (own < n_owned && (counts[own] == 0 || mesh.x[own] != where)) ++own;
   if (own == n_owned) return {};
   Spot spot{own, {}};
+  // All that share an element with the node are its neighbours, each once.
   for (const mesh::ElementBlock& block : mesh.blocks)
     for (Index e = 0; e < block.size(); ++e) {
       const std::span<const Index> nodes = nodes_of_element(block, e);
@@ -55,6 +56,7 @@ std::optional<Spot> element_spot(const mesh::Mesh& mesh, const mesh::Point& wher
   std::optional<Spot> spot;
   std::span<const Index> own;
   int body = -1;
+  // A visit of all elements with their number in the fields.
   const auto visit = [&](const auto& look) {
     std::size_t first = 0;
     for (const mesh::ElementBlock& block : mesh.blocks) {

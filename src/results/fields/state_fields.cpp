@@ -116,6 +116,7 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
     add_elements();
     add_nodal_stress();
   }
+  // The fields up to here are those of the phases; contact shows them on its surfaces too.
   const std::size_t n_of_phases = values_.size();
   add_criteria();
   for (const auto& v : values_)
@@ -124,6 +125,7 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
   // Nodal fields of the phases are shown on the contact surfaces too.
   if (phases.contacts.empty()) return;
 
+  // Fields of contact are in a set of their own, with those of the phases at nodes.
   FieldSet contact;
   for (std::size_t i = 0; i < n_of_phases; ++i)
     if (const auto& v = values_[i]; v->place == mesh::FieldPlace::node && !v->compute)
@@ -143,6 +145,7 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
                  quantity.per_covered_area ? std::span<const double>(covered_) : std::span<const double>()});
   };
   for (const Quantity* quantity : k_contact) add_everywhere(*quantity);
+  // Heat, friction and stored heat bring further fields where the case has them.
   if (with_heat(phases)) {
     add_everywhere(of_contact::k_contact_heat_flux);
     if (with_friction(phases)) add_everywhere(of_contact::k_frictional_heat_flux);
@@ -172,6 +175,7 @@ void StateFields::find_side_areas(AnalysisKind kind) {
       sides[side].assign(mesh_.x.size(), 0.0);
       const auto surface = mesh_.surfaces.find(side == 0 ? pair->spec().slave : pair->spec().master);
       if (surface == mesh_.surfaces.end()) continue;  // a rigid one
+      // Areas by shape functions, as contact itself integrates.
       for (const mesh::ElementBlock& faces : surface->second.faces) {
         const mesh::FaceGeometry g(mesh_, faces, kind, mesh::gauss_rule(faces.shape, 4));
         const auto n = static_cast<std::size_t>(g.n_nodes), n_points = static_cast<std::size_t>(g.n_points);
@@ -237,6 +241,7 @@ void StateFields::add_nodal_stress() {
     if (!recovery_) recovery_ = std::make_unique<StressRecovery>(mesh_, kind_);
     return recovery_->at_nodes(mechanics::element_field(mesh_, shown_, ElementField::stress), body);
   };
+  // Each of them is made of the stress at the nodes, computed for all bodies or one.
   const auto add = [this](const Quantity& quantity,
                           const std::function<std::vector<double>(int body)>& compute) {
     Values& v = add_values(quantity);
@@ -285,6 +290,7 @@ void StateFields::update(const coupling::State& state) {
   const linear::ActiveSet* active = there.complete() ? nullptr : &there;
   bodies_.set_active(active);
   for (auto& [name, fields] : surfaces_) fields.set_active(active);
+  // Heat first, then mechanics, each with what its state keeps.
   if (phases_.heat != nullptr) {
     std::ranges::copy(state.heat.temperature, values_of(of_heat::k_temperature).begin());
     std::ranges::copy(phases_.heat->solid_fraction(state.heat), values_of(of_heat::k_solid_fraction).begin());
@@ -302,6 +308,7 @@ void StateFields::update(const coupling::State& state) {
 
 // A node of several pairs shows its closest partner; nodes away from the surfaces show zero.
 void StateFields::update_contacts(std::span<const double> temperature) {
+  // What no pair covers this time has to be zero.
   for (const auto& v : values_)
     if (v->of_contact) std::fill(v->values.begin(), v->values.end(), 0.0);
   std::vector<double>&gap = values_of(of_contact::k_gap),
@@ -313,6 +320,7 @@ void StateFields::update_contacts(std::span<const double> temperature) {
     const auto& [slave_area, master_area] = side_area_[number];
     const contact::ContactNodalFields fields = contact::nodal_fields(pair->view(), temperature);
     std::vector<char> closest(fields.nodes.size(), 0);
+    // The pair with the smallest opening at a node decides what is shown there.
     for (std::size_t k = 0; k < fields.nodes.size(); ++k) {
       const auto i = static_cast<std::size_t>(fields.nodes[k]);
       if (!std::isfinite(fields.opening[k]) || (seen[i] != 0 && gap[i] <= fields.opening[k])) continue;

@@ -26,6 +26,8 @@ std::vector<Point> lattice(const std::vector<double>& along, int dimension) {
 
 /// In the plane of two-dimensional shapes, of one layer.
 std::vector<Point> points_of_layer(Shape shape) {
+  // Positions of Gauss points for two and three a direction; a and b are those of the tetrahedron's
+  // four.
   const double g2 = 1 / std::sqrt(3.0), g3 = std::sqrt(0.6);
   constexpr double a = 0.13819660112501052, b = 0.58541019662496845;
   switch (shape) {

@@ -53,6 +53,7 @@ class Held {
 /// For each node the least node of its connected part; −1 where nothing is.
 std::vector<Index> connected_parts(const mesh::Mesh& mesh, const linear::ActiveSet& active) {
   std::vector<Index> part(mesh.x.size(), -1);
+  // The root of a set is the node that is its own parent.
   const auto root = [&part](Index node) {
     while (part[static_cast<std::size_t>(node)] != node) node = part[static_cast<std::size_t>(node)];
     return node;
@@ -70,6 +71,7 @@ std::vector<Index> connected_parts(const mesh::Mesh& mesh, const linear::ActiveS
         part[static_cast<std::size_t>(node)] = std::min(mine, first);
       }
   }
+  // At last every node names its root directly.
   for (std::size_t i = 0; i < part.size(); ++i)
     if (part[i] >= 0) part[i] = root(static_cast<Index>(i));
   return part;

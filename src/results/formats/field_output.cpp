@@ -44,6 +44,7 @@ FieldOutput::FieldOutput(const RunFolder& folder, const mesh::Mesh& mesh, double
 std::string FieldOutput::write_one(const std::string& name, const mesh::Surface* surface,
                                    const FieldSet& fields, double time) {
   const int rank = processes::rank(), size = processes::count();
+  // One file for each process, or a single one without a number.
   const auto part = [&](int process) {
     return size == 1 ? name + ".vtu" : fmt::format("{}_p{}.vtu", name, process);
   };

@@ -231,6 +231,7 @@ void Hdf5Reader::put(const void* bytes, std::size_t n) {
 }
 
 void Hdf5Reader::take(void* bytes, std::size_t n) {
+  // A deadline for the whole answer, not for each part of it.
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(seconds_);
   const auto receive = [&](std::size_t at, std::size_t left) -> ssize_t {

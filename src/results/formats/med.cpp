@@ -65,6 +65,7 @@ class Writer {
 std::vector<CellBlock> cell_blocks(const FieldMoment& moment) {
   std::vector<CellBlock> blocks;
   std::size_t first_point = 0, first_cell = 0;
+  // Pieces of several processes are put behind one another, with points counted through.
   for (const FieldMoment::Piece& piece : moment.pieces()) {
     const mesh::CellTable table = read_cells(*piece.file, *piece.tree, piece.n_cells, piece.n_points);
     std::size_t begin = 0;

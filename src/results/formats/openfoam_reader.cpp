@@ -268,6 +268,7 @@ FoamField read_values(FoamFile file, const PolyMesh& mesh) {
   // A field says its dimensions, then its values: one for all, or one for each cell or point.
   FoamField field;
   const std::string kind = file.header();
+  // Scalars alone: a temperature is one.
   if (kind != "volScalarField" && kind != "pointScalarField")
     file.fail("the field is a '" + kind + "'", "a volScalarField or a pointScalarField");
   field.of_points = kind == "pointScalarField";
@@ -303,6 +304,7 @@ FoamField read_values(FoamFile file, const PolyMesh& mesh) {
       } else {
         file.fail(fmt::format("the field is '{}'", form), "uniform or nonuniform");
       }
+      // Infinite or undefined values would spread over the whole mesh.
       for (const double value : field.values)
         if (!std::isfinite(value)) file.fail("the field is not finite somewhere");
       return field;
@@ -360,6 +362,7 @@ ReadField read_openfoam(const fs::path& time, const std::string& name, double le
     block.nodes.insert(block.nodes.end(), {n_points + static_cast<Index>(cell), a, b, c});
     block.input_element.push_back(static_cast<GlobalIndex>(cell) + 1);
   });
+  // Cells of negative volume would weigh negatively in all that follows.
   for (std::size_t cell = 0; cell < poly.n_cells; ++cell)
     if (!(read.cell_volumes[cell] > 0))
       throw InputError({poly_mesh.string()}, fmt::format("cell {} of the mesh has no positive volume", cell));
@@ -384,6 +387,7 @@ ReadField read_openfoam(const fs::path& time, const std::string& name, double le
     std::copy(given.begin(), given.end(), read.values.begin() + n_points);
     read.cell_values = given;
   }
+  // Weighted means, where something has a weight.
   for (std::size_t i = 0; i < mesh.x.size(); ++i)
     if (weight[i] > 0) read.values[i] = sum[i] / weight[i];
   if (field.of_points) read.cell_volumes.clear();  // values are of points: sums go by the tetrahedra

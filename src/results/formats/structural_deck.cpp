@@ -68,6 +68,7 @@ class Writer {
     sections();
     equations();
     initial_conditions();
+    // Either a state that is brought into equilibrium, or the temperatures of all moments as loads.
     if (d_.history.empty()) {
       step();
     } else {
@@ -129,6 +130,7 @@ class Writer {
       for (Index e = 0; e < block.size(); ++e) {
         for (std::size_t a = 0; a < n; ++a)
           theirs[order.empty() ? a : static_cast<std::size_t>(order[a])] = node(block.element(e)[a]);
+        // The number of the element, then its nodes.
         std::string text = std::to_string(first_[b] + e);
         std::size_t on_line = 1;
         for (const GlobalIndex number : theirs) {  // at most 16 a line
@@ -161,6 +163,8 @@ class Writer {
 
   /// Faces by the element behind them.
   void surfaces() {
+    // Faces in the deck are named by an element and one of its labels, so that the element behind
+    // each is looked for.
     struct Behind {
       GlobalIndex element;
       int label;
