@@ -66,6 +66,7 @@ struct FacesOfNodes {
 
 /// @param ranges  of the whole mesh
 FacesOfNodes faces_of_nodes(const Mesh& mesh, std::span<const ElementRange> ranges, Index first, Index last) {
+  // Ranges of elements whose nodes lie wholly outside of the part are passed over.
   const auto each = [&](const auto& visit) {
     for (const ElementRange& range : ranges) {
       if (range.highest < first || range.lowest >= last) continue;
@@ -74,6 +75,7 @@ FacesOfNodes faces_of_nodes(const Mesh& mesh, std::span<const ElementRange> rang
       });
     }
   };
+  // Two passes, one that counts and one that fills, so that the table needs no list for each node.
   FacesOfNodes faces;
   faces.start.assign(static_cast<std::size_t>(last - first) + 1, 0);
   each([&](const FacePlace&, std::size_t slot) { ++faces.start[slot + 1]; });

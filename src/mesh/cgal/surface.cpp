@@ -16,6 +16,7 @@ namespace solidus::mesh {
 namespace PMP = CGAL::Polygon_mesh_processing;
 
 TriangleSurface surface_of(const ClosedShells& all, const Shell& shell) {
+  // Points and triangles as a soup, which is then turned into a surface that knows its neighbours.
   std::vector<Kernel::Point_3> points;
   std::vector<std::vector<std::size_t>> triangles;
   std::map<Index, std::size_t> number_of;
@@ -44,6 +45,7 @@ void append_shells(const TriangleSurface& surface, const std::string& name, Clos
       PMP::connected_components(surface, boost::associative_property_map<decltype(part_of)>(part_of));
   const std::size_t first = all.shells.size();
   for (std::size_t p = 0; p < n_parts; ++p) all.shells.emplace_back().name = name;
+  // Vertices are appended as triangles ask for them.
   std::map<TriangleSurface::Vertex_index, Index> number_of;
   // A shell of its own for each connected part.
   for (const TriangleSurface::Face_index face : surface.faces()) {

@@ -111,6 +111,7 @@ class Union {
     } catch (const PMP::Corefinement::Self_intersection_exception&) {
       valid = false;
     }
+    // The place of the crossing is looked for only where the union has failed.
     if (!valid)
       throw UnusableGeometry({path_},
                              "closed skins cross each other and cannot be united near " +

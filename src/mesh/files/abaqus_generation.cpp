@@ -49,6 +49,7 @@ class Generator {
       : keyword_(keyword), unit_(unit), scope_(scope) {}
 
   void run(const std::vector<AbaqusLine>& lines) {
+    // Each keyword refuses options that would change what it makes and that are not read.
     if (keyword_.name == "NGEN") {
       refuse_options(keyword_, {"NSET", "LINE"});
       for (const AbaqusLine& line : lines) nodes_between(line);
@@ -119,6 +120,7 @@ void Generator::nodes_between(const AbaqusLine& line) {
               "a difference of the numbers that is a multiple of the step");
   const GlobalIndex n = span / step;
   if (n > k_most) line.fail("*NGEN makes " + std::to_string(n - 1) + " nodes in one line");
+  // Straight lines are the default; other curves than arcs are refused by their name.
   const std::string* kind = keyword_.find("LINE");
   const bool arc = kind != nullptr && upper(*kind) == "C";
   if (kind != nullptr && !arc)
@@ -156,6 +158,7 @@ void Generator::fill(const AbaqusLine& line) {
   // Both sets in the order in which they were written, since rows run from member to member.
   const auto one = numbers_of(scope_.node_sets, line.parts[0], true, line.at),
              other = numbers_of(scope_.node_sets, line.parts[1], true, line.at);
+  // As many members in both sets, and a bounded number of nodes.
   const GlobalIndex lines = line.integer(2), step = line.integer(3, 1);
   if (one.size() != other.size() || lines < 1 || step == 0)
     line.fail("*NFILL has sets of " + std::to_string(one.size()) + " and " + std::to_string(other.size()) +

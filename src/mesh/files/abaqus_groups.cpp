@@ -158,12 +158,14 @@ Found Groups::find(std::size_t scope, const std::vector<NumberRange>& ranges, bo
     }
     found.n_missing += r.count() - static_cast<GlobalIndex>(found.members.size() - before);
   }
+  // A member that two ranges name counts once.
   std::ranges::sort(found.members);
   found.members.erase(std::unique(found.members.begin(), found.members.end()), found.members.end());
   return found;
 }
 
 void Groups::add_element_set(std::size_t scope, const std::string& key, const AbaqusSet& set) {
+  // Members by number, with a note on those that the deck does not have.
   const Found found = find(scope, set.ranges, false);
   say_missing(set, found);
   if (set.internal) return;
@@ -189,6 +191,7 @@ void Groups::add_element_set(std::size_t scope, const std::string& key, const Ab
 
 // Elements of no set: one body of the deck, and one of each instance.
 void Groups::add_rest() {
+  // What no set has named is a body, one for the deck and one for each instance.
   for (std::size_t s = 0; s < scopes_.size(); ++s) {
     RawGroup rest{mesh_.dimension, {}};
     std::size_t thin = 0;

@@ -161,6 +161,7 @@ class Choice {
     std::size_t whole = 0;
     for (const std::size_t k : chosen_)
       if (inside(all_[k].members, all_[i].members)) whole += all_[k].members.size();
+    // Three cases, each with a message of its own: the same, a union, or an overlap.
     if (whole == all_[i].members.size() && holders.size() == 1)
       return fmt::format("the set '{}' holds the same elements as {} and is no body of its own", all_[i].name,
                          holders[0]);

@@ -57,6 +57,7 @@ std::optional<LengthUnit> iges_unit(const std::string& path) {
   const std::vector<std::string> parameters = iges_parameters(path);
   constexpr std::size_t k_flag = 13, k_name = 14;  // the fourteenth and the fifteenth
   if (parameters.size() <= k_flag) return std::nullopt;
+  // Flags of the format with their lengths, and the names under which programs write them.
   static const std::map<std::string, LengthUnit> known = {
       {"1", {"inch", 0.0254}}, {"2", {"mm", 1e-3}},     {"4", {"ft", 0.3048}},   {"5", {"mile", 1609.344}},
       {"6", {"m", 1}},         {"7", {"km", 1e3}},      {"8", {"mil", 2.54e-5}}, {"9", {"um", 1e-6}},

@@ -39,6 +39,7 @@ std::map<long, std::string> unit_statements(const std::string& path) {
   // Statements end at a semicolon; outside of strings comments and blanks are left out.
   for (std::size_t i = 0; i < all.size(); ++i) {
     const char c = all[i];
+    // A quote switches between text and code; two in a row switch twice, as the format means them.
     if (c == '\'') in_string = !in_string;
     if (!in_string && c == '/' && i + 1 < all.size() && all[i + 1] == '*') {
       const std::size_t close = all.find("*/", i + 2);

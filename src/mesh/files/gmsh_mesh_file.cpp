@@ -189,6 +189,7 @@ void Reader::read_names() {
 }
 
 void Reader::read_entities() {
+  // Four counts first, one for each dimension.
   std::size_t n[4];
   for (std::size_t& of_dimension : n) of_dimension = file_.count(file_.number<std::int64_t>(), 8);
   // Of each entity only the physical groups matter; boxes and boundaries are passed over.
@@ -225,6 +226,7 @@ void Reader::read_nodes_2() {
 }
 
 void Reader::read_nodes_4() {
+  // Numbers of the whole mesh are in front, and are not trusted for memory.
   const std::size_t n_blocks = file_.count(file_.number<std::int64_t>(), 8);
   for (int k = 0; k < 3; ++k) file_.number<std::int64_t>();  // number of nodes, least and largest tag
   // Each block belongs to an entity and has first all tags and then all coordinates.
@@ -291,6 +293,7 @@ void Reader::read_elements_2() {
 }
 
 void Reader::read_elements_4() {
+  // As above: counts that the blocks themselves repeat.
   const std::size_t n_blocks = file_.count(file_.number<std::int64_t>(), 8);
   for (int k = 0; k < 3; ++k) file_.number<std::int64_t>();
   std::vector<std::int64_t> nodes;

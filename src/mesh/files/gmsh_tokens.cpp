@@ -104,6 +104,7 @@ class Scanner {
   }
 
   void block_comment() {
+    // Behind code a comment of several lines would hide where the next statement begins.
     const std::size_t begin = at_;
     const bool behind_code = code_in_line_;
     for (at_ += 2; at_ < text_.size() && !(here() == '*' && here(1) == '/');) {

@@ -210,6 +210,7 @@ double NastranCard::real(std::size_t i, double without) const {
     else if (c != '+')
       text += c;
   }
+  // All of the field must be a number, and a finite one.
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))

@@ -146,10 +146,12 @@ void Reader::take_name(std::string_view comment) {
       n = 10 * n + (from[i] - '0');
     return n;
   };
+  // A name without letters, or of no property, is no name.
   const auto give = [this](GlobalIndex number, std::string name) {
     const auto first = name.find_first_not_of(' ');
     if (number > 0 && first != std::string::npos) names_[number] = name.substr(first);
   };
+  // Three programs have a form of their own; any other comment says nothing.
   if (text.starts_with("ANSA_NAME_COMMENT;")) {
     std::vector<std::string> parts;
     for (std::size_t from = 0; from <= text.size();) {
@@ -249,6 +251,7 @@ void Reader::make_groups(const std::string& path) {
     throw InputError(
         {path}, "the mesh has no triangles, quads, tetrahedra or hexahedra: empty, cut off or not a mesh",
         "a bulk data file of Nastran with GRID and CTETRA, CHEXA, CTRIA3, …");
+  // Elements without a property are one body if all of them are.
   join_without_property();
   std::map<std::pair<int, GlobalIndex>, RawGroup> groups;  // by dimension and property
   // Nodes are put from Nastran's order into ours by way of that of Abaqus, which differs less.

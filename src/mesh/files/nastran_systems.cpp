@@ -14,6 +14,7 @@ bool NastranSystems::take(const NastranCard& card) {
     given.coordinates = Coordinates::spherical;
   else if (name[5] != 'R')
     return false;
+  // The number of the system, and from where its points are in the entry.
   const auto keep = [&](std::size_t first) {
     given.first = first;
     if (!given_.emplace(card.integer(first), given).second)

@@ -276,6 +276,7 @@ void cut_quadrilaterals(RawGroup& group, const Chosen& chosen) {
       kept.push_back(std::move(block));
       continue;
     }
+    // What stays whole keeps its place in its own block.
     RawBlock whole{Shape::quad4, {}, {}};
     for (std::size_t at = 0; at < block.input_element.size(); ++at) {
       const Corners corners = std::span(block.nodes).subspan(4 * at, 4);

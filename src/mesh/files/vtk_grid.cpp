@@ -166,6 +166,7 @@ RawMesh mesh_of_grid(const std::string& path, const VtkGrid& grid, double unit_i
     mesh.dimension = std::max(mesh.dimension, dimension);
     RawGroup& group = groups[{dimension, bodies.empty() ? 0.0 : bodies[c]}];
     group.dimension = dimension;
+    // The block of this shape in the group, or a new one.
     auto block = std::find_if(group.blocks.begin(), group.blocks.end(),
                               [&](const RawBlock& b) { return b.shape == parts->shape; });
     if (block == group.blocks.end())
@@ -183,6 +184,7 @@ RawMesh mesh_of_grid(const std::string& path, const VtkGrid& grid, double unit_i
   if (mesh.dimension < 2)
     throw InputError({path},
                      "the mesh has no triangles, quads, tetrahedra or hexahedra: empty or not a mesh");
+  // Bodies and surfaces are numbered by the regions in rising order.
   int n_bodies = 0, n_surfaces = 0;
   for (auto& [key, group] : groups) {
     if (key.first == mesh.dimension)

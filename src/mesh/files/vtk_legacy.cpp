@@ -173,6 +173,7 @@ const NumberType& Reader::type(const std::string& name) const {
 std::vector<double> Reader::numbers(const NumberType& type, std::size_t n) {
   std::vector<double> values;
   if (binary_) {
+    // In binary the size is known at once, and compared with what the file still has.
     line();
     if (n > (text_.size() - at_) / type.bytes) fail("the file is cut off inside of its data");
     values.reserve(n);
@@ -290,6 +291,7 @@ std::size_t components_of(const std::string& kind) {
 bool Reader::attribute(const std::string& kind, std::size_t n, bool of_cells) {
   // Only scalars are kept; vectors and others are read over, as their lengths follow from their kind.
   if (kind == "field") {
+    // The block of fields has its own form, each with a name and a type.
     word();
     field(of_cells, n);
   } else if (kind == "scalars") {

@@ -95,6 +95,7 @@ std::string attribute(const pt::ptree& element, const std::string& name) {
 /// Whether elements lie in each other deeper than `most`: the parser of XML calls itself for each.
 bool nested_deeper(std::string_view xml, int most) {
   int depth = 0;
+  // Where the text behind a mark goes on, or the end of the file.
   const auto behind = [&](std::size_t from, std::string_view end) {
     const std::size_t at = xml.find(end, from);
     return at == std::string_view::npos ? xml.size() : at + end.size();

@@ -281,6 +281,7 @@ class PartMaker {
 
   /// Pieces of the block that reach one of its walls are mould, others lie in cavities.
   void sort_mould(const gmsh::vectorpair& pieces) {
+    // Where a wall has no thickness the mould ends with the parts, so that this side tells nothing.
     BodyVolumes mould{geometry_.mould->name, {}};
     gmsh::vectorpair cores;
     const double slack = 1e-5 * block_.diagonal();
@@ -293,6 +294,7 @@ class PartMaker {
       }
       (outside ? mould.volumes : cores).push_back(piece);
     }
+    // Cores get a number each where there are several.
     parts_.push_back(mould);
     for (std::size_t c = 0; c < cores.size(); ++c)
       parts_.push_back(

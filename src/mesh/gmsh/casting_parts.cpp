@@ -78,6 +78,7 @@ std::string place_of_complaints(const std::vector<BodyVolumes>& parts) {
   for (const int face : surfaces_at_fault()) {
     constexpr std::size_t k_most = 4;
     if (said == k_most) break;
+    // The first body that has the face is named as its owner.
     std::string owner;
     for (const BodyVolumes& part : parts)
       for (const auto& volume : part.volumes) {

@@ -23,6 +23,7 @@ CastingSizes::CastingSizes(const std::vector<BodyVolumes>& parts, const CastingG
 
 /// The largest size of every entity: the least of the bodies that it belongs to.
 void CastingSizes::limit_entities() {
+  // An entity of several bodies gets the smallest of their sizes.
   const auto note = [&](int dimension, int tag, double limit) {
     const auto [place, is_new] = limit_.emplace(std::pair(dimension, tag), limit);
     if (!is_new) place->second = std::min(place->second, limit);

@@ -226,11 +226,13 @@ void fill(Shell& shell) {
 }
 
 bool lies_in(const Shell& inner, const Shell& outer, const std::vector<Shell>& all) {
+  // Boxes first, as they are quick: the inner one must fit into the outer one.
   if (inner.volume >= outer.volume) return false;
   const Extent a = extent_of({{3, inner.filled}}), b = extent_of({{3, outer.filled}});
   const double slack = 1e-6 * b.diagonal();
   for (std::size_t i = 0; i < 3; ++i)
     if (a.low[i] < b.low[i] - slack || a.high[i] > b.high[i] + slack) return false;
+  // Then the volume that both have in common, which is all of the inner one if it lies inside.
   gmsh::vectorpair common;
   std::vector<gmsh::vectorpair> map;
   occ::intersect({{3, inner.filled}}, {{3, outer.filled}}, common, map, -1, false, false);

@@ -204,6 +204,8 @@ Point vertex_displacement(std::span<const FaceAtVertex> faces) {
   // Planes hold the vertex in their normal; it may move only in what they leave free.
   std::vector<FaceAtVertex> curved;
   std::vector<Point> done;  // orthonormal directions in which the vertex must not, or need not, move further
+  // Curved faces that continue one another are merged first, for together they ask for one
+  // displacement.
   for (const FaceAtVertex& face : faces) {
     Point n = face.normal;
     if (!face.is_plane) {
@@ -227,6 +229,7 @@ Point vertex_displacement(std::span<const FaceAtVertex> faces) {
 }
 
 void enclose_curved_volume(const std::unordered_map<std::size_t, Index>& index, double unit, RawMesh& mesh) {
+  // All faces of the geometry that Gmsh has, with what they ask of their vertices.
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities, 2);
   std::unordered_map<Index, std::vector<FaceAtVertex>> faces;
@@ -241,6 +244,8 @@ void enclose_curved_volume(const std::unordered_map<std::size_t, Index>& index, 
   }
   // A geometry of planes needs nothing.
   if (!any) return;
+  // Displacements are found for all vertices before any is moved, since offsets are those of the
+  // mesh as it is.
   std::map<Index, Point> displacement;
   for (const auto& [node, list] : faces) {
     const Point u = vertex_displacement(list);

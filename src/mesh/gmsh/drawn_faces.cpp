@@ -69,6 +69,7 @@ class SmoothFaces {
   }
 
   void join_faces_of(int solid) {
+    // The faces of the solid with the sense in which they bound it.
     gmsh::vectorpair bounds;
     gmsh::model::getBoundary({{3, solid}}, bounds, false, true, false);
     // At a curve between two faces these are one when they continue one another smoothly.

@@ -213,6 +213,7 @@ class FacetedMaker {
       return limit_.contains({dimension, tag}) ? size_at(dimension, tag, {x, y, z})
                                                : sizes_->on_skins({x, y, z});
     });
+    // Mesh, moved nodes of poor elements, and the usual improvement, in this order.
     generate_mesh(3);
     gmsh::model::mesh::optimize("Relocate3D", true);
     gmsh::model::mesh::optimize("", true);

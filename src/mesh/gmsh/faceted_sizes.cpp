@@ -187,6 +187,7 @@ std::vector<SkinPiece> FacetedSizes::pieces_of(const std::vector<std::array<Poin
 std::vector<double> FacetedSizes::sizes_of_shells() const {
   std::vector<double> sizes;
   const SizeField& field = fields_.begin()->second;
+  // No element is larger than the size of any region at the shell.
   for (std::size_t s = 0; s < all_.shells.size(); ++s) {
     double most = coarse_;
     for (const FacetedRegion& region : regions_)
@@ -210,6 +211,7 @@ MeshingOutlook FacetedSizes::outlook(int element_order) const {
   for (const FacetedRegion& region : regions_) {
     const double most = largest(region.body), volume = volume_of(region);
     std::vector<SkinPiece> pieces;
+    // Parts have a skin of their own, which gives size and number of its triangles.
     if (const auto skin = skins_.find(region.body); skin != skins_.end()) {
       pieces = pieces_of(skin->second, most);
       if (all_.shells[region.shells.front()].depth % 2 == 0) {  // a part and no core

@@ -66,6 +66,8 @@ std::string open_faces_text(double unit) {
   const std::string text = counted(faces.size(), "face", "faces") + " in " +
                            counted(count_pieces(faces.size(), of), "piece", "pieces");
   if (n_open == 0) return text + ", which have no open curve, yet the CAD kernel makes no solid of them";
+  // The middle of the box of the longest open curve is the place, in millimetres of the file's
+  // unit.
   double low[3], high[3];
   gmsh::model::getBoundingBox(1, where, low[0], low[1], low[2], high[0], high[1], high[2]);
   const double mm = 1e3 * unit / 2;

@@ -108,6 +108,7 @@ void remove_loose_faces() {
 }
 
 void cut(std::vector<BodyVolumes>& parts, const Plane& plane) {
+  // All volumes of all parts at once, so that they stay joined along the cut.
   gmsh::vectorpair volumes, out;
   for (const BodyVolumes& part : parts)
     volumes.insert(volumes.end(), part.volumes.begin(), part.volumes.end());

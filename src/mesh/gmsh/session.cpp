@@ -212,6 +212,7 @@ std::optional<Point> centre_of_solids(double unit) {
   } catch (const std::string&) {
     return {};
   }
+  // Scaled to metres, and divided by the whole volume.
   if (!(whole > 0)) return {};
   for (double& x : moment) x *= unit / whole;
   return moment;
