@@ -136,6 +136,7 @@ std::string pour_lines(const PourOverview& p) {
                   celsius(p.pouring), p.pouring - p.liquidus, celsius(p.liquidus));
   // When it freezes and what governs that, then the numbers behind the estimate.
   if (!p.no_estimate.empty()) return text + "\n  freezes     " + p.body + ": no estimate, " + p.no_estimate;
+  // A time with its rule, or that it never freezes.
   if (p.freezing_time)
     text += fmt::format(
         "\n  freezes     {}: in about {}, by Chvorinov {} s/mm2 x (V/A = {} mm{})^2; governed by {}", p.body,
@@ -147,6 +148,7 @@ std::string pour_lines(const PourOverview& p) {
   text += p.depth > 0 ? fmt::format(": {} mm from its skin to its centre, {} elements", number(1e3 * p.depth),
                                     number(p.elements_across))
                       : std::string(": no node below its skin, one element through its walls");
+  // Numbers that describe the freezing, as far as the case has them.
   if (p.biot) text += fmt::format("; Biot {}", number(*p.biot));
   if (p.fourier) text += fmt::format(", Fourier {} at the end", number(*p.fourier));
   if (p.mould_reach > 0)
@@ -167,6 +169,7 @@ Json json(const PourOverview& p) {
       .add("modulus[m]", p.modulus)
       .add("local_modulus[m]", p.local_modulus)
       .add("depth[m]", p.depth);
+  // Only what the estimate knows is written.
   if (p.biot) j.add("biot[1]", *p.biot);
   if (p.fourier) j.add("fourier[1]", *p.fourier);
   if (p.freezing_time)
@@ -226,6 +229,7 @@ Json json(const Overview& o) {
         .add("longest_edge[m]", b.longest_edge);
     bodies.push_back(std::move(j));
   }
+  // Skins with the area that found a partner, and gaps where any did.
   for (const SkinOverview& s : o.skins) {
     Json j;
     j.add("name", s.name).add("surface", s.surface).add("faces", s.faces).add("area[m2]", s.area);

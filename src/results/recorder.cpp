@@ -123,6 +123,7 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
   fields_.bodies().select(options_.fields);  // complains about a field there is not
   // Tables are written by the first process alone. A run that continues keeps the rows up to its checkpoint.
   on_first_process([&] {
+    // Columns of the history: time, stage and shot, probes, then the sums over the whole case.
     std::vector<CsvColumn> columns{{"time", "s"}};
     if (options_.stages) columns.insert(columns.end(), {{"stage", "1"}, {"cycle", "1"}});
     if (options_.shots) columns.insert(columns.end(), {{"shot", "1"}, {"time_since_pouring", "s"}});
@@ -209,6 +210,7 @@ void Recorder::begin(const coupling::State& state) {
 void Recorder::step(const coupling::StepRecord& taken, const coupling::State& state) {
   const profile::Part part("output");
   const double start = processes::wall_time();
+  // A copy of the record, since what is measured here is added to it.
   coupling::StepRecord record = taken;
   // What belongs to the step itself first, then histories and tables, fields where the step asks for them,
   // and the times that all this took.
@@ -223,9 +225,11 @@ void Recorder::step(const coupling::StepRecord& taken, const coupling::State& st
   on_first_process([&] { steps_->add(step_row(record, step_table())); });
   add_history_row(state);
   add_pools(state);
+  // Fields are written where the step asks for them, after everything else is up to date.
   if (record.output) write_fields(state);
   if (record.temperature_error > largest_error_[0]) largest_error_ = {record.temperature_error, record.time};
   if (progress_) progress_->step(record);
+  // Times of the two phases and of the output, for the profile at the end.
   seconds_heat_ += record.heat.seconds;
   seconds_mechanics_ += record.mechanics.seconds;
   seconds_output_ += processes::wall_time() - start;

@@ -18,6 +18,7 @@ constexpr int k_compression = 1;
 }  // namespace
 
 std::string xml_text(std::string_view text) {
+  // Four characters have a meaning in XML; names of fields and groups may have any of them.
   std::string out;
   for (const char c : text) switch (c) {
       case '<':

@@ -126,6 +126,7 @@ std::string path_of(const FieldArray& column) {
 
 void write_mesh(Writer& writer, const FieldMoment& moment, const std::vector<FieldArray>& columns,
                 VtkHdfReport& report) {
+  // The whole mesh as one part, whatever the number of processes that have written it.
   std::vector<std::int64_t> connectivity, offsets = {0};
   std::vector<std::uint8_t> types;
   // Corners and offsets of each piece count on from those before it.
@@ -149,6 +150,7 @@ void write_mesh(Writer& writer, const FieldMoment& moment, const std::vector<Fie
   writer.append("VTKHDF/Connectivity", connectivity);
   writer.append("VTKHDF/Offsets", offsets);
   writer.append("VTKHDF/Types", types);
+  // Columns of the mesh do not change, and are written once.
   for (const FieldArray& column : columns)
     if (column.is_of_mesh()) writer.append(path_of(column), whole(values_of(moment, column)));
 }
@@ -189,6 +191,7 @@ VtkHdfReport write_all(const std::vector<PvdCollection::Entry>& moments, const f
     times.push_back(entry.time);
     ++report.times;
   }
+  // Units as attributes, where readers look for them.
   for (const FieldArray& column : columns) {
     if (column.is_of_mesh()) continue;
     ++report.fields;

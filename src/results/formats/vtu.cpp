@@ -45,6 +45,7 @@ Part make_part(const Mesh& mesh, std::span<const ElementBlock> blocks, bool volu
       for (int a = 0; a < mesh::node_count(block.shape); ++a)
         part.number[static_cast<std::size_t>(block.element(e)[a])] = 0;
   }
+  // Numbers of the file follow from the marks.
   part.nodes.reserve(part.number.size() -
                      static_cast<std::size_t>(std::count(part.number.begin(), part.number.end(), Index{-1})));
   for (std::size_t node = 0; node < part.number.size(); ++node)
@@ -72,6 +73,7 @@ std::string near(const Mesh& mesh, Index node) {
 // NotFiniteError with the place.
 std::string add_field(AppendedData& data, const Part& part, const Field& field) {
   std::vector<double> storage;
+  // Values are read when they are needed, since all fields of a large mesh at once would not fit.
   const std::span<const double> values = field.read(storage);
   const Mesh& mesh = part.mesh;
   check_size(mesh, field, values.size());
@@ -88,6 +90,7 @@ std::string add_field(AppendedData& data, const Part& part, const Field& field) 
       }
       for (std::size_t i = 0; i < pad; ++i) put(0.0);
     };
+    // A value that is not finite is told with the node or the element, and where that is.
     if (at_nodes)
       for (const Index node : part.nodes)
         take(static_cast<std::size_t>(node), [&] {
@@ -190,6 +193,7 @@ void write_part(const std::filesystem::path& path, const Part& part, const Field
   if (part.volume)
     for (const Field& field : fields.all())
       if (field.place == mesh::FieldPlace::cell) xml += add_field(data, part, field);
+  // Numbers of the input, bodies and processes as columns of the cells.
   const int rank = processes::rank();
   xml += add_of_cells<std::int64_t>(data, part, "element", [](const ElementBlock& block, Index e) {
     return block.input_element[static_cast<std::size_t>(e)];
@@ -231,6 +235,7 @@ void write_surface_vtu(const std::filesystem::path& path, const Mesh& mesh, cons
 void write_pvtu(const std::filesystem::path& path, const std::vector<std::string>& parts,
                 const FieldSet& fields, bool surface) {
   const auto array = [](const ArrayHead& head, std::string_view type) {
+    // Heads of arrays alone: types, components and units.
     return fmt::format("      <PDataArray {}>{}</PDataArray>\n", array_attributes(head, type),
                        array_information(head));
   };

@@ -61,6 +61,7 @@ class Reader {
     mesh.n_owned_nodes = static_cast<Index>(mesh.x.size());
     mesh.n_global_nodes = mesh.n_owned_nodes;
     mesh.bodies.push_back({"body"});
+    // Each shape becomes a block, numbered from one.
     for (auto& [shape, nodes] : cells_) {
       if (mesh::dimension(shape) != dimension) continue;
       mesh::ElementBlock block{.shape = shape, .body = 0, .nodes = std::move(nodes), .input_element = {}};
@@ -73,6 +74,7 @@ class Reader {
 
  private:
   void add_piece(const VtuFile& file, const ptree& piece) {
+    // Points and field of the piece must both be there.
     const auto [n_points, n_cells] = piece_size(file, piece);
     const ptree& points = points_array(file, piece);
     // The field must be there, at points, with one component.
@@ -96,6 +98,7 @@ class Reader {
 
   void add_cells(const VtuFile& file, const ptree& piece, std::size_t n_cells, std::size_t first,
                  std::size_t n_points) {
+    // Cells are checked against the number of points of their own piece.
     const CellTable cells = read_cells(file, piece, n_cells, n_points);
     const std::vector<double> bodies = cell_data(file, piece, "body", n_cells);
     // Copies of cells of other processes are marked as ghosts.
@@ -111,6 +114,7 @@ class Reader {
       if (!parts)
         file.fail(fmt::format("cells of VTK's type {} are not read", cells.types[c]),
                   "triangles, quadrilaterals, tetrahedra, hexahedra, linear or quadratic, wedges, pyramids");
+      // Corners of the part within the cell, which a damaged file may let end too early.
       const std::size_t begin = c == 0 ? 0 : cells.offsets[c - 1];
       for (const std::vector<int>& part : parts->corners)
         for (const int corner : part) {

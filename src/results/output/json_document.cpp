@@ -43,6 +43,7 @@ std::string Json::text() const {
 }
 
 void Json::append(std::string& out, int depth, const std::string& key) const {
+  // Lines of members, and the one of the closing bracket, are indented by two blanks a level.
   const std::string line = "\n" + std::string(static_cast<std::size_t>(2 * (depth + 1)), ' ');
   const std::string last = "\n" + std::string(static_cast<std::size_t>(2 * depth), ' ');
   // By the kind of value; members of lists and objects go deeper by one level.

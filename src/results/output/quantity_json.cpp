@@ -26,6 +26,7 @@ Json json(const quantities::Quantity& q) {
   const auto text = [&](const char* key, std::string_view value) {
     if (!value.empty()) json.add(key, std::string(value));
   };
+  // Names and units, then what the value means, then how it is shown.
   text("name", q.name);
   text("unit", q.unit);
   text("root_unit", q.root_unit);
