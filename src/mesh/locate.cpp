@@ -43,6 +43,7 @@ double NodalFunctional::share(std::span<const double> field, int n_components, i
 }
 
 LocatedPoint locate(const Mesh& mesh, const Point& point, int body) {
+  // Each process looks among its own elements, then the nearest of all decides.
   const int rank = processes::rank();
   LocatedPoint located;
   NearestPlace nearest;
@@ -74,6 +75,7 @@ LocatedPoint locate(const Mesh& mesh, const Point& point, int body) {
     const Candidate candidate{all[i], all[i + 1], all[i + 2], all[i + 3]};
     if (candidate.key() < best.key()) best = candidate;
   }
+  // One process alone has the element; the others know the distance.
   located.distance = best.distance;
   located.here = static_cast<int>(best.process) == rank && located.element >= 0;
   if (!located.here) {

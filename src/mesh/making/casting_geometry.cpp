@@ -170,6 +170,8 @@ class MeshingInTurn {
   }
 
   RawMesh finish() {
+    // The way that was best is remembered, so that the same geometry is not tried in all ways
+    // again.
     const std::string worst = best_ && quality_ < k_sound_quality ? worst_tetrahedron_text(*best_) : "";
     if (best_ && kept_ != nullptr) kept_->keep_way({way_, quality_, quality_ < enough_, worst});
     // Without a mesh all complaints are told; a mesh of poor quality gets a warning with its worst element.
@@ -182,6 +184,8 @@ class MeshingInTurn {
           {source_.path}, "the geometry could not be meshed in any of these ways:" + all,
           too_long_ == 0 ? allowed : allowed + "; more time for each way: SOLIDUS_MESH_TIME=\"1 h\"");
     }
+    // One way that the case asks for, the best of several, or the first that was good enough: each
+    // is told in its words.
     if (quality_ < enough_ && geometry_.only_way == way_)
       logging::warn(
           "meshing '{}' in way {} ({}) gives elements of quality {:.2g}, the worst {}; 0.15 is sound",

@@ -60,6 +60,7 @@ class Welder {
             if (dot(d, d) <= tolerance_ * tolerance_) return i;
           }
         }
+    // A point that is near none is a new one, in its cell.
     points_.push_back(p);
     const auto mine = static_cast<Index>(points_.size() - 1);
     cells_[here].push_back(mine);
@@ -100,6 +101,8 @@ class Neighbours {
     // All edges of all triangles; how many meet at each tells whether the skin is closed.
     for (std::size_t t = 0; t < triangles.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) of_[edge_of(triangles[t], k)].push_back(t);
+    // Edges of one triangle are holes, those of more than two are faces that touch; the first of
+    // either is told.
     std::size_t open = 0, crowded = 0;
     const Edge *first_open = nullptr, *first_crowded = nullptr;
     for (const auto& [edge, list] : of_) {

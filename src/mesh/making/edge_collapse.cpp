@@ -84,6 +84,8 @@ bool keeps_shape(const Tetrahedra& mesh, Index from, Index to, const std::vector
   constexpr double k_turn = 0.966;  // the cosine of 15 degrees
   constexpr double k_flat = 0.05;   // of the square root of a face's area
   const Point &a = mesh.x(from), &b = mesh.x(to);
+  // Every face at the node that does not vanish with the edge must keep its direction, and the node
+  // stay near its plane.
   for (const SurfaceFace& face : faces) {
     if (has(face, to)) continue;
     std::array<Point, 3> before{}, after{};

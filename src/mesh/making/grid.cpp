@@ -47,6 +47,7 @@ std::vector<Offset> with_mid_nodes(Shape shape, const std::vector<Offset>& verti
 // The elements of one cell as lattice offsets of their nodes.
 std::vector<std::vector<Offset>> cell_pattern(Shape shape) {
   std::vector<std::vector<Offset>> pattern;
+  // Each element of a cell by its corners, whose middles follow for quadratic shapes.
   const auto add = [&](auto first, auto last) {
     std::vector<Offset> vertices;
     for (auto i = first; i != last; ++i) vertices.push_back(k_vertex[static_cast<std::size_t>(*i)]);
@@ -240,6 +241,7 @@ void add_grid(RawMesh& mesh, const Grid& grid) {
   mesh.dimension = dimension(grid.shape);
   Lattice lattice(grid, mesh);
   const auto pattern = cell_pattern(grid.shape);
+  // A grid of the plane is one cell deep.
   std::array<int, 3> n_cells{1, 1, 1};
   for (std::size_t d = 0; d < grid.axes.size(); ++d) n_cells[d] = static_cast<int>(grid.axes[d].size()) - 1;
 
@@ -257,6 +259,7 @@ void add_grid(RawMesh& mesh, const Grid& grid) {
           for (const Offset& o : element)
             elements.push_back(lattice.node({2 * i + o[0], 2 * j + o[1], 2 * k + o[2]}));
       }
+  // Elements are numbered on from those of grids before.
   GlobalIndex number = count_elements(mesh);
   RawBlock& block = block_of(group, grid.shape);
   block.nodes.insert(block.nodes.end(), elements.begin(), elements.end());

@@ -48,6 +48,7 @@ double depth(const std::vector<SkinFace>& skin, const std::vector<double>& reach
 /// each, so that no step can leave the body. On a plane no step goes along its normal.
 InscribedSphere climb(const std::vector<SkinFace>& skin, const std::vector<double>& reach, Point p, double r,
                       const std::optional<HalfSpace>& on) {
+  // Steps are halved when no direction leads higher, down to a fiftieth of the first depth.
   for (double step = r / 2; step > 0.02 * r; step /= 2) {
     bool higher = true;
     for (int pass = 0; higher && pass < 20; ++pass) {
@@ -77,6 +78,8 @@ std::optional<Point> point_inside(const std::vector<Point>& vertices, const std:
     for (std::size_t i = 0; i < 3; ++i) mean[i] += p[i];
     ++n;
   };
+  // Without a plane all vertices count alike; with one the points where lines between vertices
+  // cross it.
   for (const Point& a : vertices) {
     if (!on) {
       add(a);
@@ -170,6 +173,7 @@ std::vector<double> thickness_by_area(const RawMesh& mesh, const std::string& bo
   std::vector<std::pair<double, double>> weighted;
   // The thickness of each triangle with its area; then the values at equal steps of area, from thin to thick.
   double sum = 0;
+  // Triangles without an opposite wall have no thickness.
   for (std::size_t t = 0; t < all.size(); ++t) {
     if (!(thickness[t] > 0)) continue;
     Point u{}, v{};
@@ -194,6 +198,7 @@ std::vector<double> thickness_by_area(const RawMesh& mesh, const std::string& bo
 }
 
 BodyExtent extent_of(const RawMesh& mesh, const std::string& body) {
+  // The box begins inverted, so that the first point sets both ends.
   BodyExtent extent;
   extent.low.fill(std::numeric_limits<double>::max());
   extent.high.fill(std::numeric_limits<double>::lowest());
@@ -211,6 +216,7 @@ BodyExtent extent_of(const RawMesh& mesh, const std::string& body) {
         extent.low[i] = std::min(extent.low[i], p[i]), extent.high[i] = std::max(extent.high[i], p[i]);
     }
   }
+  // The centre is the first moment over the volume.
   for (double& c : extent.centre) c /= extent.volume;
   return extent;
 }

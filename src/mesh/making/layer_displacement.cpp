@@ -104,6 +104,8 @@ void add_corners(const RawMesh& mesh, const WallFace& face, double sign, std::ve
       corner.angle = std::acos(std::clamp(dot(next, last), -1.0, 1.0));
       corner.normal = cross(last, next);
     }
+    // In the plane the normal is the line turned by a right angle; in space it is that of the two
+    // edges at the corner.
     normalise(corner.normal);
     for (double& c : corner.normal) c *= sign;
     corners.push_back(corner);
@@ -155,9 +157,11 @@ Point along(Point d, const Corner* first, const Corner* last) {
 /// @param thickness  [surface of the wall]; between two of them its mean
 std::vector<Point> wanted(const RawMesh& mesh, const RawGroup& body, const WallTopology& wall,
                           const std::vector<Corner>& corners, const std::vector<double>& thickness) {
+  // Corners of the faces around the wall, along which its rim may slide.
   const std::vector<Corner> around = corners_of(mesh, body, wall, wall.around);
   std::vector<Point> u(mesh.x.size(), Point{});
   const auto less = [](const Corner& c, Index node) { return c.node < node; };
+  // All corners of one node together, as both lists are sorted by nodes.
   for (auto first = corners.begin(); first != corners.end();) {
     const Index node = first->node;
     auto last = first;
@@ -168,6 +172,7 @@ std::vector<Point> wanted(const RawMesh& mesh, const RawGroup& body, const WallT
     Point d{};
     if (wall.held[at(node)] == 0) d = best_direction(&*first, &*first + (last - first));
     if (rim != rim_end) d = along(d, &*rim, &*rim + (rim_end - rim));
+    // The thickness is measured along the normals: a slanted displacement has to be longer.
     double mean = 0, least = 1, thick = 0;
     for (auto c = first; c != last; ++c) {
       mean += c->angle * dot(c->normal, d);

@@ -83,6 +83,7 @@ void LayerSpread::find_neighbours(const RawMesh& mesh, const RawGroup& body) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   // Compressed rows of neighbours, in the order of the sorted edges.
   first_.assign(mesh.x.size() + 1, 0);
+  // Rows and weights in one pass, since the edges are sorted by their first node.
   for (const auto& [a, b] : edges) {
     ++first_[at(a) + 1];
     neighbour_.push_back(b);
@@ -179,6 +180,7 @@ void LayerSpread::sweep(std::vector<Point>& u, int n_sweeps) const {
         for (std::size_t i = 0; i < 3; ++i) sum[i] += weight_[at(k)] * u[at(neighbour_[at(k)])][i];
       }
       for (double& c : sum) c /= weights;
+      // Nodes on planes and rims keep to them.
       if (guide_of_[m] >= 0)
         for (const Point& n : guides_[at(guide_of_[m])].normals) {
           const double across = dot(sum, n);

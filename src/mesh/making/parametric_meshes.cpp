@@ -76,6 +76,7 @@ RawMesh make_two_blocks(const TwoBlocks& b, Shape shape) {
 RawMesh make_cylinder_in_mould(const CylinderInMould& c, Shape shape) {
   if (dimension(shape) != 2)
     throw std::invalid_argument("cylinder_in_mould is axisymmetric: triangles or quads");
+  // All lengths are needed, and positive.
   for (const double length : {c.radius, c.height, c.mould_wall, c.mould_bottom, c.mould_height,
                               c.element_size, c.mould_element_size, c.interface_ratio})
     if (!(length > 0)) throw std::invalid_argument("lengths and the interface ratio must be positive");
