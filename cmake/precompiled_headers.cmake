@@ -1,4 +1,4 @@
-# Headers that every file of a target would read again, compiled once: two thirds of the time of a file of src/model, a third elsewhere, a
+# Headers that every file of a target would read again, compiled once: two thirds of the time of a file of src/setup, a third elsewhere, a
 # quarter of a test (g++ 12). ./dev builds with them. Off otherwise: ccache shares no objects between build folders then, and an
 # #include that is missing goes unseen.
 option(SOLIDUS_PCH "Build with precompiled headers" OFF)

@@ -40,11 +40,11 @@ void add_trust_laws(CLI::App& verb) {
       "Load laws of materials from shared objects: their code runs as a program of their author");
 }
 
-model::Case load_case(const CaseArguments& arguments) {
-  std::optional<model::Physics> physics;
-  if (arguments.heat_only) physics = model::Physics::heat;
-  if (arguments.coupled) physics = model::Physics::thermomechanical;
-  model::Case c = model::load_case(arguments.path, arguments.set, physics);
+setup::Case load_case(const CaseArguments& arguments) {
+  std::optional<cases::Physics> physics;
+  if (arguments.heat_only) physics = cases::Physics::heat;
+  if (arguments.coupled) physics = cases::Physics::thermomechanical;
+  setup::Case c = setup::load_case(arguments.path, arguments.set, physics);
   c.spec.mesh.trust_script = arguments.trust_script;
   return c;
 }

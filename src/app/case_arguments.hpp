@@ -30,7 +30,7 @@ void add_trust(CLI::App& verb, bool& trust);
 void add_trust_laws(CLI::App& verb);
 
 /// A case as the command line changes it. Throws InputError.
-model::Case load_case(const CaseArguments& arguments);
+setup::Case load_case(const CaseArguments& arguments);
 
 /// Writes to stdout on process 0; says so when that is not possible (a full disk behind a redirection).
 void print(const std::string& text);

@@ -1,7 +1,7 @@
 /// The kinds of files by name, with the section that each begins with.
 #include "app/declared_files.hpp"
 
-#include "case/case_keys.hpp"
+#include "cases/case_keys.hpp"
 #include "material/cards/library.hpp"
 #include "point/spec.hpp"
 
@@ -17,7 +17,7 @@ ChosenFile::Declared ChosenFile::declared() const {
   if (material)
     return {material::material_section().info(), "Reference: the material file", "Solidus material"};
   if (point) return {point::point_section().info(), "Reference: the point file", "Solidus point"};
-  return {model::case_keys().info(), "Reference: the case file", "Solidus case"};
+  return {cases::case_keys().info(), "Reference: the case file", "Solidus case"};
 }
 
 }  // namespace solidus::app

@@ -16,9 +16,9 @@ namespace solidus::app {
 
 namespace {
 
-using model::FindingFamily;
-using model::FindingRow;
-using model::Topic;
+using check::FindingFamily;
+using check::FindingRow;
+using check::Topic;
 
 constexpr Topic k_topics[] = {Topic::contacts,   Topic::materials, Topic::pour,   Topic::mesh,
                               Topic::conditions, Topic::mechanics, Topic::probes, Topic::effort};
@@ -26,7 +26,7 @@ constexpr Topic k_topics[] = {Topic::contacts,   Topic::materials, Topic::pour, 
 /// The rows of a topic, in the order in which a case is searched for them.
 std::vector<const FindingRow*> rows_of(Topic topic) {
   std::vector<const FindingRow*> rows;
-  for (const FindingFamily& family : model::finding_families())
+  for (const FindingFamily& family : check::finding_families())
     for (const FindingRow& row : family.rows)
       if (row.topic == topic) rows.push_back(&row);
   return rows;

@@ -20,11 +20,11 @@ namespace solidus::app {
 namespace {
 
 bool started = false;
-std::shared_ptr<model::MadeMesh> handed_mesh;
+std::shared_ptr<setup::MadeMesh> handed_mesh;
 
 }  // namespace
 
-model::MadeMesh take_over(int file) {
+setup::MadeMesh take_over(int file) {
   const mesh::TakeBytes take = [&](void* bytes, std::size_t n) { mesh::take_all(file, bytes, n); };
   std::size_t n_warnings = 0;
   take(&n_warnings, sizeof n_warnings);
@@ -33,7 +33,7 @@ model::MadeMesh take_over(int file) {
   for (std::size_t i = 0; i < n_warnings; ++i) logging::warn("{}", mesh::take_text(take));
   logging::set_sink({});
   constexpr double k_any_size = 1e18;  // [bytes]: it was in the memory of this program already
-  return model::take_made_mesh(take, k_any_size);
+  return setup::take_made_mesh(take, k_any_size);
 }
 
 bool started_by_launcher() {
@@ -59,11 +59,11 @@ bool join_launcher() {
   dup2(received->files[1].number(), STDERR_FILENO);
   trust_terminal();
   if (received->files.size() > k_output_and_error)
-    handed_mesh = std::make_shared<model::MadeMesh>(take_over(received->files[k_output_and_error].number()));
+    handed_mesh = std::make_shared<setup::MadeMesh>(take_over(received->files[k_output_and_error].number()));
   return true;
 }
 
-std::shared_ptr<model::MadeMesh> mesh_of_launcher() {
+std::shared_ptr<setup::MadeMesh> mesh_of_launcher() {
   return std::exchange(handed_mesh, nullptr);
 }
 

@@ -20,9 +20,9 @@ bool join_launcher();
 
 /// Reads what a launcher leaves for the first process in a file: the warnings that were printed already,
 /// which are kept and not told again, and the mesh. Throws mesh::MessageError.
-model::MadeMesh take_over(int file);
+setup::MadeMesh take_over(int file);
 
 /// The mesh that the launcher has made, on process 0; null elsewhere, and where there is no launcher.
-std::shared_ptr<model::MadeMesh> mesh_of_launcher();
+std::shared_ptr<setup::MadeMesh> mesh_of_launcher();
 
 }  // namespace solidus::app

@@ -42,7 +42,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 /// Writes into a file in memory what the first process takes over: the warnings so far, and the mesh.
-void fill(const Descriptor& file, const model::MadeMesh& mesh) {
+void fill(const Descriptor& file, const setup::MadeMesh& mesh) {
   const mesh::PutBytes put = [&](const void* bytes, std::size_t n) {
     mesh::put_all(file.number(), bytes, n);
   };
@@ -50,7 +50,7 @@ void fill(const Descriptor& file, const model::MadeMesh& mesh) {
   const std::size_t n_warnings = warnings.size();
   put(&n_warnings, sizeof n_warnings);
   for (const std::string& warning : warnings) mesh::put_text(warning, put);
-  model::put_made_mesh(mesh, put);
+  setup::put_made_mesh(mesh, put);
   lseek(file.number(), 0, SEEK_SET);
 }
 
@@ -246,7 +246,7 @@ std::string find_mpirun() {
   return {};
 }
 
-LaunchOutcome run_on_processes(int n, const std::string& mpirun, std::shared_ptr<model::MadeMesh> mesh,
+LaunchOutcome run_on_processes(int n, const std::string& mpirun, std::shared_ptr<setup::MadeMesh> mesh,
                                const std::string& greeting) {
   const Meeting meeting = open_meeting();
   Descriptor file(memfd_create("solidus mesh", MFD_CLOEXEC));
@@ -256,7 +256,7 @@ LaunchOutcome run_on_processes(int n, const std::string& mpirun, std::shared_ptr
   mesh.reset();
   return_free_memory();
   const auto in_vain = [&](std::string why) -> LaunchOutcome {
-    return {{}, std::move(why), std::make_shared<model::MadeMesh>(take_over(file.number()))};
+    return {{}, std::move(why), std::make_shared<setup::MadeMesh>(take_over(file.number()))};
   };
   ForwardedSignals signals;
   Mpirun launcher;

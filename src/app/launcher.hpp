@@ -21,7 +21,7 @@ std::string find_mpirun();
 struct LaunchOutcome {
   std::optional<ExitCode> code;           ///< of the run; nothing where its processes could not be started
   std::string failure;                    ///< why not
-  std::shared_ptr<model::MadeMesh> mesh;  ///< given back in that case
+  std::shared_ptr<setup::MadeMesh> mesh;  ///< given back in that case
 };
 
 /// Runs this program's own command line on several processes and waits for their end. Where one of them was
@@ -30,7 +30,7 @@ struct LaunchOutcome {
 /// @param mpirun    as found by find_mpirun()
 /// @param mesh      goes to the first of them; nothing else may hold it, since its memory is needed
 /// @param greeting  is printed when all of them are there
-LaunchOutcome run_on_processes(int n, const std::string& mpirun, std::shared_ptr<model::MadeMesh> mesh,
+LaunchOutcome run_on_processes(int n, const std::string& mpirun, std::shared_ptr<setup::MadeMesh> mesh,
                                const std::string& greeting);
 
 }  // namespace solidus::app

@@ -7,7 +7,7 @@
 
 #include "app/case_arguments.hpp"
 #include "app/material_import.hpp"
-#include "case/case_materials.hpp"
+#include "cases/case_materials.hpp"
 #include "input/column_table.hpp"
 #include "input/units.hpp"
 #include "material/cards/card_import.hpp"
@@ -57,7 +57,7 @@ void write_text(const fs::path& file, const std::string& text) {
 
 ExitCode import_material(const MaterialImportArguments& arguments) {
   // Options come first, with their units converted, and the material that the new card is like.
-  const auto folders = model::material_folders();
+  const auto folders = cases::material_folders();
   material::ImportOptions options;
   options.columns = columns_of(arguments.columns);
   options.title = arguments.title;
@@ -96,7 +96,7 @@ ExitCode solidification_path(const SolidificationArguments& arguments) {
   // alloy.
   const material::Composition alloy = material::parse_composition(arguments.alloy);
   const material::LiquidusSystem system =
-      arguments.system.empty() ? material::find_liquidus_system(alloy.solvent, model::material_folders())
+      arguments.system.empty() ? material::find_liquidus_system(alloy.solvent, cases::material_folders())
                                : material::load_liquidus_system(arguments.system);
   if (system.solvent != alloy.solvent)
     throw InputError(system.where,

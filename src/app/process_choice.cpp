@@ -20,7 +20,7 @@
 #include "app/launched.hpp"
 #include "app/launcher.hpp"
 #include "app/signals.hpp"
-#include "case/case_materials.hpp"
+#include "cases/case_materials.hpp"
 #include "run/process_count.hpp"
 #include "run/restart.hpp"
 #include "setup/mesh_input.hpp"
@@ -107,15 +107,15 @@ std::string line(int n, int cores, std::string_view why = {}) {
 }
 
 /// The mesh of the case, behind what is found wrong sooner.
-std::shared_ptr<model::MadeMesh> mesh_of(const model::Case& c, const model::RunOptions& options) {
-  model::check_restart(c.spec, options);
-  model::load_materials(c.spec);
+std::shared_ptr<setup::MadeMesh> mesh_of(const setup::Case& c, const run::RunOptions& options) {
+  run::check_restart(c.spec, options);
+  cases::load_materials(c.spec);
   const profile::Part part("reading and meshing");
-  return std::make_shared<model::MadeMesh>(model::make_mesh(c.spec));
+  return std::make_shared<setup::MadeMesh>(setup::make_mesh(c.spec));
 }
 
 /// Runs on as many processes as were asked for.
-RunStart run_as_asked(int n, int cores, const model::Case& c, const model::RunOptions& options) {
+RunStart run_as_asked(int n, int cores, const setup::Case& c, const run::RunOptions& options) {
   if (n == 1) {
     print(line(1, cores, "as asked"));
     return {};
@@ -133,7 +133,7 @@ RunStart run_as_asked(int n, int cores, const model::Case& c, const model::RunOp
 }
 
 /// Why a run stays on one process, whatever its mesh is; empty where it may be on several.
-std::string reason_for_one(const model::Case& c, int cores, const std::string& mpirun) {
+std::string reason_for_one(const setup::Case& c, int cores, const std::string& mpirun) {
   if (in_batch_job()) return "in a batch job, whose own launcher starts several";
   std::error_code error;
   if (!std::filesystem::is_regular_file(c.file, error)) return "a case from a pipe is read once";
@@ -147,7 +147,7 @@ int usable_cores() {
   return cores_within(static_cast<int>(cores_of(usable_processors()).size()), processor_quota());
 }
 
-RunStart start_run(std::optional<int> asked, const model::Case& c, const model::RunOptions& options) {
+RunStart start_run(std::optional<int> asked, const setup::Case& c, const run::RunOptions& options) {
   if (started_by_launcher()) return {{}, mesh_of_launcher()};
   if (started_by_mpi()) {
     if (asked)
@@ -167,7 +167,7 @@ RunStart start_run(std::optional<int> asked, const model::Case& c, const model::
   // The load is watched while the mesh is read or made, which takes as long for large meshes.
   const FreeCores free_cores;
   RunStart start{{}, mesh_of(c, options)};
-  const int paying = model::processes_that_pay(model::run_work(c.spec, start.mesh->mesh), cores);
+  const int paying = run::processes_that_pay(run::run_work(c.spec, start.mesh->mesh), cores);
   const int n = paying == 1 ? 1 : std::min(paying, free_cores.count());
   if (n == 1 || stop_asked()) {
     print(line(1, cores, paying == 1 ? "the case is small" : "other programs use the rest"));

@@ -16,7 +16,7 @@ int usable_cores();
 /// How a run began.
 struct RunStart {
   std::optional<ExitCode> code;  ///< how it ended, on processes that were started for it
-  std::shared_ptr<model::MadeMesh>
+  std::shared_ptr<setup::MadeMesh>
       mesh;  ///< else, where the run is this process's own: its mesh, if there is one
 };
 
@@ -25,6 +25,6 @@ struct RunStart {
 /// Throws InputError for what the case has wrong that shows with its mesh, and for processes that were asked
 /// for and cannot be had.
 /// @param asked  by --processes; absent: by SOLIDUS_PROCESSES, and without that as many as pay
-RunStart start_run(std::optional<int> asked, const model::Case& c, const model::RunOptions& options);
+RunStart start_run(std::optional<int> asked, const setup::Case& c, const run::RunOptions& options);
 
 }  // namespace solidus::app

@@ -238,7 +238,7 @@ void Watch::renew() {
   if (!page_.empty() && (now == stamp_ || !(due || ended_))) return;
   const auto began = Clock::now();
   try {
-    page_ = report::report_text({{folder_}}).text;
+    page_ = results::report_text({{folder_}}).text;
     // By it the page knows that there is a newer one.
     page_ += fmt::format("<script type=\"text/plain\" id=\"stamp\">{}</script>\n", now);
   } catch (const std::exception& error) {

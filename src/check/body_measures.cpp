@@ -14,7 +14,7 @@
 #include "mesh/quadrature.hpp"
 #include "parallel/parallel.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -211,4 +211,4 @@ double share_between(const mesh::Mesh& mesh, AnalysisKind kind, int body, const 
   return all > 0 ? parallel::global_sum(between) / all : 0.0;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

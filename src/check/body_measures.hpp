@@ -8,7 +8,7 @@
 #include "mesh/mesh.hpp"
 #include "numbers/types.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 /// Measures of one body. In plane strain they are of one metre of thickness, in axisymmetry of the whole
 /// revolution.
@@ -38,4 +38,4 @@ double element_volume(const mesh::BlockGeometry& geometry, Index element);
 /// @param marked  [local node], ghosts included
 double share_between(const mesh::Mesh& mesh, AnalysisKind kind, int body, const std::vector<char>& marked);
 
-}  // namespace solidus::model
+}  // namespace solidus::check

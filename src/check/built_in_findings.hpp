@@ -6,9 +6,9 @@
 
 #include "check/finding_family.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 /// In no particular order: each says its place.
 std::vector<FindingFamily> built_in_findings();
 
-}  // namespace solidus::model
+}  // namespace solidus::check

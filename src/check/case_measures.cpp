@@ -3,18 +3,19 @@
 
 #include "setup/mechanics_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
-CaseMeasures measure(const CaseSpec& spec, const Assembly& a) {
+CaseMeasures measure(const cases::CaseSpec& spec, const setup::Assembly& a) {
   CaseMeasures m;
   m.bodies = measure_bodies(a.mesh, spec.analysis.kind);
   for (const auto& pair : a.contacts)
-    m.contacts.push_back(measure_contact(a.mesh, *pair, spec.analysis.kind, gravity(spec.analysis)));
-  for (const ThermalConditionSpec& condition : spec.thermal_conditions)
-    m.surfaces.push_back(measure_surface(a.mesh, condition.group, spec.analysis.kind));
+    m.contacts.push_back(
+        setup::measure_contact(a.mesh, *pair, spec.analysis.kind, setup::gravity(spec.analysis)));
+  for (const cases::ThermalConditionSpec& condition : spec.thermal_conditions)
+    m.surfaces.push_back(setup::measure_surface(a.mesh, condition.group, spec.analysis.kind));
   if (spec.has_heat()) m.pours = pours(spec, a, m);
   m.effort = estimate_effort(spec, a, m);
   return m;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

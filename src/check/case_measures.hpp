@@ -13,7 +13,7 @@
 #include "setup/assembly.hpp"
 #include "setup/skin_measures.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 /// A body that can freeze and is liquid at the start.
 struct Pour {
@@ -38,9 +38,9 @@ struct Effort {
 };
 
 struct CaseMeasures {
-  std::vector<BodyMeasures> bodies;       ///< [body]
-  std::vector<ContactMeasures> contacts;  ///< [contact]
-  std::vector<SurfaceMeasures> surfaces;  ///< [thermal condition]
+  std::vector<BodyMeasures> bodies;              ///< [body]
+  std::vector<setup::ContactMeasures> contacts;  ///< [contact]
+  std::vector<setup::SurfaceMeasures> surfaces;  ///< [thermal condition]
   std::vector<Pour> pours;
   Effort effort;
 
@@ -50,12 +50,12 @@ struct CaseMeasures {
 };
 
 /// Measures a case that has been built. Collective.
-CaseMeasures measure(const CaseSpec& spec, const Assembly& a);
+CaseMeasures measure(const cases::CaseSpec& spec, const setup::Assembly& a);
 
 /// The bodies that are poured, with estimates; `m` has bodies, contacts and surfaces. Collective.
-std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
+std::vector<Pour> pours(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m);
 
 /// `m` has all but the effort. Collective.
-Effort estimate_effort(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
+Effort estimate_effort(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m);
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -9,19 +9,19 @@
 #include <filesystem>
 #include <utility>
 
-#include "case/interface_library.hpp"
+#include "cases/interface_library.hpp"
 #include "check/coupling_estimate.hpp"
 #include "contact/interface/heat_transfer.hpp"
 #include "setup/body_input.hpp"
 #include "setup/mechanics_input.hpp"
 #include "setup/scheme_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
-results::BodyOverview body_overview(const BodySpec& spec, const BodyMeasures& m,
-                                    const InitialTemperatureRange& start, double density) {
+results::BodyOverview body_overview(const cases::BodySpec& spec, const BodyMeasures& m,
+                                    const setup::InitialTemperatureRange& start, double density) {
   results::BodyOverview body;
   // What the file says of the body, what the mesh measures of it, and the range in which it starts.
   body.name = spec.name;
@@ -37,15 +37,15 @@ results::BodyOverview body_overview(const BodySpec& spec, const BodyMeasures& m,
   body.longest_edge = m.longest_edge;
   body.nodes = m.nodes;
   body.elements = m.elements;
-  body.only_conducts = only_conducts(spec);
+  body.only_conducts = cases::only_conducts(spec);
   body.stages = spec.stages;
   return body;
 }
 
-std::string name_of(const CaseSpec& spec, int body) {
-  return body >= 0                  ? spec.bodies[static_cast<std::size_t>(body)].name
-         : body == k_several_bodies ? "several"
-                                    : "";
+std::string name_of(const cases::CaseSpec& spec, int body) {
+  return body >= 0                         ? spec.bodies[static_cast<std::size_t>(body)].name
+         : body == setup::k_several_bodies ? "several"
+                                           : "";
 }
 
 /// "1000 W/m2/K", "50 to 80 W/m2/K".
@@ -64,14 +64,14 @@ constexpr double k_touches = 1e-8;  // [m]
 
 /// The name of a card of the library, with the range that its conductance has in practice.
 std::string card_text(const std::string& law) {
-  for (const InterfaceCard& card : interface_cards())
+  for (const cases::InterfaceCard& card : cases::interface_cards())
     if (card.name == law && !card.range.empty()) return fmt::format("{}: {}", law, card.range);
   return law;
 }
 
 /// @param heat  with the conductivities of its bodies, which the case may leave to them
-std::string law_text(const ContactSpec& contact, const contact::HeatTransferSpec& heat,
-                     const ContactMeasures& m, double temperature) {
+std::string law_text(const cases::ContactSpec& contact, const contact::HeatTransferSpec& heat,
+                     const setup::ContactMeasures& m, double temperature) {
   const contact::HeatTransferLaw law(heat);
   const double pressure = contact.wet ? contact.atmosphere : 0.0;
   const double start = m.largest_start;
@@ -90,8 +90,8 @@ std::string with_stages(const std::string& name, const std::vector<std::string>&
   return stages.empty() ? name : fmt::format("{} [{}]", name, fmt::join(stages, ", "));
 }
 
-results::SkinOverview contact_overview(const CaseSpec& spec, const Assembly& a, const ContactSpec& contact,
-                                       const ContactMeasures& m) {
+results::SkinOverview contact_overview(const cases::CaseSpec& spec, const setup::Assembly& a,
+                                       const cases::ContactSpec& contact, const setup::ContactMeasures& m) {
   results::SkinOverview skin;
   // The contact is told from its slave surface, which its pressures belong to; the master side is
   // in a column of its own.
@@ -111,7 +111,8 @@ results::SkinOverview contact_overview(const CaseSpec& spec, const Assembly& a, 
   }
   // The law is told at the mean of the hottest and the coldest start.
   double hot = 0, cold = 1e300;
-  for (const InitialTemperatureRange& r : a.start) hot = std::max(hot, r.high), cold = std::min(cold, r.low);
+  for (const setup::InitialTemperatureRange& r : a.start)
+    hot = std::max(hot, r.high), cold = std::min(cold, r.low);
   if (!spec.has_heat()) return skin;
   // Contacts of the first stage have a pair that knows its conductance; others have none yet, and
   // are told by their file alone.
@@ -122,11 +123,11 @@ results::SkinOverview contact_overview(const CaseSpec& spec, const Assembly& a, 
   return skin;
 }
 
-results::SkinOverview condition_overview(const CaseSpec& spec, const ThermalConditionSpec& c,
-                                         const SurfaceMeasures& m) {
+results::SkinOverview condition_overview(const cases::CaseSpec& spec, const cases::ThermalConditionSpec& c,
+                                         const setup::SurfaceMeasures& m) {
   // One row of the table that check prints: where the condition acts, what faces it there, and its value in
   // the unit that a user knows.
-  using Kind = ThermalConditionSpec::Kind;
+  using Kind = cases::ThermalConditionSpec::Kind;
   // Area and paired area are one, since a condition acts on its whole surface.
   results::SkinOverview skin;
   skin.name = with_stages(c.name, c.stages);
@@ -164,7 +165,7 @@ results::SkinOverview condition_overview(const CaseSpec& spec, const ThermalCond
   return skin;
 }
 
-results::PourOverview pour_overview(const CaseSpec& spec, const Assembly& a, const Pour& pour,
+results::PourOverview pour_overview(const cases::CaseSpec& spec, const setup::Assembly& a, const Pour& pour,
                                     const BodyMeasures& body) {
   results::PourOverview p;
   const material::Material& metal = a.materials[pour.body];
@@ -195,7 +196,7 @@ results::PourOverview pour_overview(const CaseSpec& spec, const Assembly& a, con
 
 }  // namespace
 
-results::Overview overview(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+results::Overview overview(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m) {
   results::Overview o;
   o.kind = spec.analysis.kind;
   // A row each for bodies, contacts, cooled faces and pours, then effort and lag of the time step.
@@ -206,13 +207,13 @@ results::Overview overview(const CaseSpec& spec, const Assembly& a, const CaseMe
   for (std::size_t c = 0; c < spec.thermal_conditions.size(); ++c)
     o.skins.push_back(condition_overview(spec, spec.thermal_conditions[c], m.surfaces[c]));
   // Gravity matters to stresses alone: heat without flow does not know it.
-  if (spec.has_mechanics() && spec.analysis.gravity != 0) o.gravity = gravity(spec.analysis);
+  if (spec.has_mechanics() && spec.analysis.gravity != 0) o.gravity = setup::gravity(spec.analysis);
   for (const Pour& pour : m.pours) o.pours.push_back(pour_overview(spec, a, pour, m.bodies[pour.body]));
   o.effort = {m.effort.steps, m.effort.steps_known, m.effort.seconds, m.effort.bytes};
-  const bool keeps = keeps_strain(spec, a.materials, a.start);
+  const bool keeps = setup::keeps_strain(spec, a.materials, a.start);
   // The lag is that of the one-way exchange of deformation and heat; a step that adapts has no one
   // value for it.
-  if (lags_a_step(spec, keeps)) {
+  if (setup::lags_a_step(spec, keeps)) {
     o.lag = spec.time.adaptive ? 0.0 : spec.time.step.value_or(0);
     o.end = spec.time.end.value_or(0);
   }
@@ -221,4 +222,4 @@ results::Overview overview(const CaseSpec& spec, const Assembly& a, const CaseMe
   return o;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

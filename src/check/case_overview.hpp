@@ -4,8 +4,8 @@
 #include "check/case_measures.hpp"
 #include "results/overview.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
-results::Overview overview(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
+results::Overview overview(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m);
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -13,7 +13,7 @@
 #include "setup/body_input.hpp"
 #include "setup/heat_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -43,7 +43,7 @@ class SurfaceHeat {
   double end_, time_ = 0;
 };
 
-std::function<double(double, double)> averaged(heat::SurfaceLaw law, const SurfaceMeasures& surface,
+std::function<double(double, double)> averaged(heat::SurfaceLaw law, const setup::SurfaceMeasures& surface,
                                                double end) {
   auto shared = std::make_shared<SurfaceHeat>(std::move(law), surface.centres, end);
   return [shared](double temperature, double time) { return (*shared)(temperature, time); };
@@ -51,11 +51,11 @@ std::function<double(double, double)> averaged(heat::SurfaceLaw law, const Surfa
 
 /// Returns the parts of the skin of a body that thermal conditions of a stage cool.
 std::vector<CooledSkin> conditions_on(std::size_t body, const Surroundings& in) {
-  const CaseSpec& spec = in.spec;
+  const cases::CaseSpec& spec = in.spec;
   const CaseMeasures& m = in.m;
   std::vector<CooledSkin> skins;
   // Only the conditions that hold in the stage cool, and each in the form that the run itself uses.
-  const heat::ThermalConditions conditions = thermal_conditions(spec, in.stage);
+  const heat::ThermalConditions conditions = setup::thermal_conditions(spec, in.stage);
   // The measures of a surface are those of the condition that names it.
   const auto add = [&](const std::string& group, const auto& law) {
     for (std::size_t c = 0; c < spec.thermal_conditions.size(); ++c)
@@ -74,8 +74,9 @@ std::vector<CooledSkin> conditions_on(std::size_t body, const Surroundings& in) 
   // temperature of the skin.
   const double end = spec.time.end.value_or(0);
   const auto by_law = [end](const auto& condition) {
-    return
-        [&condition, end](const SurfaceMeasures& s) { return averaged(heat::SurfaceLaw(condition), s, end); };
+    return [&condition, end](const setup::SurfaceMeasures& s) {
+      return averaged(heat::SurfaceLaw(condition), s, end);
+    };
   };
   for (const heat::Film& c : conditions.films) add(c.surface, by_law(c));
   for (const heat::Radiation& c : conditions.radiations) add(c.surface, by_law(c));
@@ -83,7 +84,7 @@ std::vector<CooledSkin> conditions_on(std::size_t body, const Surroundings& in) 
   // A prescribed temperature is a film without resistance.
   for (const heat::PrescribedTemperature& c : conditions.temperatures)
     if (c.value.uniform())
-      add(c.node_set, [&](const SurfaceMeasures&) {
+      add(c.node_set, [&](const setup::SurfaceMeasures&) {
         return [value = c.value](double temperature, double time) {
           return k_no_resistance * (value.value(time) - temperature);
         };
@@ -92,8 +93,9 @@ std::vector<CooledSkin> conditions_on(std::size_t body, const Surroundings& in) 
 }
 
 /// Conductance h of a contact at a further gap, including radiation across the gap.
-std::function<double(double, double, double)> conductance_of(const ContactSpec& contact, const Assembly& a,
-                                                             const ContactMeasures& m) {
+std::function<double(double, double, double)> conductance_of(const cases::ContactSpec& contact,
+                                                             const setup::Assembly& a,
+                                                             const setup::ContactMeasures& m) {
   const auto law = std::make_shared<contact::HeatTransferLaw>(*contact.heat);
   const bool mechanical = a.mechanics != nullptr;
   const double pressure = mechanical && contact.wet ? contact.atmosphere : 0.0;
@@ -108,21 +110,21 @@ std::function<double(double, double, double)> conductance_of(const ContactSpec& 
 std::vector<CooledSkin> contacts_of(std::size_t body, const Surroundings& in) {
   // The skins through which contacts cool a body: area, points, and the heat that passes at given
   // temperatures. A contact with the body on both sides takes nothing from it.
-  const CaseSpec& spec = in.spec;
-  const Assembly& a = in.a;
+  const cases::CaseSpec& spec = in.spec;
+  const setup::Assembly& a = in.a;
   std::vector<CooledSkin> skins;
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
-    const ContactSpec& contact = spec.contacts[c];
-    const ContactMeasures& sides = in.m.contacts[c];
-    const double of_slave = share_behind(a.mesh, sides.slave, static_cast<int>(body)),
-                 of_master = share_behind(a.mesh, sides.master, static_cast<int>(body));
+    const cases::ContactSpec& contact = spec.contacts[c];
+    const setup::ContactMeasures& sides = in.m.contacts[c];
+    const double of_slave = setup::share_behind(a.mesh, sides.slave, static_cast<int>(body)),
+                 of_master = setup::share_behind(a.mesh, sides.master, static_cast<int>(body));
     const bool slave = of_slave > 0;
-    if (!contact.heat || slave == (of_master > 0) || !holds(spec, contact, a.mesh, in.stage)) continue;
+    if (!contact.heat || slave == (of_master > 0) || !setup::holds(spec, contact, a.mesh, in.stage)) continue;
     const int other = slave ? sides.master_body : sides.slave_body;
     CooledSkin skin;
     skin.area = sides.paired * (slave ? of_slave : of_master);
     skin.surface = slave ? sides.slave : sides.master;
-    skin.points = measure_surface(a.mesh, skin.surface, spec.analysis.kind).corners;
+    skin.points = setup::measure_surface(a.mesh, skin.surface, spec.analysis.kind).corners;
     const auto conductance = conductance_of(contact, a, sides);
     // Another body is warmed by what it takes; its temperatures at the start bound the estimate.
     if (other >= 0) {
@@ -130,9 +132,9 @@ std::vector<CooledSkin> contacts_of(std::size_t body, const Surroundings& in) {
       skin.low = a.start[*skin.other].low;
       skin.high = a.start[*skin.other].high;
       skin.conductance = conductance;
-      skin.may_open = spec.has_mechanics() && !only_conducts(spec.bodies[body]);
+      skin.may_open = spec.has_mechanics() && !cases::only_conducts(spec.bodies[body]);
       // A tool with a temperature takes heat without getting warmer. Without one it takes none.
-    } else if (const RigidSurfaceSpec* tool = spec.rigid_surface(sides.master);
+    } else if (const cases::RigidSurfaceSpec* tool = spec.rigid_surface(sides.master);
                tool != nullptr && tool->temperature) {
       skin.heat = [conductance, table = tool->temperature->table](double temperature, double time) {
         const double there = table.value(time);
@@ -148,7 +150,7 @@ std::vector<CooledSkin> contacts_of(std::size_t body, const Surroundings& in) {
 
 /// Faces that a body shares with others, which conduct without any resistance.
 std::vector<CooledSkin> shared_faces_of(std::size_t body, const Surroundings& in) {
-  const Assembly& a = in.a;
+  const setup::Assembly& a = in.a;
   const CaseMeasures& m = in.m;
   std::vector<CooledSkin> skins;
   // Bodies with common faces are soldered: the skin is as cold as the other one is there.
@@ -166,7 +168,7 @@ std::vector<CooledSkin> shared_faces_of(std::size_t body, const Surroundings& in
     std::vector<mesh::Point> points;
     for (std::size_t i = 0; i < static_cast<std::size_t>(a.mesh.n_owned_nodes); ++i)
       if (here[i] != 0 && there[i] != 0) points.push_back(a.mesh.x[i]);
-    skin.points = gather(points);
+    skin.points = setup::gather(points);
     skins.push_back(std::move(skin));
   }
   return skins;
@@ -174,7 +176,7 @@ std::vector<CooledSkin> shared_faces_of(std::size_t body, const Surroundings& in
 
 /// Heat into a body of the mould, a sleeve or a chill, from a larger one that it lies in [W/m²]: that one as
 /// a half space, √(k ρ c / (π t)) per kelvin, behind the conductance between both.
-std::function<double(double, double)> heat_from_behind(const CooledSkin& skin, const Assembly& a) {
+std::function<double(double, double)> heat_from_behind(const CooledSkin& skin, const setup::Assembly& a) {
   const material::Material& m = a.materials[*skin.other];
   const double cold = skin.low;
   const double effusivity = std::sqrt(m.conductivity.value(cold) * m.density * m.specific_heat.value(cold));
@@ -210,13 +212,13 @@ double cooling_of(const CooledSkin& skin, double start, double end) {
   return most;
 }
 
-bool comes_in_molten(const Assembly& a, std::size_t body) {
+bool comes_in_molten(const setup::Assembly& a, std::size_t body) {
   const material::PhaseChange* freezing = a.materials[body].solidification();
   return freezing != nullptr && a.start[body].high > freezing->fraction.solidus();
 }
 
 std::function<double(double, double)> heat_by_volume(std::vector<CooledSkin> skins, double volume,
-                                                     const Assembly& a) {
+                                                     const setup::Assembly& a) {
   for (CooledSkin& skin : skins)
     if (skin.other) skin.heat = heat_from_behind(skin, a);
   return [skins = std::move(skins), volume](double temperature, double time) {
@@ -228,7 +230,7 @@ std::function<double(double, double)> heat_by_volume(std::vector<CooledSkin> ski
 
 std::function<double(double, double)> outer_heat(std::size_t mould, double cooled_area, double part,
                                                  const Surroundings& in) {
-  const Assembly& a = in.a;
+  const setup::Assembly& a = in.a;
   const CaseMeasures& m = in.m;
   // Outer conditions of the mould, and contacts with larger bodies behind it that are not poured.
   std::vector<CooledSkin> skins = conditions_on(mould, in);
@@ -250,4 +252,4 @@ std::function<double(double, double)> outer_heat(std::size_t mould, double coole
   };
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

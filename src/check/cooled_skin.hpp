@@ -11,13 +11,13 @@
 #include "mesh/mesh.hpp"
 #include "setup/assembly.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 /// The case, its stage, its assembly and its measures, from which the surroundings of a body are found.
 struct Surroundings {
-  const CaseSpec& spec;
-  const StageRun* stage;  ///< null without stages
-  const Assembly& a;
+  const cases::CaseSpec& spec;
+  const cases::StageRun* stage;  ///< null without stages
+  const setup::Assembly& a;
   const CaseMeasures& m;  ///< with bodies, contacts and surfaces
 };
 
@@ -42,7 +42,7 @@ double cooling_of(const CooledSkin& skin, double start, double end);
 
 /// Heat into metal through its cooled skins, per its volume [W/m³]; moulds as half spaces.
 std::function<double(double, double)> heat_by_volume(std::vector<CooledSkin> skins, double volume,
-                                                     const Assembly& a);
+                                                     const setup::Assembly& a);
 
 /// Heat into the outside of a mould per area of the casting's cooled skin [W/m²]; empty where nothing is.
 /// @param part  of the mould that counts
@@ -50,9 +50,9 @@ std::function<double(double, double)> outer_heat(std::size_t mould, double coole
                                                  const Surroundings& in);
 
 /// Whether a body comes in that is not solid then.
-bool comes_in_molten(const Assembly& a, std::size_t body);
+bool comes_in_molten(const setup::Assembly& a, std::size_t body);
 
 /// The nodes of a body: [local node]
 std::vector<char> nodes_of(const mesh::Mesh& mesh, std::size_t body);
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -13,20 +13,20 @@
 #include "setup/scheme_input.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
-InitialTemperatureRange temperatures(const CaseSpec& spec,
-                                     const std::vector<InitialTemperatureRange>& start) {
-  InitialTemperatureRange r = start.front();
+setup::InitialTemperatureRange temperatures(const cases::CaseSpec& spec,
+                                            const std::vector<setup::InitialTemperatureRange>& start) {
+  setup::InitialTemperatureRange r = start.front();
   // The range that initial and boundary temperatures span.
   const auto add = [&r](double low, double high) { r = {std::min(r.low, low), std::max(r.high, high)}; };
-  for (const InitialTemperatureRange& body : start) add(body.low, body.high);
+  for (const setup::InitialTemperatureRange& body : start) add(body.low, body.high);
   const auto add_table = [&](const Function& f) {
     if (f.place == nullptr) add(f.table.min_value(), f.table.max_value());
   };
-  using Kind = ThermalConditionSpec::Kind;
+  using Kind = cases::ThermalConditionSpec::Kind;
   for (const auto& c : spec.thermal_conditions) {
     if (c.kind == Kind::temperature) add_table(c.temperature);
     if (c.kind == Kind::film || c.kind == Kind::radiation) add_table(c.ambient);
@@ -35,10 +35,10 @@ InitialTemperatureRange temperatures(const CaseSpec& spec,
 }
 
 /// Supports hold every node in the axial direction.
-bool axially_held(const CaseSpec& spec, const mesh::Mesh& mesh) {
+bool axially_held(const cases::CaseSpec& spec, const mesh::Mesh& mesh) {
   std::vector<char> held(mesh.x.size(), 0);
   for (const auto& c : spec.mechanical_conditions) {
-    const bool axial = c.kind == MechanicalConditionSpec::Kind::displacement && (c.uy || c.uz);
+    const bool axial = c.kind == cases::MechanicalConditionSpec::Kind::displacement && (c.uy || c.uz);
     const auto nodes = mesh.node_sets.find(c.group);
     if (!axial || nodes == mesh.node_sets.end()) continue;
     for (const Index node : nodes->second) held[static_cast<std::size_t>(node)] = 1;
@@ -49,10 +49,10 @@ bool axially_held(const CaseSpec& spec, const mesh::Mesh& mesh) {
 
 }  // namespace
 
-std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
+std::vector<CouplingEstimate> coupling_estimates(const cases::CaseSpec& spec,
                                                  const std::vector<material::Material>& materials,
                                                  const mesh::Mesh& mesh,
-                                                 const std::vector<InitialTemperatureRange>& start) {
+                                                 const std::vector<setup::InitialTemperatureRange>& start) {
   // The range of temperatures of the whole case, since a body may come to any of them. Plane strain
   // couples more strongly than free expansion does, as the plane hinders it.
   const auto [low, high] = temperatures(spec, start);
@@ -62,7 +62,7 @@ std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
   // The coupling number of each body that deforms, at its start and at its worst within the range of
   // temperatures.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    if (only_conducts(spec.bodies[b])) continue;
+    if (cases::only_conducts(spec.bodies[b])) continue;
     // Bodies that only conduct have no strains that could couple.
     CouplingEstimate e;
     e.body = spec.bodies[b].name;
@@ -86,15 +86,16 @@ double late(const CouplingEstimate& e) {
   return std::abs(e.decisive() - expected) / (1 + expected);
 }
 
-double heat_lag(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates, bool keeps_strain) {
+double heat_lag(const cases::CaseSpec& spec, const std::vector<CouplingEstimate>& estimates,
+                bool keeps_strain) {
   const coupling::SchemeTraits traits = spec.coupling.scheme->traits();
   if (!spec.exchanges_heat() || spec.dynamics || estimates.empty() || traits.iterates) return 0;
-  if (traits.mapping == mechanics::Mapping::simultaneous || lags_a_step(spec, keeps_strain)) return 0;
+  if (traits.mapping == mechanics::Mapping::simultaneous || setup::lags_a_step(spec, keeps_strain)) return 0;
   double strongest = 0;
   for (const CouplingEstimate& e : estimates)
     strongest = std::max(strongest, traits.second_order ? e.decisive() : late(e));
   const bool end_of_step =
-      !traits.second_order && heat_options(spec).stepping == heat::ThermalStepping::backward_euler;
+      !traits.second_order && setup::heat_options(spec).stepping == heat::ThermalStepping::backward_euler;
   return end_of_step ? strongest : 0.5 * strongest;
 }
 
@@ -108,7 +109,7 @@ std::string text(const CouplingEstimate& e) {
                      e.plane ? "2 (1 - nu) delta" : "3 (1 - nu)/(1 + nu) delta", e.decisive());
 }
 
-void announce_isothermal(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates) {
+void announce_isothermal(const cases::CaseSpec& spec, const std::vector<CouplingEstimate>& estimates) {
   // Only isothermal passes can be unstable; all other schemes are so by construction of the split
   // for no coupling.
   const bool isothermal = spec.coupling.scheme->traits().mapping == mechanics::Mapping::isothermal;
@@ -121,11 +122,11 @@ void announce_isothermal(const CaseSpec& spec, const std::vector<CouplingEstimat
   // no bound is known, weak coupling is stable, strong coupling needs short steps or is unstable.
   const std::string advice =
       fmt::format("scheme = \"{}\" in [coupling] has no such limit", coupling::k_stable_scheme);
-  if (spec.dynamics && spec.dynamics->method != DynamicsSpec::Method::backward_euler) {
+  if (spec.dynamics && spec.dynamics->method != cases::DynamicsSpec::Method::backward_euler) {
     logging::warn(
         "isothermal passes with inertia by {}: no strength of coupling is known to be stable, and high "
         "frequencies grow in a weak one too ({}); {}",
-        method_name(*spec.dynamics), text(worst), advice);
+        setup::method_name(*spec.dynamics), text(worst), advice);
   } else if (worst.decisive() < 1) {
     logging::info("isothermal passes: the coupling is weak enough for every step; {}", text(worst));
   } else if (spec.dynamics) {
@@ -142,4 +143,4 @@ void announce_isothermal(const CaseSpec& spec, const std::vector<CouplingEstimat
   }
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -12,7 +12,7 @@
 #include "setup/skin_measures.hpp"
 #include "system/processes.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -72,7 +72,7 @@ Deepest deepest_below(const mesh::Mesh& mesh, std::size_t body, const std::vecto
   std::vector<mesh::Point> mine;
   std::vector<double> depths;
   for (const auto& [depth, node] : deep) mine.push_back(mesh.x[node]), depths.push_back(depth);
-  const std::vector<mesh::Point> all = gather(mine);
+  const std::vector<mesh::Point> all = setup::gather(mine);
   depths = processes::gather(depths);
   // The deepest first, in an order that does not depend on the processes.
   std::vector<std::size_t> order(all.size());
@@ -85,4 +85,4 @@ Deepest deepest_below(const mesh::Mesh& mesh, std::size_t body, const std::vecto
   return {std::sqrt(deepest), few_of(places)};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -5,7 +5,7 @@
 
 #include "mesh/mesh.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 /// The greatest depth of a body below its cooled skin, and places that are as deep or nearly so.
 struct Deepest {
@@ -18,4 +18,4 @@ struct Deepest {
 /// @param cloud  points of the skin, of all processes
 Deepest deepest_below(const mesh::Mesh& mesh, std::size_t body, const std::vector<mesh::Point>& cloud);
 
-}  // namespace solidus::model
+}  // namespace solidus::check

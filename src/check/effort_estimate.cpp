@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/stage_input.hpp"
+#include "cases/stage_input.hpp"
 #include "check/case_measures.hpp"
 #include "setup/body_input.hpp"
 #include "system/processes.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -21,7 +21,7 @@ constexpr Cost k_plane{2.2e-6, 6e-6, 0.7e3, 5.5e3};
 constexpr Cost k_solid_direct{6e-6, 80e-6, 1.2e3, 65e3};
 constexpr Cost k_solid_iterative{6e-6, 150e-6, 1.2e3, 48e3};
 
-Cost cost(const CaseSpec& spec, double nodes_of_mechanics) {
+Cost cost(const cases::CaseSpec& spec, double nodes_of_mechanics) {
   if (spec.analysis.kind != AnalysisKind::solid) return k_plane;
   constexpr double k_direct_unknowns = 50000;  // where linear::SolverKind::automatic changes
   const bool direct =
@@ -31,25 +31,26 @@ Cost cost(const CaseSpec& spec, double nodes_of_mechanics) {
 }
 
 /// The work of a scheme in a step, relative to one pass of each phase.
-double passes(const CaseSpec& spec) {
+double passes(const cases::CaseSpec& spec) {
   return spec.coupled() ? spec.coupling.scheme->traits().effort : 1;
 }
 
-double fixed_steps(const CaseSpec& spec, const Assembly& a) {
+double fixed_steps(const cases::CaseSpec& spec, const setup::Assembly& a) {
   if (a.stages.empty()) return std::ceil(*spec.time.end / *spec.time.step - 1e-9);
   double steps = 0;
-  for (const StageRun& run : a.stages)
-    steps += std::ceil(run.stage->duration / first_step(*run.stage, spec.time) - 1e-9);
+  for (const cases::StageRun& run : a.stages)
+    steps += std::ceil(run.stage->duration / cases::first_step(*run.stage, spec.time) - 1e-9);
   return steps;
 }
 
 /// Errors go with the square of a step, so that steps go with the root of what the run passes through over
 /// the error allowed: measured 6 to 10 times that.
-double adaptive_steps(const CaseSpec& spec, const Assembly& a) {
+double adaptive_steps(const cases::CaseSpec& spec, const setup::Assembly& a) {
   double high = 0, low = 1e300;
-  for (const InitialTemperatureRange& r : a.start) high = std::max(high, r.high), low = std::min(low, r.low);
-  using Kind = ThermalConditionSpec::Kind;
-  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
+  for (const setup::InitialTemperatureRange& r : a.start)
+    high = std::max(high, r.high), low = std::min(low, r.low);
+  using Kind = cases::ThermalConditionSpec::Kind;
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions) {
     const Function& f = c.kind == Kind::temperature ? c.temperature : c.ambient;
     if ((c.kind == Kind::temperature || c.kind == Kind::film || c.kind == Kind::radiation) &&
         f.place == nullptr)
@@ -66,7 +67,7 @@ double adaptive_steps(const CaseSpec& spec, const Assembly& a) {
 
 }  // namespace
 
-Effort estimate_effort(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+Effort estimate_effort(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m) {
   Effort effort;
   // Steady runs are one solution; adaptive steps are guessed, and said to be.
   if (spec.time.steady) {
@@ -81,7 +82,7 @@ Effort estimate_effort(const CaseSpec& spec, const Assembly& a, const CaseMeasur
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
     const auto nodes = static_cast<double>(m.bodies[b].nodes);
     if (spec.has_heat()) heat += nodes;
-    if (spec.has_mechanics() && !only_conducts(spec.bodies[b])) mechanics += nodes;
+    if (spec.has_mechanics() && !cases::only_conducts(spec.bodies[b])) mechanics += nodes;
   }
   // The cost is per node and step, as measured on one core; passes of the coupling repeat all of
   // it.
@@ -94,4 +95,4 @@ Effort estimate_effort(const CaseSpec& spec, const Assembly& a, const CaseMeasur
   return effort;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -10,7 +10,7 @@
 
 #include "check/built_in_findings.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -58,4 +58,4 @@ std::string percent(double share) {
   return number(100 * share) + " %";
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -16,7 +16,7 @@
 
 #include "check/findings.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 /// The subjects of findings, which are the sections of the reference page in their order.
 enum class Topic { contacts, materials, pour, mesh, conditions, mechanics, probes, effort };
@@ -36,7 +36,7 @@ struct FindingRow {
 };
 
 /// Looks for the findings of a family and appends them. Collective: all processes find the same.
-using FindFindings = void (*)(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+using FindFindings = void (*)(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
                               Findings& findings);
 
 struct FindingFamily {
@@ -62,4 +62,4 @@ std::string number(double value);
 /// A share as the reference page writes it: "5 %".
 std::string percent(double share);
 
-}  // namespace solidus::model
+}  // namespace solidus::check

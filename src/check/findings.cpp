@@ -10,7 +10,7 @@
 #include "system/errors.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 bool share_a_stage(const std::vector<std::string>& a, const std::vector<std::string>& b) {
   return a.empty() || b.empty() || std::ranges::any_of(a, [&](const std::string& stage) {
@@ -18,7 +18,7 @@ bool share_a_stage(const std::vector<std::string>& a, const std::vector<std::str
          });
 }
 
-Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+Findings findings(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m) {
   // Families come in the order of their places, in which findings are printed: from what the case says to
   // what follows from its mesh.
   Findings found;
@@ -38,4 +38,4 @@ void report(const Findings& findings) {
   for (const std::string& text : logging::told_once(texts)) logging::warn("{}", text);
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

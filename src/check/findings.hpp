@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "check/case_measures.hpp"
 #include "setup/assembly.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 struct Finding {
   bool is_error = false;  ///< no sensible case looks so; else a warning
@@ -29,10 +29,10 @@ bool share_a_stage(const std::vector<std::string>& a, const std::vector<std::str
 
 /// The findings of all families (finding_family.hpp) in a case that is built, in the order of their places.
 /// Collective.
-Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
+Findings findings(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m);
 
 /// Warns of the findings, once of those that several bodies or contacts share (system/alike_texts.hpp);
 /// throws InputError for the first error.
 void report(const Findings& findings);
 
-}  // namespace solidus::model
+}  // namespace solidus::check

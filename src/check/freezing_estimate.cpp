@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -339,4 +339,4 @@ FreezingEstimate estimate_freezing(const FreezingProblem& problem) {
   return estimate;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

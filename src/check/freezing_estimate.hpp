@@ -37,7 +37,7 @@
 
 #include "material/material.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 /// A part of the cooled skin that faces another body.
 struct MouldSide {
@@ -95,4 +95,4 @@ struct FreezingEstimate {
 /// Takes some milliseconds. No MPI.
 FreezingEstimate estimate_freezing(const FreezingProblem& problem);
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -17,7 +17,7 @@
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -256,4 +256,4 @@ LocalShape measure_around(const mesh::Mesh& mesh, AnalysisKind kind, std::size_t
   return shape;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

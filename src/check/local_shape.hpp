@@ -9,7 +9,7 @@
 #include "mesh/mesh.hpp"
 #include "numbers/types.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 /// A part of the skin of a body: a named surface, or the faces that it shares with another body.
 struct SkinPlace {
@@ -48,4 +48,4 @@ struct PlaceInMetal {
 LocalShape measure_around(const mesh::Mesh& mesh, AnalysisKind kind, std::size_t body,
                           const PlaceInMetal& place, const std::vector<SkinPlace>& skins);
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -9,20 +9,21 @@
 #include "check/deepest.hpp"
 #include "check/local_shape.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
 /// The stage in which a body comes in; null without stages.
-const StageRun* stage_of_pour(const CaseSpec& spec, const Assembly& a, std::size_t body) {
+const cases::StageRun* stage_of_pour(const cases::CaseSpec& spec, const setup::Assembly& a,
+                                     std::size_t body) {
   const auto stage = std::ranges::find_if(
-      a.stages, [&](const StageRun& run) { return holds(spec.bodies[body].stages, &run); });
+      a.stages, [&](const cases::StageRun& run) { return cases::holds(spec.bodies[body].stages, &run); });
   return stage != a.stages.end() ? &*stage : nullptr;
 }
 
 /// When a body comes in [s].
-double time_of_pour(const CaseSpec& spec, const Assembly& a, std::size_t body) {
-  const StageRun* const stage = stage_of_pour(spec, a, body);
+double time_of_pour(const cases::CaseSpec& spec, const setup::Assembly& a, std::size_t body) {
+  const cases::StageRun* const stage = stage_of_pour(spec, a, body);
   return stage != nullptr ? stage->start : 0.0;
 }
 
@@ -154,7 +155,7 @@ void by_thickest_place(const Surroundings& in, const std::vector<mesh::Point>& p
 /// is poured with the body: the skin that its mould cools is the A of V/A.
 /// @param earlier  estimates of what was poured before: a casting that is solid by now takes heat as a mould
 ///                 does, from its solidus on, which it has reached at least
-void estimate_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+void estimate_alone(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
                     std::span<const EstimatedPour> earlier, EstimatedPour& estimated) {
   Pour& pour = estimated.pour;
   const std::size_t body = pour.body;
@@ -240,7 +241,7 @@ void estimate_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasures&
 /// Lets metal that shares faces exchange heat: what would freeze later alone, as a riser does, gives heat to
 /// what would freeze earlier, and that is liquid where both meet until the estimate of the other says that it
 /// is solid there. The slowest come first.
-void exchange_heat(const CaseMeasures& m, const Assembly& a, std::vector<EstimatedPour>& all) {
+void exchange_heat(const CaseMeasures& m, const setup::Assembly& a, std::vector<EstimatedPour>& all) {
   std::vector<EstimatedPour*> by_time;
   for (EstimatedPour& one : all)
     if (one.pour.alone_time) by_time.push_back(&one);
@@ -277,7 +278,7 @@ void exchange_heat(const CaseMeasures& m, const Assembly& a, std::vector<Estimat
 
 }  // namespace
 
-std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+std::vector<Pour> pours(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m) {
   // Only bodies that come in above their solidus.
   std::vector<EstimatedPour> all;
   std::vector<std::size_t> bodies;
@@ -310,4 +311,4 @@ std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasu
   return list;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -12,47 +12,48 @@
 #include <tuple>
 #include <utility>
 
-#include "case/case_materials.hpp"
-#include "case/interface_library.hpp"
+#include "cases/case_materials.hpp"
+#include "cases/interface_library.hpp"
 #include "contact/interface/heat_transfer.hpp"
 #include "setup/body_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
 using Group = UncertainParameter::Group;
 using Origin = UncertainParameter::Origin;
 
-Spread usual_share(double relative) {
-  Spread spread;
+material::Spread usual_share(double relative) {
+  material::Spread spread;
   spread.relative = relative;
   return spread;
 }
-Spread usual_factor(double factor) {
-  Spread spread;
+material::Spread usual_factor(double factor) {
+  material::Spread spread;
   spread.factor = factor;
   return spread;
 }
-Spread usual_shift(double kelvin) {
-  Spread spread;
+material::Spread usual_shift(double kelvin) {
+  material::Spread spread;
   spread.shift = kelvin;
   return spread;
 }
 
-bool is_zero(const Spread& s) {
+bool is_zero(const material::Spread& s) {
   return s.relative.value_or(0) == 0 && s.factor.value_or(1) == 1 && s.shift.value_or(0) == 0;
 }
 
 /// A spread and where it comes from: that of the case, else that of the card, else a usual one.
 struct Known {
-  Spread spread;
+  material::Spread spread;
   Origin origin = Origin::usual;
   bool by_case = false;
 };
 
-Known known(const std::optional<Spread>& by_case, const std::optional<Spread>& by_card, Spread usual) {
-  const std::optional<Spread>& given = by_case ? by_case : by_card;
+Known known(const std::optional<material::Spread>& by_case, const std::optional<material::Spread>& by_card,
+            material::Spread usual) {
+  const std::optional<material::Spread>& given = by_case ? by_case : by_card;
   if (!given) return {std::move(usual), Origin::usual, false};
   return {*given, given->estimate ? Origin::estimate : Origin::stated, by_case.has_value()};
 }
@@ -90,13 +91,14 @@ struct BodyUse {
 
 class Collector {
  public:
-  Collector(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) : spec_(spec), a_(a), m_(m) {}
+  Collector(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m)
+      : spec_(spec), a_(a), m_(m) {}
 
   UncertainParameters all() {
     for (std::size_t b = 0; b < spec_.bodies.size(); ++b) add_material(b);
     for (std::size_t c = 0; c < spec_.contacts.size(); ++c) add_contact(c);
     for (std::size_t b = 0; b < spec_.bodies.size(); ++b) add_start(b);
-    for (const ThermalConditionSpec& condition : spec_.thermal_conditions) add_condition(condition);
+    for (const cases::ThermalConditionSpec& condition : spec_.thermal_conditions) add_condition(condition);
     return std::move(list_.found);
   }
 
@@ -116,16 +118,16 @@ class Collector {
   }
 
   void add_material(std::size_t b) {
-    const BodySpec& body = spec_.bodies[b];
+    const cases::BodySpec& body = spec_.bodies[b];
     const std::string name = std::filesystem::path(body.material).stem().string();
     // Spreads of the case go before those of the card, and these before what is usual for the property.
     const material::MaterialSpreads card =
-        material::find_spreads(body.material, material_folders(), body.where);
+        material::find_spreads(body.material, cases::material_folders(), body.where);
     const auto own = spec_.spread.bodies.find(body.name);
     // What a body is used for decides which of its properties matter.
     BodyUse use;
     use.cast = m_.is_poured(b);
-    use.deforms = spec_.has_mechanics() && !only_conducts(body);
+    use.deforms = spec_.has_mechanics() && !cases::only_conducts(body);
     use.weighs = use.deforms && (spec_.analysis.gravity > 0 || spec_.dynamics);
     // A spread for every property that the material has and the case uses.
     std::map<std::string_view, Known> spreads;
@@ -183,13 +185,13 @@ class Collector {
   }
 
   void add_contact(std::size_t c) {
-    const ContactSpec& contact = spec_.contacts[c];
+    const cases::ContactSpec& contact = spec_.contacts[c];
     if (!spec_.has_heat() || !contact.heat) return;
     // The case goes before the card of the interface, and the card before what is usual.
     const auto own = spec_.spread.contacts.find(contact.name);
-    ContactSpreads by_case, by_card;
+    cases::ContactSpreads by_case, by_card;
     if (own != spec_.spread.contacts.end()) by_case = own->second;
-    for (const InterfaceCard& card : cards_)
+    for (const cases::InterfaceCard& card : cards_)
       if (!contact.law.empty() && card.name == contact.law) by_card = card.spread;
     constexpr double k_usual = 2, k_usual_gap = 1.5;
     // One parameter a law, not one a contact: two contacts of one law are off together.
@@ -214,7 +216,7 @@ class Collector {
 
   /// Whether a gap may be open, and conducts less than contact then.
   bool opens(std::size_t c) const {
-    const ContactSpec& contact = spec_.contacts[c];
+    const cases::ContactSpec& contact = spec_.contacts[c];
     constexpr double k_rounding = 1e-9;  // [m], of coordinates
     const bool apart = m_.contacts[c].largest_gap > contact.touching.value_or(k_rounding);
     if (!spec_.has_mechanics() && !apart) return false;
@@ -226,7 +228,7 @@ class Collector {
 
   void add_start(std::size_t b) {
     if (!transient_heat()) return;
-    const BodySpec& body = spec_.bodies[b];
+    const cases::BodySpec& body = spec_.bodies[b];
     const auto own = spec_.spread.bodies.find(body.name);
     // Poured bodies have a pouring temperature each; all others share one parameter unless the case gives
     // them their own.
@@ -256,13 +258,15 @@ class Collector {
                k.origin});
   }
 
-  void add_condition(const ThermalConditionSpec& c) {
-    using Kind = ThermalConditionSpec::Kind;
+  void add_condition(const cases::ThermalConditionSpec& c) {
+    using Kind = cases::ThermalConditionSpec::Kind;
     if (!spec_.has_heat()) return;
     const auto own = spec_.spread.conditions.find(c.name);
     const auto by = spec_.vary.conditions.find(c.name);
-    const ConditionSpreads by_case = own == spec_.spread.conditions.end() ? ConditionSpreads{} : own->second;
-    const ConditionFactors now = by == spec_.vary.conditions.end() ? ConditionFactors{} : by->second;
+    const cases::ConditionSpreads by_case =
+        own == spec_.spread.conditions.end() ? cases::ConditionSpreads{} : own->second;
+    const cases::ConditionFactors now =
+        by == spec_.vary.conditions.end() ? cases::ConditionFactors{} : by->second;
     // Parameters of one condition share its name and its group.
     const auto add = [&](const char* key, const std::string& quantity, const Known& k, double value) {
       list_.add(fmt::format("{} {}", quantity, c.name),
@@ -289,8 +293,9 @@ class Collector {
   }
 
   /// The strength of a condition: its name, its data and its usual spread.
-  static std::tuple<std::string, const Function*, Spread> strength_of(const ThermalConditionSpec& c) {
-    using Kind = ThermalConditionSpec::Kind;
+  static std::tuple<std::string, const Function*, material::Spread> strength_of(
+      const cases::ThermalConditionSpec& c) {
+    using Kind = cases::ThermalConditionSpec::Kind;
     constexpr double k_film = 1.5, k_emissivity = 0.2, k_power = 0.1;
     switch (c.kind) {
       case Kind::film:
@@ -306,17 +311,18 @@ class Collector {
     }
   }
 
-  const CaseSpec& spec_;
-  const Assembly& a_;
+  const cases::CaseSpec& spec_;
+  const setup::Assembly& a_;
   const CaseMeasures& m_;
-  const std::vector<InterfaceCard> cards_ = interface_cards();
+  const std::vector<cases::InterfaceCard> cards_ = cases::interface_cards();
   ParameterList list_;
 };
 
 }  // namespace
 
-UncertainParameters uncertain_parameters(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+UncertainParameters uncertain_parameters(const cases::CaseSpec& spec, const setup::Assembly& a,
+                                         const CaseMeasures& m) {
   return Collector(spec, a, m).all();
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

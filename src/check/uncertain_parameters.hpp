@@ -1,6 +1,6 @@
 /// The data of a case that are known within a spread only, and that its answers depend on: properties of
 /// materials, heat transfer of interfaces, temperatures at the start, conditions. `solidus uncertain` varies
-/// them by the keys of [vary] (case/variation.hpp).
+/// them by the keys of [vary] (cases/variation.hpp).
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 #include "check/case_measures.hpp"
 #include "material/spread.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 struct UncertainParameter {
   /// A place where the parameter stands, and the factor or shift [K] that the case itself has there.
@@ -31,7 +31,7 @@ struct UncertainParameter {
   Group group = Group::casting;
   bool mechanical = false;  ///< heat alone does not depend on it
   std::vector<Place> places;
-  Spread spread;
+  material::Spread spread;
   Origin origin = Origin::usual;
 };
 
@@ -42,6 +42,7 @@ struct UncertainParameters {
 
 /// Data with a spread of zero are left out, and data that this case does not use.
 /// @param m  of the case, whose contacts are known
-UncertainParameters uncertain_parameters(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
+UncertainParameters uncertain_parameters(const cases::CaseSpec& spec, const setup::Assembly& a,
+                                         const CaseMeasures& m);
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -1,4 +1,4 @@
-/// References to the phases that a scheme drives; model::Assembly owns them.
+/// References to the phases that a scheme drives; setup::Assembly owns them.
 #pragma once
 
 #include <optional>

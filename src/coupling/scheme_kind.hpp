@@ -30,8 +30,9 @@ namespace solidus {
 
 template <class Interface>
 class Kinds;  // input/kinds.hpp
+}
 
-namespace coupling {
+namespace solidus::coupling {
 
 class CouplingScheme;
 struct Phases;
@@ -92,5 +93,4 @@ std::shared_ptr<const SchemeKind> default_scheme();
 /// The scheme of a case of mechanics or heat alone.
 std::unique_ptr<CouplingScheme> single_phase(const Phases& phases);
 
-}  // namespace coupling
-}  // namespace solidus
+}  // namespace solidus::coupling

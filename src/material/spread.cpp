@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace solidus {
+namespace solidus::material {
 
 namespace {
 
@@ -68,4 +68,4 @@ std::string spread_text(const Spread& spread) {
   return fmt::format("{:.3g} K", spread.shift.value_or(0));
 }
 
-}  // namespace solidus
+}  // namespace solidus::material

@@ -13,7 +13,7 @@
 
 #include "input/keys.hpp"
 
-namespace solidus {
+namespace solidus::material {
 
 struct Spread {
   std::optional<double> relative, factor;  ///< 1
@@ -35,4 +35,4 @@ void check_spread(const Spread& spread, bool of_temperature, const std::string& 
 /// The spread in words, "5 %", "a factor of 1.5", "3 K".
 std::string spread_text(const Spread& spread);
 
-}  // namespace solidus
+}  // namespace solidus::material

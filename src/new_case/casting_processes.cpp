@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
-#include "case/case_materials.hpp"
+#include "cases/case_materials.hpp"
 #include "input/keys.hpp"
 #include "material/cards/library.hpp"
 #include "new_case/new_case.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 const std::vector<CastingProcess>& casting_processes() {
   // For each process: mould materials from the best known on, role and temperature of the mould, superheat
@@ -19,7 +19,7 @@ const std::vector<CastingProcess>& casting_processes() {
   static const std::vector<CastingProcess> list = {
       {"sand",
        {"green_sand"},
-       Role::mould,
+       cases::Role::mould,
        20,
        80,
        0.025,
@@ -29,7 +29,7 @@ const std::vector<CastingProcess>& casting_processes() {
        "still air, 5 to 15 W/(m2 K) with radiation"},
       {"shell",
        {"ceramic_shell"},
-       Role::mould,
+       cases::Role::mould,
        20,
        80,
        0.0,
@@ -48,7 +48,7 @@ const std::vector<CastingProcess>& casting_processes() {
        0.6},
       {"gravity_die",
        {"h13_tool_steel", "steel_mould"},
-       Role::die,
+       cases::Role::die,
        250,
        70,
        0.02,
@@ -65,7 +65,7 @@ const std::vector<CastingProcess>& casting_processes() {
        "compressed air and a little water on the coating: an estimate"},
       {"high_pressure",
        {"h13_tool_steel", "steel_mould"},
-       Role::die,
+       cases::Role::die,
        200,
        40,
        0.025,
@@ -96,10 +96,10 @@ std::vector<std::string> processes() {
 }
 
 std::string first_known(const std::vector<std::string>& names) {
-  const std::vector<std::string> known = material::material_names(material_folders());
+  const std::vector<std::string> known = material::material_names(cases::material_folders());
   for (const std::string& name : names)
     if (std::ranges::find(known, name) != known.end()) return name;
   return names.back();
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 struct CastingProcess {
   const char* name;
   std::vector<std::string> materials;  ///< of the mould, the first that the library has
-  Role mould;
+  cases::Role mould;
   double mould_start, superheat;  ///< [°C], [K]
   double least_wall;              ///< [m]
   double walls;                   ///< thickness of the mould over that of the casting
@@ -37,4 +37,4 @@ const CastingProcess& process_named(const std::string& name);
 /// The first of these materials that the library has, else the last.
 std::string first_known(const std::vector<std::string>& names);
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

@@ -12,7 +12,7 @@
 #include "mesh/surfaces/skin.hpp"
 #include "mesh/surfaces/smooth_parts.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 namespace {
 
@@ -140,4 +140,4 @@ double film_of_water(double diameter) {
   return 0.023 * std::pow(reynolds, 0.8) * std::pow(k_prandtl, 0.4) * k_conductivity / diameter;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

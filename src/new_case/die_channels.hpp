@@ -6,7 +6,7 @@
 
 #include "mesh/raw_mesh.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 /// A bore of a die.
 struct DieChannel {
@@ -35,4 +35,4 @@ double speed_of_water(double diameter);
 /// Transmission, 1954): 5.3 kW/(m² K) at 10 mm [W/(m² K)].
 double film_of_water(double diameter);
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

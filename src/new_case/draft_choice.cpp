@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "input/keys.hpp"
 #include "new_case/riser_choice.hpp"
 #include "new_case/rounding.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 namespace {
 
@@ -93,7 +93,7 @@ class Choice {
     // The box is that of the facets of a coarse mesh, and so is the centre of its bodies: the CAD kernel has
     // the centre of the surfaces themselves, in which the plane lies.
     double first = 0, whole = 0;
-    for (const GeometryBody& body : part_.bodies)
+    for (const setup::GeometryBody& body : part_.bodies)
       first += body.extent.volume * body.extent.centre[axis], whole += body.extent.volume;
     const double centre = part_.mesh.centre_of_volume ? (*part_.mesh.centre_of_volume)[axis] : first / whole;
     constexpr double k_even = 2e-3;
@@ -127,19 +127,20 @@ class Choice {
   void choose_bodies() {
     int castings = 0;
     // A single casting without a name of its own is called so; others keep the names of the geometry.
-    for (const GeometryBody& body : part_.bodies) castings += body.role == Role::casting;
-    for (const GeometryBody& body : part_.bodies) {
+    for (const setup::GeometryBody& body : part_.bodies) castings += body.role == cases::Role::casting;
+    for (const setup::GeometryBody& body : part_.bodies) {
       DraftBody& draft = draft_.bodies.emplace_back();
       draft.group = body.name;
-      draft.name = castings == 1 && body.role == Role::casting && body.name.starts_with("body_") ? "casting"
-                                                                                                 : body.name;
+      draft.name = castings == 1 && body.role == cases::Role::casting && body.name.starts_with("body_")
+                       ? "casting"
+                       : body.name;
       draft.role = body.role;
       describe(draft_, process_, draft);
     }
     if (draft_.riser) {
       DraftBody& riser = draft_.bodies.emplace_back();
       riser.name = riser.group = draft_.riser->name;
-      riser.role = Role::riser;
+      riser.role = cases::Role::riser;
       describe(draft_, process_, riser);
     }
   }
@@ -158,7 +159,7 @@ class Choice {
     if (draft_.symmetry) mould.walls[2 * static_cast<std::size_t>(draft_.symmetry->axis) + 1] = 0;
     if (draft_.riser || ends_in_a_riser()) mould.walls[5] = 0;  // open at the top
     DraftBody& body = draft_.bodies.emplace_back();
-    body.name = body.group = process_.mould == Role::die ? "die" : "mould";
+    body.name = body.group = process_.mould == cases::Role::die ? "die" : "mould";
     mould.name = body.name;
     body.role = process_.mould;
     describe(draft_, process_, body);
@@ -183,12 +184,12 @@ class Choice {
   /// under pressure nothing is.
   bool ends_in_a_riser() const {
     double riser = -1e300, other = -1e300;
-    for (const GeometryBody& body : part_.bodies) {
-      double& high = body.role == Role::riser || body.role == Role::gating ? riser : other;
-      if (is_poured(body.role)) high = std::max(high, body.extent.high[2]);
+    for (const setup::GeometryBody& body : part_.bodies) {
+      double& high = body.role == cases::Role::riser || body.role == cases::Role::gating ? riser : other;
+      if (cases::is_poured(body.role)) high = std::max(high, body.extent.high[2]);
     }
     const double top = part_.high[2], near = 1e-3 * (top - part_.low[2]);
-    return process_.mould == Role::mould && riser > top - near && other < riser - near;
+    return process_.mould == cases::Role::mould && riser > top - near && other < riser - near;
   }
 
   const NewCaseOptions& options_;
@@ -211,38 +212,38 @@ void describe(const Draft& draft, const CastingProcess& process, DraftBody& body
   // Material, initial temperature and comment of a body follow from its role. Materials are the first of a
   // list that the library has.
   switch (body.role) {
-    case Role::casting:
-    case Role::riser:
-    case Role::gating:
+    case cases::Role::casting:
+    case cases::Role::riser:
+    case cases::Role::gating:
       body.material = draft.alloy;
       body.start = draft.pouring;
       body.comment =
           fmt::format("{:.0f} K above the liquidus of {:.0f} degC", draft.superheat, draft.liquidus);
       break;
-    case Role::chill:
+    case cases::Role::chill:
       body.material = first_known({"iron_chill"});
       body.start = 20;
       body.heat_only = true;
       break;
-    case Role::sleeve:
-    case Role::insulation:
+    case cases::Role::sleeve:
+    case cases::Role::insulation:
       body.material = first_known({"insulating_sleeve", "ceramic_fibre", "green_sand"});
       body.start = 20;
       break;
-    case Role::core:
+    case cases::Role::core:
       body.material = first_known({"furan_sand", "green_sand"});
-      body.start = process.mould == Role::die ? 80 : 20;
+      body.start = process.mould == cases::Role::die ? 80 : 20;
       if (process.shell > 0) {  // a core that is fired with the shell
         body.material = first_known(process.materials);
         body.start = shell_start(draft, process);
       }
       break;
-    case Role::mould:
-    case Role::die:
+    case cases::Role::mould:
+    case cases::Role::die:
       body.material = first_known(process.materials);
       body.start = process.shell > 0 ? shell_start(draft, process) : process.mould_start;
       if (process.shell > 0) body.comment = "poured hot from the furnace: an estimate, by the liquidus";
-      body.heat_only = process.mould == Role::die;
+      body.heat_only = process.mould == cases::Role::die;
       if (body.heat_only) body.comment = "physics = \"all\" gives its stresses too, at the price of time";
       break;
   }
@@ -254,4 +255,4 @@ Draft choose_draft(const NewCaseOptions& options, const CastingProcess& process,
   return Choice(options, process, alloy, part).choose();
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

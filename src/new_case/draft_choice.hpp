@@ -6,7 +6,7 @@
 #include "new_case/new_case_text.hpp"
 #include "new_case/part_measures.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 /// The draft before it has been built: its end, its step, skins in air and cores in cavities come later
 /// (draft_refinement.hpp). Throws InputError for options that the part cannot have.
@@ -16,4 +16,4 @@ Draft choose_draft(const NewCaseOptions& options, const CastingProcess& process,
 /// Gives a body of the draft material, temperature and physics by its role.
 void describe(const Draft& draft, const CastingProcess& process, DraftBody& body);
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

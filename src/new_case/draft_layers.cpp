@@ -4,17 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/case_materials.hpp"
+#include "cases/case_materials.hpp"
 #include "material/cards/library.hpp"
 #include "new_case/rounding.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 namespace {
 
 /// Diffusivity of a body half way between its start and the solidus of the metal [m²/s].
 double diffusivity(const DraftBody& body, double solidus) {
-  const material::Material m = material::find_material(body.material, material_folders(), {body.name});
+  const material::Material m = material::find_material(body.material, cases::material_folders(), {body.name});
   constexpr double k_celsius = 273.15;
   const double hot = 0.5 * (body.start + k_celsius + solidus);
   return m.conductivity.value(hot) / (m.density * m.specific_heat.value(hot));
@@ -22,8 +22,9 @@ double diffusivity(const DraftBody& body, double solidus) {
 
 }  // namespace
 
-bool has_layers(Role role) {
-  return role == Role::mould || role == Role::core || role == Role::sleeve || role == Role::insulation;
+bool has_layers(cases::Role role) {
+  return role == cases::Role::mould || role == cases::Role::core || role == cases::Role::sleeve ||
+         role == cases::Role::insulation;
 }
 
 std::vector<DraftLayers> choose_layers(const Draft& draft, const std::vector<HeatedWall>& walls,
@@ -62,4 +63,4 @@ std::vector<DraftLayers> choose_layers(const Draft& draft, const std::vector<Hea
   return layers;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

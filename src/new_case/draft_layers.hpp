@@ -6,7 +6,7 @@
 
 #include "new_case/new_case_text.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 /// A surface of a body that surrounds poured metal, on the body's own side of it.
 struct HeatedWall {
@@ -26,7 +26,7 @@ struct PouredTime {
 
 /// Whether bodies of a role get layers: those that conduct so badly that heat goes less than an element deep
 /// into them for most of the time.
-bool has_layers(Role role);
+bool has_layers(cases::Role role);
 
 /// The layers of a draft, one section for each wall, as deep as heat goes until the metal is solid: √(a t)
 /// with the diffusivity a of the wall's body [m²/s] and the freezing time t of the metal [s]; less where the
@@ -35,4 +35,4 @@ bool has_layers(Role role);
 std::vector<DraftLayers> choose_layers(const Draft& draft, const std::vector<HeatedWall>& walls,
                                        const std::vector<PouredTime>& times, double fineness);
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

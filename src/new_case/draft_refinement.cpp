@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "input/keys.hpp"
 #include "mesh/making/kept_mesh.hpp"
 #include "mesh/making/meshing_outlook.hpp"
@@ -25,7 +25,7 @@
 #include "setup/mesh_input.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 namespace fs = std::filesystem;
 
@@ -95,8 +95,8 @@ class Refinement {
         // Each try writes the case, checks it, and adapts the sizes to what the check has found.
         if (attempt == 0) find_skins();  // sizes do not change which skins there are
         write_draft(draft_);
-        const Case c = load_case(draft_.folder / "case.toml", {}, Physics::heat);
-        const bool good = adapt(check_run(c));
+        const setup::Case c = setup::load_case(draft_.folder / "case.toml", {}, cases::Physics::heat);
+        const bool good = adapt(run::check_run(c));
         write_draft(draft_);
         const bool sound = !kept.way() || kept.way()->quality >= mesh::k_sound_quality;
         if (good && (sound || !of_sizes)) break;
@@ -119,7 +119,8 @@ class Refinement {
         estimate_.worst_element = way->worst;
       }
       // The coupled case is built once too, so that its own mistakes are found here.
-      if (draft_.coupled) check_run(load_case(draft_.folder / "case.toml", {}, Physics::thermomechanical));
+      if (draft_.coupled)
+        run::check_run(setup::load_case(draft_.folder / "case.toml", {}, cases::Physics::thermomechanical));
     } catch (...) {
       std::error_code error;  // no case that does not run
       fs::remove(draft_.folder / "case.toml", error);
@@ -137,7 +138,7 @@ class Refinement {
     bare.cavity.clear();
     bare.channels.clear();
     write_draft(bare);
-    return raw_mesh(load_case(draft_.folder / "case.toml", {}, Physics::heat).spec);
+    return setup::raw_mesh(setup::load_case(draft_.folder / "case.toml", {}, cases::Physics::heat).spec);
   }
 
   /// Cores in cavities are bodies that only the mesh tells of; so are the skins that nothing faces.
@@ -152,7 +153,7 @@ class Refinement {
         continue;
       DraftBody& core = draft_.bodies.emplace_back();
       core.name = core.group = group;
-      core.role = Role::core;
+      core.role = cases::Role::core;
       describe(draft_, process_, core);
       more = true;
     }
@@ -163,15 +164,15 @@ class Refinement {
     draft_.cavity.clear();
     for (const DraftBody& die : draft_.bodies)
       for (const DraftBody& body : draft_.bodies)
-        if (die.role == Role::die && body.role != Role::die && body.role != Role::chill &&
-            mesh.groups.contains(die.name + "_to_" + body.name))
+        if (die.role == cases::Role::die && body.role != cases::Role::die &&
+            body.role != cases::Role::chill && mesh.groups.contains(die.name + "_to_" + body.name))
           draft_.cavity.push_back(die.name + "_to_" + body.name);
     find_heated_walls(mesh);
     find_channels(mesh);
     // Free skins get films, and planes of symmetry supports.
     for (const DraftBody& body : draft_.bodies) {
       if (mesh.groups.contains(body.name + "_free")) draft_.films.push_back(body.name);
-      if (is_poured(body.role) && mesh.groups.contains(body.name + "_symmetry"))
+      if (cases::is_poured(body.role) && mesh.groups.contains(body.name + "_symmetry"))
         draft_.symmetric.push_back(body.name);
     }
   }
@@ -180,7 +181,7 @@ class Refinement {
     draft_.channels.clear();
     for (const DraftBody& body : draft_.bodies) {
       const std::string free = body.name + "_free";
-      if (body.role != Role::die || !mesh.groups.contains(free)) continue;
+      if (body.role != cases::Role::die || !mesh.groups.contains(free)) continue;
       std::vector<std::string> shared;
       for (const auto& [group, content] : mesh.groups)
         if (content.dimension < mesh.dimension && group.starts_with(body.name + "_to_"))
@@ -204,23 +205,23 @@ class Refinement {
     for (const DraftBody& body : draft_.bodies)
       for (const DraftBody& poured : draft_.bodies) {
         const std::string surface = body.name + "_to_" + poured.name;
-        if (has_layers(body.role) && is_poured(poured.role) && mesh.groups.contains(surface))
+        if (has_layers(body.role) && cases::is_poured(poured.role) && mesh.groups.contains(surface))
           heated_.push_back({surface, body.name, poured.name, measure(surface), measure(body.group)});
       }
   }
 
-  std::optional<Role> role_of(const std::string& body) const {
+  std::optional<cases::Role> role_of(const std::string& body) const {
     const auto found = std::ranges::find(draft_.bodies, body, &DraftBody::name);
     return found == draft_.bodies.end() ? std::nullopt : std::optional(found->role);
   }
 
   /// The longest estimate of the castings of whose skin half or more is cooled [s]; zero: there is none.
-  double longest_freezing(const CheckedRun& checked) const {
+  double longest_freezing(const run::CheckedRun& checked) const {
     constexpr double k_half = 0.5;
     double longest = 0;
     for (const results::PourOverview& pour : checked.overview.pours)
       for (const results::BodyOverview& body : checked.overview.bodies)
-        if (body.name == pour.body && role_of(pour.body) == Role::casting &&
+        if (body.name == pour.body && role_of(pour.body) == cases::Role::casting &&
             body.volume > k_half * body.skin * pour.modulus)
           longest = std::max(longest, pour.freezing_time.value_or(0));
     return longest;
@@ -229,13 +230,13 @@ class Refinement {
   /// Film outside of the dies without channels of their own that takes as much heat in a shot as the castings
   /// bring to them until they are well solid, less what spray and air take from the cavity, while the die is
   /// as warm as it was preheated; spread over all of their outside [W/(m² K)].
-  double cooling_of_die(const CheckedRun& checked) const {
+  double cooling_of_die(const run::CheckedRun& checked) const {
     constexpr double k_below_solidus = 100, k_ambient = 20, k_cavity_film = 20;  // [K], [°C], [W/(m² K)]
     const DraftShots& shots = *draft_.shots;
     const material::EnthalpyCurve curve = alloy_.enthalpy();
     double heat = 0, outside = 0, warmer = 0;
     for (const DraftBody& body : draft_.bodies)
-      if (body.role == Role::die) warmer = body.start - k_ambient;
+      if (body.role == cases::Role::die) warmer = body.start - k_ambient;
     for (const results::PourOverview& pour : checked.overview.pours)
       for (const results::BodyOverview& body : checked.overview.bodies)
         if (body.name == pour.body)
@@ -244,11 +245,11 @@ class Refinement {
                       (shots.spray_film * shots.spray + k_cavity_film * (shots.eject + shots.close));
     double cavity = 0, own = 0;
     for (const results::SkinOverview& skin : checked.overview.skins) {
-      if (skin.surface == skin.body + "_free" && role_of(skin.body) == Role::die &&
+      if (skin.surface == skin.body + "_free" && role_of(skin.body) == cases::Role::die &&
           !has_channels(draft_, skin.body))
         outside += skin.area;
       for (const DraftBody& die : draft_.bodies)
-        if (die.role == Role::die && skin.surface == skin.body + "_to_" + die.name) {
+        if (die.role == cases::Role::die && skin.surface == skin.body + "_to_" + die.name) {
           cavity += skin.area;
           own += has_channels(draft_, die.name) ? 0 : skin.area;
         }
@@ -259,7 +260,7 @@ class Refinement {
   }
 
   /// @return whether sizes and walls may stay
-  bool adapt(const CheckedRun& checked) {
+  bool adapt(const run::CheckedRun& checked) {
     double time = 0, reach = 0;
     estimate_.nodes = estimate_.metal_nodes = estimate_.longest_edge = 0;
     estimate_.shortest_edge = std::numeric_limits<double>::max();
@@ -280,7 +281,7 @@ class Refinement {
     for (const results::BodyOverview& body : checked.overview.bodies) {
       estimate_.nodes += static_cast<double>(body.nodes);
       for (const DraftBody& draft : draft_.bodies)
-        if (draft.name == body.name && is_poured(draft.role)) {
+        if (draft.name == body.name && cases::is_poured(draft.role)) {
           estimate_.metal_nodes += static_cast<double>(body.nodes);
           estimate_.shortest_edge = std::min(estimate_.shortest_edge, body.shortest_edge);
           estimate_.longest_edge = std::max(estimate_.longest_edge, body.longest_edge);
@@ -313,7 +314,7 @@ class Refinement {
     good = may_keep_sizes() && good;
     // Walls of moulds reach twice as far as heat does, else they grow.
     constexpr double k_reaches = 2;
-    if (draft_.mould && process_.walls > 0 && process_.mould == Role::mould)
+    if (draft_.mould && process_.walls > 0 && process_.mould == cases::Role::mould)
       for (double& wall : draft_.mould->walls)
         if (wall > 0 && wall < k_reaches * reach) {
           wall = of_wall(k_reaches * reach);
@@ -388,4 +389,4 @@ DraftEstimate refine_draft(Draft& draft, const CastingProcess& process, const ma
   return Refinement(draft, process, alloy, fineness, time_of_direct_ways).refine();
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

@@ -9,7 +9,7 @@
 #include "new_case/casting_processes.hpp"
 #include "new_case/new_case_text.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 /// The last draft as it was built.
 struct DraftEstimate {
@@ -33,4 +33,4 @@ void write_draft(const Draft& draft);
 DraftEstimate refine_draft(Draft& draft, const CastingProcess& process, const material::Material& alloy,
                            double fineness, double time_of_direct_ways);
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

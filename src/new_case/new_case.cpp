@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "case/case_materials.hpp"
-#include "case/roles.hpp"
+#include "cases/case_materials.hpp"
+#include "cases/roles.hpp"
 #include "input/keys.hpp"
 #include "material/cards/library.hpp"
 #include "new_case/casting_processes.hpp"
@@ -14,7 +14,7 @@
 #include "new_case/part_measures.hpp"
 #include "system/processes.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 namespace {
 
@@ -27,7 +27,7 @@ material::Material alloy_of(const NewCaseOptions& options, const CastingProcess&
                      "the geometry of a casting: STEP, IGES, BREP, STL or a mesh");
   if (options.alloy.empty())
     throw InputError({"--alloy"}, "what is cast?", "--alloy NAME, of those that `solidus materials` lists");
-  material::Material alloy = material::find_material(options.alloy, material_folders(), {"--alloy"});
+  material::Material alloy = material::find_material(options.alloy, cases::material_folders(), {"--alloy"});
   if (alloy.solidification() == nullptr)
     throw InputError({"--alloy"}, fmt::format("'{}' does not solidify", options.alloy),
                      "an alloy; `solidus materials` lists them");
@@ -37,7 +37,7 @@ material::Material alloy_of(const NewCaseOptions& options, const CastingProcess&
   if (options.riser && options.symmetry == "z")
     throw InputError({"--symmetry"}, "with a riser on top nothing is symmetric in z",
                      "x or y, or no --riser auto");
-  if (options.shots > 0 && process.mould != Role::die)
+  if (options.shots > 0 && process.mould != cases::Role::die)
     throw InputError({"--shots"},
                      fmt::format("the mould of the process '{}' is lost with its casting", process.name),
                      "--process gravity_die or high_pressure, or no --shots");
@@ -68,4 +68,4 @@ NewCaseReport make_new_case(const NewCaseOptions& options) {
   return {draft.folder / "case.toml", report_text(draft, part, estimate, options)};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

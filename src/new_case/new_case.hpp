@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 struct NewCaseOptions {
   std::filesystem::path geometry;  ///< STEP, BREP, IGES, STL, or a mesh
@@ -37,4 +37,4 @@ struct NewCaseReport {
 /// Throws InputError.
 NewCaseReport make_new_case(const NewCaseOptions& options);
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

@@ -8,12 +8,12 @@
 #include <optional>
 #include <set>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "mesh/making/casting_geometry.hpp"
 #include "new_case/casting_processes.hpp"
 #include "new_case/rounding.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 namespace {
 
@@ -61,10 +61,10 @@ std::string unknown_bodies_text(const Draft& draft, const std::vector<std::strin
   int castings = 0;
   std::string unknown, last;
   for (const DraftBody& body : draft.bodies) {
-    if (body.role != Role::casting) continue;
+    if (body.role != cases::Role::casting) continue;
     ++castings;
     const auto said = [&](const std::string& text) { return text.starts_with(body.group + "="); };
-    if (role_in_name(body.group) || std::ranges::any_of(as, said)) continue;
+    if (cases::role_in_name(body.group) || std::ranges::any_of(as, said)) continue;
     unknown += (unknown.empty() ? "" : ", ") + body.name;
     last = body.group;
   }
@@ -154,9 +154,9 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
   if (part.file_unit) out += fmt::format("\n  unit        {}, as the file says", part.file_unit->name);
   // Bodies with their size, as far as they are drawn.
   for (const DraftBody& body : draft.bodies) {
-    out += fmt::format("\n  {:<10}  {} of {}, {:.0f} degC", name(body.role), body.name, body.material,
+    out += fmt::format("\n  {:<10}  {} of {}, {:.0f} degC", cases::name(body.role), body.name, body.material,
                        body.start);
-    const auto measured = std::ranges::find(part.bodies, body.group, &GeometryBody::name);
+    const auto measured = std::ranges::find(part.bodies, body.group, &setup::GeometryBody::name);
     if (measured != part.bodies.end()) out += ", " + size_text(measured->extent);
   }
   out += fmt::format(
@@ -211,4 +211,4 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
   return out;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

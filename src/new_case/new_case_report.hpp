@@ -8,10 +8,10 @@
 #include "new_case/new_case_text.hpp"
 #include "new_case/part_measures.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 /// Lines for people, in mm, cm³, °C and s.
 std::string report_text(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate,
                         const NewCaseOptions& options);
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "new_case/draft_layers.hpp"
 #include "new_case/rounding.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 namespace {
 
@@ -44,7 +44,7 @@ std::string mesh_text(const Draft& d) {
        "time.\n";
   // Sizes for what is poured, and how elements grow in what surrounds it.
   for (const DraftBody& b : d.bodies) {
-    if (is_poured(b.role))
+    if (cases::is_poured(b.role))
       t += fmt::format(
           "[[mesh.size]]\nbody = {}\nsize = {}\nsmallest = {}\nacross = 2    # through a wall\n\n",
           quoted(b.group), mm(d.size), mm(d.smallest));
@@ -93,7 +93,8 @@ std::string mesh_text(const Draft& d) {
 
 /// Whether a body leaves with the casting, and is new in the next shot.
 bool leaves(const DraftBody& b) {
-  return is_poured(b.role) || b.role == Role::core || b.role == Role::sleeve || b.role == Role::insulation;
+  return cases::is_poured(b.role) || b.role == cases::Role::core || b.role == cases::Role::sleeve ||
+         b.role == cases::Role::insulation;
 }
 
 std::string time_text(const Draft& d) {
@@ -199,7 +200,7 @@ std::string film_text(const Draft& d, const std::string& body) {
         "group = \"{0}_free\"\nkind = \"film\"\ncoefficient = \"{1:g} W/m2/K\"\nambient = \"20 degC\"\n\n",
         body, k_film_of_die);
   const bool cooled =
-      d.shots && d.shots->cooling > d.film && found != d.bodies.end() && found->role == Role::die;
+      d.shots && d.shots->cooling > d.film && found != d.bodies.end() && found->role == cases::Role::die;
   const std::string source =
       cooled ? fmt::format(
                    "channels and fans of the die, spread over its outside: an estimate, what keeps it "
@@ -216,8 +217,9 @@ std::string film_text(const Draft& d, const std::string& body) {
 std::string body_text(const DraftBody& b, bool shots) {
   std::string t = fmt::format("[[body]]\nname = {}\n", quoted(b.name));
   if (b.group != b.name) t += fmt::format("group = {}\n", quoted(b.group));
-  t += fmt::format("role = \"{}\"\nmaterial = {}\ninitial_temperature = \"{:g} degC\"{}\n", name(b.role),
-                   quoted(b.material), b.start, b.comment.empty() || b.heat_only ? "" : "   # " + b.comment);
+  t += fmt::format("role = \"{}\"\nmaterial = {}\ninitial_temperature = \"{:g} degC\"{}\n",
+                   cases::name(b.role), quoted(b.material), b.start,
+                   b.comment.empty() || b.heat_only ? "" : "   # " + b.comment);
   if (b.heat_only) t += fmt::format("physics = \"heat\"{}\n", b.comment.empty() ? "" : "   # " + b.comment);
   if (shots && leaves(b))
     t += "stages = [\"pour\", \"solidify\", \"open\"]   # then it leaves; the next one is new\n";
@@ -228,7 +230,7 @@ std::string interface_text(const Draft& d) {
   std::string t;
   if (!d.law.empty() && d.mould)
     for (const DraftBody& b : d.bodies)
-      if (is_poured(b.role))
+      if (cases::is_poured(b.role))
         t += fmt::format(
             "[[interface]]   # the process decides the law: {1} says where its numbers come from\n"
             "bodies = [{2}, {3}]\nlaw = \"{0}\"\n\n",
@@ -280,15 +282,16 @@ std::string case_text(const Draft& d) {
         i + 1, 2e3 * s.radius, mm(s.centre[0]), mm(s.centre[1]), mm(s.centre[2]));
   }
   if (std::any_of(d.bodies.begin(), d.bodies.end(),
-                  [](const DraftBody& b) { return b.role == Role::riser; })) {
+                  [](const DraftBody& b) { return b.role == cases::Role::riser; })) {
     t += "[criteria]\nfeeders = [";
     bool first = true;
     for (const DraftBody& b : d.bodies)
-      if (b.role == Role::riser) t += fmt::format("{}{}", first ? "" : ", ", quoted(b.group)), first = false;
+      if (b.role == cases::Role::riser)
+        t += fmt::format("{}{}", first ? "" : ", ", quoted(b.group)), first = false;
     t += "]\n\n";
   }
   t += fmt::format("[output]\nevery = \"{:g} s\"\n", d.every);
   return t;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "mesh/making/hot_spots.hpp"
 #include "new_case/die_channels.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 struct DraftBody {
   std::string name, group, material, comment;
-  Role role = Role::casting;
+  cases::Role role = cases::Role::casting;
   double start = 20;       ///< [°C]
   bool heat_only = false;  ///< physics = "heat", though the material has elastic properties
 };
@@ -94,4 +94,4 @@ bool has_channels(const Draft& draft, const std::string& body);
 
 std::string case_text(const Draft& draft);
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

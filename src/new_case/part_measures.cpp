@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "input/keys.hpp"
 #include "mesh/files/file_format.hpp"
 #include "mesh/files/file_unit.hpp"
 #include "mesh/making/casting_geometry.hpp"
 #include "mesh/making/kept_mesh.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 namespace {
 
@@ -27,7 +27,8 @@ void refuse_cuts(const NewCaseOptions& options, bool solids) {
 }  // namespace
 
 bool PartMeasures::has_riser() const {
-  return std::ranges::any_of(bodies, [](const GeometryBody& b) { return b.role == Role::riser; });
+  return std::ranges::any_of(bodies,
+                             [](const setup::GeometryBody& b) { return b.role == cases::Role::riser; });
 }
 
 PartMeasures measure_part(const NewCaseOptions& options) {
@@ -48,20 +49,20 @@ PartMeasures measure_part(const NewCaseOptions& options) {
   m.time_of_direct_ways = kept.time_of_direct_ways();
   if (m.mesh.dimension != 3)
     throw InputError({source.path}, "the mesh is plane", "a solid: STEP, BREP, IGES, STL, or a mesh of one");
-  m.bodies = bodies_of(m.mesh, options.as, source.path);
+  m.bodies = setup::bodies_of(m.mesh, options.as, source.path);
   // What is poured is metal; a mould in the file makes it a whole mesh.
-  for (const GeometryBody& body : m.bodies) {
-    if (body.role == Role::mould || body.role == Role::die) m.has_mould = true;
-    if (is_poured(body.role)) m.metal.push_back(body.name);
+  for (const setup::GeometryBody& body : m.bodies) {
+    if (body.role == cases::Role::mould || body.role == cases::Role::die) m.has_mould = true;
+    if (cases::is_poured(body.role)) m.metal.push_back(body.name);
   }
   m.meshed = meshed && m.has_mould;
   for (std::size_t i = 0; i < 3; ++i) {
     m.low[i] = 1e300, m.high[i] = -1e300;
-    for (const GeometryBody& body : m.bodies)
+    for (const setup::GeometryBody& body : m.bodies)
       m.low[i] = std::min(m.low[i], body.extent.low[i]), m.high[i] = std::max(m.high[i], body.extent.high[i]);
   }
-  for (const GeometryBody& body : m.bodies)
-    if (is_poured(body.role)) {
+  for (const setup::GeometryBody& body : m.bodies)
+    if (cases::is_poured(body.role)) {
       m.volume += body.extent.volume;
       m.area += body.extent.area;
       const std::vector<double> one = mesh::thickness_by_area(m.mesh, body.name);
@@ -73,4 +74,4 @@ PartMeasures measure_part(const NewCaseOptions& options) {
   return m;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

@@ -11,13 +11,13 @@
 #include "new_case/new_case.hpp"
 #include "setup/geometry_bodies.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 /// Lengths in m.
 struct PartMeasures {
   mesh::RawMesh mesh;                         ///< of the parts alone, coarse, or the elements of the file
   std::optional<mesh::LengthUnit> file_unit;  ///< that the file says itself
-  std::vector<GeometryBody> bodies;
+  std::vector<setup::GeometryBody> bodies;
   std::vector<std::string> metal;  ///< names of castings and risers
   bool has_mould = false;          ///< the file holds one
   bool meshed = false;             ///< the file holds the elements of parts and mould
@@ -38,4 +38,4 @@ struct PartMeasures {
 /// that it cannot have.
 PartMeasures measure_part(const NewCaseOptions& options);
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

@@ -7,7 +7,7 @@
 
 #include "new_case/rounding.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 namespace {
 
@@ -148,4 +148,4 @@ DraftRiser choose_riser(const PartMeasures& part, double shrinkage,
   return standing_on(there.front(), 1);
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

@@ -6,7 +6,7 @@
 #include "new_case/new_case_text.hpp"
 #include "new_case/part_measures.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 /// An upright cylinder with 1.2 times the modulus of the thickest place, and metal enough for the shrinkage
 /// of all; on top of that of the thickest places that has the least metal above it, moved by up to four
@@ -20,4 +20,4 @@ namespace solidus::model {
 DraftRiser choose_riser(const PartMeasures& part, double shrinkage,
                         const std::optional<DraftSymmetry>& symmetry);
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

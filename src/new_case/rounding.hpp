@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace solidus::model {
+namespace solidus::new_case {
 
 /// The next multiple of `to`.
 inline double rounded_up(double value, double to) {
@@ -34,4 +34,4 @@ inline double to_micrometre(double value) {
   return 1e-6 * std::round(1e6 * value) + 0.0;  // no -0
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

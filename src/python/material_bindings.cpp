@@ -3,7 +3,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "case/case_materials.hpp"
+#include "cases/case_materials.hpp"
 #include "material/cards/library.hpp"
 #include "material/external_law.hpp"
 #include "material/melt.hpp"
@@ -24,7 +24,7 @@ using State = Viscoplastic::State<double>;
 constexpr py::ssize_t k_state = 19;  ///< ε^v, ε^vp, ζ, ξ
 
 Shared find(const std::string& reference) {
-  return std::make_shared<Material>(material::find_material(reference, model::material_folders()));
+  return std::make_shared<Material>(material::find_material(reference, cases::material_folders()));
 }
 
 /// One value for each temperature.
@@ -251,7 +251,7 @@ void bind_materials(py::module_& core) {
       });
   // Functions of the library, and the law of many points at once.
   core.def("find_material", &find);
-  core.def("material_names", [] { return material::material_names(model::material_folders()); });
+  core.def("material_names", [] { return material::material_names(cases::material_folders()); });
   core.def("update", &update);
   core.def("moduli", &moduli);
   core.def("draw", &draw);

@@ -93,7 +93,7 @@ void translate(std::exception_ptr thrown) {
 }
 
 std::string resolved(const std::string& path, const std::vector<std::string>& assignments) {
-  return model::load_case(path, assignments).toml();
+  return setup::load_case(path, assignments).toml();
 }
 
 void use_program(const std::string& program) {

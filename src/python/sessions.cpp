@@ -75,18 +75,18 @@ class Driver {
          std::optional<std::string> physics, const std::string& folder, bool restart, bool trust_script,
          bool trust_laws) {
     // Heat alone is a change of the case as it is read, and as that of the command line.
-    std::optional<model::Physics> wanted;
-    if (physics) wanted = *physics == "heat" ? model::Physics::heat : model::Physics::thermomechanical;
-    model::Case c = model::load_case(path, assignments, wanted);
+    std::optional<cases::Physics> wanted;
+    if (physics) wanted = *physics == "heat" ? cases::Physics::heat : cases::Physics::thermomechanical;
+    setup::Case c = setup::load_case(path, assignments, wanted);
     c.spec.mesh.trust_script = trust_script;
     if (trust_laws) material::trust_external_laws();
-    model::RunOptions options;
+    run::RunOptions options;
     options.folder = folder;
     options.restart = restart;
     // A signal of Python stops the run between steps.
     options.stop_asked = interrupted;
     const py::gil_scoped_release others_may_work;
-    session_ = std::make_unique<model::Session>(std::move(c), std::move(options));
+    session_ = std::make_unique<run::Session>(std::move(c), std::move(options));
   }
 
   using Ended = std::optional<std::pair<bool, std::string>>;
@@ -102,7 +102,7 @@ class Driver {
   void commit() {
     moved([&] {
       session_->commit();
-      return std::optional<model::RunResult>();
+      return std::optional<run::RunResult>();
     });
   }
   void change(const std::string& assignment) { session_->change(assignment); }
@@ -115,7 +115,7 @@ class Driver {
 
   std::vector<std::string> bodies() const {
     std::vector<std::string> names;
-    for (const model::BodySpec& body : session_->running().spec.bodies) names.push_back(body.name);
+    for (const cases::BodySpec& body : session_->running().spec.bodies) names.push_back(body.name);
     return names;
   }
 
@@ -194,7 +194,7 @@ class Driver {
   template <class Move>
   Ended moved(Move move) {
     stale_ = true;
-    std::optional<model::RunResult> result;
+    std::optional<run::RunResult> result;
     {
       const py::gil_scoped_release others_may_work;
       result = move();
@@ -218,7 +218,7 @@ class Driver {
   }
 
   results::StateFields& state_fields() {
-    const model::Assembly& a = session_->assembly();
+    const setup::Assembly& a = session_->assembly();
     if (!fields_) fields_.emplace(a.mesh, a.phases, session_->running().spec.analysis.kind);
     return *fields_;
   }
@@ -242,7 +242,7 @@ class Driver {
     return std::any_of(fields.begin(), fields.end(), [&](const auto* field) { return field->name == name; });
   }
 
-  std::unique_ptr<model::Session> session_;
+  std::unique_ptr<run::Session> session_;
   std::optional<results::StateFields> fields_;
   bool stale_ = true, criteria_stale_ = true;
 };

@@ -9,19 +9,19 @@
 
 #include "run/melt_watch.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 namespace {
 
-bool carries_loads(const CaseSpec& spec) {
+bool carries_loads(const cases::CaseSpec& spec) {
   return std::any_of(spec.mechanical_conditions.begin(), spec.mechanical_conditions.end(), [](const auto& c) {
-    return c.kind == MechanicalConditionSpec::Kind::pressure ||
-           c.kind == MechanicalConditionSpec::Kind::traction;
+    return c.kind == cases::MechanicalConditionSpec::Kind::pressure ||
+           c.kind == cases::MechanicalConditionSpec::Kind::traction;
   });
 }
 
 /// Another solver than the iterative one that was asked for.
-std::vector<std::string> solver_advice(const CaseSpec& spec) {
+std::vector<std::string> solver_advice(const cases::CaseSpec& spec) {
   const bool unsymmetric = std::any_of(spec.contacts.begin(), spec.contacts.end(),
                                        [](const auto& c) { return c.friction && !c.friction->symmetric; });
   std::vector<std::string> advice;
@@ -34,7 +34,7 @@ std::vector<std::string> solver_advice(const CaseSpec& spec) {
 }
 
 /// Advice on Newton's iteration of a body that stands and is strong enough.
-std::vector<std::string> iteration_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+std::vector<std::string> iteration_advice(const coupling::Stop& stop, const cases::CaseSpec& spec) {
   std::vector<std::string> advice;
   // A linear solver that gave up is the first suspect.
   if (stop.failure == Failure::linear_solver) advice = solver_advice(spec);
@@ -52,7 +52,7 @@ std::vector<std::string> iteration_advice(const coupling::Stop& stop, const Case
   return advice;
 }
 
-std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const cases::CaseSpec& spec) {
   // Advice by what is wrong physically, the likeliest first. It names keys that the user can change.
   const char* const support =
       "a support against moving and turning, [[mechanical_condition]] with a displacement of zero, or a body "
@@ -94,7 +94,7 @@ std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const Case
 }
 
 /// Advice for steps that coupling::GuardedScheme refuses.
-std::vector<std::string> guard_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+std::vector<std::string> guard_advice(const coupling::Stop& stop, const cases::CaseSpec& spec) {
   std::vector<std::string> advice;
   // The likeliest cause first: the open rule may leave the range of temperatures at chills.
   if (spec.heat.integration == heat::HeatIntegration::open)
@@ -118,7 +118,7 @@ std::vector<std::string> contact_advice() {
           "a smaller mechanics.tolerance: augmentations cannot gain what Newton's iteration leaves"};
 }
 
-std::vector<std::string> coupling_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+std::vector<std::string> coupling_advice(const coupling::Stop& stop, const cases::CaseSpec& spec) {
   if (stop.failure == Failure::another_solution) return guard_advice(stop, spec);
   std::vector<std::string> advice = spec.coupling.scheme->advice(stop);
   if (!spec.contacts.empty())
@@ -126,7 +126,7 @@ std::vector<std::string> coupling_advice(const coupling::Stop& stop, const CaseS
   return advice;
 }
 
-std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+std::vector<std::string> heat_advice(const coupling::Stop& stop, const cases::CaseSpec& spec) {
   // Advice for heat: temperatures below zero come of sinks or of the open rule, contacts of steep laws,
   // anything else of iterations and steep tables.
   const char* const closed =
@@ -161,7 +161,7 @@ std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec&
   return advice;
 }
 
-std::vector<std::string> advice_of(const coupling::Stop& stop, const CaseSpec& spec) {
+std::vector<std::string> advice_of(const coupling::Stop& stop, const cases::CaseSpec& spec) {
   // What the physics explains goes before what the numerics saw.
   if (stop.diagnosis.physics == coupling::Physics::nothing_carries ||
       stop.diagnosis.physics == coupling::Physics::runs_out ||
@@ -195,7 +195,7 @@ bool shorter_steps_help(coupling::Physics physics) {
 }
 
 /// The body for which the isothermal split is unstable, however short the step; null without one.
-const CouplingEstimate* too_strong(std::span<const CouplingEstimate> couplings) {
+const check::CouplingEstimate* too_strong(std::span<const check::CouplingEstimate> couplings) {
   const auto worst = std::max_element(couplings.begin(), couplings.end(), [](const auto& a, const auto& b) {
     return a.decisive() < b.decisive();
   });
@@ -204,8 +204,8 @@ const CouplingEstimate* too_strong(std::span<const CouplingEstimate> couplings) 
 
 }  // namespace
 
-std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double time,
-                      const std::string& checkpoint, std::span<const CouplingEstimate> couplings) {
+std::string stop_text(const coupling::Stop& stop, const cases::CaseSpec& spec, double time,
+                      const std::string& checkpoint, std::span<const check::CouplingEstimate> couplings) {
   // The message of a stop: the physics first, then what the equations say, where, what was tried, and what
   // may help.
   const std::string checkpoint_line =
@@ -230,13 +230,13 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
             checkpoint_line;
   text += "  what may help:";
   // An unstable split is told first and instead of smaller steps, which do not help it.
-  const CouplingEstimate* unstable = too_strong(couplings);
+  const check::CouplingEstimate* unstable = too_strong(couplings);
   if (unstable != nullptr)
     text += fmt::format(
         "\n    - the coupling is too strong for the {} split: {};\n      coupling.scheme = \"{}\" is stable "
         "for "
         "every step. Shorter steps do not help",
-        spec.coupling.scheme->name(), model::text(*unstable), coupling::k_stable_scheme);
+        spec.coupling.scheme->name(), check::text(*unstable), coupling::k_stable_scheme);
   for (const std::string& advice : advice_of(stop, spec)) text += fmt::format("\n    - {}", advice);
   if (!steps) return text;
   if (unstable == nullptr && shorter_steps_help(stop.diagnosis.physics))
@@ -248,4 +248,4 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
          "command with --restart\n  continues from there.";
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

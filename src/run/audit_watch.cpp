@@ -14,14 +14,15 @@
 #include "system/alike_texts.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 namespace {
 
 /// The scheme closes the first law to its residuals.
-bool closes_first_law(const CaseSpec& spec) {
-  return !spec.coupled() || (spec.coupling.structural_heating == CouplingSpec::StructuralHeatForm::energy &&
-                             !spec.coupling.as_printed);
+bool closes_first_law(const cases::CaseSpec& spec) {
+  return !spec.coupled() ||
+         (spec.coupling.structural_heating == cases::CouplingSpec::StructuralHeatForm::energy &&
+          !spec.coupling.as_printed);
 }
 
 }  // namespace
@@ -57,9 +58,9 @@ void FirstLawWatch::report() const {
   const double defect = std::abs(sum_.defect()), scale = coupling::energy_scale(sum_, heat_content_);
   const bool closes = closes_first_law(spec_);
   if (!(defect > unsolved_ + (closes ? k_rounding : k_seen) * scale)) return;
-  const bool printed =
-      spec_.coupled() && (spec_.coupling.structural_heating != CouplingSpec::StructuralHeatForm::energy ||
-                          spec_.coupling.as_printed);
+  const bool printed = spec_.coupled() && (spec_.coupling.structural_heating !=
+                                               cases::CouplingSpec::StructuralHeatForm::energy ||
+                                           spec_.coupling.as_printed);
   logging::warn("the first law is violated by {:.2g} of the {}, {:.3g} J; {}", defect / scale,
                 scale == sum_.heat_exchanged ? "heat exchanged" : "energy at hand", sum_.defect(),
                 printed ? "structural_heating = \"energy\" in [coupling] closes it, smaller steps lose less"
@@ -95,4 +96,4 @@ void WallWatch::report() const {
   for (const std::string& text : logging::told_once(texts)) logging::warn("{}", text);
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -6,7 +6,7 @@
 #include "heat/thermal_phase.hpp"
 #include "setup/admissible.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 /// Warns when the functional 𝓛 of 2.24 grows over a step, by more than residuals and rounding explain,
 /// although the conditions are admissible.
@@ -14,16 +14,17 @@ class StabilityWatch : public coupling::Observer {
  public:
   /// @param spec     kept by reference; thermo-mechanical
   /// @param coldest  as of admissibility()
-  explicit StabilityWatch(const CaseSpec& spec, double coldest = std::numeric_limits<double>::infinity())
-      : spec_(spec), admissibility_(admissibility(spec, coldest)) {}
+  explicit StabilityWatch(const cases::CaseSpec& spec,
+                          double coldest = std::numeric_limits<double>::infinity())
+      : spec_(spec), admissibility_(setup::admissibility(spec, coldest)) {}
   void begin(const coupling::State&) override {}
   void step(const coupling::StepRecord& record, const coupling::State& state) override;
   void stopped(const coupling::Stop&, const coupling::State&) override {}
   void end(const coupling::State&) override {}
 
  private:
-  const CaseSpec& spec_;
-  Admissibility admissibility_;
+  const cases::CaseSpec& spec_;
+  setup::Admissibility admissibility_;
   bool warned_ = false;
 };
 
@@ -34,7 +35,7 @@ class FirstLawWatch : public coupling::Observer {
  public:
   /// @param spec  kept by reference
   /// @param heat  of the run, kept; null: nothing but what is exchanged makes the scale
-  explicit FirstLawWatch(const CaseSpec& spec, const heat::ThermalPhase* heat = nullptr)
+  explicit FirstLawWatch(const cases::CaseSpec& spec, const heat::ThermalPhase* heat = nullptr)
       : spec_(spec), heat_(heat) {}
   void begin(const coupling::State& state) override;
   void step(const coupling::StepRecord& record, const coupling::State& state) override;
@@ -44,7 +45,7 @@ class FirstLawWatch : public coupling::Observer {
  private:
   void report() const;
 
-  const CaseSpec& spec_;
+  const cases::CaseSpec& spec_;
   const heat::ThermalPhase* heat_;
   coupling::EnergyAudit sum_;
   double heat_content_ = 0;  ///< at the start [J]
@@ -73,4 +74,4 @@ class WallWatch : public coupling::Observer {
   std::vector<Largest> largest_;  ///< [contact]; the time is that of the largest gap
 };
 
-}  // namespace solidus::model
+}  // namespace solidus::run

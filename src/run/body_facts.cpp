@@ -14,7 +14,7 @@
 #include "setup/mechanics_input.hpp"
 #include "system/processes.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 namespace {
 
@@ -25,8 +25,8 @@ std::size_t at(Index i) {
 /// Boxes, weights and supports of the bodies, each on its own.
 class Bodies {
  public:
-  Bodies(const CaseSpec& spec, const Assembly& a)
-      : spec_(spec), a_(a), n_(a.mesh.bodies.size()), gravity_(gravity(spec.analysis)) {}
+  Bodies(const cases::CaseSpec& spec, const setup::Assembly& a)
+      : spec_(spec), a_(a), n_(a.mesh.bodies.size()), gravity_(setup::gravity(spec.analysis)) {}
 
   void measure(std::vector<BodyFacts>& facts) const {
     for (std::size_t b = 0; b < n_; ++b) {
@@ -47,8 +47,8 @@ class Bodies {
   /// along every component.
   bool holds(const double* prescribed, int components) const;
 
-  const CaseSpec& spec_;
-  const Assembly& a_;
+  const cases::CaseSpec& spec_;
+  const setup::Assembly& a_;
   std::size_t n_;
   std::array<double, 3> gravity_;
 };
@@ -149,8 +149,8 @@ std::set<std::size_t> bodies_of(const mesh::Mesh& mesh, const std::string& surfa
 
 /// Counts the points of contact of every body, and finds which bodies are carried by those that are closed:
 /// at the last step, or in the failing try of a run that has none.
-void find_contacts(const Assembly& a, const coupling::State& last, const mechanics::LastIterate* iterate,
-                   std::vector<BodyFacts>& facts) {
+void find_contacts(const setup::Assembly& a, const coupling::State& last,
+                   const mechanics::LastIterate* iterate, std::vector<BodyFacts>& facts) {
   struct Pair {
     std::set<std::size_t> slave, master;
     bool rigid, closed;
@@ -203,7 +203,7 @@ void find_contacts(const Assembly& a, const coupling::State& last, const mechani
 }
 
 /// The largest change of a distance between neighbouring nodes of an element at the last step, of every body.
-void find_elongation(const Assembly& a, const coupling::State& last, std::vector<BodyFacts>& facts) {
+void find_elongation(const setup::Assembly& a, const coupling::State& last, std::vector<BodyFacts>& facts) {
   const std::vector<double>& u = last.mechanics.displacement;
   const auto n = at(a.mechanics->components());
   std::vector<double> largest(facts.size(), 0.0);
@@ -230,7 +230,7 @@ void find_elongation(const Assembly& a, const coupling::State& last, std::vector
 }
 
 /// The farthest way of every body from its last step to the iterate that failed.
-void find_motion(const Assembly& a, const coupling::State& last, const mechanics::LastIterate& iterate,
+void find_motion(const setup::Assembly& a, const coupling::State& last, const mechanics::LastIterate& iterate,
                  std::vector<BodyFacts>& facts) {
   const std::vector<double>&now = iterate.displacement, &before = last.mechanics.displacement;
   if (parallel::any_process(now.size() != before.size())) return;
@@ -262,8 +262,8 @@ void find_motion(const Assembly& a, const coupling::State& last, const mechanics
 
 }  // namespace
 
-std::vector<BodyFacts> body_facts(const CaseSpec& spec, const Assembly& a, const coupling::State& last,
-                                  const mechanics::LastIterate* iterate) {
+std::vector<BodyFacts> body_facts(const cases::CaseSpec& spec, const setup::Assembly& a,
+                                  const coupling::State& last, const mechanics::LastIterate* iterate) {
   std::vector<BodyFacts> facts(a.mesh.bodies.size());
   if (!a.mechanics) return facts;
   Bodies(spec, a).measure(facts);
@@ -276,4 +276,4 @@ std::vector<BodyFacts> body_facts(const CaseSpec& spec, const Assembly& a, const
   return facts;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -4,12 +4,12 @@
 
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "coupling/diagnosis.hpp"
 #include "mechanics/equilibrium_rejected.hpp"
 #include "setup/assembly.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 struct BodyFacts {
   bool moves = false;      ///< it is there and deforms
@@ -29,7 +29,7 @@ struct BodyFacts {
 /// [body of the mesh]. Collective.
 /// @param last     the last committed state
 /// @param iterate  of the failing try; null: it has left none
-std::vector<BodyFacts> body_facts(const CaseSpec& spec, const Assembly& a, const coupling::State& last,
-                                  const mechanics::LastIterate* iterate);
+std::vector<BodyFacts> body_facts(const cases::CaseSpec& spec, const setup::Assembly& a,
+                                  const coupling::State& last, const mechanics::LastIterate* iterate);
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -7,7 +7,7 @@
 #include "parallel/parallel.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 namespace {
 
@@ -15,7 +15,7 @@ namespace {
 /// by some tenths of a kelvin (2.127b).
 constexpr double k_worth_a_word = 0.1, k_of_deformation = 1;
 
-const char* remedy(const CaseSpec& spec) {
+const char* remedy(const cases::CaseSpec& spec) {
   if (spec.heat.integration == heat::HeatIntegration::open)
     return "the open rule over- and undershoots at sudden chills; the closed one does not";
   if (!spec.heat.bounds) return "heat.bounds = true keeps temperatures within their range";
@@ -56,4 +56,4 @@ void BoundsWatch::step(const coupling::StepRecord&, const coupling::State& state
                 worst.text(phase_.mesh(), temperature, {}), beyond, remedy(spec_));
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

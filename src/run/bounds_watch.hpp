@@ -1,11 +1,11 @@
 /// Warns once where a temperature leaves the range of all initial and boundary temperatures.
 #pragma once
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "coupling/simulation.hpp"
 #include "heat/thermal_phase.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 /// As long as no flux, source or contribution brings heat, no temperature can leave that range. The closed
 /// rule keeps to it (heat/conduction/conduction_limiter.hpp); the open rule, the simultaneous scheme and
@@ -13,17 +13,17 @@ namespace solidus::model {
 class BoundsWatch final : public coupling::Observer {
  public:
   /// @param phase  of the run; must outlive this object
-  BoundsWatch(const CaseSpec& spec, const heat::ThermalPhase& phase) : spec_(spec), phase_(phase) {}
+  BoundsWatch(const cases::CaseSpec& spec, const heat::ThermalPhase& phase) : spec_(spec), phase_(phase) {}
   void begin(const coupling::State& state) override;
   void step(const coupling::StepRecord& record, const coupling::State& state) override;
   void stopped(const coupling::Stop&, const coupling::State&) override {}
   void end(const coupling::State&) override {}
 
  private:
-  const CaseSpec& spec_;
+  const cases::CaseSpec& spec_;
   const heat::ThermalPhase& phase_;
   heat::TemperatureRange range_;
   bool warned_ = false;
 };
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -16,7 +16,7 @@
 #include "run/body_facts.hpp"
 #include "system/processes.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 namespace {
 
@@ -43,7 +43,7 @@ int owner_of(Index node) {
 }
 
 /// Place and state of a node at the last step. Collective.
-void describe_node(const Assembly& a, const coupling::State& last, Index node, Diagnosis& d) {
+void describe_node(const setup::Assembly& a, const coupling::State& last, Index node, Diagnosis& d) {
   // Every process takes part in what is collective; the owner of the node then fills in its
   // numbers.
   const std::vector<double> coherency = coupling::coherency_of(a.phases, last.heat);
@@ -77,8 +77,8 @@ std::string body_of(const mesh::Mesh& mesh, Index node) {
   return {};
 }
 
-void describe_body(const Assembly& a, const coupling::State& last, std::size_t body, const BodyFacts& facts,
-                   Diagnosis& d) {
+void describe_body(const setup::Assembly& a, const coupling::State& last, std::size_t body,
+                   const BodyFacts& facts, Diagnosis& d) {
   d.body = a.mesh.bodies[body].name;
   d.size = facts.size;
   d.weight = facts.weight;
@@ -131,7 +131,8 @@ coupling::Physics physics_of(const BodyFacts& body, const Diagnosis& d, Failure 
 
 /// The contact through which most heat passes at a node, by conductance times step over heat capacity; the
 /// pairs stand at the last step. Collective.
-void find_contact_heat(const Assembly& a, const coupling::State& last, Index node, double dt, Diagnosis& d) {
+void find_contact_heat(const setup::Assembly& a, const coupling::State& last, Index node, double dt,
+                       Diagnosis& d) {
   std::vector<double> number(a.phases.contacts.size(), 0.0);
   const double temperature = node >= 0 ? last.heat.temperature[at(node)] : 0.0;
   const double capacity = node >= 0 ? a.heat->storage().capacity(node, temperature) : 0.0;
@@ -153,16 +154,17 @@ void find_contact_heat(const Assembly& a, const coupling::State& last, Index nod
 }
 
 /// Whether a temperature is above all that bodies were poured at and that is around them: flow has heated it.
-bool heated_by_flow(const Assembly& a, const coupling::State& last, double temperature) {
+bool heated_by_flow(const setup::Assembly& a, const coupling::State& last, double temperature) {
   constexpr double k_beyond = 100;  // [K]
   double hottest = a.heat->ambient_range(last.time, false).highest;
-  for (const InitialTemperatureRange& body : a.start) hottest = std::max(hottest, body.high);
+  for (const setup::InitialTemperatureRange& body : a.start) hottest = std::max(hottest, body.high);
   return temperature > hottest + k_beyond;
 }
 
 /// A body that has flowed far and heats itself by that is beyond its limit load, although the heat fails
 /// first.
-void look_for_flow(const CaseSpec& spec, const Assembly& a, const coupling::State& last, Diagnosis& d) {
+void look_for_flow(const cases::CaseSpec& spec, const setup::Assembly& a, const coupling::State& last,
+                   Diagnosis& d) {
   if (!a.mechanics || !spec.exchanges_heat() || !heated_by_flow(a, last, d.temperature)) return;
   const auto body = std::ranges::find(a.mesh.bodies, d.body, &mesh::Body::name);
   if (body == a.mesh.bodies.end()) return;
@@ -175,7 +177,7 @@ void look_for_flow(const CaseSpec& spec, const Assembly& a, const coupling::Stat
   d.contact = facts.contact;
 }
 
-Diagnosis of_heat(const CaseSpec& spec, const Assembly& a, const coupling::State& last,
+Diagnosis of_heat(const cases::CaseSpec& spec, const setup::Assembly& a, const coupling::State& last,
                   const heat::HeatRejected& rejected, Diagnosis d) {
   describe_node(a, last, rejected.node, d);
   const int owner = owner_of(rejected.node);
@@ -201,8 +203,8 @@ Diagnosis of_heat(const CaseSpec& spec, const Assembly& a, const coupling::State
 
 }  // namespace
 
-Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out, const coupling::State& last,
-                   const StepRejected& rejected, double dt) {
+Diagnosis diagnose(const cases::CaseSpec& spec, setup::Assembly& a, const std::string& ran_out,
+                   const coupling::State& last, const StepRejected& rejected, double dt) {
   // The state of the last step is restored, so that what is found is not that of a failed try.
   coupling::restore_contacts(a.phases, last);
   Diagnosis d;
@@ -252,4 +254,4 @@ Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out
   return d;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

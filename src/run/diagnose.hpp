@@ -5,17 +5,17 @@
 
 #include <string>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "coupling/diagnosis.hpp"
 #include "setup/assembly.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 /// @param a        its contacts are brought to `last`
 /// @param ran_out  MeltWatch::ran_out()
 /// @param dt       of the failing try [s]; zero: a steady state
 /// Collective; the same on every process.
-coupling::Diagnosis diagnose(const CaseSpec& spec, Assembly& a, const std::string& ran_out,
+coupling::Diagnosis diagnose(const cases::CaseSpec& spec, setup::Assembly& a, const std::string& ran_out,
                              const coupling::State& last, const StepRejected& rejected, double dt);
 
-}  // namespace solidus::model
+}  // namespace solidus::run

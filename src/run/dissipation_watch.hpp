@@ -5,7 +5,7 @@
 #include "coupling/state.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 /// Warns once where a law does not dissipate.
 class DissipationWatch : public coupling::Observer {
@@ -25,4 +25,4 @@ class DissipationWatch : public coupling::Observer {
   bool warned_ = false;
 };
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/nearby_case.hpp"
+#include "cases/nearby_case.hpp"
 #include "results/answers/answer_comparison.hpp"
 #include "results/output/output_error.hpp"
 #include "results/progress.hpp"
 #include "system/log.hpp"
 #include "system/processes.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 namespace {
 
@@ -38,7 +38,7 @@ struct Wanted {
   results::ErrorPart part;
   const char* name;    ///< for people
   const char* folder;  ///< below sure/
-  NearbyCase how;
+  cases::NearbyCase how;
 };
 
 /// The number of elements of all that is cast, which the answers are of: a mould often has more of them,
@@ -89,15 +89,16 @@ Beside run_one(const Wanted& wanted, const RunOptions& options, const LoadBeside
 
 }  // namespace
 
-ErrorRuns run_beside(const Case& c, results::Summary summary, double displacement_error,
+ErrorRuns run_beside(const setup::Case& c, results::Summary summary, double displacement_error,
                      const RunOptions& options, const LoadBeside& load,
                      const std::function<void(const std::string&)>& say) {
   ErrorRuns made{std::move(summary), true};
   // Two runs beside the run itself, with longer steps and with larger elements, tell by how much its answers
   // are off. A comparison that cannot be made leaves the estimate, and says why.
   const Wanted wanted[] = {
-      {results::ErrorPart::step, "longer steps", "longer_steps", longer_steps(c.spec, displacement_error)},
-      {results::ErrorPart::mesh, "larger elements", "larger_elements", coarser_mesh(c.spec)}};
+      {results::ErrorPart::step, "longer steps", "longer_steps",
+       cases::longer_steps(c.spec, displacement_error)},
+      {results::ErrorPart::mesh, "larger elements", "larger_elements", cases::coarser_mesh(c.spec)}};
   for (const Wanted& comparison : wanted) {
     const auto leave = [&](const std::string& why) {
       made.complete = false;
@@ -136,4 +137,4 @@ ErrorRuns run_beside(const Case& c, results::Summary summary, double displacemen
   return made;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -7,10 +7,10 @@
 
 #include "run/session.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 /// Loads the case that ran, with further overrides.
-using LoadBeside = std::function<Case(const std::vector<std::string>& overrides)>;
+using LoadBeside = std::function<setup::Case(const std::vector<std::string>& overrides)>;
 
 /// What comes of the runs beside one.
 struct ErrorRuns {
@@ -18,7 +18,7 @@ struct ErrorRuns {
   bool complete = true;      ///< both comparisons were made; else the estimates stand where one is missing
 };
 
-/// Runs the case with longer steps and with larger elements (case/nearby_case.hpp), in the folders
+/// Runs the case with longer steps and with larger elements (cases/nearby_case.hpp), in the folders
 /// sure/longer_steps and sure/larger_elements of the run's, and takes the errors of its answers from the
 /// differences (results/answers/answer_comparison.hpp). A run beside it that cannot be made, does not end or
 /// does not differ enough leaves the estimate. Writes summary.json again. Collective.
@@ -26,8 +26,8 @@ struct ErrorRuns {
 /// @param displacement_error  of the case (displacement_error() of setup/time_input.hpp) [m]
 /// @param options             of the run
 /// @param say                 told what is done, in sentences
-ErrorRuns run_beside(const Case& c, results::Summary summary, double displacement_error,
+ErrorRuns run_beside(const setup::Case& c, results::Summary summary, double displacement_error,
                      const RunOptions& options, const LoadBeside& load,
                      const std::function<void(const std::string&)>& say);
 
-}  // namespace solidus::model
+}  // namespace solidus::run

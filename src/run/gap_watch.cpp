@@ -7,7 +7,7 @@
 #include "coupling/state.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 void GapWatch::step(const coupling::StepRecord& record, const coupling::State& /*state*/) {
   // Heat that passed a gap of another width than the step ended with is misplaced; it is summed up,
@@ -46,4 +46,4 @@ void GapWatch::report() const {
   }
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

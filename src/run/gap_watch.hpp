@@ -7,7 +7,7 @@
 #include "contact/pair.hpp"
 #include "coupling/observer.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 /// Reports at the end of a run the heat that interfaces passed through other gaps than the mean ones of the
 /// steps (StepEffort::gap_heat), added up over the steps.
@@ -33,4 +33,4 @@ class GapWatch : public coupling::Observer {
   double exchanged_ = 0;     ///< heat that moved anywhere in the run [J]
 };
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -12,7 +12,7 @@
 #include "parallel/parallel.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 namespace {
 
@@ -144,4 +144,4 @@ void StressWorkWatch::report() const {
       excess_, dissipated_);
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

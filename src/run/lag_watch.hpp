@@ -9,7 +9,7 @@
 #include "contact/pair.hpp"
 #include "coupling/observer.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 /// Reports at the end of a run whose displacements and stresses lag by a step (lags_a_step) how large the lag
 /// is: the change of displacements in the last step as a part of all their change. A warning where it is much
@@ -79,4 +79,4 @@ class StressWorkWatch : public coupling::Observer {
   double excess_ = 0, dissipated_ = 0, moved_ = 0;  ///< of the run [J]
 };
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -10,7 +10,7 @@
 #include "parallel/parallel.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 namespace {
 
@@ -23,7 +23,7 @@ std::size_t at(Index i) {
 
 }  // namespace
 
-MeltWatch::MeltWatch(const CaseSpec& spec, const Assembly& a)
+MeltWatch::MeltWatch(const cases::CaseSpec& spec, const setup::Assembly& a)
     : spec_(spec), a_(a), body_(at(a.mesh.n_owned_nodes), -1) {
   constexpr double k_unbounded = std::numeric_limits<double>::infinity();
   boxes_.resize(spec.bodies.size(),
@@ -83,4 +83,4 @@ void MeltWatch::step(const coupling::StepRecord&, const coupling::State& state) 
   }
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

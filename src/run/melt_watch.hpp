@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "coupling/observer.hpp"
 #include "setup/assembly.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 /// The advice for melt that flows without end.
 inline constexpr const char* k_melt_remedy =
@@ -28,7 +28,7 @@ class MeltWatch final : public coupling::Observer {
   };
 
   /// @param a  with phases.coherency; must outlive this object
-  MeltWatch(const CaseSpec& spec, const Assembly& a);
+  MeltWatch(const cases::CaseSpec& spec, const setup::Assembly& a);
   void begin(const coupling::State&) override {}
   void step(const coupling::StepRecord& record, const coupling::State& state) override;
   void stopped(const coupling::Stop&, const coupling::State&) override {}
@@ -38,11 +38,11 @@ class MeltWatch final : public coupling::Observer {
   const std::string& ran_out() const { return ran_out_; }
 
  private:
-  const CaseSpec& spec_;
-  const Assembly& a_;
+  const cases::CaseSpec& spec_;
+  const setup::Assembly& a_;
   std::vector<int> body_;   ///< [owned node]: the body that its first element belongs to
   std::vector<Box> boxes_;  ///< [body] as drawn, over all processes
   std::string ran_out_;
 };
 
-}  // namespace solidus::model
+}  // namespace solidus::run

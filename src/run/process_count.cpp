@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "case/roles.hpp"
-#include "case/stage_input.hpp"
+#include "cases/roles.hpp"
+#include "cases/stage_input.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 namespace {
 
@@ -34,9 +34,9 @@ constexpr double k_adaptive_steps = 30;
 constexpr double k_gain_of_two = 0.85, k_gain_of_more = 0.97;
 
 /// Number of different nodes of some groups.
-double count_nodes(const std::vector<const BodySpec*>& bodies, const mesh::RawMesh& mesh) {
+double count_nodes(const std::vector<const cases::BodySpec*>& bodies, const mesh::RawMesh& mesh) {
   std::vector<char> there(mesh.x.size(), 0);
-  for (const BodySpec* body : bodies) {
+  for (const cases::BodySpec* body : bodies) {
     const auto group = mesh.groups.find(body->mesh_group());
     if (group == mesh.groups.end()) continue;  // load_mesh() says so
     for (const mesh::RawBlock& block : group->second.blocks)
@@ -53,12 +53,12 @@ double steps_of(std::optional<double> duration, std::optional<double> step, bool
   return adaptive ? std::min(equal, k_adaptive_steps) : equal;
 }
 
-double expected_steps(const CaseSpec& spec) {
+double expected_steps(const cases::CaseSpec& spec) {
   if (spec.time.steady) return 1;
-  const std::vector<StageRun> stages = stage_runs(spec);
+  const std::vector<cases::StageRun> stages = cases::stage_runs(spec);
   if (stages.empty()) return steps_of(spec.time.end, spec.time.step, spec.time.adaptive);
   double steps = 0;
-  for (const StageRun& run : stages)
+  for (const cases::StageRun& run : stages)
     steps +=
         steps_of(run.end - run.start, run.stage->step ? run.stage->step : spec.time.step, spec.time.adaptive);
   return steps;
@@ -66,12 +66,12 @@ double expected_steps(const CaseSpec& spec) {
 
 }  // namespace
 
-RunWork run_work(const CaseSpec& spec, const mesh::RawMesh& mesh) {
-  std::vector<const BodySpec*> warm, moving;
+RunWork run_work(const cases::CaseSpec& spec, const mesh::RawMesh& mesh) {
+  std::vector<const cases::BodySpec*> warm, moving;
   const bool mechanics = spec.has_mechanics(), heat = spec.has_heat();
-  for (const BodySpec& body : spec.bodies) {
+  for (const cases::BodySpec& body : spec.bodies) {
     if (heat) warm.push_back(&body);
-    if (mechanics && !only_conducts(body)) moving.push_back(&body);
+    if (mechanics && !cases::only_conducts(body)) moving.push_back(&body);
   }
   return {count_nodes(warm, mesh), count_nodes(moving, mesh), spec.dimension() == 3, expected_steps(spec)};
 }
@@ -101,4 +101,4 @@ int processes_that_pay(const RunWork& work, int cores) {
   return best;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -2,10 +2,10 @@
 /// in process_count.cpp.
 #pragma once
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "mesh/raw_mesh.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 /// What a run has to do.
 struct RunWork {
@@ -15,7 +15,7 @@ struct RunWork {
 };
 
 /// Counts the nodes of the bodies that take part.
-RunWork run_work(const CaseSpec& spec, const mesh::RawMesh& mesh);
+RunWork run_work(const cases::CaseSpec& spec, const mesh::RawMesh& mesh);
 
 /// The wall clock that a run is expected to take on free cores [s].
 double expected_seconds(const RunWork& work, int processes);
@@ -23,4 +23,4 @@ double expected_seconds(const RunWork& work, int processes);
 /// The number of processes beyond which another one is hardly worth its core, from one to `cores`.
 int processes_that_pay(const RunWork& work, int cores);
 
-}  // namespace solidus::model
+}  // namespace solidus::run

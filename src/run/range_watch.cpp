@@ -10,7 +10,7 @@
 #include "setup/body_input.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 namespace {
 
@@ -24,7 +24,7 @@ double margin(const material::LeftRange& range) {
 }
 
 /// Returns the properties that act in this body and leave their data at these temperatures.
-std::vector<material::LeftRange> left_ranges(const CaseSpec& spec, std::size_t body,
+std::vector<material::LeftRange> left_ranges(const cases::CaseSpec& spec, std::size_t body,
                                              const material::Material& material, double low, double high) {
   std::vector<material::LeftRange> left;
   // Thermal and mechanical properties act up to different temperatures.
@@ -37,7 +37,7 @@ std::vector<material::LeftRange> left_ranges(const CaseSpec& spec, std::size_t b
   };
   // Mechanical properties act where the body deforms.
   if (spec.has_heat()) add(true, high);
-  if (!spec.has_mechanics() || only_conducts(spec.bodies[body])) return left;
+  if (!spec.has_mechanics() || cases::only_conducts(spec.bodies[body])) return left;
   const material::PhaseChange* freezing = material.solidification();
   add(false, freezing != nullptr ? std::min(high, freezing->fraction.solidus()) : high);
   return left;
@@ -52,8 +52,8 @@ std::string span_text(double low, double high) {
 
 }  // namespace
 
-std::string left_data(const CaseSpec& spec, std::size_t body, const material::Material& material, double low,
-                      double high, std::vector<std::string>& said) {
+std::string left_data(const cases::CaseSpec& spec, std::size_t body, const material::Material& material,
+                      double low, double high, std::vector<std::string>& said) {
   std::string text;
   double from = 0, to = 0;  // of the range named last
   // Properties are told once for a body, those with the same range together, in one sentence. A table that
@@ -108,4 +108,4 @@ void RangeWatch::look(const coupling::State& state) {
   }
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

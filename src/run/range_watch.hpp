@@ -12,17 +12,18 @@
 #include "coupling/observer.hpp"
 #include "setup/assembly.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 /// Returns a warning about properties that a body at these temperatures [K] uses outside of their data: one
 /// text for all that are not among `said`, to which they are added; empty: there are none. Throws InputError
 /// for a table whose extrapolation is an error.
-std::string left_data(const CaseSpec& spec, std::size_t body, const material::Material& material, double low,
-                      double high, std::vector<std::string>& said);
+std::string left_data(const cases::CaseSpec& spec, std::size_t body, const material::Material& material,
+                      double low, double high, std::vector<std::string>& said);
 
 class RangeWatch : public coupling::Observer {
  public:
-  RangeWatch(const CaseSpec& spec, const Assembly& a) : spec_(spec), a_(a), warned_(spec.bodies.size()) {}
+  RangeWatch(const cases::CaseSpec& spec, const setup::Assembly& a)
+      : spec_(spec), a_(a), warned_(spec.bodies.size()) {}
   void begin(const coupling::State& state) override { look(state); }
   void step(const coupling::StepRecord&, const coupling::State& state) override { look(state); }
   void stopped(const coupling::Stop&, const coupling::State&) override {}
@@ -31,9 +32,9 @@ class RangeWatch : public coupling::Observer {
  private:
   void look(const coupling::State& state);
 
-  const CaseSpec& spec_;
-  const Assembly& a_;
+  const cases::CaseSpec& spec_;
+  const setup::Assembly& a_;
   std::vector<std::vector<std::string>> warned_;
 };
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -8,7 +8,7 @@
 #include "setup/time_input.hpp"
 #include "system/processes.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 namespace {
 
@@ -18,9 +18,9 @@ bool melts(const std::vector<material::Material>& materials) {
 }
 
 /// The largest step that an adaptive run may take [s]; 0 where steps are equal.
-double largest_adaptive_step(const CaseSpec& spec) {
+double largest_adaptive_step(const cases::CaseSpec& spec) {
   if (!spec.time.adaptive || spec.time.steady) return 0;
-  const coupling::TimeOptions time = time_options(spec);
+  const coupling::TimeOptions time = setup::time_options(spec);
   double largest = time.stages.empty() ? time.step.largest() : 0;
   for (const coupling::Stage& stage : time.stages) largest = std::max(largest, stage.step.largest());
   return largest;
@@ -28,23 +28,24 @@ double largest_adaptive_step(const CaseSpec& spec) {
 
 }  // namespace
 
-bool has_shots(const Assembly& a) {
-  return std::any_of(a.stages.begin(), a.stages.end(), [](const StageRun& s) { return s.shot > 0; });
+bool has_shots(const setup::Assembly& a) {
+  return std::any_of(a.stages.begin(), a.stages.end(), [](const cases::StageRun& s) { return s.shot > 0; });
 }
 
-results::MeshCounts counts(const CaseSpec& spec, const mesh::Mesh& mesh) {
+results::MeshCounts counts(const cases::CaseSpec& spec, const mesh::Mesh& mesh) {
   results::MeshCounts counts = results::count(mesh);
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) counts.elements_of_body[b].first = spec.bodies[b].name;
   return counts;
 }
 
-results::RecorderOptions recorder_options(const Case& c, const RunOptions& options, const Assembly& a) {
+results::RecorderOptions recorder_options(const setup::Case& c, const RunOptions& options,
+                                          const setup::Assembly& a) {
   // What is recorded follows from the case: probes, profiles, fields, and which columns the tables have.
-  const CaseSpec& spec = c.spec;
+  const cases::CaseSpec& spec = c.spec;
   results::RecorderOptions r;
   r.kind = spec.analysis.kind;
-  r.probes = probes(spec);
-  r.profiles = profiles(spec);
+  r.probes = setup::probes(spec);
+  r.profiles = setup::profiles(spec);
   r.fields = spec.output.fields;
   r.vtkhdf = spec.output.vtkhdf;
   r.stages = !spec.stages.empty();
@@ -53,12 +54,12 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.fixed_steps = !spec.time.adaptive && !spec.time.steady;
   r.progress = options.progress;
   r.profile = options.profile;
-  r.castings = cast_bodies(spec, a.materials, a.start);
+  r.castings = setup::cast_bodies(spec, a.materials, a.start);
   // The terminal's line needs to know what can be shown: fractions only of what melts, contacts
   // where there are some.
   r.units = {spec.output.length_unit, spec.output.temperature_unit, spec.output.stress_unit};
   r.progress_options.end = spec.time.end.value_or(0);
-  r.progress_options.until_solid = spec.time.until == TimeSpec::Until::solid;
+  r.progress_options.until_solid = spec.time.until == cases::TimeSpec::Until::solid;
   r.progress_options.heat = spec.has_heat();
   r.progress_options.mechanics = spec.has_mechanics();
   r.progress_options.contact = !spec.contacts.empty();
@@ -79,4 +80,4 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   return r;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -5,17 +5,18 @@
 #include "run/session.hpp"
 #include "setup/assembly.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 /// Whether the case has shots.
-bool has_shots(const Assembly& a);
+bool has_shots(const setup::Assembly& a);
 
 /// Nodes and elements of the mesh, with the names of the bodies, which need not be those of their groups.
 /// Collective.
-results::MeshCounts counts(const CaseSpec& spec, const mesh::Mesh& mesh);
+results::MeshCounts counts(const cases::CaseSpec& spec, const mesh::Mesh& mesh);
 
 /// Probes, fields, castings and the head of the summary. Collective. Throws InputError for an output that the
 /// case cannot have.
-results::RecorderOptions recorder_options(const Case& c, const RunOptions& options, const Assembly& a);
+results::RecorderOptions recorder_options(const setup::Case& c, const RunOptions& options,
+                                          const setup::Assembly& a);
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -3,33 +3,34 @@
 
 #include <fmt/format.h>
 
-#include "case/stage_input.hpp"
+#include "cases/stage_input.hpp"
 #include "results/output/run_lock.hpp"
 #include "setup/run_input.hpp"
 #include "setup/time_input.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
-void check_restart(const CaseSpec& spec, const RunOptions& options) {
+void check_restart(const cases::CaseSpec& spec, const RunOptions& options) {
   if (!options.restart) return;
   if (spec.time.steady)
     throw InputError(spec.time.where, "a steady analysis has nothing to continue", "run without --restart");
   results::CheckpointFolder(options.folder).require();
 }
 
-std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOptions& options, Assembly& a,
-                                              const results::Fingerprint& fingerprint) {
+std::optional<results::Checkpoint> checkpoint(const cases::CaseSpec& spec, const RunOptions& options,
+                                              setup::Assembly& a, const results::Fingerprint& fingerprint) {
   // Without --restart a run begins again.
   if (!options.restart) return {};
   const results::CheckpointFolder folder(options.folder);
   results::Checkpoint found = folder.read(a.mesh, fingerprint, a.initial);
-  check_stage_of_checkpoint(spec, found.continuation.stage, found.state.time);
+  cases::check_stage_of_checkpoint(spec, found.continuation.stage, found.state.time);
   // A run may have ended for three reasons before its time: periodic, all solid, or its end time reached.
-  const CycleSpec* cycle = periodic_cycle(spec);
-  const StageRun* stage = found.continuation.stage.number > 0
-                              ? &a.stages[static_cast<std::size_t>(found.continuation.stage.number) - 1]
-                              : nullptr;
+  const cases::CycleSpec* cycle = cases::periodic_cycle(spec);
+  const cases::StageRun* stage =
+      found.continuation.stage.number > 0
+          ? &a.stages[static_cast<std::size_t>(found.continuation.stage.number) - 1]
+          : nullptr;
   const bool periodic = cycle != nullptr && stage != nullptr && stage->ends_shot &&
                         found.state.time == stage->end && found.continuation.shots.shots > 0 &&
                         found.continuation.shots.change <= *cycle->periodic;
@@ -40,7 +41,7 @@ std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOpt
                                  found.continuation.shots.change, found.state.shot),
                      "a smaller 'periodic' in the cycle");
   constexpr double k_solid = 1 - 1e-12;
-  const bool solid = spec.time.until == TimeSpec::Until::solid && a.heat &&
+  const bool solid = spec.time.until == cases::TimeSpec::Until::solid && a.heat &&
                      a.heat->mean_solid_fraction(found.state.heat) >= k_solid;
   if (solid && results::is_finished(options.folder))
     throw InputError(
@@ -61,4 +62,4 @@ std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOpt
   return found;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -8,14 +8,14 @@
 #include "setup/assembly.hpp"
 #include "setup/fingerprint.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 /// Reports errors that case and folder show before the mesh is read. Throws InputError.
-void check_restart(const CaseSpec& spec, const RunOptions& options);
+void check_restart(const cases::CaseSpec& spec, const RunOptions& options);
 
 /// Reads the checkpoint; nothing without RunOptions::restart. Collective. Throws InputError where it does not
 /// fit the case, or the run has ended already.
-std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOptions& options, Assembly& a,
-                                              const results::Fingerprint& fingerprint);
+std::optional<results::Checkpoint> checkpoint(const cases::CaseSpec& spec, const RunOptions& options,
+                                              setup::Assembly& a, const results::Fingerprint& fingerprint);
 
-}  // namespace solidus::model
+}  // namespace solidus::run

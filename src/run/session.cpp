@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "case/case_keys.hpp"
-#include "case/case_materials.hpp"
-#include "case/overrides.hpp"
-#include "case/stage_input.hpp"
+#include "cases/case_keys.hpp"
+#include "cases/case_materials.hpp"
+#include "cases/overrides.hpp"
+#include "cases/stage_input.hpp"
 #include "check/case_overview.hpp"
 #include "check/findings.hpp"
 #include "coupling/steady.hpp"
@@ -29,14 +29,14 @@
 #include "system/processes.hpp"
 #include "system/profile.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 namespace {
 
 /// @param recorder  null: nothing is written
 /// @param steady    the state reached
-RunResult run_steady(const CaseSpec& spec, Assembly& a, coupling::Observer* recorder, coupling::State& steady,
-                     coupling::StepRecord& record) {
+RunResult run_steady(const cases::CaseSpec& spec, setup::Assembly& a, coupling::Observer* recorder,
+                     coupling::State& steady, coupling::StepRecord& record) {
   // A steady state is one step without a length; what fails has no checkpoint.
   if (recorder != nullptr) recorder->begin(a.initial);
   record = {};
@@ -67,9 +67,9 @@ RunResult run_steady(const CaseSpec& spec, Assembly& a, coupling::Observer* reco
 
 /// The order is that of making; the later refer to the earlier.
 struct Session::Parts {
-  Case c;
+  setup::Case c;
   RunOptions options;
-  Assembly a;
+  setup::Assembly a;
   std::optional<results::RunLock> lock;
   std::optional<results::RunFolder> folder;
   std::optional<results::Recorder> recorder;
@@ -109,32 +109,32 @@ void check_step(std::optional<double> step) {
 
 }  // namespace
 
-Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts>()) {
+Session::Session(setup::Case given, RunOptions options) : parts_(std::make_unique<Parts>()) {
   const double start = processes::wall_time();
   parts_->c = std::move(given);
   parts_->options = std::move(options);
-  Case& c = parts_->c;
+  setup::Case& c = parts_->c;
   const RunOptions& o = parts_->options;
   // In the order of the data: materials, mesh, phases, and then findings, since these need all of it.
   check_restart(c.spec, o);
-  Assembly& a = parts_->a;
+  setup::Assembly& a = parts_->a;
   std::optional<profile::Part> part;
   part.emplace("materials");
-  a.materials = load_materials(c.spec);
+  a.materials = cases::load_materials(c.spec);
   part.reset();
   const double made_in = o.mesh != nullptr ? o.mesh->seconds : 0;
-  a.mesh = load_mesh(c.spec, o.mesh.get());
+  a.mesh = setup::load_mesh(c.spec, o.mesh.get());
   const double loaded = processes::wall_time();
   part.emplace("set-up");
-  build(c.spec, a);
+  setup::build(c.spec, a);
   return_free_memory();
   part.emplace("findings");
-  const CaseMeasures measures = measure(c.spec, a);
-  report(findings(c.spec, a, measures));
-  require_sound_mesh(c.spec);
+  const check::CaseMeasures measures = check::measure(c.spec, a);
+  check::report(check::findings(c.spec, a, measures));
+  setup::require_sound_mesh(c.spec);
   part.emplace("set-up");
   if (a.phases.audits_stability())
-    announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh, a.start));
+    check::announce_isothermal(c.spec, check::coupling_estimates(c.spec, a.materials, a.mesh, a.start));
 
   // Without a folder nothing is recorded.
   results::RecorderOptions r = recorder_options(c, o, a);
@@ -144,8 +144,8 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
   }
   // With a folder: everything that a restart has to agree with is fingerprinted, and the folder is
   // locked against a second run.
-  r.summary.overview = overview(c.spec, a, measures);
-  r.fingerprint = fingerprint(c.spec, a.mesh, a.materials, a.initial.heat.temperature);
+  r.summary.overview = check::overview(c.spec, a, measures);
+  r.fingerprint = setup::fingerprint(c.spec, a.mesh, a.materials, a.initial.heat.temperature);
   parts_->lock.emplace(o.folder);
   std::optional<results::Checkpoint>& from = parts_->from;
   // From a checkpoint time, energies and counters go on.
@@ -167,7 +167,7 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
                     melt.body, melt.modulus * melt.time, melt.modulus, melt.against, melt.time));
   for (const std::string& text : logging::told_once(melts)) logging::info("{}", text);
   std::vector<std::string> tables;
-  for (const ProfileSpec& profile : c.spec.profiles) tables.push_back(profile.name + ".csv");
+  for (const cases::ProfileSpec& profile : c.spec.profiles) tables.push_back(profile.name + ".csv");
   // The folder gets the resolved case at once, so that a run that dies can be understood.
   parts_->folder.emplace(o.folder, c.toml(), o.restart, tables);
   r.summary.seconds.emplace_back("mesh", made_in + loaded - start);
@@ -231,12 +231,12 @@ void Session::change(const std::string& assignment) {
   // The whole case is read and checked again with the change, as its first reading was; only conditions are
   // taken over.
   Value document = p.c.document;
-  apply_override(document, assignment);
-  CaseSpec spec;
-  case_keys().assign(spec, document);
-  resolve_stages(spec);
-  check_case(spec);
-  vary_conditions(spec);
+  cases::apply_override(document, assignment);
+  cases::CaseSpec spec;
+  cases::case_keys().assign(spec, document);
+  cases::resolve_stages(spec);
+  setup::check_case(spec);
+  cases::vary_conditions(spec);
   p.c.document = std::move(document);
   p.c.spec.thermal_conditions = std::move(spec.thermal_conditions);
   p.c.spec.mechanical_conditions = std::move(spec.mechanical_conditions);
@@ -259,11 +259,11 @@ const coupling::StepRecord& Session::record() const {
   return parts_->begun ? parts_->simulation().record() : parts_->steady_record;
 }
 
-const Case& Session::running() const {
+const setup::Case& Session::running() const {
   return parts_->c;
 }
 
-const Assembly& Session::assembly() const {
+const setup::Assembly& Session::assembly() const {
   return parts_->a;
 }
 
@@ -271,8 +271,8 @@ const results::Summary* Session::summary() const {
   return parts_->recorder ? &parts_->recorder->summary() : nullptr;
 }
 
-RunResult run_case(Case c, const RunOptions& options) {
+RunResult run_case(setup::Case c, const RunOptions& options) {
   return Session(std::move(c), options).run();
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

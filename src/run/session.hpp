@@ -17,7 +17,13 @@
 #include "results/summary.hpp"
 #include "setup/case_file.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {}
+
+namespace solidus::setup {
+struct MadeMesh;
+}
+
+namespace solidus::run {
 
 struct MadeMesh;
 
@@ -30,7 +36,7 @@ struct RunOptions {
   std::function<bool()> stop_asked;  ///< asked before each step; true on any process ends the run there
   /// The mesh where the first process has it already (setup/made_mesh.hpp), which is moved from; null: the
   /// case's mesh is read or made.
-  std::shared_ptr<MadeMesh> mesh = {};
+  std::shared_ptr<setup::MadeMesh> mesh = {};
 };
 
 struct RunResult {
@@ -41,16 +47,14 @@ struct RunResult {
 /// Loads materials and mesh, builds the phases, runs and writes the results. Collective. Throws InputError
 /// for what the case or the place for the results has wrong, before anything is computed where that can be
 /// known.
-RunResult run_case(Case c, const RunOptions& options);
-
-struct Assembly;
+RunResult run_case(setup::Case c, const RunOptions& options);
 
 /// A run that a caller drives step by step: looks at the fields, changes conditions, repeats a step.
 /// run_case() is a session that runs to its end. All functions are collective.
 class Session {
  public:
   /// Loads and builds everything, as run_case() does. Throws InputError.
-  Session(Case c, RunOptions options);
+  Session(setup::Case c, RunOptions options);
   ~Session();
 
   /// Runs to the end, or on to it. A pending step is committed first.
@@ -76,8 +80,8 @@ class Session {
   /// The state of the pending step, else the last committed one; of a steady case the one reached.
   const coupling::State& state() const;
   const coupling::StepRecord& record() const;
-  const Case& running() const;
-  const Assembly& assembly() const;
+  const setup::Case& running() const;
+  const setup::Assembly& assembly() const;
   /// What summary.json says, after run(); null without a folder.
   const results::Summary* summary() const;
 
@@ -90,12 +94,12 @@ class Session {
 struct CheckedRun {
   results::MeshCounts mesh;
   results::Overview overview;
-  std::vector<CouplingEstimate> couplings;  ///< one per body where heat and deformation are coupled
-  UncertainParameters uncertain;
+  std::vector<check::CouplingEstimate> couplings;  ///< one per body where heat and deformation are coupled
+  check::UncertainParameters uncertain;
 };
 
 /// Everything that run_case does before it computes, but for the results folder. Collective. Throws
 /// InputError.
-CheckedRun check_run(Case c);
+CheckedRun check_run(setup::Case c);
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "case/case_materials.hpp"
+#include "cases/case_materials.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/passes.hpp"
 #include "mesh/block_geometry.hpp"
@@ -21,14 +21,14 @@
 #include "setup/mesh_input.hpp"
 #include "system/processes.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 namespace {
 
 /// A step so short, as a share of the run, that nothing flows in it.
 constexpr double k_short = 1e-9;
 
-void check_exportable(const CaseSpec& spec) {
+void check_exportable(const cases::CaseSpec& spec) {
   if (processes::count() > 1) throw InputError({}, "the export works on one process", "without mpirun");
   if (!spec.has_mechanics())
     throw InputError(spec.analysis.where, "there is no stress to export", "a case with mechanics");
@@ -164,7 +164,8 @@ std::vector<std::vector<Index>> tied_entries(const linear::MultiPointConstraints
 
 namespace {
 
-ExportReport export_history(const CaseSpec& spec, const Assembly& a, const ExportOptions& options) {
+ExportReport export_history(const cases::CaseSpec& spec, const setup::Assembly& a,
+                            const ExportOptions& options) {
   // A temperature history is exported without deformation, for a case of one stage, because bodies that come
   // and go have no place in one deck.
   if (options.deformed)
@@ -189,7 +190,7 @@ ExportReport export_history(const CaseSpec& spec, const Assembly& a, const Expor
       .constraints = tied_entries(a.mechanics->constraints(), a.mechanics->fixed().size()),
       .force = {},
       .history = results::read_temperature_history(options.folder / "fields.pvd", a.mesh, active)};
-  for (const BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
+  for (const cases::BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
   // What only contact held is given supports in the deck, and the report says how many.
   deck.supports = results::missing_supports(a.mesh, active, spec.analysis.kind, deck.fixed, deck.constraints);
   ExportReport report{deck.history.back().time, 0, 0, deck.history.size(), deck.supports.size()};
@@ -201,27 +202,27 @@ ExportReport export_history(const CaseSpec& spec, const Assembly& a, const Expor
 
 }  // namespace
 
-ExportReport export_state(const Case& c, const ExportOptions& options) {
+ExportReport export_state(const setup::Case& c, const ExportOptions& options) {
   // The state of the checkpoint is brought into equilibrium once more at its temperatures, in a step so short
   // that nothing flows, because the deck needs stresses that balance its loads.
-  CaseSpec spec = c.spec;  // with the contacts that its interfaces make
+  cases::CaseSpec spec = c.spec;  // with the contacts that its interfaces make
   check_exportable(spec);
-  Assembly a;
-  a.materials = load_materials(spec);
-  a.mesh = load_mesh(spec);
-  require_sound_mesh(spec);
-  build(spec, a);
+  setup::Assembly a;
+  a.materials = cases::load_materials(spec);
+  a.mesh = setup::load_mesh(spec);
+  setup::require_sound_mesh(spec);
+  setup::build(spec, a);
   // The history of temperatures needs no equilibrium.
   if (options.temperature_history) return export_history(spec, a, options);
   // The checkpoint has to be that of this case and mesh.
   results::Checkpoint from =
       results::CheckpointFolder(options.folder)
-          .read(a.mesh, fingerprint(spec, a.mesh, a.materials, a.initial.heat.temperature), a.initial);
+          .read(a.mesh, setup::fingerprint(spec, a.mesh, a.materials, a.initial.heat.temperature), a.initial);
   const coupling::StageStart& stage = from.continuation.stage;
   // The stage of the checkpoint decides which bodies and conditions are there.
-  check_stage_of_checkpoint(spec, stage, from.state.time);
+  cases::check_stage_of_checkpoint(spec, stage, from.state.time);
   if (stage.number > 0)
-    apply(spec, static_cast<std::size_t>(stage.number - 1), stage.displacement, nullptr, a);
+    setup::apply(spec, static_cast<std::size_t>(stage.number - 1), stage.displacement, nullptr, a);
 
   // A step so short that nothing flows, from the state as it is.
   coupling::State& state = from.state;
@@ -262,7 +263,7 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
       .fixed = a.mechanics->fixed(),
       .constraints = tied_entries(a.mechanics->constraints(), still.mechanics.displacement.size()),
       .force = solved.applied};
-  for (const BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
+  for (const cases::BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
   deck.supports = results::missing_supports(a.mesh, active, spec.analysis.kind, deck.fixed, deck.constraints);
   report.supports = deck.supports.size();
   // The other program may start from the deformed or from the drawn shape.
@@ -286,4 +287,4 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
   return report;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

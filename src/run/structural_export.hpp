@@ -7,7 +7,7 @@
 #include "results/formats/structural_deck.hpp"
 #include "setup/case_file.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 struct ExportOptions {
   std::filesystem::path folder;                                        ///< of the run: its checkpoint
@@ -31,6 +31,6 @@ struct ExportReport {
 /// temperatures over time (then the run must have left fields, and no body may come or go). One process.
 /// Throws InputError for a case without mechanics or with inertia, for several processes, and as a restart
 /// does; StepRejected where there is no equilibrium.
-ExportReport export_state(const Case& c, const ExportOptions& options);
+ExportReport export_state(const setup::Case& c, const ExportOptions& options);
 
-}  // namespace solidus::model
+}  // namespace solidus::run

@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "case/case_materials.hpp"
-#include "case/stage_input.hpp"
+#include "cases/case_materials.hpp"
+#include "cases/stage_input.hpp"
 #include "check/coupling_estimate.hpp"
 #include "coupling/internal_energy.hpp"
 #include "run/advice.hpp"
@@ -17,39 +17,39 @@
 #include "setup/scheme_input.hpp"
 #include "setup/time_input.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 namespace {
 
 /// Null in a case without shots, or without heat. Before bodies leave.
-std::unique_ptr<coupling::ShotMap> shot_map(const CaseSpec& spec, const Assembly& a) {
+std::unique_ptr<coupling::ShotMap> shot_map(const cases::CaseSpec& spec, const setup::Assembly& a) {
   if (!a.heat || !has_shots(a)) return nullptr;
   coupling::PeriodicOptions options;
-  if (const CycleSpec* cycle = periodic_cycle(spec)) {
+  if (const cases::CycleSpec* cycle = cases::periodic_cycle(spec)) {
     options.tolerance = *cycle->periodic;
-    options.accelerate = cycle->search == CycleSpec::Search::anderson;
+    options.accelerate = cycle->search == cases::CycleSpec::Search::anderson;
   }
-  return std::make_unique<coupling::ShotMap>(*a.heat, staying_bodies(spec), options);
+  return std::make_unique<coupling::ShotMap>(*a.heat, cases::staying_bodies(spec), options);
 }
 
-coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
-  coupling::TimeOptions times = time_options(spec);
+coupling::Simulation make_simulation(const cases::CaseSpec& spec, setup::Assembly& a) {
+  coupling::TimeOptions times = setup::time_options(spec);
   times.events = [&spec, &a, step = times.step.step, end = times.end](std::size_t stage) {
-    if (a.stages.empty()) return time_events(spec, nullptr, 0, end, step);
-    const StageRun& run = a.stages[stage];
-    return time_events(spec, &run, run.start, run.end, first_step(*run.stage, spec.time));
+    if (a.stages.empty()) return setup::time_events(spec, nullptr, 0, end, step);
+    const cases::StageRun& run = a.stages[stage];
+    return setup::time_events(spec, &run, run.start, run.end, cases::first_step(*run.stage, spec.time));
   };
   // A steady analysis has no error of time to estimate; others limit the displacement error of each step, of
   // the stages too.
   std::optional<coupling::ErrorEstimate> estimate;
   if (!spec.time.steady) {
     coupling::BodyNorm norm(a.mesh, spec.analysis.kind);
-    const std::vector<double> sections = sections_of(spec, a.mesh);
-    const double error = displacement_error(spec.time, sections);
-    const bool cast = !cast_bodies(spec, a.materials, a.start).empty();
+    const std::vector<double> sections = setup::sections_of(spec, a.mesh);
+    const double error = setup::displacement_error(spec.time, sections);
+    const bool cast = !setup::cast_bodies(spec, a.materials, a.start).empty();
     const auto limit = [&](coupling::StepLimits& limits) {
       limits.displacement = error;
-      limits.skin = skin_change(spec.time, sections);
+      limits.skin = setup::skin_change(spec.time, sections);
       limits.inertia = spec.dynamics.has_value();
       limits.last_melt = spec.has_mechanics() && cast;
       // A gap is between two displacements.
@@ -61,19 +61,20 @@ coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
     estimate.emplace(std::move(norm), &a.phases,
                      spec.dynamics ? Displacement::motion : Displacement::distortion);
   }
-  return coupling::Simulation(coupling_scheme(spec, a.phases, keeps_strain(spec, a.materials, a.start)),
-                              std::move(times), std::move(estimate));
+  return coupling::Simulation(
+      setup::coupling_scheme(spec, a.phases, setup::keeps_strain(spec, a.materials, a.start)),
+      std::move(times), std::move(estimate));
 }
 
 /// The work of the stresses of the ends of steps becomes heat in the energy form. The other forms lose what
 /// it is too large by, which the first law says (energy_defect).
-bool heats_by_end_stresses(const CaseSpec& spec) {
-  return spec.exchanges_heat() && structural_form(spec) == mechanics::StructuralForm::energy;
+bool heats_by_end_stresses(const cases::CaseSpec& spec) {
+  return spec.exchanges_heat() && setup::structural_form(spec) == mechanics::StructuralForm::energy;
 }
 
 }  // namespace
 
-Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& a,
+Transient::Transient(const cases::CaseSpec& spec, const RunOptions& options, setup::Assembly& a,
                      coupling::Observer* recorder)
     : spec_(spec),
       options_(options),
@@ -83,9 +84,10 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
       stability_(spec, a.coldest_start()),
       first_law_(spec, a.heat.get()),
       walls_(a.phases.contacts),
-      lag_(keeps_strain(spec, a.materials, a.start)),
-      friction_lag_(a.phases.contacts, may_map_slip_again(spec, keeps_strain(spec, a.materials, a.start)),
-                    slips_after_heat(spec, keeps_strain(spec, a.materials, a.start))),
+      lag_(setup::keeps_strain(spec, a.materials, a.start)),
+      friction_lag_(a.phases.contacts,
+                    setup::may_map_slip_again(spec, setup::keeps_strain(spec, a.materials, a.start)),
+                    setup::slips_after_heat(spec, setup::keeps_strain(spec, a.materials, a.start))),
       gaps_(a.phases.contacts) {
   // Observers see each step in the order in which they are added. The recorder comes after those that watch
   // the run, so that what they find in a step precedes what it writes of it.
@@ -95,7 +97,7 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
     simulation_.add(walls_);
     simulation_.add(melts_.emplace(spec, a));
   }
-  if (lags_a_step(spec, keeps_strain(spec, a.materials, a.start))) simulation_.add(lag_);
+  if (setup::lags_a_step(spec, setup::keeps_strain(spec, a.materials, a.start))) simulation_.add(lag_);
   simulation_.add(friction_lag_);
   if (heats_by_end_stresses(spec)) simulation_.add(stress_work_);
   simulation_.add(gaps_);
@@ -115,7 +117,7 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
     return diagnose(spec_, a_, melts_ ? melts_->ran_out() : std::string(), last, rejected, dt);
   });
   simulation_.at_stage([this](std::size_t stage, const coupling::StageStart& start, coupling::State* begins) {
-    return apply(spec_, stage, start.displacement, begins, a_);
+    return setup::apply(spec_, stage, start.displacement, begins, a_);
   });
   if (coupling::has_internal_energy(a.phases, true))
     simulation_.follow_internal_energy(
@@ -139,9 +141,9 @@ void Transient::begin(std::optional<results::Checkpoint> from) {
 std::optional<RunResult> Transient::result(std::optional<coupling::Outcome> outcome) const {
   if (!outcome) return {};
   if (*outcome == coupling::Outcome::finished) return RunResult{};
-  std::vector<CouplingEstimate> couplings;
+  std::vector<check::CouplingEstimate> couplings;
   if (spec_.coupled() && spec_.coupling.scheme->traits().needs_weak_coupling)
-    couplings = coupling_estimates(spec_, a_.materials, a_.mesh, a_.start);
+    couplings = check::coupling_estimates(spec_, a_.materials, a_.mesh, a_.start);
   const std::string checkpoint =
       options_.folder.empty()
           ? ""
@@ -152,12 +154,12 @@ std::optional<RunResult> Transient::result(std::optional<coupling::Outcome> outc
 void Transient::change_conditions() {
   const coupling::StageStart& start = simulation_.stage_start();
   if (!a_.stages.empty()) {
-    apply(spec_, simulation_.stage(), start.displacement, nullptr, a_);
+    setup::apply(spec_, simulation_.stage(), start.displacement, nullptr, a_);
   } else {
-    if (a_.mechanics) a_.mechanics->set_conditions(mechanical_conditions(spec_), start.displacement);
-    if (a_.heat) a_.heat->set_conditions(thermal_conditions(spec_));
+    if (a_.mechanics) a_.mechanics->set_conditions(setup::mechanical_conditions(spec_), start.displacement);
+    if (a_.heat) a_.heat->set_conditions(setup::thermal_conditions(spec_));
   }
   simulation_.conditions_changed();
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::run

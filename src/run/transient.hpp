@@ -18,7 +18,7 @@
 #include "run/session.hpp"
 #include "setup/assembly.hpp"
 
-namespace solidus::model {
+namespace solidus::run {
 
 /// Remembers why a run stopped, for the caller.
 class StopReason : public coupling::Observer {
@@ -39,7 +39,8 @@ class StopReason : public coupling::Observer {
 class Transient {
  public:
   /// @param recorder  null: nothing is written
-  Transient(const CaseSpec& spec, const RunOptions& options, Assembly& a, coupling::Observer* recorder);
+  Transient(const cases::CaseSpec& spec, const RunOptions& options, setup::Assembly& a,
+            coupling::Observer* recorder);
   Transient(const Transient&) = delete;
   Transient& operator=(const Transient&) = delete;
 
@@ -52,9 +53,9 @@ class Transient {
   coupling::Simulation& simulation() { return simulation_; }
 
  private:
-  const CaseSpec& spec_;
+  const cases::CaseSpec& spec_;
   const RunOptions& options_;
-  Assembly& a_;
+  setup::Assembly& a_;
   coupling::Simulation simulation_;
   RangeWatch range_;
   std::optional<BoundsWatch> bounds_;
@@ -71,4 +72,4 @@ class Transient {
   StopReason why_;
 };
 
-}  // namespace solidus::model
+}  // namespace solidus::run

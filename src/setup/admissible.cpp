@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "case/stage_input.hpp"
+#include "cases/stage_input.hpp"
 #include "input/units.hpp"
 #include "setup/dynamics_input.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -30,8 +30,8 @@ bool moves(const std::optional<Function>& f) {
 }
 
 /// The temperature that a condition surrounds its surface with; none for fluxes and sources.
-const Function* surroundings(const ThermalConditionSpec& c) {
-  using Kind = ThermalConditionSpec::Kind;
+const Function* surroundings(const cases::ThermalConditionSpec& c) {
+  using Kind = cases::ThermalConditionSpec::Kind;
   switch (c.kind) {
     case Kind::temperature:
       return &c.temperature;
@@ -47,7 +47,7 @@ const Function* surroundings(const ThermalConditionSpec& c) {
 }
 
 /// Returns all temperatures at which conditions and tools exchange heat, with their names.
-std::vector<std::pair<std::string, const Function*>> all_surroundings(const CaseSpec& spec) {
+std::vector<std::pair<std::string, const Function*>> all_surroundings(const cases::CaseSpec& spec) {
   std::vector<std::pair<std::string, const Function*>> all;
   for (const auto& c : spec.thermal_conditions)
     if (const Function* around = surroundings(c)) all.emplace_back(c.name, around);
@@ -58,7 +58,7 @@ std::vector<std::pair<std::string, const Function*>> all_surroundings(const Case
 
 constexpr double k_same = 1e-6;  // [K]: rounding of units
 
-std::optional<double> common_ambient(const CaseSpec& spec) {
+std::optional<double> common_ambient(const cases::CaseSpec& spec) {
   std::optional<double> common;
   for (const auto& [name, around] : all_surroundings(spec)) {
     const double here = around->table.min_value();
@@ -68,15 +68,15 @@ std::optional<double> common_ambient(const CaseSpec& spec) {
   return common;
 }
 
-double coldest_body(const CaseSpec& spec, double low) {
-  for (const BodySpec& body : spec.bodies)
+double coldest_body(const cases::CaseSpec& spec, double low) {
+  for (const cases::BodySpec& body : spec.bodies)
     if (body.initial_temperature.place == nullptr)
       low = std::min(low, body.initial_temperature.table.value(0));
   return low;
 }
 
-void check_heat(const CaseSpec& spec, Admissibility& a) {
-  using Kind = ThermalConditionSpec::Kind;
+void check_heat(const cases::CaseSpec& spec, Admissibility& a) {
+  using Kind = cases::ThermalConditionSpec::Kind;
   // No heat may come from outside but through surroundings, and these must all have the one ambient
   // temperature, which does not change.
   for (const auto& c : spec.thermal_conditions) {
@@ -97,19 +97,19 @@ void check_heat(const CaseSpec& spec, Admissibility& a) {
 }
 
 /// A support at a given place that is put on in a later stage pulls the body there.
-bool begins_later(const CaseSpec& spec, const MechanicalConditionSpec& c) {
-  if (c.kind != MechanicalConditionSpec::Kind::displacement || c.relative) return false;
+bool begins_later(const cases::CaseSpec& spec, const cases::MechanicalConditionSpec& c) {
+  if (c.kind != cases::MechanicalConditionSpec::Kind::displacement || c.relative) return false;
   bool before = true;
-  for (const StageRun& run : stage_runs(spec)) {
-    const bool now = holds(c.stages, &run);
+  for (const cases::StageRun& run : cases::stage_runs(spec)) {
+    const bool now = cases::holds(c.stages, &run);
     if (now && !before) return true;
     before = now;
   }
   return false;
 }
 
-void check_mechanics(const CaseSpec& spec, Admissibility& a) {
-  using Kind = MechanicalConditionSpec::Kind;
+void check_mechanics(const cases::CaseSpec& spec, Admissibility& a) {
+  using Kind = cases::MechanicalConditionSpec::Kind;
   // Supports must not move and loads must not vary, so that the work of the loads has a potential.
   for (const auto& c : spec.mechanical_conditions) {
     if (c.kind == Kind::displacement && (moves(c.ux) || moves(c.uy) || moves(c.uz) || moves(c.ur)))
@@ -128,18 +128,18 @@ void check_mechanics(const CaseSpec& spec, Admissibility& a) {
       a.violations.push_back(fmt::format("the rigid surface '{}' moves", s.name));
 }
 
-void check_integration(const CaseSpec& spec, Admissibility& a) {
+void check_integration(const cases::CaseSpec& spec, Admissibility& a) {
   const bool second_order = spec.coupling.scheme->traits().second_order ||
                             spec.mechanics.integration == mechanics::TimeIntegration::two_step;
   if (second_order) a.violations.push_back("nothing is proved for a time integration of second order");
-  if (spec.dynamics && spec.dynamics->method != DynamicsSpec::Method::backward_euler)
+  if (spec.dynamics && spec.dynamics->method != cases::DynamicsSpec::Method::backward_euler)
     a.violations.push_back(
         fmt::format("nothing is proved for the integration of inertia by {}", method_name(*spec.dynamics)));
 }
 
 }  // namespace
 
-Admissibility admissibility(const CaseSpec& spec, double coldest) {
+Admissibility admissibility(const cases::CaseSpec& spec, double coldest) {
   Admissibility a;
   if (spec.coupling.ambient_temperature)
     a.ambient_temperature = *spec.coupling.ambient_temperature;
@@ -151,4 +151,4 @@ Admissibility admissibility(const CaseSpec& spec, double coldest) {
   return a;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 struct Admissibility {
   /// Θ_a [K]: as given, else the constant one that films, radiation and prescribed temperatures share, else
@@ -21,6 +21,7 @@ struct Admissibility {
 /// Checks a thermo-mechanical case. Admissible are dead loads, supports that do not move, no source and no
 /// flux, surroundings at Θ_a, and a time integration for which the decay is proved (backward Euler).
 /// @param coldest  the lowest initial temperature of bodies that have several [K]
-Admissibility admissibility(const CaseSpec& spec, double coldest = std::numeric_limits<double>::infinity());
+Admissibility admissibility(const cases::CaseSpec& spec,
+                            double coldest = std::numeric_limits<double>::infinity());
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "case/case_materials.hpp"
+#include "cases/case_materials.hpp"
 #include "mechanics/new_bodies.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/admissible.hpp"
@@ -23,19 +23,19 @@
 #include "setup/skin_measures.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
 /// Temperatures at which nodes are free of thermal strain, and which they have in mechanics alone: every body
 /// at its temperature. A node of several bodies takes that of one that deforms, of these the hottest: the
 /// casting's.
-std::vector<double> nodal_temperature(const CaseSpec& spec, const InitialTemperatures& start,
+std::vector<double> nodal_temperature(const cases::CaseSpec& spec, const InitialTemperatures& start,
                                       const mesh::Mesh& mesh) {
   using Rank = std::pair<bool, double>;
   std::vector<Rank> best(mesh.x.size(), {false, -1.0});
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    const bool deforms = !only_conducts(spec.bodies[static_cast<std::size_t>(block.body)]);
+    const bool deforms = !cases::only_conducts(spec.bodies[static_cast<std::size_t>(block.body)]);
     for (const Index i : block.nodes) {
       Rank& here = best[static_cast<std::size_t>(i)];
       here = std::max(here, Rank(deforms, start.temperature(i, block.body)));
@@ -60,7 +60,7 @@ void check_separate(const mesh::Mesh& mesh, const contact::ContactParameters& pa
 
 /// Warns of slave surfaces that contacts cover in part; several may share one. Surfaces that the program has
 /// found are made of all faces that another body covers in part, at whose rim a part has no partner.
-void check_coverage(const CaseSpec& spec, const Assembly& a) {
+void check_coverage(const cases::CaseSpec& spec, const Assembly& a) {
   constexpr double k_given = 0.98, k_found = 0.5;
   for (std::size_t c = 0; c < a.contacts.size(); ++c) {
     const auto& pair = a.contacts[c];
@@ -77,10 +77,10 @@ void check_coverage(const CaseSpec& spec, const Assembly& a) {
   }
 }
 
-void build_contacts(const CaseSpec& spec, Assembly& a) {
+void build_contacts(const cases::CaseSpec& spec, Assembly& a) {
   std::vector<double> moduli = contact_moduli(a.materials);
   for (std::size_t b = 0; b < moduli.size(); ++b)
-    if (only_conducts(spec.bodies[b])) moduli[b] = 0;  // its stiffness makes no penalty
+    if (cases::only_conducts(spec.bodies[b])) moduli[b] = 0;  // its stiffness makes no penalty
   const std::vector<double> sections = sections_of(spec, a.mesh);
   // Each pair gets what follows from mesh and materials before it is built: walls, leaving gap, penalty,
   // conductivity, direction of the normal.
@@ -98,7 +98,8 @@ void build_contacts(const CaseSpec& spec, Assembly& a) {
   check_coverage(spec, a);
 }
 
-void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_temperature, Assembly& a) {
+void build_mechanics(const cases::CaseSpec& spec, const std::vector<double>& initial_temperature,
+                     Assembly& a) {
   std::vector<linear::Contribution*> contributions;
   // Each pair of surfaces adds forces and stiffness; the matrix is symmetric if that of all of them is.
   mechanics::MechanicsOptions options = mechanics_options(spec);
@@ -132,7 +133,7 @@ void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_te
   if (a.skin->any()) a.phases.skin = a.skin.get();
 }
 
-void build_heat(const CaseSpec& spec, const InitialTemperatures& start, Assembly& a) {
+void build_heat(const cases::CaseSpec& spec, const InitialTemperatures& start, Assembly& a) {
   // Contacts and the deforming structure add heat; the matrix is symmetric only if that of every contact is.
   std::vector<linear::Contribution*> contributions;
   for (const auto& pair : a.contacts)
@@ -149,8 +150,8 @@ void build_heat(const CaseSpec& spec, const InitialTemperatures& start, Assembly
   a.phases.heat = a.heat.get();
   a.initial.heat = a.heat->initial_state_of([&](Index node, int body) { return start.enthalpy(node, body); });
   // What has burned is part of the state, where something can burn at all.
-  const bool burns = std::ranges::any_of(spec.thermal_conditions, [](const ThermalConditionSpec& c) {
-    return c.kind == ThermalConditionSpec::Kind::exothermic;
+  const bool burns = std::ranges::any_of(spec.thermal_conditions, [](const cases::ThermalConditionSpec& c) {
+    return c.kind == cases::ThermalConditionSpec::Kind::exothermic;
   });
   if (burns) a.initial.burning = heat::unlit(a.mesh.x.size());
 }
@@ -163,13 +164,13 @@ std::string listed(const std::vector<std::string>& names) {
 
 /// Reports which bodies leave and come when a stage begins, with how much heat, and the conditions that end
 /// with them. What comes later than the first stage does not leave when that begins.
-void announce_bodies(const CaseSpec& spec, const StageRun& stage, const StageRun* before,
+void announce_bodies(const cases::CaseSpec& spec, const cases::StageRun& stage, const cases::StageRun* before,
                      const coupling::BodyHeat& heat, const std::vector<std::string>& idle) {
   if (before == nullptr) return;
   // Compared with the stage before: first who leaves, then who comes.
   std::vector<std::string> leaving, coming;
-  for (const BodySpec& body : spec.bodies) {
-    const bool there = holds(body.stages, &stage), was = holds(body.stages, before);
+  for (const cases::BodySpec& body : spec.bodies) {
+    const bool there = cases::holds(body.stages, &stage), was = cases::holds(body.stages, before);
     if (was && !there) leaving.push_back(body.name);
     if (there && !was) coming.push_back(body.name);
   }
@@ -190,7 +191,7 @@ void announce_bodies(const CaseSpec& spec, const StageRun& stage, const StageRun
 
 /// Bodies that come are as drawn: without displacement, stress and history, in contact as at the start of a
 /// run.
-void renew_contacts(const CaseSpec& spec, const std::vector<char>& fresh, coupling::State& state,
+void renew_contacts(const cases::CaseSpec& spec, const std::vector<char>& fresh, coupling::State& state,
                     Assembly& a) {
   if (state.contacts.empty()) return;
   std::vector<std::string> groups;  // absent in the sense of an active set: their faces are reversed
@@ -224,9 +225,9 @@ double Assembly::coldest_start() const {
   return low;
 }
 
-coupling::BodyHeat apply(const CaseSpec& spec, std::size_t number, const std::vector<double>& displacement,
-                         coupling::State* begins, Assembly& a) {
-  const StageRun& stage = a.stages[number];
+coupling::BodyHeat apply(const cases::CaseSpec& spec, std::size_t number,
+                         const std::vector<double>& displacement, coupling::State* begins, Assembly& a) {
+  const cases::StageRun& stage = a.stages[number];
   if (begins != nullptr) check_no_bare_melt(spec, a, number, *begins);
   // Conditions whose body is not there do nothing in this stage, and are named in the log.
   const std::vector<std::string> idle = without_body(spec, a.mesh, &stage);
@@ -269,17 +270,18 @@ namespace {
 
 /// The conditions and contacts that find no body to act on in any stage: a body may come after the first one.
 /// Throws InputError as without_body() does. Collective.
-std::vector<std::string> idle_throughout(const CaseSpec& spec, const Assembly& a) {
+std::vector<std::string> idle_throughout(const cases::CaseSpec& spec, const Assembly& a) {
   std::map<std::string, const std::vector<std::string>*> stages_of;
-  for (const ThermalConditionSpec& c : spec.thermal_conditions) stages_of[c.name] = &c.stages;
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) stages_of[c.name] = &c.stages;
-  for (const ContactSpec& c : spec.contacts) stages_of[c.name] = &c.stages;
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions) stages_of[c.name] = &c.stages;
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) stages_of[c.name] = &c.stages;
+  for (const cases::ContactSpec& c : spec.contacts) stages_of[c.name] = &c.stages;
   std::vector<std::string> idle = without_body(spec, a.mesh, a.first_stage());
-  for (const StageRun& stage : a.stages) {
+  for (const cases::StageRun& stage : a.stages) {
     if (stage.cycle > 1) continue;
     const std::vector<std::string> here = without_body(spec, a.mesh, &stage);
     std::erase_if(idle, [&](const std::string& name) {
-      return holds(*stages_of.at(name), &stage) && std::find(here.begin(), here.end(), name) == here.end();
+      return cases::holds(*stages_of.at(name), &stage) &&
+             std::find(here.begin(), here.end(), name) == here.end();
     });
   }
   return idle;
@@ -287,10 +289,10 @@ std::vector<std::string> idle_throughout(const CaseSpec& spec, const Assembly& a
 
 }  // namespace
 
-void build(const CaseSpec& spec, Assembly& a) {
+void build(const cases::CaseSpec& spec, Assembly& a) {
   // The parts of a run are made in the order in which they need each other: stages, initial temperatures,
   // contacts, mechanics, structural heat, heat, criteria.
-  a.stages = stage_runs(spec);
+  a.stages = cases::stage_runs(spec);
   if (const auto idle = idle_throughout(spec, a); !idle.empty())
     logging::warn("these act on bodies that only conduct heat, and do nothing: {}", listed(idle));
   check_new_bodies(spec, a.stages, a.mesh);
@@ -299,7 +301,7 @@ void build(const CaseSpec& spec, Assembly& a) {
   a.start = start.ranges();
   std::vector<double> highest;
   for (const InitialTemperatureRange& range : a.start) highest.push_back(range.high);
-  check_melts(spec, a.materials, highest);
+  cases::check_melts(spec, a.materials, highest);
   build_contacts(spec, a);
   // Mechanics is given the initial temperatures even if heat is not solved for.
   if (spec.has_mechanics()) {
@@ -322,4 +324,4 @@ void build(const CaseSpec& spec, Assembly& a) {
   a.initial.criteria = a.criteria->initial({a.initial.time, a.initial.heat, a.initial.mechanics});
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

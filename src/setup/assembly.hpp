@@ -4,14 +4,14 @@
 #include <memory>
 #include <vector>
 
-#include "case/case_spec.hpp"
-#include "case/stage_input.hpp"
+#include "cases/case_spec.hpp"
+#include "cases/stage_input.hpp"
 #include "contact/pair.hpp"
 #include "coupling/phases.hpp"
 #include "coupling/state.hpp"
 #include "setup/initial_temperature.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 /// The phases refer to the mesh, the materials and each other: it stays where it is.
 struct Assembly {
@@ -28,24 +28,24 @@ struct Assembly {
   coupling::State initial;
   std::unique_ptr<InitialTemperatures> initial_temperatures;
   std::vector<InitialTemperatureRange> start;  ///< initial temperatures, [body]
-  std::vector<StageRun> stages;                ///< empty: the case has none
+  std::vector<cases::StageRun> stages;         ///< empty: the case has none
   Assembly() = default;
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
   double coldest_start() const;  ///< [K]
-  const StageRun* first_stage() const { return stages.empty() ? nullptr : &stages.front(); }
+  const cases::StageRun* first_stage() const { return stages.empty() ? nullptr : &stages.front(); }
 };
 
 /// Makes contacts, phases and the initial state of an assembly that has its mesh and materials. The case must
 /// outlive it. Collective. Throws InputError.
-void build(const CaseSpec& spec, Assembly& a);
+void build(const cases::CaseSpec& spec, Assembly& a);
 
 /// Gives the phases the conditions of a stage that begins at this displacement. Collective.
 /// @param number  in Assembly::stages
 /// @param begins  its state, which loses the heat of bodies that leave, and gets bodies that come as they are
 ///                drawn and poured; null where a run goes on inside it
 /// Returns the heat of these bodies.
-coupling::BodyHeat apply(const CaseSpec& spec, std::size_t number, const std::vector<double>& displacement,
-                         coupling::State* begins, Assembly& a);
+coupling::BodyHeat apply(const cases::CaseSpec& spec, std::size_t number,
+                         const std::vector<double>& displacement, coupling::State* begins, Assembly& a);
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

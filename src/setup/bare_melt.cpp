@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "heat/thermal_phase.hpp"
 #include "mesh/block_geometry.hpp"
 #include "mesh/quadrature.hpp"
@@ -13,7 +13,7 @@
 #include "system/errors.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -53,21 +53,21 @@ void add_faces(const Assembly& a, AnalysisKind kind, const std::string& surface,
 
 }  // namespace
 
-void check_no_bare_melt(const CaseSpec& spec, const Assembly& a, std::size_t number,
+void check_no_bare_melt(const cases::CaseSpec& spec, const Assembly& a, std::size_t number,
                         const coupling::State& begins) {
   // A stage that takes a contact away from metal which is still melt lets it run out. Only bodies that melt,
   // and that are there in both stages, are looked at.
   if (number == 0 || !a.heat) return;
-  const StageRun &now = a.stages[number], &before = a.stages[number - 1];
+  const cases::StageRun &now = a.stages[number], &before = a.stages[number - 1];
   std::vector<double> solid;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    const BodySpec& body = spec.bodies[b];
+    const cases::BodySpec& body = spec.bodies[b];
     if (a.materials[b].solidification() == nullptr) continue;
-    if (!holds(body.stages, &before) || !holds(body.stages, &now)) continue;
+    if (!cases::holds(body.stages, &before) || !cases::holds(body.stages, &now)) continue;
     // The skin that is freed is that of contacts which hold in the stage before and not in this one.
     Skin skin;
     std::string released;
-    for (const ContactSpec& contact : spec.contacts) {
+    for (const cases::ContactSpec& contact : spec.contacts) {
       if (!holds(spec, contact, a.mesh, &before) || holds(spec, contact, a.mesh, &now)) continue;
       // The solid fraction is computed when the first such contact is found; most stages have none.
       if (solid.empty()) {
@@ -89,11 +89,11 @@ void check_no_bare_melt(const CaseSpec& spec, const Assembly& a, std::size_t num
         "below coherency ({:.0f} % solid): the metal would run out",
         now.stage->name, body.name, released, now.start, 100 * liquid / all,
         100 * a.materials[b].casting.coherency_fraction);
-    if (spec.has_mechanics() && !only_conducts(body))
+    if (spec.has_mechanics() && !cases::only_conducts(body))
       throw InputError(now.stage->where, text,
                        fmt::format("a longer stage '{}', until that skin is solid", before.stage->name));
     logging::warn("{}", text);
   }
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -4,14 +4,14 @@
 
 #include "setup/assembly.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 /// Throws InputError, at the place of the stage in the case file, if metal below coherency on more than a
 /// tenth of the area that a contact held before this stage is left without it, and its body deforms; says so
 /// with a warning where the body only conducts heat. Collective.
 /// @param number  of the stage that begins, in Assembly::stages
 /// @param begins  its state
-void check_no_bare_melt(const CaseSpec& spec, const Assembly& a, std::size_t number,
+void check_no_bare_melt(const cases::CaseSpec& spec, const Assembly& a, std::size_t number,
                         const coupling::State& begins);
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

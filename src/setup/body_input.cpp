@@ -9,11 +9,11 @@
 #include "linear/active_set.hpp"
 #include "parallel/parallel.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
-bool named(const std::vector<std::string>& stages, const StageRun* stage) {
+bool named(const std::vector<std::string>& stages, const cases::StageRun* stage) {
   return !stages.empty() && stage != nullptr && holds(stages, stage);
 }
 
@@ -33,7 +33,7 @@ bool stands(const mesh::Mesh& mesh, const linear::ActiveSet& active, const std::
   return parallel::any_process(found);
 }
 
-[[noreturn]] void refuse(const SourceLocation& where, const std::string& what, const StageRun& stage) {
+[[noreturn]] void refuse(const SourceLocation& where, const std::string& what, const cases::StageRun& stage) {
   throw InputError(where,
                    fmt::format("{} holds in the stage '{}', but its body has gone", what, stage.stage->name),
                    "stages in which the body is there, or no 'stages': then it ends with the body");
@@ -52,7 +52,7 @@ Sides sides(const mesh::Mesh& mesh, const linear::ActiveSet& active, const std::
   return {parallel::any_process(found.gone), parallel::any_process(found.there)};
 }
 
-void check_stages_of(const CaseSpec& spec, const BodySpec& body) {
+void check_stages_of(const cases::CaseSpec& spec, const cases::BodySpec& body) {
   if (body.stages.empty()) return;
   if (spec.dynamics)
     throw InputError(body.where, fmt::format("the body '{}' leaves, but the analysis has inertia", body.name),
@@ -61,24 +61,24 @@ void check_stages_of(const CaseSpec& spec, const BodySpec& body) {
 
 }  // namespace
 
-std::vector<std::string> gone_bodies(const CaseSpec& spec, const StageRun* stage) {
+std::vector<std::string> gone_bodies(const cases::CaseSpec& spec, const cases::StageRun* stage) {
   std::vector<std::string> gone;
-  for (const BodySpec& body : spec.bodies)
+  for (const cases::BodySpec& body : spec.bodies)
     if (!holds(body.stages, stage)) gone.push_back(body.mesh_group());
   return gone;
 }
 
-std::vector<std::string> absent_from_mechanics(const CaseSpec& spec, const StageRun* stage) {
+std::vector<std::string> absent_from_mechanics(const cases::CaseSpec& spec, const cases::StageRun* stage) {
   std::vector<std::string> absent;
-  for (const BodySpec& body : spec.bodies)
-    if (only_conducts(body) || !holds(body.stages, stage)) absent.push_back(body.mesh_group());
+  for (const cases::BodySpec& body : spec.bodies)
+    if (cases::only_conducts(body) || !holds(body.stages, stage)) absent.push_back(body.mesh_group());
   return absent;
 }
 
-void check_bodies(const CaseSpec& spec) {
-  for (const BodySpec& body : spec.bodies) {
+void check_bodies(const cases::CaseSpec& spec) {
+  for (const cases::BodySpec& body : spec.bodies) {
     check_stages_of(spec, body);
-    if (!only_conducts(body)) continue;
+    if (!cases::only_conducts(body)) continue;
     // A body that conducts alone makes sense only among others that deform.
     if (!spec.coupled())
       throw InputError(
@@ -94,18 +94,19 @@ void check_bodies(const CaseSpec& spec) {
   }
   const auto all = [&](const auto& of) { return std::all_of(spec.bodies.begin(), spec.bodies.end(), of); };
   // Where all of them conduct alone the coupling has nothing to do.
-  if (all(only_conducts))
+  if (all(cases::only_conducts))
     throw InputError(spec.bodies.front().where, "no body deforms: all have physics = \"heat\"",
                      "physics = \"heat\" in [analysis]");
   // In heat and mechanics together nothing need deform: a die that only conducts waits for its next casting.
-  for (const StageRun& run : stage_runs(spec))
-    if (all([&](const BodySpec& body) { return !holds(body.stages, &run); }))
+  for (const cases::StageRun& run : cases::stage_runs(spec))
+    if (all([&](const cases::BodySpec& body) { return !holds(body.stages, &run); }))
       throw InputError(spec.bodies.front().where,
                        fmt::format("nothing is left in the stage '{}'", run.stage->name),
                        "a body that stays");
 }
 
-std::vector<char> new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, std::size_t number) {
+std::vector<char> new_bodies(const cases::CaseSpec& spec, const std::vector<cases::StageRun>& runs,
+                             std::size_t number) {
   std::vector<char> fresh(spec.bodies.size(), 0);
   if (number == 0) return fresh;
   for (std::size_t b = 0; b < fresh.size(); ++b)
@@ -114,7 +115,8 @@ std::vector<char> new_bodies(const CaseSpec& spec, const std::vector<StageRun>& 
   return fresh;
 }
 
-void check_new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, const mesh::Mesh& mesh) {
+void check_new_bodies(const cases::CaseSpec& spec, const std::vector<cases::StageRun>& runs,
+                      const mesh::Mesh& mesh) {
   // A body that comes new into a stage starts without strain, so it may not share nodes with one that stays
   // and is strained. Rounds of a cycle beyond the second are like it.
   if (!spec.has_mechanics()) return;
@@ -128,9 +130,10 @@ void check_new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, c
     for (const bool is_new : {false, true})
       for (const mesh::ElementBlock& block : mesh.blocks) {
         const auto b = static_cast<std::size_t>(block.body);
-        const BodySpec& body = spec.bodies[b];
+        const cases::BodySpec& body = spec.bodies[b];
         // Bodies that conduct alone have no displacements to share.
-        if (only_conducts(body) || !holds(body.stages, &runs[i]) || (fresh[b] != 0) != is_new) continue;
+        if (cases::only_conducts(body) || !holds(body.stages, &runs[i]) || (fresh[b] != 0) != is_new)
+          continue;
         bool shared = false;
         for (const Index node : block.nodes) {
           char& there = stays[static_cast<std::size_t>(node)];
@@ -152,11 +155,11 @@ void check_new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, c
   }
 }
 
-void set_walls(const CaseSpec& spec, const mesh::Mesh& mesh, contact::ContactParameters& pair) {
+void set_walls(const cases::CaseSpec& spec, const mesh::Mesh& mesh, contact::ContactParameters& pair) {
   // A surface is a wall when no body behind it deforms. With free roles a lone wall becomes the master.
   std::vector<std::string> conductors;
-  for (const BodySpec& body : spec.bodies)
-    if (only_conducts(body)) conductors.push_back(body.mesh_group());
+  for (const cases::BodySpec& body : spec.bodies)
+    if (cases::only_conducts(body)) conductors.push_back(body.mesh_group());
   const linear::ActiveSet deforms(mesh, conductors);
   if (deforms.complete()) return;
   // Gone in the sense of the set of deforming bodies, and with nothing on the surface that deforms.
@@ -174,7 +177,8 @@ void set_walls(const CaseSpec& spec, const mesh::Mesh& mesh, contact::ContactPar
   pair.penalty = 1;
 }
 
-bool holds(const CaseSpec& spec, const ContactSpec& contact, const mesh::Mesh& mesh, const StageRun* stage) {
+bool holds(const cases::CaseSpec& spec, const cases::ContactSpec& contact, const mesh::Mesh& mesh,
+           const cases::StageRun* stage) {
   if (!holds(contact.stages, stage)) return false;
   const linear::ActiveSet active(mesh, gone_bodies(spec, stage));
   if (active.complete()) return true;
@@ -183,7 +187,8 @@ bool holds(const CaseSpec& spec, const ContactSpec& contact, const mesh::Mesh& m
                       [&](const std::string& surface) { return sides(mesh, active, surface).gone; });
 }
 
-std::vector<std::string> without_body(const CaseSpec& spec, const mesh::Mesh& mesh, const StageRun* stage) {
+std::vector<std::string> without_body(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
+                                      const cases::StageRun* stage) {
   // Conditions and contacts whose body is absent in a stage are idle. One that names the stage in its own
   // list contradicts it, and is refused.
   std::vector<std::string> idle;
@@ -191,16 +196,16 @@ std::vector<std::string> without_body(const CaseSpec& spec, const mesh::Mesh& me
       deforms(mesh, absent_from_mechanics(spec, stage));
   if (deforms.complete()) return idle;
   // Thermal conditions need the body to be there, mechanical ones that it deforms, too.
-  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
-    using Kind = ThermalConditionSpec::Kind;
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions) {
+    using Kind = cases::ThermalConditionSpec::Kind;
     if (!holds(c.stages, stage)) continue;
     const bool needs_faces = c.kind != Kind::temperature && !c.in_volume();
     if (stands(mesh, there, c.group, needs_faces)) continue;
     if (named(c.stages, stage)) refuse(c.where, "the thermal condition '" + c.name + "'", *stage);
     idle.push_back(c.name);
   }
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
-    using Kind = MechanicalConditionSpec::Kind;
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    using Kind = cases::MechanicalConditionSpec::Kind;
     if (!holds(c.stages, stage)) continue;
     const bool needs_faces = c.kind == Kind::pressure || c.kind == Kind::traction;
     if (stands(mesh, deforms, c.group, needs_faces)) continue;
@@ -210,7 +215,7 @@ std::vector<std::string> without_body(const CaseSpec& spec, const mesh::Mesh& me
   }
   // A contact is idle if one of its sides is gone. A side whose faces belong to a body that has gone and to
   // one that stays cannot be either.
-  for (const ContactSpec& c : spec.contacts) {
+  for (const cases::ContactSpec& c : spec.contacts) {
     if (!holds(c.stages, stage)) continue;
     for (const std::string& surface : c.sides()) {
       const Sides side = sides(mesh, there, surface);
@@ -230,4 +235,4 @@ std::vector<std::string> without_body(const CaseSpec& spec, const mesh::Mesh& me
   return idle;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

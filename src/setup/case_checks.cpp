@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "case/stage_input.hpp"
+#include "cases/stage_input.hpp"
 #include "contact/quantities.hpp"
 #include "coupling/all_fields.hpp"
 #include "input/units.hpp"
@@ -21,7 +21,7 @@
 #include "setup/section_names.hpp"
 #include "setup/time_input.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -32,7 +32,7 @@ std::vector<std::string> names_of(const std::vector<S>& sections) {
   return names;
 }
 
-void check_analysis(const AnalysisSpec& a, std::size_t dimension) {
+void check_analysis(const cases::AnalysisSpec& a, std::size_t dimension) {
   if (a.gravity_direction.empty()) return;
   if (a.gravity_direction.size() != dimension && a.gravity_direction.size() != 3)
     throw InputError(a.where,
@@ -49,11 +49,11 @@ void check_analysis(const AnalysisSpec& a, std::size_t dimension) {
 }
 
 /// Names of bodies, and that a friction has heat.
-void check_interfaces(const CaseSpec& spec) {
+void check_interfaces(const cases::CaseSpec& spec) {
   const std::vector<std::string> bodies = names_of(spec.bodies);
   std::set<std::string> seen;
   std::set<std::pair<std::string, std::string>> pairs;
-  for (const BodyInterfaceSpec& i : spec.interfaces) {
+  for (const cases::BodyInterfaceSpec& i : spec.interfaces) {
     if (!i.name.empty() && !seen.insert(i.name).second)
       throw InputError(i.where, fmt::format("the name '{}' is used by two [[interface]] sections", i.name),
                        "each needs a name of its own");
@@ -75,7 +75,7 @@ void check_interfaces(const CaseSpec& spec) {
   }
 }
 
-void check_displacement(const MechanicalConditionSpec& c, AnalysisKind kind) {
+void check_displacement(const cases::MechanicalConditionSpec& c, AnalysisKind kind) {
   if (!c.ux && !c.uy && !c.uz && !c.ur)
     throw InputError(c.where, fmt::format("the displacement '{}' prescribes no component", c.name),
                      kind == AnalysisKind::axisymmetric ? "ur and/or uz" : "ux, uy, uz");
@@ -91,7 +91,7 @@ void check_displacement(const MechanicalConditionSpec& c, AnalysisKind kind) {
                      "ur and uz are x and y");
 }
 
-void check_conditions(const CaseSpec& spec) {
+void check_conditions(const cases::CaseSpec& spec) {
   check_names(spec.thermal_conditions, "[[thermal_condition]]");
   check_names(spec.mechanical_conditions, "[[mechanical_condition]]");
   if (!spec.has_heat() && !spec.thermal_conditions.empty())
@@ -101,8 +101,9 @@ void check_conditions(const CaseSpec& spec) {
     throw InputError(spec.mechanical_conditions.front().where, "there is no mechanics in this analysis",
                      "physics = \"mechanics\" or \"thermomechanical\"");
   for (const auto& c : spec.mechanical_conditions) {
-    if (c.kind == MechanicalConditionSpec::Kind::displacement) check_displacement(c, spec.analysis.kind);
-    if (c.kind == MechanicalConditionSpec::Kind::traction &&
+    if (c.kind == cases::MechanicalConditionSpec::Kind::displacement)
+      check_displacement(c, spec.analysis.kind);
+    if (c.kind == cases::MechanicalConditionSpec::Kind::traction &&
         c.traction.size() != static_cast<std::size_t>(spec.dimension()))
       throw InputError(c.where, fmt::format("the traction '{}' has {} components", c.name, c.traction.size()),
                        fmt::format("{} in this analysis", spec.dimension()));
@@ -110,7 +111,7 @@ void check_conditions(const CaseSpec& spec) {
 }
 
 /// Friction makes heat: it needs a way out of the interface.
-void check_friction_heat(const CaseSpec& spec, const ContactSpec& c) {
+void check_friction_heat(const cases::CaseSpec& spec, const cases::ContactSpec& c) {
   if (!c.friction || !spec.coupled()) return;
   if (!c.heat)
     throw InputError(c.where, fmt::format("friction of the contact '{}' makes heat, but none passes", c.name),
@@ -118,7 +119,7 @@ void check_friction_heat(const CaseSpec& spec, const ContactSpec& c) {
 }
 
 /// Checks that an interface that stores heat gets any.
-void check_interface(const CaseSpec& spec, const ContactSpec& c) {
+void check_interface(const cases::CaseSpec& spec, const cases::ContactSpec& c) {
   if (c.interface.heat_capacity == 0 || (c.heat && spec.has_heat())) return;
   throw InputError(
       c.where,
@@ -126,7 +127,7 @@ void check_interface(const CaseSpec& spec, const ContactSpec& c) {
       "a section [contact.heat] beside it in a case with heat, or no [contact.interface]");
 }
 
-void check_contacts(const CaseSpec& spec) {
+void check_contacts(const cases::CaseSpec& spec) {
   check_names(spec.contacts, "[[contact]]");
   check_names(spec.rigid_surfaces, "[[rigid_surface]]");
   check_rigid_surfaces(spec);
@@ -147,10 +148,10 @@ void check_contacts(const CaseSpec& spec) {
 
 /// The unit of a field in this case: the internal variable of friction may be a slip
 /// (results/fields/state_fields.cpp).
-std::string field_unit(const CaseSpec& spec, const std::string& field) {
+std::string field_unit(const cases::CaseSpec& spec, const std::string& field) {
   if (field != contact::fields::k_internal_variable.name) return std::string(coupling::field_of(field).unit);
   bool works = false, slips = false;
-  for (const ContactSpec& c : spec.contacts) {
+  for (const cases::ContactSpec& c : spec.contacts) {
     if (!c.friction) continue;
     const bool slip = c.friction->internal_variable == contact::InternalVariable::slip;
     (slip ? slips : works) = true;
@@ -159,27 +160,27 @@ std::string field_unit(const CaseSpec& spec, const std::string& field) {
 }
 
 /// The unit of a probe inside the program, through differences.
-std::string probe_unit(const CaseSpec& spec, const ProbeSpec& probe) {
-  if (probe.kind != ProbeSpec::Kind::difference) return field_unit(spec, probe.field);
+std::string probe_unit(const cases::CaseSpec& spec, const cases::ProbeSpec& probe) {
+  if (probe.kind != cases::ProbeSpec::Kind::difference) return field_unit(spec, probe.field);
   const auto first = std::find_if(spec.probes.begin(), spec.probes.end(),
-                                  [&](const ProbeSpec& p) { return p.name == probe.of[0]; });
+                                  [&](const cases::ProbeSpec& p) { return p.name == probe.of[0]; });
   return field_unit(spec, first->field);
 }
 
 /// The unit of an integral follows from the dimension of its group, which only the mesh knows; which global
 /// columns there are, the phases.
-bool has_unit_of_the_run(const CaseSpec& spec, const ProbeSpec& probe) {
-  const auto later = [](const ProbeSpec& p) {
-    return p.kind == ProbeSpec::Kind::integral || p.kind == ProbeSpec::Kind::global;
+bool has_unit_of_the_run(const cases::CaseSpec& spec, const cases::ProbeSpec& probe) {
+  const auto later = [](const cases::ProbeSpec& p) {
+    return p.kind == cases::ProbeSpec::Kind::integral || p.kind == cases::ProbeSpec::Kind::global;
   };
-  if (probe.kind != ProbeSpec::Kind::difference) return later(probe);
+  if (probe.kind != cases::ProbeSpec::Kind::difference) return later(probe);
   return std::any_of(spec.probes.begin(), spec.probes.end(),
-                     [&](const ProbeSpec& p) { return p.name == probe.of[0] && later(p); });
+                     [&](const cases::ProbeSpec& p) { return p.name == probe.of[0] && later(p); });
 }
 
-void check_profiles(const CaseSpec& spec) {
+void check_profiles(const cases::CaseSpec& spec) {
   check_names(spec.profiles, "[[profile]]");
-  for (const ProfileSpec& p : spec.profiles) {
+  for (const cases::ProfileSpec& p : spec.profiles) {
     // The name becomes that of a file, and the units of columns those of fields.
     const bool plain = std::all_of(p.name.begin(), p.name.end(), [](unsigned char c) {
       return std::isalnum(c) != 0 || c == '_' || c == '-';
@@ -190,35 +191,36 @@ void check_profiles(const CaseSpec& spec) {
     if (p.columns.empty())
       throw InputError(p.where, fmt::format("the profile '{}' has no [[profile.column]]", p.name));
     check_names(p.columns, "[[profile.column]]");
-    for (const ProfileColumnSpec& c : p.columns)
+    for (const cases::ProfileColumnSpec& c : p.columns)
       if (!units::compatible(c.unit, field_unit(spec, c.field)))
         throw InputError(c.where, fmt::format("the column '{}' cannot be given in '{}'", c.name, c.unit),
                          "a unit of " + units::dimension_name(field_unit(spec, c.field)));
   }
 }
 
-void check_probes(const CaseSpec& spec) {
+void check_probes(const cases::CaseSpec& spec) {
   // A difference needs two probes that exist and are no differences themselves.
   check_names(spec.probes, "[[probe]]");
   const std::vector<std::string> bodies = names_of(spec.bodies), probes = names_of(spec.probes);
   for (const auto& p : spec.probes) {
-    if (p.kind == ProbeSpec::Kind::difference) {
+    if (p.kind == cases::ProbeSpec::Kind::difference) {
       if (p.of.size() != 2)
         throw InputError(p.where, fmt::format("the probe '{}' needs two others", p.name),
                          "of = [\"a\", \"b\"]");
       for (const std::string& other : p.of) {
         const auto found = std::find_if(spec.probes.begin(), spec.probes.end(),
-                                        [&](const ProbeSpec& q) { return q.name == other; });
+                                        [&](const cases::ProbeSpec& q) { return q.name == other; });
         if (found == spec.probes.end())
           throw InputError(
               p.where,
               fmt::format("the probe '{}' is the difference of an unknown probe '{}'", p.name, other),
               one_of(probes, other));
-        if (found->kind == ProbeSpec::Kind::difference)
+        if (found->kind == cases::ProbeSpec::Kind::difference)
           throw InputError(p.where, fmt::format("the probe '{}' is the difference of a difference", p.name));
       }
     }
-    if (p.kind == ProbeSpec::Kind::point && p.point.size() != static_cast<std::size_t>(spec.dimension()))
+    if (p.kind == cases::ProbeSpec::Kind::point &&
+        p.point.size() != static_cast<std::size_t>(spec.dimension()))
       throw InputError(p.where,
                        fmt::format("the point of the probe '{}' has {} coordinates", p.name, p.point.size()),
                        fmt::format("{} in this analysis", spec.dimension()));
@@ -237,10 +239,10 @@ void check_probes(const CaseSpec& spec) {
   }
 }
 
-void check_coupling(const CaseSpec& spec) {
+void check_coupling(const cases::CaseSpec& spec) {
   if (!spec.coupled()) return;
-  using Heating = CouplingSpec::StructuralHeatForm;
-  const CouplingSpec& c = spec.coupling;
+  using Heating = cases::CouplingSpec::StructuralHeatForm;
+  const cases::CouplingSpec& c = spec.coupling;
   if (const auto wrong = c.scheme->objection(scheme_context(spec, false)))
     throw InputError(c.where, wrong->found, wrong->allowed);
   if (const std::string reason = against_two_stages(spec);
@@ -254,8 +256,8 @@ void check_coupling(const CaseSpec& spec) {
                      "structural_heating \"entropy\", \"literal\" or \"temperature\", or as_printed = false");
 }
 
-void check_simplices(const CaseSpec& spec) {
-  const MechanicsSpec& m = spec.mechanics;
+void check_simplices(const cases::CaseSpec& spec) {
+  const cases::MechanicsSpec& m = spec.mechanics;
   if (m.stabilisation == mechanics::Stabilisation::algebraic && spec.dynamics)
     throw InputError(
         spec.dynamics->where,
@@ -263,7 +265,7 @@ void check_simplices(const CaseSpec& spec) {
         "stabilisation = \"orthogonal\"");
 }
 
-void check_output(const OutputSpec& o) {
+void check_output(const cases::OutputSpec& o) {
   const auto check = [&](const std::string& unit, const char* si, const char* key, const char* allowed) {
     if (!units::compatible(unit, si))
       throw InputError(o.where, fmt::format("'{}' is no unit for {}", unit, key), allowed);
@@ -275,7 +277,7 @@ void check_output(const OutputSpec& o) {
 
 }  // namespace
 
-void check_case(const CaseSpec& spec) {
+void check_case(const cases::CaseSpec& spec) {
   // Each section by itself, then what sections say together.
   check_analysis(spec.analysis, static_cast<std::size_t>(spec.dimension()));
   check_mesh(spec.mesh, spec.analysis);
@@ -286,7 +288,7 @@ void check_case(const CaseSpec& spec) {
   check_conditions(spec);
   check_contacts(spec);
   check_interfaces(spec);
-  check_stage_names(spec);
+  cases::check_stage_names(spec);
   check_bodies(spec);
   check_coupling(spec);
   check_dynamics(spec);
@@ -298,8 +300,8 @@ void check_case(const CaseSpec& spec) {
   if (!spec.time.steady && spec.output.every && *spec.time.end / *spec.output.every > 1e6)
     throw InputError(spec.time.where, "more than a million outputs are asked for",
                      "a longer `every` in [output]");
-  for (const ThermalConditionSpec& c : spec.thermal_conditions)
-    if (spec.time.steady && c.kind == ThermalConditionSpec::Kind::exothermic)
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions)
+    if (spec.time.steady && c.kind == cases::ThermalConditionSpec::Kind::exothermic)
       throw InputError(c.where, fmt::format("'{}' burns, and a steady analysis has no time for it", c.name),
                        "steady = false, or kind = \"source\"");
   if (spec.time.steady && spec.dynamics)
@@ -307,4 +309,4 @@ void check_case(const CaseSpec& spec) {
                      "no [dynamics], or steady = false");
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

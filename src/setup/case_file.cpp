@@ -3,17 +3,17 @@
 
 #include <fmt/format.h>
 
-#include "case/case_keys.hpp"
-#include "case/overrides.hpp"
-#include "case/physics_switch.hpp"
-#include "case/roles.hpp"
-#include "case/stage_input.hpp"
+#include "cases/case_keys.hpp"
+#include "cases/overrides.hpp"
+#include "cases/physics_switch.hpp"
+#include "cases/roles.hpp"
+#include "cases/stage_input.hpp"
 #include "input/keys.hpp"
 #include "setup/case_layers.hpp"
 #include "system/log.hpp"
 #include "system/version.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -62,7 +62,7 @@ std::string Case::toml() const {
 }
 
 Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
-               std::optional<Physics> physics) {
+               std::optional<cases::Physics> physics) {
   Case result;
   const CaseName name = case_named(path);
   // Layers of files, then the command line, which has the last word; only the complete document is read and
@@ -70,21 +70,21 @@ Case load_case(const std::filesystem::path& path, const std::vector<std::string>
   result.file = name.file;
   result.variant = name.variant;
   Value document = load_layers(name);
-  for (const std::string& assignment : overrides) apply_override(document, assignment);
+  for (const std::string& assignment : overrides) cases::apply_override(document, assignment);
   // A change of physics takes out what the other kind does not know, and says so.
   if (physics)
-    if (const std::string left_out = switch_physics(document, *physics); !left_out.empty())
+    if (const std::string left_out = cases::switch_physics(document, *physics); !left_out.empty())
       logging::info("heat alone, without {}", left_out);
   // Paths are relative to the file that names them, which is known only until layers are merged.
   resolve_paths(document);
-  result.document = case_keys().info().completed(document, "");
-  case_keys().assign(result.spec, result.document);
+  result.document = cases::case_keys().info().completed(document, "");
+  cases::case_keys().assign(result.spec, result.document);
   // Stages first, since conditions refer to them; then checks, then what follows from the whole.
-  resolve_stages(result.spec);
+  cases::resolve_stages(result.spec);
   check_case(result.spec);
-  vary_conditions(result.spec);
-  decide_physics(result.spec);
+  cases::vary_conditions(result.spec);
+  cases::decide_physics(result.spec);
   return result;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

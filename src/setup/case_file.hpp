@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "input/document.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 struct Case {
-  CaseSpec spec;
+  cases::CaseSpec spec;
   Value document;              ///< the resolved case: includes, overrides and defaults in place
   std::filesystem::path file;  ///< the file that was asked for
   std::string variant;         ///< of it (case_layers.hpp); empty: the file as it is
@@ -26,12 +26,12 @@ struct Case {
 /// mesh. Throws InputError with the place of the first thing wrong.
 /// @param overrides "path=value" as given to --set
 /// @param physics   what is computed in place of what the case says; the rest of the case follows
-///                  (case/physics_switch.hpp)
+///                  (cases/physics_switch.hpp)
 Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
-               std::optional<Physics> physics = {});
+               std::optional<cases::Physics> physics = {});
 
 /// Checks between keys, as part of load_case: names used twice, components that the analysis does not have,
 /// ...
-void check_case(const CaseSpec& spec);
+void check_case(const cases::CaseSpec& spec);
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

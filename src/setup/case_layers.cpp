@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <system_error>
 
-#include "case/overrides.hpp"
+#include "cases/overrides.hpp"
 #include "input/keys.hpp"
 #include "mesh/files/file_format.hpp"
 #include "system/errors.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -95,7 +95,7 @@ class Layers {
     // Laid over its base, with the chain of names that tells a circle.
     Value base = file(name.file);
     const Chain chain(*this, ":" + name.variant);
-    lay_over(base, merged(*section, &variants));
+    cases::lay_over(base, merged(*section, &variants));
     return base;
   }
 
@@ -123,9 +123,9 @@ class Layers {
     if (!include) return document;
     Value base;
     for (const Value& item : include->is_list() ? include->items() : Value::List{*include})
-      lay_over(base, included(item, variants));
+      cases::lay_over(base, included(item, variants));
     std::erase_if(document.entries(), [](const Value::Entry& e) { return e.key == "include"; });
-    lay_over(base, document);
+    cases::lay_over(base, document);
     base.where = document.where;
     return base;
   }
@@ -240,4 +240,4 @@ std::vector<VariantInfo> variants_beside(const fs::path& case_file) {
   return variants;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

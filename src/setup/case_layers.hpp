@@ -17,7 +17,7 @@
 
 #include "input/document.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 /// A case as a user names it, taken apart.
 struct CaseName {
@@ -43,4 +43,4 @@ std::vector<VariantInfo> variants_beside(const std::filesystem::path& case_file)
 /// A path of the user seen from the file it is written in; on the command line, from the present folder.
 std::string resolved_path(const Value& value);
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

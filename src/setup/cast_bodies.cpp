@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
-std::vector<results::CastBody> cast_bodies(const CaseSpec& spec,
+std::vector<results::CastBody> cast_bodies(const cases::CaseSpec& spec,
                                            const std::vector<material::Material>& materials,
                                            const std::vector<InitialTemperatureRange>& start) {
   std::vector<results::CastBody> cast;
@@ -16,21 +16,23 @@ std::vector<results::CastBody> cast_bodies(const CaseSpec& spec,
     // What can freeze and starts above its solidus somewhere counts, unless its role denies it.
     const material::PhaseChange* freezing = materials[b].solidification();
     if (freezing == nullptr || start[b].high <= freezing->fraction.solidus()) continue;
-    const BodySpec& body = spec.bodies[b];
-    const Role role = role_of(body, materials[b]);
-    if (!is_poured(role)) continue;
+    const cases::BodySpec& body = spec.bodies[b];
+    const cases::Role role = cases::role_of(body, materials[b]);
+    if (!cases::is_poured(role)) continue;
     const std::vector<std::string>& feeders = spec.criteria.feeders;
     // Names tell only where the case does not.
-    const bool named = feeders.empty() && role_in_name(body.name) == Role::riser;
-    const bool feeds = role == Role::riser || named ||
+    const bool named = feeders.empty() && cases::role_in_name(body.name) == cases::Role::riser;
+    const bool feeds = role == cases::Role::riser || named ||
                        std::find(feeders.begin(), feeders.end(), body.mesh_group()) != feeders.end();
-    const bool gates = role == Role::gating || (!body.role && role_in_name(body.name) == Role::gating);
+    const bool gates =
+        role == cases::Role::gating || (!body.role && cases::role_in_name(body.name) == cases::Role::gating);
     cast.push_back({static_cast<int>(b), spec.bodies[b].name, feeds, gates && !feeds});
   }
   return cast;
 }
 
-std::vector<char> followed_bodies(const CaseSpec& spec, const std::vector<material::Material>& materials,
+std::vector<char> followed_bodies(const cases::CaseSpec& spec,
+                                  const std::vector<material::Material>& materials,
                                   const std::vector<InitialTemperatureRange>& start) {
   std::vector<char> followed(spec.bodies.size(), 0);
   for (const results::CastBody& cast : cast_bodies(spec, materials, start))
@@ -41,4 +43,4 @@ std::vector<char> followed_bodies(const CaseSpec& spec, const std::vector<materi
   return followed;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -16,7 +16,7 @@
 #include "setup/friction_input.hpp"
 #include "setup/rigid_surface_input.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -32,8 +32,8 @@ constexpr double k_pressure_tolerance = 0.01, k_pressure_tolerance_of_slides = 0
 /// leaving it.
 constexpr double k_wet_share = 0.1;
 
-contact::NormalKind normal_kind(ContactSpec::Normal normal, bool dynamic) {
-  using Normal = ContactSpec::Normal;
+contact::NormalKind normal_kind(cases::ContactSpec::Normal normal, bool dynamic) {
+  using Normal = cases::ContactSpec::Normal;
   switch (normal) {
     case Normal::penalty:
       return contact::NormalKind::penalty;
@@ -47,8 +47,8 @@ contact::NormalKind normal_kind(ContactSpec::Normal normal, bool dynamic) {
   return dynamic ? contact::NormalKind::energy_conserving : contact::NormalKind::penalty;
 }
 
-void add_friction(const ContactSpec& c, Physics physics, contact::ContactParameters& pair) {
-  if (c.friction && physics == Physics::heat)
+void add_friction(const cases::ContactSpec& c, cases::Physics physics, contact::ContactParameters& pair) {
+  if (c.friction && physics == cases::Physics::heat)
     throw InputError(c.friction->where, "friction in an analysis of heat alone",
                      "physics = \"thermomechanical\" or \"mechanics\", or no [contact.friction]");
   if (c.wear && !c.friction)
@@ -123,18 +123,18 @@ Table harmonic_mean(const Table& one, const Table& two) {
 
 }  // namespace
 
-std::vector<contact::ContactParameters> contact_specs(const CaseSpec& spec) {
+std::vector<contact::ContactParameters> contact_specs(const cases::CaseSpec& spec) {
   // The keys of each [[contact]] become the parameters of a pair. What the case leaves open is chosen here
   // or, where it depends on the mesh, when the pair is made.
   std::vector<contact::ContactParameters> result;
-  for (const ContactSpec& c : spec.contacts) {
+  for (const cases::ContactSpec& c : spec.contacts) {
     // Names, sides and geometry first, then how the contact is computed, at last what passes
     // through it.
     contact::ContactParameters pair;
     pair.name = c.name;
     pair.slave = c.sides()[0];
     pair.master = c.sides()[1];
-    if (const RigidSurfaceSpec* master = spec.rigid_surface(c.master))
+    if (const cases::RigidSurfaceSpec* master = spec.rigid_surface(c.master))
       pair.rigid_master = rigid_surface(*master, spec.analysis.kind);
     pair.choose_roles = !c.surfaces.empty();
     pair.formulation = c.formulation;
@@ -172,7 +172,7 @@ std::vector<double> contact_moduli(const std::vector<material::Material>& materi
   return moduli;
 }
 
-void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
+void set_leaving_gap(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
                      const std::vector<material::Material>& materials, std::span<const double> sections,
                      contact::ContactParameters& pair) {
   constexpr double k_leaving_share = 0.01, k_room_temperature = 293.15;
@@ -183,7 +183,7 @@ void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
   for (std::size_t b = 0; b < materials.size(); ++b) {
     const material::Material& m = materials[b];
     // Only bodies that deform, freeze and lie on one of the two sides.
-    if (only_conducts(spec.bodies[b]) || !m.mechanical() || m.solidification() == nullptr) continue;
+    if (cases::only_conducts(spec.bodies[b]) || !m.mechanical() || m.solidification() == nullptr) continue;
     if (!meets(mesh, static_cast<int>(b), pair)) continue;
     const double liquidus = m.solidification()->fraction.liquidus();
     const double contraction =
@@ -193,7 +193,7 @@ void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
   }
   pair.leaving_gap = least;
   // The gap and the penalty go with the pair, for its skin and its force need them both.
-  const ContactSpec& c = *std::ranges::find(spec.contacts, pair.name, &ContactSpec::name);
+  const cases::ContactSpec& c = *std::ranges::find(spec.contacts, pair.name, &cases::ContactSpec::name);
   if (least > 0 && pair.atmosphere > 0 && !c.penalty_factor)
     pair.largest_penalty = pair.atmosphere / (k_wet_share * least);
 }
@@ -232,16 +232,16 @@ void set_mean_conductivity(const mesh::Mesh& mesh, const std::vector<material::M
                     materials[static_cast<std::size_t>(master)].conductivity));
 }
 
-void choose_normal(const CaseSpec& spec, const std::vector<material::Material>& materials,
+void choose_normal(const cases::CaseSpec& spec, const std::vector<material::Material>& materials,
                    contact::ContactParameters& pair) {
-  const ContactSpec& c = *std::ranges::find(spec.contacts, pair.name, &ContactSpec::name);
-  const bool chosen = c.normal != ContactSpec::Normal::automatic || c.penalty || c.penalty_factor;
-  if (chosen || spec.dynamics || spec.analysis.physics == Physics::heat) return;
+  const cases::ContactSpec& c = *std::ranges::find(spec.contacts, pair.name, &cases::ContactSpec::name);
+  const bool chosen = c.normal != cases::ContactSpec::Normal::automatic || c.penalty || c.penalty_factor;
+  if (chosen || spec.dynamics || spec.analysis.physics == cases::Physics::heat) return;
   for (std::size_t b = 0; b < materials.size(); ++b)
-    if (!only_conducts(spec.bodies[b]) && materials[b].solidification() != nullptr) return;
+    if (!cases::only_conducts(spec.bodies[b]) && materials[b].solidification() != nullptr) return;
   pair.normal = contact::NormalKind::augmented_lagrangian;
   const bool slides = pair.formulation != contact::Formulation::small_sliding || pair.friction;
   pair.pressure_tolerance = slides ? k_pressure_tolerance_of_slides : k_pressure_tolerance;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

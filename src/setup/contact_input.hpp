@@ -4,16 +4,16 @@
 #include <span>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "contact/points/parameters.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 /// One per [[contact]]. Heat passes between nodes only when heat content is integrated there too (closed
 /// rule).
-std::vector<contact::ContactParameters> contact_specs(const CaseSpec& spec);
+std::vector<contact::ContactParameters> contact_specs(const cases::CaseSpec& spec);
 
 /// Young's modulus of every body at room temperature [Pa], for penalties given as a factor; of bodies without
 /// one, 1 GPa (in an analysis of heat alone it is never used).
@@ -24,7 +24,7 @@ std::vector<double> contact_moduli(const std::vector<material::Material>& materi
 /// the pair's surfaces, the smallest of them. A section is the same for a half between planes of symmetry and
 /// the whole, as their gaps are. Collective.
 /// @param sections  mechanics::sections, [body] [m]
-void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
+void set_leaving_gap(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
                      const std::vector<material::Material>& materials, std::span<const double> sections,
                      contact::ContactParameters& pair);
 
@@ -45,7 +45,7 @@ void set_mean_conductivity(const mesh::Mesh& mesh, const std::vector<material::M
 /// Chooses the law of pressure where the case leaves it to the program: of bodies none of which melts by
 /// multipliers, whose pressures do not show the compliance of the
 /// penalty; else as contact_specs() has it (docs/decisions/0033-default-pressure-of-contact.md).
-void choose_normal(const CaseSpec& spec, const std::vector<material::Material>& materials,
+void choose_normal(const cases::CaseSpec& spec, const std::vector<material::Material>& materials,
                    contact::ContactParameters& pair);
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -10,13 +10,13 @@
 #include "setup/cast_bodies.hpp"
 #include "setup/mechanics_input.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
 /// The direction against gravity, also where its magnitude is zero, as it is with heat alone.
-std::array<double, 3> upward(const AnalysisSpec& analysis) {
-  AnalysisSpec unit = analysis;
+std::array<double, 3> upward(const cases::AnalysisSpec& analysis) {
+  cases::AnalysisSpec unit = analysis;
   unit.gravity = 1;
   std::array<double, 3> up = gravity(unit);
   for (double& component : up) component = -component;
@@ -24,15 +24,15 @@ std::array<double, 3> upward(const AnalysisSpec& analysis) {
 }
 
 /// That of the case, else of the mould that gives way most.
-double mould_rigidity(const CaseSpec& spec, const std::vector<material::Material>& materials) {
+double mould_rigidity(const cases::CaseSpec& spec, const std::vector<material::Material>& materials) {
   if (spec.feeding.mould_rigidity) return *spec.feeding.mould_rigidity;
   double least = 1;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
-    if (spec.bodies[b].role == Role::mould) least = std::min(least, materials[b].casting.rigidity);
+    if (spec.bodies[b].role == cases::Role::mould) least = std::min(least, materials[b].casting.rigidity);
   return least;
 }
 
-criteria::FeedingOptions feeding_options(const CaseSpec& spec, const mesh::Mesh& mesh,
+criteria::FeedingOptions feeding_options(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
                                          const std::vector<material::Material>& materials,
                                          const std::vector<InitialTemperatureRange>& start) {
   // Which bodies are followed, what is up, and which surfaces air can enter by.
@@ -53,16 +53,16 @@ criteria::FeedingOptions feeding_options(const CaseSpec& spec, const mesh::Mesh&
   for (const results::CastBody& cast : cast_bodies(spec, materials, start))
     if (cast.feeds) options.risers[static_cast<std::size_t>(cast.body)] = 1;
   // Skins that something touches or cools are no free surfaces.
-  for (const ContactSpec& contact : spec.contacts)
+  for (const cases::ContactSpec& contact : spec.contacts)
     for (const std::string& side : contact.sides()) options.touched.insert(side);
-  for (const ThermalConditionSpec& condition : spec.thermal_conditions)
+  for (const cases::ThermalConditionSpec& condition : spec.thermal_conditions)
     options.cooled.insert(condition.group);
   return options;
 }
 
 }  // namespace
 
-std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const mesh::Mesh& mesh,
+std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
                                                   const std::vector<material::Material>& materials,
                                                   const std::vector<InitialTemperatureRange>& start,
                                                   const coupling::Phases& phases) {
@@ -101,4 +101,4 @@ std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const me
   return all;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
-using Method = DynamicsSpec::Method;
+using Method = cases::DynamicsSpec::Method;
 
-mechanics::Motion motion(const DynamicsSpec& dynamics) {
+mechanics::Motion motion(const cases::DynamicsSpec& dynamics) {
   using mechanics::Motion;
   switch (dynamics.method) {
     case Method::backward_euler:
@@ -24,7 +24,7 @@ mechanics::Motion motion(const DynamicsSpec& dynamics) {
   return Motion::backward_euler();
 }
 
-void check_velocity(const BodySpec& body, const CaseSpec& spec) {
+void check_velocity(const cases::BodySpec& body, const cases::CaseSpec& spec) {
   if (body.initial_velocity.empty()) return;
   if (!spec.dynamics)
     throw InputError(body.where,
@@ -40,7 +40,7 @@ void check_velocity(const BodySpec& body, const CaseSpec& spec) {
 
 }  // namespace
 
-std::string method_name(const DynamicsSpec& dynamics) {
+std::string method_name(const cases::DynamicsSpec& dynamics) {
   switch (dynamics.method) {
     case Method::backward_euler:
       return "backward_euler";
@@ -53,23 +53,23 @@ std::string method_name(const DynamicsSpec& dynamics) {
   return "newmark";
 }
 
-std::optional<mechanics::DynamicsOptions> dynamics_options(const CaseSpec& spec) {
+std::optional<mechanics::DynamicsOptions> dynamics_options(const cases::CaseSpec& spec) {
   if (!spec.dynamics) return {};
   mechanics::DynamicsOptions options;
   options.mass = spec.dynamics->mass;
   options.motion = motion(*spec.dynamics);
-  for (const BodySpec& body : spec.bodies) {
+  for (const cases::BodySpec& body : spec.bodies) {
     std::array<double, 3>& velocity = options.initial_velocity.emplace_back();
     for (std::size_t i = 0; i < body.initial_velocity.size(); ++i) velocity[i] = body.initial_velocity[i];
   }
   return options;
 }
 
-void check_dynamics(const CaseSpec& spec) {
-  for (const BodySpec& body : spec.bodies) check_velocity(body, spec);
+void check_dynamics(const cases::CaseSpec& spec) {
+  for (const cases::BodySpec& body : spec.bodies) check_velocity(body, spec);
   // Without the section there is no inertia, and nothing to contradict.
   if (!spec.dynamics) return;
-  const DynamicsSpec& d = *spec.dynamics;
+  const cases::DynamicsSpec& d = *spec.dynamics;
   if (!spec.has_mechanics())
     throw InputError(d.where, "there is no mechanics in this analysis that inertia could act in",
                      "physics = \"mechanics\" or \"thermomechanical\", or no [dynamics]");
@@ -85,4 +85,4 @@ void check_dynamics(const CaseSpec& spec) {
         fmt::format("beta of {} or more", least));
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -4,18 +4,18 @@
 #include <optional>
 #include <string>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "mechanics/inertial_forces.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 /// Nothing without [dynamics].
-std::optional<mechanics::DynamicsOptions> dynamics_options(const CaseSpec& spec);
+std::optional<mechanics::DynamicsOptions> dynamics_options(const cases::CaseSpec& spec);
 
 /// "newmark", for messages; the trapezoidal rule is one of Newmark's methods.
-std::string method_name(const DynamicsSpec& dynamics);
+std::string method_name(const cases::DynamicsSpec& dynamics);
 
 /// Throws InputError for settings that contradict each other.
-void check_dynamics(const CaseSpec& spec);
+void check_dynamics(const cases::CaseSpec& spec);
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -9,7 +9,7 @@
 #include "input/place_spec.hpp"
 #include "input/point_table.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -22,13 +22,13 @@ constexpr double k_times_a_step = 8;
 
 class EventList {
  public:
-  EventList(const StageRun* stage, double from, double to, double step)
+  EventList(const cases::StageRun* stage, double from, double to, double step)
       : stage_(stage), from_(from), to_(to), spacing_(step / k_times_a_step) {}
 
   /// @param at_ends  its values at the ends of steps count, rather than its mean over them
-  void add(const Function& f, TimeOrigin clock, bool at_ends, std::optional<double> of_values = {}) {
+  void add(const Function& f, cases::TimeOrigin clock, bool at_ends, std::optional<double> of_values = {}) {
     // Times are counted from the clock of the condition.
-    const double start = clock == TimeOrigin::stage && stage_ != nullptr ? stage_->start : 0;
+    const double start = clock == cases::TimeOrigin::stage && stage_ != nullptr ? stage_->start : 0;
     const double from = from_ - start, to = to_ - start;
     if (f.place != nullptr) return add(*f.place, from, to, start, at_ends);
     if (f.of != Argument::time || f.table.constant()) return;
@@ -90,21 +90,21 @@ class EventList {
     }
   }
 
-  const StageRun* stage_;
+  const cases::StageRun* stage_;
   double from_, to_, spacing_;
 };
 
 }  // namespace
 
-std::vector<TimeEvent> time_events(const CaseSpec& spec, const StageRun* stage, double from, double to,
-                                   double step) {
+std::vector<TimeEvent> time_events(const cases::CaseSpec& spec, const cases::StageRun* stage, double from,
+                                   double to, double step) {
   // Times at which a condition jumps or bends, so that steps land on them. Conditions that do not hold in the
   // stage, and functions of temperature, give none.
   EventList list(stage, from, to, step);
   if (spec.has_heat())
-    for (const ThermalConditionSpec& c : spec.thermal_conditions) {
-      if (!holds(c.stages, stage)) continue;
-      using Kind = ThermalConditionSpec::Kind;
+    for (const cases::ThermalConditionSpec& c : spec.thermal_conditions) {
+      if (!cases::holds(c.stages, stage)) continue;
+      using Kind = cases::ThermalConditionSpec::Kind;
       // A sleeve ignites by temperature, at no time that is known beforehand.
       if (c.kind == Kind::exothermic) continue;
       if (c.kind == Kind::temperature) {
@@ -122,9 +122,9 @@ std::vector<TimeEvent> time_events(const CaseSpec& spec, const StageRun* stage, 
     }
   // Mechanical conditions and tools follow in the same way.
   if (spec.has_mechanics()) {
-    for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
-      if (!holds(c.stages, stage)) continue;
-      using Kind = MechanicalConditionSpec::Kind;
+    for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
+      if (!cases::holds(c.stages, stage)) continue;
+      using Kind = cases::MechanicalConditionSpec::Kind;
       if (c.kind == Kind::pressure) list.add(c.pressure, c.clock, true);
       if (c.kind == Kind::traction)
         for (const Function& f : c.traction) list.add(f, c.clock, true);
@@ -132,13 +132,13 @@ std::vector<TimeEvent> time_events(const CaseSpec& spec, const StageRun* stage, 
         for (const auto* u : {&c.ux, &c.uy, &c.uz, &c.ur})
           if (*u) list.add(**u, c.clock, true);
     }
-    for (const RigidSurfaceSpec& s : spec.rigid_surfaces) {
+    for (const cases::RigidSurfaceSpec& s : spec.rigid_surfaces) {
       for (const auto* motion : {&s.ux, &s.uy, &s.uz, &s.rotation})
-        if (*motion) list.add(**motion, TimeOrigin::run, true);
-      if (s.temperature) list.add(*s.temperature, TimeOrigin::run, true, k_of_values);
+        if (*motion) list.add(**motion, cases::TimeOrigin::run, true);
+      if (s.temperature) list.add(*s.temperature, cases::TimeOrigin::run, true, k_of_values);
     }
   }
   return std::move(list.events);
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "case/case_spec.hpp"
-#include "case/stage_input.hpp"
+#include "cases/case_spec.hpp"
+#include "cases/stage_input.hpp"
 #include "numbers/time_events.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 /// Events of all that is a function of time: thermal and mechanical conditions that hold in the stage, and
 /// rigid surfaces. Of tables the points that they need (corners()); of formulas of t alone every jump and
@@ -16,7 +16,7 @@ namespace solidus::model {
 /// @param stage     null: a run without stages
 /// @param from, to  times of the run [s]
 /// @param step      asked for [s]
-std::vector<TimeEvent> time_events(const CaseSpec& spec, const StageRun* stage, double from, double to,
-                                   double step);
+std::vector<TimeEvent> time_events(const cases::CaseSpec& spec, const cases::StageRun* stage, double from,
+                                   double to, double step);
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

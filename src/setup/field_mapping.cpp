@@ -16,7 +16,7 @@
 #include "system/common_failure.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -189,4 +189,4 @@ MappedEnthalpy map_enthalpy(const PlaceSpec& place, AnalysisKind kind, const mat
   return mapped;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -4,12 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "input/place_spec.hpp"
 #include "material/enthalpy.hpp"
 #include "mesh/mesh.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 struct MappedEnthalpy {
   std::vector<double> values;            ///< h [J/m³], one a node asked for
@@ -32,4 +32,4 @@ MappedEnthalpy map_enthalpy(const PlaceSpec& place, AnalysisKind kind, const mat
 /// Weights of the closed rule at the nodes of a body [m³], [local node]; ghosts have a part of theirs.
 std::vector<double> closed_weights(const mesh::Mesh& mesh, int body, AnalysisKind kind);
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

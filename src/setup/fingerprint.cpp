@@ -19,19 +19,19 @@
 #include "setup/dynamics_input.hpp"
 #include "system/processes.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
 // Describes the formulation of triangles and tetrahedra, on which their history depends; by default the
 // material decides.
-std::string simplices_text(const MechanicsSpec& m) {
+std::string simplices_text(const cases::MechanicsSpec& m) {
   const char* const formulation[] = {"", ", mixed simplices", ", displacement simplices"};
   return std::string(formulation[static_cast<std::size_t>(m.simplices)]) +
          (m.stabilisation == mechanics::Stabilisation::algebraic ? ", algebraic sub-scales" : "");
 }
 
-std::string analysis_text(const CaseSpec& spec) {
+std::string analysis_text(const cases::CaseSpec& spec) {
   constexpr std::array<const char*, 3> k_physics = {"heat", "mechanics", "thermomechanical"};
   constexpr std::array<const char*, 3> k_kinds = {"plane strain", "axisymmetric", "3D"};
   return fmt::format("{}, {}, {} rule{}{}{}", k_kinds.at(static_cast<std::size_t>(spec.analysis.kind)),
@@ -43,8 +43,8 @@ std::string analysis_text(const CaseSpec& spec) {
 }
 
 // Describes the physics and the stages of a body, on which the contents of a state depend.
-std::string body_text(const BodySpec& body) {
-  std::string text = body.name + (only_conducts(body) ? " that only conducts" : "");
+std::string body_text(const cases::BodySpec& body) {
+  std::string text = body.name + (cases::only_conducts(body) ? " that only conducts" : "");
   for (std::size_t i = 0; i < body.stages.size(); ++i) text += (i == 0 ? " in " : " + ") + body.stages[i];
   return text;
 }
@@ -205,7 +205,7 @@ std::string material_text(const material::Material& m) {
 
 }  // namespace
 
-results::Fingerprint fingerprint(const CaseSpec& spec, const mesh::Mesh& mesh,
+results::Fingerprint fingerprint(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
                                  const std::vector<material::Material>& materials,
                                  const std::vector<double>& initial) {
   results::Fingerprint result = {{"analysis", analysis_text(spec)}, {"mesh", mesh_text(mesh)}};
@@ -220,4 +220,4 @@ results::Fingerprint fingerprint(const CaseSpec& spec, const mesh::Mesh& mesh,
   return result;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

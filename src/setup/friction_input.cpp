@@ -7,11 +7,11 @@
 
 #include "input/units.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 namespace {
 
 /// The unit of the internal variable, in SI.
-double unit_of(const FrictionSpec& spec) {
+double unit_of(const cases::FrictionSpec& spec) {
   const bool slip = spec.internal_variable == contact::InternalVariable::slip;
   const char* si = slip ? "m" : "N/m";
   const std::string unit = spec.internal_variable_unit.value_or(si);
@@ -23,7 +23,7 @@ double unit_of(const FrictionSpec& spec) {
   return units::conversion(unit, si).scale;
 }
 
-contact::FrictionCurve curve(const FrictionCurveSpec& spec, bool only) {
+contact::FrictionCurve curve(const cases::FrictionCurveSpec& spec, bool only) {
   if (!spec.temperature && !only)
     throw InputError(spec.where, "one of several friction curves has no temperature",
                      "a temperature for each");
@@ -42,14 +42,14 @@ contact::FrictionCurve curve(const FrictionCurveSpec& spec, bool only) {
 
 }  // namespace
 
-contact::FrictionParameters friction_spec(const FrictionSpec& spec) {
+contact::FrictionParameters friction_spec(const cases::FrictionSpec& spec) {
   contact::FrictionParameters r;
   r.where = r.coefficient.where = spec.where;
   r.internal_variable = spec.internal_variable;
   r.coefficient.unit = unit_of(spec);
   r.coefficient.law = spec.law;
   for (const Function& term : spec.coefficient) r.coefficient.terms.push_back(term.table);
-  for (const FrictionCurveSpec& c : spec.curves)
+  for (const cases::FrictionCurveSpec& c : spec.curves)
     r.coefficient.curves.push_back(curve(c, spec.curves.size() == 1));
   r.tangential_penalty = spec.tangential_penalty;
   r.tangential_penalty_factor = spec.tangential_penalty_factor;
@@ -59,8 +59,8 @@ contact::FrictionParameters friction_spec(const FrictionSpec& spec) {
   return r;
 }
 
-contact::WearParameters wear_spec(const WearSpec& spec) {
+contact::WearParameters wear_spec(const cases::WearSpec& spec) {
   return {spec.archard, spec.hardness.table, spec.master_share, spec.where};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -8,22 +8,23 @@
 #include <cctype>
 #include <map>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "input/keys.hpp"
 #include "mesh/files/body_partition.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
-std::map<std::string, Role> wanted_roles(const std::vector<std::string>& as) {
-  const std::vector<Role> all = {Role::casting, Role::riser,  Role::gating, Role::mould,     Role::core,
-                                 Role::chill,   Role::sleeve, Role::die,    Role::insulation};
-  std::map<std::string, Role> wanted;
+std::map<std::string, cases::Role> wanted_roles(const std::vector<std::string>& as) {
+  const std::vector<cases::Role> all = {cases::Role::casting, cases::Role::riser, cases::Role::gating,
+                                        cases::Role::mould,   cases::Role::core,  cases::Role::chill,
+                                        cases::Role::sleeve,  cases::Role::die,   cases::Role::insulation};
+  std::map<std::string, cases::Role> wanted;
   // All roles by the names that a case gives them.
   std::vector<std::string> names;
-  for (const Role role : all) names.emplace_back(name(role));
+  for (const cases::Role role : all) names.emplace_back(cases::name(role));
   // Each assignment names a body and one of the roles.
   for (const std::string& assignment : as) {
     const std::size_t equals = assignment.find('=');
@@ -44,12 +45,14 @@ int body_preference(const std::string& group) {
   std::string low = group;
   std::ranges::transform(low, low.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return role_in_name(group) || low.find("casting") != std::string::npos ? 2 : mesh::plain_preference(group);
+  return cases::role_in_name(group) || low.find("casting") != std::string::npos
+             ? 2
+             : mesh::plain_preference(group);
 }
 
 std::vector<GeometryBody> bodies_of(const mesh::RawMesh& mesh, const std::vector<std::string>& as,
                                     const std::string& path) {
-  std::map<std::string, Role> wanted = wanted_roles(as);
+  std::map<std::string, cases::Role> wanted = wanted_roles(as);
   // The names of assignments preferred, so that a group which the user names is a body in any case.
   std::vector<GeometryBody> bodies;
   std::vector<std::string> names;
@@ -62,11 +65,11 @@ std::vector<GeometryBody> bodies_of(const mesh::RawMesh& mesh, const std::vector
   for (const std::string& group : partition.bodies) {
     names.push_back(group);
     GeometryBody& body =
-        bodies.emplace_back(GeometryBody{group, Role::casting, mesh::extent_of(mesh, group)});
+        bodies.emplace_back(GeometryBody{group, cases::Role::casting, mesh::extent_of(mesh, group)});
     if (const auto role = wanted.find(group); role != wanted.end()) {
       body.role = role->second;
       wanted.erase(role);
-    } else if (const auto told = role_in_name(group)) {
+    } else if (const auto told = cases::role_in_name(group)) {
       body.role = *told;
     }
   }
@@ -74,10 +77,10 @@ std::vector<GeometryBody> bodies_of(const mesh::RawMesh& mesh, const std::vector
   if (!wanted.empty())
     throw InputError({"--as"}, fmt::format("the geometry has no body '{}'", wanted.begin()->first),
                      one_of(names, wanted.begin()->first));
-  if (std::ranges::none_of(bodies, [](const GeometryBody& b) { return b.role == Role::casting; }))
+  if (std::ranges::none_of(bodies, [](const GeometryBody& b) { return b.role == cases::Role::casting; }))
     throw InputError({"--as"}, "no body of the geometry is a casting",
                      fmt::format("--as NAME=casting, of {}", fmt::join(names, ", ")));
   return bodies;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "mesh/making/hot_spots.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 /// A body of the file.
 struct GeometryBody {
   std::string name;
-  Role role = Role::casting;
+  cases::Role role = cases::Role::casting;
   mesh::BodyExtent extent;
 };
 
@@ -28,4 +28,4 @@ int body_preference(const std::string& group);
 std::vector<GeometryBody> bodies_of(const mesh::RawMesh& mesh, const std::vector<std::string>& as,
                                     const std::string& path);
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

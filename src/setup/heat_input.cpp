@@ -4,25 +4,26 @@
 #include "setup/body_input.hpp"
 #include "setup/place_input.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
-heat::Coefficient coefficient(const Function& f, TimeOrigin clock, const StageRun* stage, AnalysisKind kind) {
+heat::Coefficient coefficient(const Function& f, cases::TimeOrigin clock, const cases::StageRun* stage,
+                              AnalysisKind kind) {
   if (f.of == Argument::temperature) return {f.table, true};
   return {place_function(f, clock, stage, kind), false};
 }
 
 }  // namespace
 
-heat::ThermalConditions thermal_conditions(const CaseSpec& spec, const StageRun* stage) {
-  using Kind = ThermalConditionSpec::Kind;
+heat::ThermalConditions thermal_conditions(const cases::CaseSpec& spec, const cases::StageRun* stage) {
+  using Kind = cases::ThermalConditionSpec::Kind;
   // Each condition that holds in this stage becomes one of the solver's. Values are functions of place and
   // time on the clock that the condition names.
   heat::ThermalConditions conditions;
   conditions.absent_bodies = gone_bodies(spec, stage);
   for (const auto& c : spec.thermal_conditions) {
-    if (!holds(c.stages, stage)) continue;
+    if (!cases::holds(c.stages, stage)) continue;
     const AnalysisKind kind = spec.analysis.kind;
     // Functions of place and time get the clock of the condition here.
     const auto placed = [&](const Function& f) { return place_function(f, c.clock, stage, kind); };
@@ -53,17 +54,17 @@ heat::ThermalConditions thermal_conditions(const CaseSpec& spec, const StageRun*
   return conditions;
 }
 
-std::string against_two_stages(const CaseSpec& spec) {
-  using Heating = CouplingSpec::StructuralHeatForm;
+std::string against_two_stages(const cases::CaseSpec& spec) {
+  using Heating = cases::CouplingSpec::StructuralHeatForm;
   if (!spec.coupled()) return {};
-  const CouplingSpec& c = spec.coupling;
+  const cases::CouplingSpec& c = spec.coupling;
   if (!c.scheme->traits().leaves_stepping) return "the scheme has an integration of its own";
   if (c.structural_heating != Heating::energy && c.structural_heating != Heating::none)
     return "this form of structural heat is of first order";
   return {};
 }
 
-heat::HeatOptions heat_options(const CaseSpec& spec) {
+heat::HeatOptions heat_options(const cases::CaseSpec& spec) {
   heat::HeatOptions options = spec.heat;
   options.alone = !spec.simultaneous();
   // Two stages unless something of the case speaks against them.
@@ -73,10 +74,11 @@ heat::HeatOptions heat_options(const CaseSpec& spec) {
                            : heat::ThermalStepping::backward_euler;
   if (!spec.coupled()) return options;
   if (spec.coupling.as_printed)
-    options.sensible = spec.coupling.structural_heating == CouplingSpec::StructuralHeatForm::temperature
-                           ? heat::SensibleForm::temperature
-                           : heat::SensibleForm::entropy;
+    options.sensible =
+        spec.coupling.structural_heating == cases::CouplingSpec::StructuralHeatForm::temperature
+            ? heat::SensibleForm::temperature
+            : heat::SensibleForm::entropy;
   return options;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

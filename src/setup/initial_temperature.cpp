@@ -12,7 +12,7 @@
 #include "system/common_failure.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -39,7 +39,7 @@ std::vector<Index> nodes_of(const mesh::Mesh& mesh, int body) {
 
 }  // namespace
 
-InitialTemperatures::InitialTemperatures(const CaseSpec& spec,
+InitialTemperatures::InitialTemperatures(const cases::CaseSpec& spec,
                                          const std::vector<material::Material>& materials,
                                          const mesh::Mesh& mesh) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
@@ -138,4 +138,4 @@ std::vector<InitialTemperatureRange> InitialTemperatures::ranges() const {
   return all;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

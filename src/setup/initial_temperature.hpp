@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "material/enthalpy.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 /// Lowest and highest temperature of a body at the start [K].
 struct InitialTemperatureRange {
@@ -28,7 +28,7 @@ struct InitialTemperatureRange {
 class InitialTemperatures {
  public:
   /// Reads the files that the case names. Collective. Throws InputError on every process.
-  InitialTemperatures(const CaseSpec& spec, const std::vector<material::Material>& materials,
+  InitialTemperatures(const cases::CaseSpec& spec, const std::vector<material::Material>& materials,
                       const mesh::Mesh& mesh);
   /// Returns the initial temperature of a body at one of its nodes [K]; at the temperature of an isothermal
   /// change it is molten unless the file says otherwise.
@@ -51,4 +51,4 @@ class InitialTemperatures {
   std::vector<Body> bodies_;
 };
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

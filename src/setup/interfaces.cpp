@@ -8,41 +8,42 @@
 #include <algorithm>
 #include <set>
 
-#include "case/case_materials.hpp"
-#include "case/interface_library.hpp"
-#include "case/roles.hpp"
+#include "cases/case_materials.hpp"
+#include "cases/interface_library.hpp"
+#include "cases/roles.hpp"
 #include "contact/points/parameters.hpp"
 #include "material/cards/library.hpp"
 #include "mesh/surfaces/face_rules.hpp"
 #include "mesh/surfaces/skin.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
 using mesh::BodyPair;
 
-int number_of(const CaseSpec& spec, const std::string& body) {
-  const auto found = std::ranges::find(spec.bodies, body, &BodySpec::name);
+int number_of(const cases::CaseSpec& spec, const std::string& body) {
+  const auto found = std::ranges::find(spec.bodies, body, &cases::BodySpec::name);
   return static_cast<int>(found - spec.bodies.begin());
 }
 
-BodyPair pair_of(const CaseSpec& spec, const BodyInterfaceSpec& i) {
+BodyPair pair_of(const cases::CaseSpec& spec, const cases::BodyInterfaceSpec& i) {
   const int a = number_of(spec, i.bodies[0]), b = number_of(spec, i.bodies[1]);
   return {std::min(a, b), std::max(a, b)};
 }
 
 /// Roles of the bodies whose materials can be read; load_materials() reports those that cannot.
-std::vector<Role> roles_of(const CaseSpec& spec) {
-  std::vector<Role> roles;
-  for (const BodySpec& body : spec.bodies)
-    roles.push_back(role_of(body, material::find_material(body.material, material_folders(), body.where)));
+std::vector<cases::Role> roles_of(const cases::CaseSpec& spec) {
+  std::vector<cases::Role> roles;
+  for (const cases::BodySpec& body : spec.bodies)
+    roles.push_back(
+        cases::role_of(body, material::find_material(body.material, cases::material_folders(), body.where)));
   return roles;
 }
 
 /// The bodies whose skins a contact of the user joins.
-std::set<BodyPair> pairs_with_contacts(const CaseSpec& spec, const mesh::RawMesh& mesh) {
+std::set<BodyPair> pairs_with_contacts(const cases::CaseSpec& spec, const mesh::RawMesh& mesh) {
   std::set<BodyPair> pairs;
   // Nodes of every body, in which those of a surface are looked for.
   std::vector<std::set<Index>> nodes(spec.bodies.size());
@@ -50,7 +51,7 @@ std::set<BodyPair> pairs_with_contacts(const CaseSpec& spec, const mesh::RawMesh
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     for (const mesh::RawBlock& block : mesh.groups.at(spec.bodies[b].mesh_group()).blocks)
       nodes[b].insert(block.nodes.begin(), block.nodes.end());
-  for (const ContactSpec& contact : spec.contacts) {
+  for (const cases::ContactSpec& contact : spec.contacts) {
     std::array<std::set<int>, 2> of_side;
     for (std::size_t s = 0; s < 2; ++s) {
       const auto group = mesh.groups.find(contact.sides()[s]);
@@ -70,8 +71,9 @@ std::set<BodyPair> pairs_with_contacts(const CaseSpec& spec, const mesh::RawMesh
 }
 
 /// Returns the pairs of bodies, each with the section that it belongs to.
-std::vector<std::pair<BodyPair, std::size_t>> wanted_pairs(const CaseSpec& spec, const mesh::RawMesh& mesh,
-                                                           const std::vector<Role>& roles,
+std::vector<std::pair<BodyPair, std::size_t>> wanted_pairs(const cases::CaseSpec& spec,
+                                                           const mesh::RawMesh& mesh,
+                                                           const std::vector<cases::Role>& roles,
                                                            const std::vector<mesh::SplitNodes>& shared) {
   std::vector<std::pair<BodyPair, std::size_t>> wanted;
   // Pairs with a contact of their own are taken, then those that sections name, then all others.
@@ -82,7 +84,7 @@ std::vector<std::pair<BodyPair, std::size_t>> wanted_pairs(const CaseSpec& spec,
       wanted.emplace_back(pair, i);
       taken.insert(pair);
     }
-  const auto metal = [&](int b) { return is_poured(roles[static_cast<std::size_t>(b)]); };
+  const auto metal = [&](int b) { return cases::is_poured(roles[static_cast<std::size_t>(b)]); };
   // Metal that was drawn as several bodies is one where they share nodes.
   for (const mesh::SplitNodes& s : shared)
     if (metal(s.bodies.first) && metal(s.bodies.second)) taken.insert(s.bodies);
@@ -97,8 +99,8 @@ std::vector<std::pair<BodyPair, std::size_t>> wanted_pairs(const CaseSpec& spec,
   return wanted;
 }
 
-std::string law_of(const CaseSpec& spec, const BodyInterfaceSpec& section, int a, int b,
-                   ContactSpec& contact) {
+std::string law_of(const cases::CaseSpec& spec, const cases::BodyInterfaceSpec& section, int a, int b,
+                   cases::ContactSpec& contact) {
   // The law of heat of an interface is what the section gives, or a card of the library: that which is named,
   // or the one that fits both materials and roles best.
   if (section.heat) {
@@ -106,13 +108,13 @@ std::string law_of(const CaseSpec& spec, const BodyInterfaceSpec& section, int a
     return "";
   }
   if (!spec.has_heat()) return "";
-  const std::vector<InterfaceCard> cards = interface_cards();
-  const std::vector<Role> roles = roles_of(spec);
-  const BodySpec &one = spec.bodies[static_cast<std::size_t>(a)],
-                 &two = spec.bodies[static_cast<std::size_t>(b)];
-  const InterfaceCard* card = nullptr;
+  const std::vector<cases::InterfaceCard> cards = cases::interface_cards();
+  const std::vector<cases::Role> roles = roles_of(spec);
+  const cases::BodySpec &one = spec.bodies[static_cast<std::size_t>(a)],
+                        &two = spec.bodies[static_cast<std::size_t>(b)];
+  const cases::InterfaceCard* card = nullptr;
   std::vector<std::string> names;
-  for (const InterfaceCard& c : cards) {
+  for (const cases::InterfaceCard& c : cards) {
     names.push_back(c.name);
     if (c.name == section.law) card = &c;
   }
@@ -121,8 +123,8 @@ std::string law_of(const CaseSpec& spec, const BodyInterfaceSpec& section, int a
     throw InputError(section.where, fmt::format("the library has no interface law '{}'", section.law),
                      one_of(names, section.law));
   if (section.law.empty())
-    card = best_card(cards, {one.material, roles[static_cast<std::size_t>(a)]},
-                     {two.material, roles[static_cast<std::size_t>(b)]});
+    card = cases::best_card(cards, {one.material, roles[static_cast<std::size_t>(a)]},
+                            {two.material, roles[static_cast<std::size_t>(b)]});
   // Without a fitting card the user has to choose.
   if (card == nullptr)
     throw InputError(
@@ -136,17 +138,17 @@ std::string law_of(const CaseSpec& spec, const BodyInterfaceSpec& section, int a
 
 }  // namespace
 
-std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh& mesh,
+std::vector<FoundInterface> find_interfaces(const cases::CaseSpec& spec, mesh::RawMesh& mesh,
                                             const std::string& source) {
   if (spec.interfaces.empty()) return {};
   // Groups and names of all bodies, in their order.
   std::vector<std::string> groups, names;
-  for (const BodySpec& body : spec.bodies) {
+  for (const cases::BodySpec& body : spec.bodies) {
     groups.push_back(body.mesh_group());
     names.push_back(body.name);
   }
   const std::vector<mesh::SplitNodes> shared = mesh::shared_by(mesh, groups);
-  const std::vector<Role> roles = roles_of(spec);
+  const std::vector<cases::Role> roles = roles_of(spec);
   const auto wanted = wanted_pairs(spec, mesh, roles, shared);
   std::set<BodyPair> apart;
   std::vector<mesh::FacingWish> wishes;
@@ -198,7 +200,7 @@ std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh&
   if (!free.empty()) logging::info("skins that face no other body: {}", fmt::join(free, ", "));
   // A section that found nothing is an error if it names its bodies.
   for (std::size_t i = 0; i < spec.interfaces.size(); ++i) {
-    const BodyInterfaceSpec& section = spec.interfaces[i];
+    const cases::BodyInterfaceSpec& section = spec.interfaces[i];
     if (std::any_of(found.begin(), found.end(), [&](const FoundInterface& f) { return f.section == i; }))
       continue;
     if (!section.all())
@@ -212,13 +214,13 @@ std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh&
   return found;
 }
 
-void add_contacts(const std::vector<FoundInterface>& found, CaseSpec& spec) {
+void add_contacts(const std::vector<FoundInterface>& found, cases::CaseSpec& spec) {
   const contact::ContactParameters usual;
   for (const FoundInterface& f : found) {
     // A contact of the usual parameters for each pair of bodies that meet; what the section of the case says
     // stands in it, the law of heat by the roles of the two bodies.
-    const BodyInterfaceSpec& section = spec.interfaces[f.section];
-    ContactSpec contact;
+    const cases::BodyInterfaceSpec& section = spec.interfaces[f.section];
+    cases::ContactSpec contact;
     const std::string pair = spec.bodies[static_cast<std::size_t>(f.a)].name + "_" +
                              spec.bodies[static_cast<std::size_t>(f.b)].name;
     // The name of the section is given to its contact where it makes just one.
@@ -238,21 +240,21 @@ void add_contacts(const std::vector<FoundInterface>& found, CaseSpec& spec) {
   }
 }
 
-void add_rule_groups(const CaseSpec& spec, mesh::RawMesh& mesh, const std::string& source) {
+void add_rule_groups(const cases::CaseSpec& spec, mesh::RawMesh& mesh, const std::string& source) {
   std::vector<std::string> groups, names;
-  for (const BodySpec& body : spec.bodies) {
+  for (const cases::BodySpec& body : spec.bodies) {
     groups.push_back(body.mesh_group());
     names.push_back(body.name);
   }
   const auto point = [](const std::vector<double>& x) { return mesh::Point{x[0], x[1], x[2]}; };
   // A rule finds faces by owner, angle, direction and place; what is not given bounds nothing.
-  for (const MeshGroupSpec& g : spec.mesh.groups) {
+  for (const cases::MeshGroupSpec& g : spec.mesh.groups) {
     // What names numbers, a label or a box is a group of the geometry, and is there already.
     if (!g.by_rule()) continue;
     mesh::FaceRule rule;
     rule.name = g.name;
     if (!g.owner.empty()) {  // the name of the body, or that of its group
-      const auto body = std::ranges::find(spec.bodies, g.owner, &BodySpec::name);
+      const auto body = std::ranges::find(spec.bodies, g.owner, &cases::BodySpec::name);
       if (body == spec.bodies.end() && std::ranges::find(groups, g.owner) == groups.end())
         throw InputError({source}, fmt::format("the group '{}': there is no body '{}'", g.name, g.owner),
                          one_of(names, g.owner));
@@ -267,4 +269,4 @@ void add_rule_groups(const CaseSpec& spec, mesh::RawMesh& mesh, const std::strin
   }
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

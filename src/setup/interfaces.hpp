@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "mesh/making/body_interfaces.hpp"
 #include "mesh/raw_mesh.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 /// A contact that an interface makes: what process 0 finds and tells the others.
 struct FoundInterface {
@@ -22,14 +22,14 @@ struct FoundInterface {
 /// Looks for the faces of all [[interface]] sections, gives bodies that share nodes their own, and makes the
 /// groups A_to_B and A_free. Prints what it has found. On process 0.
 /// Throws InputError where a section that names two bodies finds nothing.
-std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh& mesh,
+std::vector<FoundInterface> find_interfaces(const cases::CaseSpec& spec, mesh::RawMesh& mesh,
                                             const std::string& source);
 
 /// Adds the contacts, with laws from the library, on every process. Throws InputError where the library has
 /// no law, or none of the name.
-void add_contacts(const std::vector<FoundInterface>& found, CaseSpec& spec);
+void add_contacts(const std::vector<FoundInterface>& found, cases::CaseSpec& spec);
 
 /// Makes the groups of [[mesh.group]] sections that are rules. On process 0.
-void add_rule_groups(const CaseSpec& spec, mesh::RawMesh& mesh, const std::string& source);
+void add_rule_groups(const cases::CaseSpec& spec, mesh::RawMesh& mesh, const std::string& source);
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -6,7 +6,7 @@
 
 #include "system/errors.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -59,4 +59,4 @@ MadeMesh take_made_mesh(const mesh::TakeBytes& take, double most_bytes) {
   return made;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

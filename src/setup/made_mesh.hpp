@@ -8,7 +8,7 @@
 #include "mesh/raw_mesh.hpp"
 #include "setup/interfaces.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 struct MadeMesh {
   mesh::RawMesh mesh;
@@ -21,4 +21,4 @@ void put_made_mesh(const MadeMesh& made, const mesh::PutBytes& put);
 /// @param most_bytes  that the mesh may take
 MadeMesh take_made_mesh(const mesh::TakeBytes& take, double most_bytes);
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

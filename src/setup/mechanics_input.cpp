@@ -8,9 +8,9 @@
 #include "setup/body_input.hpp"
 #include "setup/dynamics_input.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
-std::array<double, 3> gravity(const AnalysisSpec& analysis) {
+std::array<double, 3> gravity(const cases::AnalysisSpec& analysis) {
   std::array<double, 3> direction{};
   if (analysis.gravity_direction.empty()) {
     direction[analysis.kind == AnalysisKind::solid ? 2 : 1] = -1;
@@ -23,8 +23,9 @@ std::array<double, 3> gravity(const AnalysisSpec& analysis) {
   return direction;
 }
 
-mechanics::MechanicalConditions mechanical_conditions(const CaseSpec& spec, const StageRun* stage) {
-  using Kind = MechanicalConditionSpec::Kind;
+mechanics::MechanicalConditions mechanical_conditions(const cases::CaseSpec& spec,
+                                                      const cases::StageRun* stage) {
+  using Kind = cases::MechanicalConditionSpec::Kind;
   // Each condition that holds in this stage becomes one of the solver's. Components are numbered as
   // displacements are: r and z take 0 and 1 around an axis.
   mechanics::MechanicalConditions conditions;
@@ -32,9 +33,9 @@ mechanics::MechanicalConditions mechanical_conditions(const CaseSpec& spec, cons
   conditions.absent_bodies = absent_from_mechanics(spec, stage);
   const bool axisymmetric = spec.analysis.kind == AnalysisKind::axisymmetric;
   for (const auto& c : spec.mechanical_conditions) {
-    if (!holds(c.stages, stage)) continue;
+    if (!cases::holds(c.stages, stage)) continue;
     // Loads are functions of time on the clock of the condition.
-    const auto of_time = [&](const Function& f) { return on_clock(f, c.clock, stage); };
+    const auto of_time = [&](const Function& f) { return cases::on_clock(f, c.clock, stage); };
     const auto prescribe = [&](const std::optional<Function>& value, int component) {
       if (value) conditions.displacements.push_back({c.group, component, of_time(*value), c.relative});
     };
@@ -63,7 +64,7 @@ mechanics::MechanicalConditions mechanical_conditions(const CaseSpec& spec, cons
   return conditions;
 }
 
-mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec) {
+mechanics::MechanicsOptions mechanics_options(const cases::CaseSpec& spec) {
   mechanics::MechanicsOptions options;
   // Tolerances and limits of the iteration come as they are in the case.
   options.newton.tolerance = spec.mechanics.tolerance;
@@ -85,10 +86,10 @@ mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec) {
   return options;
 }
 
-std::vector<double> sections_of(const CaseSpec& spec, const mesh::Mesh& mesh) {
+std::vector<double> sections_of(const cases::CaseSpec& spec, const mesh::Mesh& mesh) {
   if (!spec.has_mechanics()) return std::vector<double>(mesh.bodies.size(), 0.0);
   const linear::ActiveSet active(mesh, absent_from_mechanics(spec, nullptr));
   return mechanics::sections(mesh, spec.analysis.kind, mechanical_conditions(spec), active);
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -13,7 +13,7 @@
 #include "mesh/surfaces/vertex_sets.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -51,16 +51,16 @@ void require(const RawMesh& mesh, const std::string& name, int dimension, const 
                                  one_of(group_names(mesh, dimension), name)));
 }
 
-void require_body(const CaseSpec& spec, const std::string& name, const SourceLocation& where,
+void require_body(const cases::CaseSpec& spec, const std::string& name, const SourceLocation& where,
                   const std::string& user) {
   std::vector<std::string> bodies;
-  for (const BodySpec& body : spec.bodies) bodies.push_back(body.mesh_group());
+  for (const cases::BodySpec& body : spec.bodies) bodies.push_back(body.mesh_group());
   if (std::find(bodies.begin(), bodies.end(), name) == bodies.end())
     throw InputError(where, fmt::format("the group '{}' is no body of the case ({})", name, user),
                      one_of(bodies, name));
 }
 
-void check_radius(const CaseSpec& spec, const RawMesh& mesh) {
+void check_radius(const cases::CaseSpec& spec, const RawMesh& mesh) {
   if (spec.analysis.kind != AnalysisKind::axisymmetric) return;
   double least = 0, greatest = 0;
   for (const mesh::Point& x : mesh.x) {
@@ -74,14 +74,14 @@ void check_radius(const CaseSpec& spec, const RawMesh& mesh) {
                      "x >= 0 in an axisymmetric analysis");
 }
 
-void check_rigid_names(const CaseSpec& spec, const RawMesh& mesh) {
-  for (const RigidSurfaceSpec& s : spec.rigid_surfaces) {
+void check_rigid_names(const cases::CaseSpec& spec, const RawMesh& mesh) {
+  for (const cases::RigidSurfaceSpec& s : spec.rigid_surfaces) {
     if (mesh.groups.count(s.name) > 0)
       throw InputError(s.where,
                        fmt::format("the rigid surface '{}' is called like a group of the mesh", s.name),
                        "a name of its own");
     if (std::none_of(spec.contacts.begin(), spec.contacts.end(),
-                     [&](const ContactSpec& c) { return c.master == s.name; }))
+                     [&](const cases::ContactSpec& c) { return c.master == s.name; }))
       throw InputError(s.where,
                        fmt::format("no [[contact]] has the rigid surface '{}' as its master", s.name),
                        fmt::format("a contact with master = \"{}\", or no such section", s.name));
@@ -89,9 +89,9 @@ void check_rigid_names(const CaseSpec& spec, const RawMesh& mesh) {
 }
 
 /// [raw node]: whether it lies on a body of the case.
-std::vector<char> nodes_of_bodies(const CaseSpec& spec, const RawMesh& mesh) {
+std::vector<char> nodes_of_bodies(const cases::CaseSpec& spec, const RawMesh& mesh) {
   std::vector<char> carried(mesh.x.size(), 0);
-  for (const BodySpec& body : spec.bodies)
+  for (const cases::BodySpec& body : spec.bodies)
     for (const mesh::RawBlock& block : mesh.groups.at(body.mesh_group()).blocks)
       for (const Index node : block.nodes) carried[static_cast<std::size_t>(node)] = 1;
   return carried;
@@ -99,7 +99,7 @@ std::vector<char> nodes_of_bodies(const CaseSpec& spec, const RawMesh& mesh) {
 
 /// A group of full dimension with nodes that lie on no body: a [[body]] was forgotten, and what would face it
 /// is insulated.
-void warn_of_forgotten_bodies(const CaseSpec& spec, const RawMesh& mesh) {
+void warn_of_forgotten_bodies(const cases::CaseSpec& spec, const RawMesh& mesh) {
   const std::vector<char> carried = nodes_of_bodies(spec, mesh);
   for (const auto& [name, group] : mesh.groups) {
     if (group.dimension != mesh.dimension) continue;
@@ -118,7 +118,7 @@ void warn_of_forgotten_bodies(const CaseSpec& spec, const RawMesh& mesh) {
 
 /// Faces that belong to no element of a body, such as those of surfaces that a geometry program has replaced,
 /// take no part: a film or a contact would be smaller than its group without a word.
-void warn_of_loose_faces(const CaseSpec& spec, const RawMesh& mesh) {
+void warn_of_loose_faces(const cases::CaseSpec& spec, const RawMesh& mesh) {
   const std::vector<char> carried = nodes_of_bodies(spec, mesh);
   // Groups that something acts on, of one dimension less than the mesh.
   std::set<std::string> used;
@@ -143,7 +143,7 @@ void warn_of_loose_faces(const CaseSpec& spec, const RawMesh& mesh) {
 }
 
 /// Two bodies that hold the same elements would heat and load them twice.
-void refuse_shared_elements(const CaseSpec& spec, const RawMesh& mesh) {
+void refuse_shared_elements(const cases::CaseSpec& spec, const RawMesh& mesh) {
   std::vector<mesh::VertexSet> sets;
   std::vector<std::size_t> body_of_set;
   // All elements of all bodies as sets of vertices, of which equal ones are found by sorting.
@@ -159,7 +159,7 @@ void refuse_shared_elements(const CaseSpec& spec, const RawMesh& mesh) {
       ++n_shared[{body_of_set[i], other}];
   if (n_shared.empty()) return;
   const auto& [bodies, n] = *n_shared.begin();
-  const BodySpec &body = spec.bodies[bodies.first], &other = spec.bodies[bodies.second];
+  const cases::BodySpec &body = spec.bodies[bodies.first], &other = spec.bodies[bodies.second];
   throw InputError(
       body.where,
       fmt::format("the bodies '{}' and '{}' have {} elements in common, of {} of '{}'", other.name, body.name,
@@ -169,12 +169,12 @@ void refuse_shared_elements(const CaseSpec& spec, const RawMesh& mesh) {
 
 }  // namespace
 
-void check_bodies_of(const CaseSpec& spec, const mesh::RawMesh& mesh) {
-  for (const BodySpec& body : spec.bodies)
+void check_bodies_of(const cases::CaseSpec& spec, const mesh::RawMesh& mesh) {
+  for (const cases::BodySpec& body : spec.bodies)
     require(mesh, body.mesh_group(), spec.dimension(), body.where, "body '" + body.name + "'");
 }
 
-void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
+void check_groups(const cases::CaseSpec& spec, const RawMesh& mesh) {
   // Every group that a section names has to be in the mesh, with the dimension that its use needs. The
   // message names the section and lists the groups there are.
   check_radius(spec, mesh);
@@ -188,7 +188,7 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
   check_bodies_of(spec, mesh);
   // No two bodies may own one group or share elements.
   std::vector<std::string> bodies;
-  for (const BodySpec& body : spec.bodies) {
+  for (const cases::BodySpec& body : spec.bodies) {
     if (std::find(bodies.begin(), bodies.end(), body.mesh_group()) != bodies.end())
       throw InputError(body.where, fmt::format("the group '{}' belongs to two bodies", body.mesh_group()));
     bodies.push_back(body.mesh_group());
@@ -204,11 +204,12 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
     if (c.in_volume())
       require_body(spec, c.group, c.where, user);
     else
-      require(mesh, c.group, c.kind == ThermalConditionSpec::Kind::temperature ? -1 : surface, c.where, user);
+      require(mesh, c.group, c.kind == cases::ThermalConditionSpec::Kind::temperature ? -1 : surface, c.where,
+              user);
   }
   for (const auto& c : spec.mechanical_conditions)
-    require(mesh, c.group, c.kind == MechanicalConditionSpec::Kind::displacement ? -1 : surface, c.where,
-            "mechanical condition '" + c.name + "'");
+    require(mesh, c.group, c.kind == cases::MechanicalConditionSpec::Kind::displacement ? -1 : surface,
+            c.where, "mechanical condition '" + c.name + "'");
   // The master of a contact may be a rigid surface instead of a group.
   std::vector<std::string> tools;
   for (const auto& s : spec.rigid_surfaces) tools.push_back(s.name);
@@ -224,4 +225,4 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
   warn_of_forgotten_bodies(spec, mesh);
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -27,7 +27,7 @@
 #include "system/profile.hpp"
 #include "system/stopwatch.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -39,29 +39,29 @@ mesh::Shape shape_named(const std::string& wanted) {
   throw std::logic_error("the declaration of mesh.element allows an unknown element");
 }
 
-mesh::RawMesh built_in_shape(const MeshSpec& m) {
+mesh::RawMesh built_in_shape(const cases::MeshSpec& m) {
   const mesh::Shape shape = shape_named(m.element);
   if (m.block) return mesh::make_block({m.block->size, m.block->origin, m.block->divisions}, shape);
   if (m.two_blocks) {
-    const TwoBlocksSpec& t = *m.two_blocks;
+    const cases::TwoBlocksSpec& t = *m.two_blocks;
     return mesh::make_two_blocks({t.lower, t.upper, t.lower_divisions, t.upper_divisions, t.gap}, shape);
   }
-  const CylinderInMouldSpec& c = *m.cylinder_in_mould;
+  const cases::CylinderInMouldSpec& c = *m.cylinder_in_mould;
   return mesh::make_cylinder_in_mould({c.radius, c.height, c.mould_wall, c.mould_bottom, c.mould_height,
                                        c.element_size, c.mould_element_size, c.interface_ratio},
                                       shape);
 }
 
-mesh::GeometryChoice geometry_choice(const MeshSpec& m) {
+mesh::GeometryChoice geometry_choice(const cases::MeshSpec& m) {
   mesh::GeometryChoice choice;
   choice.conforming = m.conforming;
   // Groups by rule are found later, in the mesh; here are those by numbers, labels and boxes of the geometry.
-  for (const MeshGroupSpec& g : m.groups) {
+  for (const cases::MeshGroupSpec& g : m.groups) {
     // Name and kind of the group, then exactly one way to choose it.
     if (g.by_rule()) continue;
     mesh::GeometryGroup& group = choice.groups.emplace_back();
     group.name = g.name;
-    group.bodies = g.kind == MeshGroupSpec::Kind::body;
+    group.bodies = g.kind == cases::MeshGroupSpec::Kind::body;
     group.numbers = g.numbers;
     group.label = g.label;
     if (g.lowest.empty()) continue;
@@ -72,10 +72,10 @@ mesh::GeometryChoice geometry_choice(const MeshSpec& m) {
   return choice;
 }
 
-mesh::CastingGeometry casting_geometry(const MeshSpec& m) {
+mesh::CastingGeometry casting_geometry(const cases::MeshSpec& m) {
   // A size without a smallest one may shrink to a quarter where the part is thin.
   mesh::CastingGeometry geometry;
-  for (const MeshSizeSpec& s : m.sizes) {
+  for (const cases::MeshSizeSpec& s : m.sizes) {
     if (s.smallest && *s.smallest > s.size)
       throw InputError(s.where,
                        fmt::format("'smallest' is {:g} m, larger than 'size', {:g} m", *s.smallest, s.size),
@@ -100,10 +100,10 @@ mesh::CastingGeometry casting_geometry(const MeshSpec& m) {
 }
 
 /// Cuts the coats of a shell out of the block of mould.
-void add_coats(const MeshSpec& m, const std::string& source, mesh::RawMesh& mesh) {
+void add_coats(const cases::MeshSpec& m, const std::string& source, mesh::RawMesh& mesh) {
   if (m.coats.empty()) return;
   std::vector<mesh::Coat> coats;
-  for (const MeshCoatSpec& coat : m.coats) coats.push_back({coat.name, coat.thickness});
+  for (const cases::MeshCoatSpec& coat : m.coats) coats.push_back({coat.name, coat.thickness});
   const auto reports = mesh::make_coats(mesh, m.mould->name, coats, m.mould->bed, source);
   for (std::size_t i = 0; i < reports.size(); ++i)
     logging::info("coat '{}': {:.3g} mm thick, {:.4g} cm3, {} elements", reports[i].name,
@@ -112,14 +112,15 @@ void add_coats(const MeshSpec& m, const std::string& source, mesh::RawMesh& mesh
 
 /// Sections of one body with as many layers of equal growth are made together, so that layers of neighbours
 /// meet.
-void add_layers(const std::vector<MeshLayersSpec>& sections, const std::string& source, mesh::RawMesh& mesh) {
+void add_layers(const std::vector<cases::MeshLayersSpec>& sections, const std::string& source,
+                mesh::RawMesh& mesh) {
   std::vector<char> done(sections.size(), 0);
   for (std::size_t i = 0; i < sections.size(); ++i) {
     if (done[i] != 0 || sections[i].number == 0) continue;
     // Sections that belong together are collected from the rest of the list.
     std::vector<mesh::WallLayers> together;
     for (std::size_t k = i; k < sections.size(); ++k) {
-      const MeshLayersSpec& l = sections[k];
+      const cases::MeshLayersSpec& l = sections[k];
       if (l.body != sections[i].body || l.number != sections[i].number || l.growth != sections[i].growth)
         continue;
       done[k] = 1;
@@ -146,15 +147,16 @@ void add_layers(const std::vector<MeshLayersSpec>& sections, const std::string& 
 }
 
 /// The mesh of a case on process 0, and the contacts that its interfaces make.
-mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) {
-  const MeshSpec& m = spec.mesh;
+mesh::RawMesh make_raw_mesh(cases::CaseSpec& spec, std::vector<FoundInterface>& found) {
+  const cases::MeshSpec& m = spec.mesh;
   const std::string name = m.file ? *m.file : *m.shape;
   mesh::RawMesh result;
   // From a file, meshed where it is a geometry; else one of the built-in shapes.
   if (m.file) {
     mesh::MeshSource source{*m.file, mesh::metres_of_unit(*m.file, m.unit, "m", m.where),
                             m.element_size.value_or(0), m.order};
-    for (const MeshConstantSpec& constant : m.constants) source.constants[constant.name] = constant.value;
+    for (const cases::MeshConstantSpec& constant : m.constants)
+      source.constants[constant.name] = constant.value;
     source.geometry = geometry_choice(m);
     source.trust_script = m.trust_script;
     result = m.sizes.empty() && !m.mould && !m.riser && !m.symmetry
@@ -169,7 +171,7 @@ mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) 
     }
   }
   // Interfaces and rules need bodies, and interfaces make contacts of what they find.
-  if (!spec.interfaces.empty() || std::ranges::any_of(m.groups, &MeshGroupSpec::by_rule)) {
+  if (!spec.interfaces.empty() || std::ranges::any_of(m.groups, &cases::MeshGroupSpec::by_rule)) {
     check_bodies_of(spec, result);
     add_rule_groups(spec, result, name);
     found = find_interfaces(spec, result, name);
@@ -216,11 +218,11 @@ std::vector<FoundInterface> everywhere(const std::vector<FoundInterface>& found)
 
 }  // namespace
 
-mesh::RawMesh raw_mesh(CaseSpec spec) {
+mesh::RawMesh raw_mesh(cases::CaseSpec spec) {
   return make_mesh(std::move(spec)).mesh;
 }
 
-MadeMesh make_mesh(CaseSpec spec) {
+MadeMesh make_mesh(cases::CaseSpec spec) {
   MadeMesh made;
   double seconds = 0;
   {
@@ -231,13 +233,13 @@ MadeMesh make_mesh(CaseSpec spec) {
   return made;
 }
 
-void require_sound_mesh(const CaseSpec& spec) {
+void require_sound_mesh(const cases::CaseSpec& spec) {
   results::on_first_process([&] {
     if (spec.mesh.unsound) throw InputError(*spec.mesh.unsound);
   });
 }
 
-mesh::Mesh load_mesh(CaseSpec& spec, MadeMesh* made) {
+mesh::Mesh load_mesh(cases::CaseSpec& spec, MadeMesh* made) {
   MadeMesh own;
   {
     const profile::Part part("reading and meshing");
@@ -247,23 +249,23 @@ mesh::Mesh load_mesh(CaseSpec& spec, MadeMesh* made) {
   }
   mesh::RawMesh raw = std::move(own.mesh);
   // Factors on contacts can be applied only when all of them are there.
-  vary_contacts(spec);
+  cases::vary_contacts(spec);
   // A body that only conducts costs less than one with mechanics; the partition weighs them so. Sides of
   // contacts are present on every process.
   const profile::Part part("partition");
   std::vector<std::string> bodies, replicated;
   std::vector<mesh::BodyWork> work;
-  for (const BodySpec& body : spec.bodies) {
+  for (const cases::BodySpec& body : spec.bodies) {
     bodies.push_back(body.mesh_group());
-    work.push_back(body.physics == BodySpec::ActivePhysics::heat ? mesh::BodyWork::heat
-                                                                 : mesh::BodyWork::all);
+    work.push_back(body.physics == cases::BodySpec::ActivePhysics::heat ? mesh::BodyWork::heat
+                                                                        : mesh::BodyWork::all);
   }
   // Rigid surfaces are no part of the mesh, and known to all anyway.
-  for (const ContactSpec& contact : spec.contacts)
+  for (const cases::ContactSpec& contact : spec.contacts)
     for (const std::string& surface : contact.sides())
       if (spec.rigid_surface(surface) == nullptr) replicated.push_back(surface);
   spec.mesh.unsound = raw.unsound;
   return mesh::distribute(std::move(raw), bodies, replicated, work);
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

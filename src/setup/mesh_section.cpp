@@ -11,17 +11,17 @@
 #include "setup/section_names.hpp"
 #include "system/errors.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
 /// Whether mould, riser, symmetry or sizes by walls are made of a geometry.
-bool of_casting(const MeshSpec& m) {
+bool of_casting(const cases::MeshSpec& m) {
   return !m.sizes.empty() || m.mould || m.riser || m.symmetry;
 }
 
 /// A slip in a size must not fill the memory.
-void check_element_count(const MeshSpec& m, double elements) {
+void check_element_count(const cases::MeshSpec& m, double elements) {
   constexpr double k_most = 1e8;
   if (elements > k_most)
     throw InputError(m.where, fmt::format("the shape '{}' would have {:.2g} elements", *m.shape, elements),
@@ -35,11 +35,11 @@ double product(const std::vector<int>& divisions) {
 }
 
 /// A rule for faces chooses surfaces, and its points have three coordinates.
-void check_face_rule(const MeshGroupSpec& g) {
+void check_face_rule(const cases::MeshGroupSpec& g) {
   const auto refuse = [&](const std::string& what, const std::string& allowed) {
     throw InputError(g.where, fmt::format("the group '{}' of the mesh: {}", g.name, what), allowed);
   };
-  if (g.kind == MeshGroupSpec::Kind::body || !g.numbers.empty() || !g.label.empty())
+  if (g.kind == cases::MeshGroupSpec::Kind::body || !g.numbers.empty() || !g.label.empty())
     refuse("a rule chooses faces of the mesh", "no kind = \"body\", numbers or label beside a rule");
   for (const std::vector<double>* point : {&g.normal, &g.plane, &g.nearest})
     if (!point->empty() && point->size() != 3)
@@ -51,7 +51,7 @@ void check_face_rule(const MeshGroupSpec& g) {
 }
 
 /// Coats are cut out of a block that is thick enough for all of them.
-void check_coats(const MeshSpec& m) {
+void check_coats(const cases::MeshSpec& m) {
   if (m.coats.empty()) {
     if (m.mould && m.mould->bed)
       throw InputError(m.mould->where, "'bed' is what lies beyond coats, and there is no [[mesh.coat]]",
@@ -64,7 +64,7 @@ void check_coats(const MeshSpec& m) {
                      "[mesh.mould] with walls thicker than all coats together");
   check_names(m.coats, "[[mesh.coat]]");
   double whole = 0;
-  for (const MeshCoatSpec& coat : m.coats) whole += coat.thickness;
+  for (const cases::MeshCoatSpec& coat : m.coats) whole += coat.thickness;
   for (const double wall : m.mould->walls)
     if (wall > 0 && wall <= whole)
       throw InputError(m.mould->where,
@@ -74,7 +74,7 @@ void check_coats(const MeshSpec& m) {
 }
 
 /// The mesh has one source, and its names are told apart.
-void check_source(const MeshSpec& m) {
+void check_source(const cases::MeshSpec& m) {
   if (m.shape.has_value() == m.file.has_value())
     throw InputError(m.where,
                      m.shape ? "[mesh] has both a shape and a file" : "[mesh] has neither a shape nor a file",
@@ -87,7 +87,7 @@ void check_source(const MeshSpec& m) {
 }
 
 /// Sizes, mould, shell, riser and symmetry of a casting.
-void check_casting(const MeshSpec& m) {
+void check_casting(const cases::MeshSpec& m) {
   if (m.mould && m.mould->walls.size() != 1 && m.mould->walls.size() != 6)
     throw InputError(m.mould->where, fmt::format("'walls' has {} lengths", m.mould->walls.size()),
                      "one, or six: lowest and highest x, y and z");
@@ -107,9 +107,9 @@ void check_casting(const MeshSpec& m) {
     throw InputError(m.riser->where, fmt::format("'foot' has {} coordinates", m.riser->foot.size()), "three");
 }
 
-void check_groups_of(const MeshSpec& m) {
+void check_groups_of(const cases::MeshSpec& m) {
   // A group is chosen in exactly one way.
-  for (const MeshGroupSpec& g : m.groups) {
+  for (const cases::MeshGroupSpec& g : m.groups) {
     const bool box = !g.lowest.empty() || !g.highest.empty();
     if (g.by_rule())
       check_face_rule(g);
@@ -123,13 +123,13 @@ void check_groups_of(const MeshSpec& m) {
 }
 
 /// A built-in shape takes its order from the element, and has only groups by rule.
-void check_keys_of_shape(const MeshSpec& m, bool solid) {
+void check_keys_of_shape(const cases::MeshSpec& m, bool solid) {
   if (m.order != 1)
     throw InputError(
         m.where, "'order' is that of files that hold a geometry; a built-in shape takes it from 'element'",
         "element = \"tri6\", \"quad8\", \"tet10\" or \"hex20\" for the second order");
-  const bool rules_alone =
-      std::all_of(m.groups.begin(), m.groups.end(), [](const MeshGroupSpec& g) { return g.by_rule(); });
+  const bool rules_alone = std::all_of(m.groups.begin(), m.groups.end(),
+                                       [](const cases::MeshGroupSpec& g) { return g.by_rule(); });
   if (!rules_alone || m.conforming)
     throw InputError(m.where,
                      "[[mesh.group]] without a rule and 'conforming' are for files, and the mesh is a "
@@ -148,11 +148,11 @@ void check_keys_of_shape(const MeshSpec& m, bool solid) {
                      solid ? "one of: tet4, tet10, hex8, hex20" : "one of: tri3, tri6, quad4, quad8");
 }
 
-void check_cylinder_in_mould(const MeshSpec& m, const AnalysisSpec& analysis) {
+void check_cylinder_in_mould(const cases::MeshSpec& m, const cases::AnalysisSpec& analysis) {
   if (!m.cylinder_in_mould) throw InputError(m.where, "the section [mesh.cylinder_in_mould] is missing");
   if (analysis.kind != AnalysisKind::axisymmetric)
     throw InputError(m.where, "the shape cylinder_in_mould is for axisymmetric analyses");
-  const CylinderInMouldSpec& c = *m.cylinder_in_mould;
+  const cases::CylinderInMouldSpec& c = *m.cylinder_in_mould;
   if (c.mould_height < (c.mould_bottom + c.height) * (1 - 1e-12))
     throw InputError(m.where, "the mould is lower than its bottom and the casting together",
                      "mould_height >= mould_bottom + height");
@@ -161,7 +161,7 @@ void check_cylinder_in_mould(const MeshSpec& m, const AnalysisSpec& analysis) {
                              width * c.mould_height / (c.mould_element_size * c.mould_element_size));
 }
 
-void check_blocks(const MeshSpec& m, bool solid) {
+void check_blocks(const cases::MeshSpec& m, bool solid) {
   if (*m.shape == "block") {
     if (!m.block) throw InputError(m.where, "the section [mesh.block] is missing");
     const std::size_t dimension = solid ? 3 : 2;
@@ -173,7 +173,7 @@ void check_blocks(const MeshSpec& m, bool solid) {
   }
   if (*m.shape == "two_blocks") {
     if (!m.two_blocks) throw InputError(m.where, "the section [mesh.two_blocks] is missing");
-    const TwoBlocksSpec& t = *m.two_blocks;
+    const cases::TwoBlocksSpec& t = *m.two_blocks;
     const std::size_t dimension = solid ? 3 : 2;
     for (const std::size_t n :
          {t.lower.size(), t.upper.size(), t.lower_divisions.size(), t.upper_divisions.size()})
@@ -186,7 +186,7 @@ void check_blocks(const MeshSpec& m, bool solid) {
 
 }  // namespace
 
-void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
+void check_mesh(const cases::MeshSpec& m, const cases::AnalysisSpec& analysis) {
   check_source(m);
   check_casting(m);
   check_groups_of(m);
@@ -197,4 +197,4 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
   check_blocks(m, solid);
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

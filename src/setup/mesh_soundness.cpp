@@ -11,7 +11,7 @@
 #include "mesh/surfaces/soundness.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -22,9 +22,9 @@ std::string in_mm(const mesh::Point& x) {
 }
 
 /// [node] whether it lies on a surface of a contact: parts of one body may touch there.
-std::vector<char> nodes_in_contact(const CaseSpec& spec, const mesh::RawMesh& mesh) {
+std::vector<char> nodes_in_contact(const cases::CaseSpec& spec, const mesh::RawMesh& mesh) {
   std::vector<char> marked(mesh.x.size(), 0);
-  for (const ContactSpec& contact : spec.contacts)
+  for (const cases::ContactSpec& contact : spec.contacts)
     for (const std::string& side : contact.sides())
       if (const auto group = mesh.groups.find(side); group != mesh.groups.end())
         for (const mesh::RawBlock& block : group->second.blocks)
@@ -32,8 +32,8 @@ std::vector<char> nodes_in_contact(const CaseSpec& spec, const mesh::RawMesh& me
   return marked;
 }
 
-void drop_repeated_things(const CaseSpec& spec, mesh::RawMesh& mesh) {
-  for (const BodySpec& body : spec.bodies)
+void drop_repeated_things(const cases::CaseSpec& spec, mesh::RawMesh& mesh) {
+  for (const cases::BodySpec& body : spec.bodies)
     if (const std::size_t n = mesh::drop_repeated(mesh.groups.at(body.mesh_group())); n > 0)
       logging::warn("{} elements of the body '{}' are in the mesh twice; each counts once", n, body.name);
   for (const auto& [name, where] : wanted_surfaces(spec))
@@ -42,9 +42,9 @@ void drop_repeated_things(const CaseSpec& spec, mesh::RawMesh& mesh) {
         logging::warn("{} faces of the surface '{}' are in the mesh twice; each counts once", n, name);
 }
 
-void refuse_inner_faces(const CaseSpec& spec, const mesh::RawMesh& mesh, const Skins& skins) {
+void refuse_inner_faces(const cases::CaseSpec& spec, const mesh::RawMesh& mesh, const Skins& skins) {
   std::vector<std::string> bodies;
-  for (const BodySpec& body : spec.bodies) bodies.push_back(body.mesh_group());
+  for (const cases::BodySpec& body : spec.bodies) bodies.push_back(body.mesh_group());
   for (const auto& [name, where] : wanted_surfaces(spec)) {
     const auto group = mesh.groups.find(name);
     if (group == mesh.groups.end() || group->second.dimension != mesh.dimension - 1) continue;
@@ -61,13 +61,13 @@ void refuse_inner_faces(const CaseSpec& spec, const mesh::RawMesh& mesh, const S
 
 }  // namespace
 
-std::map<std::string, SourceLocation> wanted_surfaces(const CaseSpec& spec) {
+std::map<std::string, SourceLocation> wanted_surfaces(const cases::CaseSpec& spec) {
   std::map<std::string, SourceLocation> wanted;
   for (const auto& c : spec.thermal_conditions)
-    if (!c.in_volume() && c.kind != ThermalConditionSpec::Kind::temperature)
+    if (!c.in_volume() && c.kind != cases::ThermalConditionSpec::Kind::temperature)
       wanted.try_emplace(c.group, c.where);
   for (const auto& c : spec.mechanical_conditions)
-    if (c.kind != MechanicalConditionSpec::Kind::displacement) wanted.try_emplace(c.group, c.where);
+    if (c.kind != cases::MechanicalConditionSpec::Kind::displacement) wanted.try_emplace(c.group, c.where);
   for (const auto& c : spec.contacts)
     for (const std::string& side : c.sides())
       if (spec.rigid_surface(side) == nullptr) wanted.try_emplace(side, c.where);
@@ -75,16 +75,17 @@ std::map<std::string, SourceLocation> wanted_surfaces(const CaseSpec& spec) {
   return wanted;
 }
 
-void make_sound(const CaseSpec& spec, mesh::RawMesh& mesh) {
+void make_sound(const cases::CaseSpec& spec, mesh::RawMesh& mesh) {
   // What is there twice goes first, as it would hide faces of the skins, on which all that follows looks.
   drop_repeated_things(spec, mesh);
   // The skin of each body is found once for all checks.
   Skins skins;
-  for (const BodySpec& body : spec.bodies) skins.push_back(mesh::faces_on_skin(mesh, body.mesh_group()));
+  for (const cases::BodySpec& body : spec.bodies)
+    skins.push_back(mesh::faces_on_skin(mesh, body.mesh_group()));
   refuse_inner_faces(spec, mesh, skins);
   const std::vector<char> in_contact = nodes_in_contact(spec, mesh);
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    const BodySpec& body = spec.bodies[b];
+    const cases::BodySpec& body = spec.bodies[b];
     std::vector<mesh::BodyFace>& skin = skins[b];
     // Halves that coincide corner on corner are joined; only then are corners that still lie in a face
     // errors.
@@ -127,4 +128,4 @@ void make_sound(const CaseSpec& spec, mesh::RawMesh& mesh) {
     }
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

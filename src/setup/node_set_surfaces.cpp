@@ -11,7 +11,7 @@
 #include "setup/mesh_soundness.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -24,12 +24,12 @@ struct SkinFace {
 };
 
 /// The faces of one element of the bodies alone whose vertices are all marked.
-std::vector<SkinFace> marked_skin(const CaseSpec& spec, const mesh::RawMesh& mesh,
+std::vector<SkinFace> marked_skin(const cases::CaseSpec& spec, const mesh::RawMesh& mesh,
                                   const std::vector<char>& marked) {
   // Each face by its sorted vertices, with how many elements have it.
   std::unordered_map<mesh::FaceKey, SkinFace, mesh::FaceKeyHash> faces;
   std::vector<Index> nodes;
-  for (const BodySpec& body : spec.bodies)
+  for (const cases::BodySpec& body : spec.bodies)
     for (const mesh::RawBlock& block : mesh.groups.at(body.mesh_group()).blocks) {
       const auto n = static_cast<std::size_t>(node_count(block.shape));
       const mesh::Shape shape = mesh::face_shape(block.shape);
@@ -58,7 +58,7 @@ std::vector<SkinFace> marked_skin(const CaseSpec& spec, const mesh::RawMesh& mes
 
 }  // namespace
 
-void make_surfaces_of_node_sets(const CaseSpec& spec, mesh::RawMesh& mesh) {
+void make_surfaces_of_node_sets(const cases::CaseSpec& spec, mesh::RawMesh& mesh) {
   // Some programs write surfaces as sets of nodes. Where a section needs faces, those of the skin whose nodes
   // are all in the set make the surface.
   for (const auto& [name, where] : wanted_surfaces(spec)) {
@@ -96,4 +96,4 @@ void make_surfaces_of_node_sets(const CaseSpec& spec, mesh::RawMesh& mesh) {
   }
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

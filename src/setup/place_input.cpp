@@ -16,7 +16,7 @@
 #include "numbers/time_events.hpp"
 #include "results/formats/field_reader.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -269,12 +269,12 @@ std::shared_ptr<const PlaceLaw> place_law(const PlaceSpec& spec, AnalysisKind ki
   return std::make_shared<CheckedLaw>(spec, kind);
 }
 
-PlaceFunction place_function(const Function& function, TimeOrigin clock, const StageRun* stage,
+PlaceFunction place_function(const Function& function, cases::TimeOrigin clock, const cases::StageRun* stage,
                              AnalysisKind kind) {
-  if (function.place == nullptr) return on_clock(function, clock, stage);
+  if (function.place == nullptr) return cases::on_clock(function, clock, stage);
   std::shared_ptr<const PlaceLaw> law = place_law(*function.place, kind);
-  if (clock == TimeOrigin::run || stage == nullptr) return PlaceFunction(std::move(law));
+  if (clock == cases::TimeOrigin::run || stage == nullptr) return PlaceFunction(std::move(law));
   return PlaceFunction(std::move(law), stage->start, stage->stage->duration);
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

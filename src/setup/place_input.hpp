@@ -3,12 +3,12 @@
 
 #include <memory>
 
-#include "case/case_spec.hpp"
-#include "case/stage_input.hpp"
+#include "cases/case_spec.hpp"
+#include "cases/stage_input.hpp"
 #include "input/place_spec.hpp"
 #include "numbers/place_function.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 /// Reads the files that it names. Values are checked as they are evaluated: one that is not finite or not in
 /// the key's range is an InputError at the place in the case file, and says where and when it came up.
@@ -18,7 +18,7 @@ std::shared_ptr<const PlaceLaw> place_law(const PlaceSpec& spec, AnalysisKind ki
 
 /// A function of the case on the clock that the user chose: a table of time, or a place. Throws as
 /// place_law().
-PlaceFunction place_function(const Function& function, TimeOrigin clock, const StageRun* stage,
+PlaceFunction place_function(const Function& function, cases::TimeOrigin clock, const cases::StageRun* stage,
                              AnalysisKind kind);
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -17,24 +17,24 @@ contact::Point point_of(const std::vector<double>& components) {
   return p;
 }
 
-std::string text(const RigidSurfaceSpec& s) {
+std::string text(const cases::RigidSurfaceSpec& s) {
   return fmt::format("the rigid surface '{}'", s.name);
 }
 
-void check_size(const RigidSurfaceSpec& s, const char* key, std::size_t size, int dimension) {
+void check_size(const cases::RigidSurfaceSpec& s, const char* key, std::size_t size, int dimension) {
   if (size != static_cast<std::size_t>(dimension))
     throw InputError(s.where, fmt::format("'{}' of {} has {} components", key, text(s), size),
                      fmt::format("{} in this analysis", dimension));
 }
 
-void check_direction(const RigidSurfaceSpec& s, const char* key, const std::vector<double>& direction,
+void check_direction(const cases::RigidSurfaceSpec& s, const char* key, const std::vector<double>& direction,
                      int dimension) {
   check_size(s, key, direction.size(), dimension);
   if (std::all_of(direction.begin(), direction.end(), [](double d) { return d == 0; }))
     throw InputError(s.where, fmt::format("'{}' of {} has no length", key, text(s)), "a direction");
 }
 
-void check_shape(const RigidSurfaceSpec& s, AnalysisKind kind, int dimension) {
+void check_shape(const cases::RigidSurfaceSpec& s, AnalysisKind kind, int dimension) {
   check_size(s, "point", s.point.size(), dimension);
   if (s.shape == Shape::plane) return check_direction(s, "normal", s.normal, dimension);
   if (s.shape == Shape::sphere && kind == AnalysisKind::plane_strain)
@@ -51,7 +51,7 @@ void check_shape(const RigidSurfaceSpec& s, AnalysisKind kind, int dimension) {
                                                         : "no axis: it is that of revolution");
 }
 
-void check_motion(const RigidSurfaceSpec& s, AnalysisKind kind, int dimension) {
+void check_motion(const cases::RigidSurfaceSpec& s, AnalysisKind kind, int dimension) {
   const auto refuse = [&](const char* key, const char* allowed) {
     throw InputError(s.where,
                      fmt::format("{} has a motion '{}', which this analysis does not have", text(s), key),
@@ -83,7 +83,7 @@ void check_motion(const RigidSurfaceSpec& s, AnalysisKind kind, int dimension) {
   if (!s.rotation_axis.empty()) check_direction(s, "rotation_axis", s.rotation_axis, dimension);
 }
 
-void check_contact(const CaseSpec& spec, const ContactSpec& c) {
+void check_contact(const cases::CaseSpec& spec, const cases::ContactSpec& c) {
   // A rigid surface has no nodes, so that it cannot be the slave; the checks after that refuse what has no
   // meaning on an exact shape.
   const auto as_slave = [&](const std::string& name) {
@@ -95,7 +95,7 @@ void check_contact(const CaseSpec& spec, const ContactSpec& c) {
   };
   as_slave(c.slave);
   for (const std::string& side : c.surfaces) as_slave(side);
-  const RigidSurfaceSpec* master = spec.rigid_surface(c.master);
+  const cases::RigidSurfaceSpec* master = spec.rigid_surface(c.master);
   if (master == nullptr) return;
   const auto refuse = [&](const SourceLocation& where, const char* what, const char* allowed) {
     throw InputError(where, fmt::format("the contact '{}' with {} has {}", c.name, text(*master), what),
@@ -118,7 +118,7 @@ void check_contact(const CaseSpec& spec, const ContactSpec& c) {
 
 }  // namespace
 
-contact::RigidSurface rigid_surface(const RigidSurfaceSpec& spec, AnalysisKind kind) {
+contact::RigidSurface rigid_surface(const cases::RigidSurfaceSpec& spec, AnalysisKind kind) {
   const bool solid = kind == AnalysisKind::solid, axisymmetric = kind == AnalysisKind::axisymmetric;
   contact::RigidSurface s;
   s.shape = spec.shape;
@@ -147,12 +147,12 @@ contact::RigidSurface rigid_surface(const RigidSurfaceSpec& spec, AnalysisKind k
   return s;
 }
 
-void check_rigid_surfaces(const CaseSpec& spec) {
-  for (const ContactSpec& c : spec.contacts) check_contact(spec, c);
-  for (const RigidSurfaceSpec& s : spec.rigid_surfaces) {
+void check_rigid_surfaces(const cases::CaseSpec& spec) {
+  for (const cases::ContactSpec& c : spec.contacts) check_contact(spec, c);
+  for (const cases::RigidSurfaceSpec& s : spec.rigid_surfaces) {
     check_shape(s, spec.analysis.kind, spec.dimension());
     check_motion(s, spec.analysis.kind, spec.dimension());
   }
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

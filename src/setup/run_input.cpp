@@ -7,13 +7,13 @@
 
 #include "coupling/all_fields.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
 /// @param probe  ProbeSpec or ProfileColumnSpec
 template <class S>
-results::Sampled sampled(const CaseSpec& spec, const S& probe) {
+results::Sampled sampled(const cases::CaseSpec& spec, const S& probe) {
   results::Sampled result;
   result.column = {probe.name, probe.unit};
   result.field = probe.field;
@@ -28,20 +28,20 @@ results::Sampled sampled(const CaseSpec& spec, const S& probe) {
   return result;
 }
 
-results::Statistic statistic(ProbeSpec::Kind kind) {
+results::Statistic statistic(cases::ProbeSpec::Kind kind) {
   switch (kind) {
-    case ProbeSpec::Kind::minimum:
+    case cases::ProbeSpec::Kind::minimum:
       return results::Statistic::minimum;
-    case ProbeSpec::Kind::maximum:
+    case cases::ProbeSpec::Kind::maximum:
       return results::Statistic::maximum;
-    case ProbeSpec::Kind::integral:
+    case cases::ProbeSpec::Kind::integral:
       return results::Statistic::integral;
     default:
       return results::Statistic::mean;
   }
 }
 
-results::PointProbe point_probe(const CaseSpec& spec, const ProbeSpec& probe) {
+results::PointProbe point_probe(const cases::CaseSpec& spec, const cases::ProbeSpec& probe) {
   results::PointProbe result{sampled(spec, probe)};
   for (std::size_t i = 0; i < probe.point.size(); ++i) result.at[i] = probe.point[i];
   if (probe.body)
@@ -52,26 +52,26 @@ results::PointProbe point_probe(const CaseSpec& spec, const ProbeSpec& probe) {
 
 }  // namespace
 
-std::vector<results::Probe> probes(const CaseSpec& spec) {
+std::vector<results::Probe> probes(const cases::CaseSpec& spec) {
   std::vector<results::Probe> result;
-  for (const ProbeSpec& probe : spec.probes) {
+  for (const cases::ProbeSpec& probe : spec.probes) {
     // A difference is one of two other probes, and a global one a column of the history under
     // another name.
     switch (probe.kind) {
-      case ProbeSpec::Kind::point:
+      case cases::ProbeSpec::Kind::point:
         result.emplace_back(point_probe(spec, probe));
         break;
-      case ProbeSpec::Kind::mean:
-      case ProbeSpec::Kind::minimum:
-      case ProbeSpec::Kind::maximum:
-      case ProbeSpec::Kind::integral:
+      case cases::ProbeSpec::Kind::mean:
+      case cases::ProbeSpec::Kind::minimum:
+      case cases::ProbeSpec::Kind::maximum:
+      case cases::ProbeSpec::Kind::integral:
         result.emplace_back(results::GroupProbe{sampled(spec, probe), probe.group, statistic(probe.kind)});
         break;
-      case ProbeSpec::Kind::difference:
+      case cases::ProbeSpec::Kind::difference:
         result.emplace_back(results::LinearProbe{
             {probe.name, probe.unit}, {{1.0, probe.of[0]}, {-1.0, probe.of[1]}}, probe.where});
         break;
-      case ProbeSpec::Kind::global:
+      case cases::ProbeSpec::Kind::global:
         result.emplace_back(
             results::GlobalProbe{{probe.name, probe.unit}, probe.global, probe.factor, probe.where});
         break;
@@ -80,14 +80,14 @@ std::vector<results::Probe> probes(const CaseSpec& spec) {
   return result;
 }
 
-std::vector<results::Profile> profiles(const CaseSpec& spec) {
+std::vector<results::Profile> profiles(const cases::CaseSpec& spec) {
   std::vector<results::Profile> result;
-  for (const ProfileSpec& profile : spec.profiles) {
+  for (const cases::ProfileSpec& profile : spec.profiles) {
     result.push_back({profile.name, profile.group, profile.length_unit, {}, profile.where});
-    for (const ProfileColumnSpec& column : profile.columns)
+    for (const cases::ProfileColumnSpec& column : profile.columns)
       result.back().columns.push_back(sampled(spec, column));
   }
   return result;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -3,16 +3,16 @@
 
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "results/tables/probes.hpp"
 #include "results/tables/profile_table.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 /// The probes in the order of the case; points know the number of their body. Throws InputError for a
 /// component that the field does not have.
-std::vector<results::Probe> probes(const CaseSpec& spec);
+std::vector<results::Probe> probes(const cases::CaseSpec& spec);
 /// Throws InputError as probes().
-std::vector<results::Profile> profiles(const CaseSpec& spec);
+std::vector<results::Profile> profiles(const cases::CaseSpec& spec);
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -5,11 +5,11 @@
 #include <limits>
 #include <stdexcept>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "coupling/guarded_scheme.hpp"
 #include "material/external_law.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -37,13 +37,13 @@ bool heats(const Function& f) {
 
 /// Temperatures that bodies, surroundings and tools have in the run; without an upper bound where heat comes
 /// in without one. The heat of friction is not counted.
-Range temperatures(const CaseSpec& spec, std::span<const InitialTemperatureRange> start) {
-  using Kind = ThermalConditionSpec::Kind;
+Range temperatures(const cases::CaseSpec& spec, std::span<const InitialTemperatureRange> start) {
+  using Kind = cases::ThermalConditionSpec::Kind;
   Range all;
   for (const InitialTemperatureRange& range : start) all.see(range.low, range.high);
-  for (const RigidSurfaceSpec& tool : spec.rigid_surfaces)
+  for (const cases::RigidSurfaceSpec& tool : spec.rigid_surfaces)
     if (tool.temperature) all.see(*tool.temperature);
-  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions) {
     if ((c.kind == Kind::flux && heats(c.flux)) || (c.kind == Kind::source && heats(c.power)) ||
         c.kind == Kind::exothermic)
       all.see(all.low, k_unbounded);
@@ -55,13 +55,13 @@ Range temperatures(const CaseSpec& spec, std::span<const InitialTemperatureRange
 
 }  // namespace
 
-bool keeps_strain(const CaseSpec& spec, const std::vector<material::Material>& materials,
+bool keeps_strain(const cases::CaseSpec& spec, const std::vector<material::Material>& materials,
                   std::span<const InitialTemperatureRange> start) {
   constexpr double k_same = 1;  // [K]
   const Range all = temperatures(spec, start);
   // Metal that melts or flows keeps the strain of the temperatures at which it did.
   for (std::size_t b = 0; b < materials.size(); ++b) {
-    if (!materials[b].mechanical() || only_conducts(spec.bodies[b])) continue;
+    if (!materials[b].mechanical() || cases::only_conducts(spec.bodies[b])) continue;
     const material::PhaseChange* freezing = materials[b].solidification();
     if (freezing != nullptr && all.high >= freezing->fraction.solidus()) return true;
     const bool yields = materials[b].flow.has_value() || material::external_law(materials[b]) != nullptr;
@@ -70,7 +70,7 @@ bool keeps_strain(const CaseSpec& spec, const std::vector<material::Material>& m
   return false;
 }
 
-coupling::SchemeContext scheme_context(const CaseSpec& spec, bool keeps_strain) {
+coupling::SchemeContext scheme_context(const cases::CaseSpec& spec, bool keeps_strain) {
   coupling::SchemeContext c;
   if (spec.exchanges_heat()) c.heating = structural_form(spec);
   c.as_printed = spec.coupling.as_printed;
@@ -85,11 +85,11 @@ coupling::SchemeContext scheme_context(const CaseSpec& spec, bool keeps_strain) 
   return c;
 }
 
-bool lags_a_step(const CaseSpec& spec, bool keeps_strain) {
+bool lags_a_step(const cases::CaseSpec& spec, bool keeps_strain) {
   return spec.coupled() && spec.coupling.scheme->lags_a_step(scheme_context(spec, keeps_strain));
 }
 
-bool may_map_slip_again(const CaseSpec& spec, bool keeps_strain) {
+bool may_map_slip_again(const cases::CaseSpec& spec, bool keeps_strain) {
   if (!spec.coupled()) return false;
   coupling::SchemeContext c = scheme_context(spec, keeps_strain);
   const coupling::SchemeKind& scheme = *spec.coupling.scheme;
@@ -98,22 +98,22 @@ bool may_map_slip_again(const CaseSpec& spec, bool keeps_strain) {
   return mechanics_first && !scheme.objection(c);
 }
 
-bool slips_after_heat(const CaseSpec& spec, bool keeps_strain) {
+bool slips_after_heat(const cases::CaseSpec& spec, bool keeps_strain) {
   if (!spec.coupled()) return false;
   const coupling::SchemeTraits traits = spec.coupling.scheme->traits();
   return !traits.iterates && !traits.second_order && traits.mapping != mechanics::Mapping::simultaneous &&
          !spec.dynamics && !lags_a_step(spec, keeps_strain);
 }
 
-std::unique_ptr<coupling::CouplingScheme> coupling_scheme(const CaseSpec& spec,
+std::unique_ptr<coupling::CouplingScheme> coupling_scheme(const cases::CaseSpec& spec,
                                                           const coupling::Phases& phases, bool keeps_strain) {
   auto scheme = spec.coupled() ? spec.coupling.scheme->make(phases, scheme_context(spec, keeps_strain))
                                : coupling::single_phase(phases);
   return std::make_unique<coupling::GuardedScheme>(std::move(scheme), phases);
 }
 
-mechanics::StructuralForm structural_form(const CaseSpec& spec) {
-  using Heating = CouplingSpec::StructuralHeatForm;
+mechanics::StructuralForm structural_form(const cases::CaseSpec& spec) {
+  using Heating = cases::CouplingSpec::StructuralHeatForm;
   switch (spec.coupling.structural_heating) {
     case Heating::energy:
       return mechanics::StructuralForm::energy;
@@ -129,4 +129,4 @@ mechanics::StructuralForm structural_form(const CaseSpec& spec) {
   throw std::logic_error("deformation exchanges no heat in this case");
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

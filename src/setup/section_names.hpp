@@ -9,7 +9,7 @@
 
 #include "system/errors.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 /// Throws InputError where a section has no name, or two have the same.
 /// @param heading  "[[probe]]"
@@ -24,4 +24,4 @@ void check_names(const std::vector<S>& sections, const std::string& heading) {
   }
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

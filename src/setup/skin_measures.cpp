@@ -11,7 +11,7 @@
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
@@ -149,4 +149,4 @@ SurfaceMeasures measure_surface(const mesh::Mesh& mesh, const std::string& name,
   return m;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "cases/case_spec.hpp"
 #include "contact/pair.hpp"
 #include "mesh/mesh.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 /// Measures of a contact as it was built, with the bodies at their place in the mesh. Body −1: a rigid tool;
 /// −2: several.
@@ -56,4 +56,4 @@ GlobalIndex shared_nodes(const mesh::Mesh& mesh, const std::string& a, const std
 /// Points of all processes, in the order of the processes. Collective.
 std::vector<mesh::Point> gather(const std::vector<mesh::Point>& points);
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

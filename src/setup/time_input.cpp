@@ -8,17 +8,17 @@
 #include <cmath>
 #include <limits>
 
-#include "case/stage_input.hpp"
+#include "cases/stage_input.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 
 namespace {
 
-void refuse(const TimeSpec& t, bool given, const char* key, const char* needs, const char* allowed) {
+void refuse(const cases::TimeSpec& t, bool given, const char* key, const char* needs, const char* allowed) {
   if (given) throw InputError(t.where, fmt::format("'{}' means nothing {}", key, needs), allowed);
 }
 
-void check_limits(const TimeSpec& t, const CaseSpec& spec) {
+void check_limits(const cases::TimeSpec& t, const cases::CaseSpec& spec) {
   // Keys of [time] that mean nothing with others are refused instead of ignored, each with what it would
   // need.
   using coupling::ErrorControl;
@@ -56,15 +56,15 @@ void check_limits(const TimeSpec& t, const CaseSpec& spec) {
          "temperature_error");
 }
 
-void check_until(const TimeSpec& t, const CaseSpec& spec) {
-  if (t.until != TimeSpec::Until::solid) return;
+void check_until(const cases::TimeSpec& t, const cases::CaseSpec& spec) {
+  if (t.until != cases::TimeSpec::Until::solid) return;
   refuse(t, t.steady, "until = \"solid\"", "in a steady analysis", "no 'until'");
   refuse(t, !spec.stages.empty(), "until = \"solid\"",
          "in a run with stages, whose durations say when it ends", "no 'until'");
   refuse(t, !spec.has_heat(), "until = \"solid\"", "in an analysis without heat", "no 'until'");
 }
 
-void check_number_of_steps(const TimeSpec& t, double steps) {
+void check_number_of_steps(const cases::TimeSpec& t, double steps) {
   if (steps > 1e8)
     throw InputError(t.where, fmt::format("{:.3g} steps would be needed", steps), "at most 1e8");
 }
@@ -79,7 +79,7 @@ double default_displacement_error(std::span<const double> sections) {
   return k_share_of_section * thinnest;
 }
 
-coupling::StepOptions step_options(const TimeSpec& t, double step) {
+coupling::StepOptions step_options(const cases::TimeSpec& t, double step) {
   coupling::StepOptions options;
   // A limit that the case does not give has the default of the documentation.
   options.step = step;
@@ -97,8 +97,8 @@ coupling::StepOptions step_options(const TimeSpec& t, double step) {
   return options;
 }
 
-coupling::Stage stage(const TimeSpec& t, const StageRun& run) {
-  coupling::StepOptions step = step_options(t, first_step(*run.stage, t));
+coupling::Stage stage(const cases::TimeSpec& t, const cases::StageRun& run) {
+  coupling::StepOptions step = step_options(t, cases::first_step(*run.stage, t));
   if (run.stage->min_step) step.min_step = *run.stage->min_step;
   if (run.stage->max_step) step.max_step = *run.stage->max_step;
   return {.name = run.stage->name,
@@ -114,15 +114,16 @@ coupling::Stage stage(const TimeSpec& t, const StageRun& run) {
 
 }  // namespace
 
-void check_time(const CaseSpec& spec) {
-  const TimeSpec& t = spec.time;
+void check_time(const cases::CaseSpec& spec) {
+  const cases::TimeSpec& t = spec.time;
   check_until(t, spec);
   if (t.steady) return;
   // Stages bring durations and steps of their own; a case without them needs an end and a step.
   if (!spec.stages.empty()) {  // steps and durations are checked with the stages
     check_limits(t, spec);
     double steps = 0;
-    for (const StageRun& run : stage_runs(spec)) steps += run.stage->duration / first_step(*run.stage, t);
+    for (const cases::StageRun& run : cases::stage_runs(spec))
+      steps += run.stage->duration / cases::first_step(*run.stage, t);
     return check_number_of_steps(t, steps);
   }
   if (!t.end || !t.step)
@@ -136,11 +137,11 @@ void check_time(const CaseSpec& spec) {
   check_number_of_steps(t, *t.end / *t.step);
 }
 
-double displacement_error(const TimeSpec& t, std::span<const double> sections) {
+double displacement_error(const cases::TimeSpec& t, std::span<const double> sections) {
   return t.displacement_error ? *t.displacement_error : default_displacement_error(sections);
 }
 
-double skin_change(const TimeSpec& t, std::span<const double> sections) {
+double skin_change(const cases::TimeSpec& t, std::span<const double> sections) {
   constexpr double k_least = 1e-3, k_most = 0.5;
   if (t.skin_change) return *t.skin_change;
   const double standard = coupling::StepLimits{}.skin;
@@ -151,15 +152,15 @@ double skin_change(const TimeSpec& t, std::span<const double> sections) {
   return std::clamp(standard * std::sqrt(ratio), k_least, k_most);
 }
 
-coupling::TimeOptions time_options(const CaseSpec& spec) {
-  const TimeSpec& t = spec.time;
+coupling::TimeOptions time_options(const cases::CaseSpec& spec) {
+  const cases::TimeSpec& t = spec.time;
   coupling::TimeOptions options;
   // End, or the moment at which all is solid, and the steps on the way there, with or without
   // stages.
   options.end = *t.end;
-  options.until_solid = t.until == TimeSpec::Until::solid;
+  options.until_solid = t.until == cases::TimeSpec::Until::solid;
   if (spec.stages.empty()) options.step = step_options(t, *t.step);
-  for (const StageRun& run : stage_runs(spec)) options.stages.push_back(stage(t, run));
+  for (const cases::StageRun& run : cases::stage_runs(spec)) options.stages.push_back(stage(t, run));
   options.output_at_stage_ends = spec.output.stage_ends;
   options.output_times = spec.output.times;
   options.checkpoint_every = spec.output.checkpoint_every.value_or(0);
@@ -172,4 +173,4 @@ coupling::TimeOptions time_options(const CaseSpec& spec) {
   return options;
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::setup

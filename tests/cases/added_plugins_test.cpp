@@ -10,8 +10,8 @@
 #include "../laws/halved_split.hpp"
 #include "../laws/hyperbolic_coefficient.hpp"
 #include "../laws/power_fraction.hpp"
-#include "case/case_keys.hpp"
 #include "case_folder.hpp"
+#include "cases/case_keys.hpp"
 #include "input/key_docs.hpp"
 
 namespace solidus::testing {
@@ -126,7 +126,7 @@ TEST(AddedPlugins, RunTogetherAndCloseTheFirstLaw) {
 }
 
 TEST(AddedPlugins, StandInTheReferenceAndInMessages) {
-  const auto& keys = model::case_keys().info();
+  const auto& keys = cases::case_keys().info();
   const SectionInfo& contact = *keys.find("contact")->section;
   const SectionInfo& heat = *contact.find("heat")->section;
   EXPECT_THAT(heat.find("gap_law")->allowed, ::testing::Contains("falling"));

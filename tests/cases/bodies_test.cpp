@@ -226,12 +226,12 @@ TEST_F(Bodies, GoOnWithTheSameBitsBeforeAtAndAfterTheyLeave) {
 TEST_F(Bodies, ARunThatStopsRightAfterItWentOnKeepsWhatItsSummarySaid) {
   const std::string file = k_here.write("again.toml", k_shake_out);
   const auto stop = [&](bool restart, int steps) {
-    solidus::model::RunOptions options;
+    solidus::run::RunOptions options;
     options.folder = k_here.root() / "again";
     options.restart = restart;
     int asked = 0;
     options.stop_asked = [&asked, steps] { return asked++ == steps; };
-    EXPECT_FALSE(solidus::model::run_case(solidus::model::load_case(file), options).finished);
+    EXPECT_FALSE(solidus::run::run_case(solidus::setup::load_case(file), options).finished);
     return summary("again", "sxx[MPa]");
   };
   const double stress = stop(false, 6);
@@ -347,12 +347,12 @@ TEST_F(Bodies, OnTwoProcessesAreTheSame) {
 
 TEST_F(Bodies, ACheckpointIsOfTheBodiesThatWereThere) {
   ASSERT_TRUE(k_here.run("once", k_shake_out).finished);
-  solidus::model::RunOptions options;
+  solidus::run::RunOptions options;
   options.folder = k_here.root() / "once";
   options.restart = true;
   try {
-    solidus::model::run_case(
-        solidus::model::load_case(k_here.write("once.toml", k_shake_out), {"body.sand.physics=heat"}),
+    solidus::run::run_case(
+        solidus::setup::load_case(k_here.write("once.toml", k_shake_out), {"body.sand.physics=heat"}),
         options);
     ADD_FAILURE();
   } catch (const solidus::InputError& error) {

@@ -55,12 +55,12 @@ class CaseFolder {
                             const std::vector<std::string>& overrides = {}) const {
     const std::string file = write(name + ".toml", text);
     const auto go = [&](const std::string& folder, bool restart, int steps) {
-      model::RunOptions options;
+      run::RunOptions options;
       options.folder = root() / folder;
       options.restart = restart;
       int asked = 0;
       options.stop_asked = [&asked, steps] { return asked++ == steps; };
-      return model::run_case(model::load_case(file, overrides), options).finished;
+      return run::run_case(setup::load_case(file, overrides), options).finished;
     };
     constexpr int k_never = -1;
     ASSERT_TRUE(go(name + "_whole", false, k_never));

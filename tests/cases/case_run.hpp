@@ -55,11 +55,11 @@ struct CaseRun {
 inline CaseRun run(const std::string& case_path, const std::string& name,
                    const std::vector<std::string>& overrides = {}) {
   const std::filesystem::path folder = std::filesystem::path(SOLIDUS_BINARY_DIR) / "case_runs" / name;
-  const model::Case c = model::load_case(std::filesystem::path(SOLIDUS_SOURCE_DIR) / case_path, overrides);
-  model::RunOptions options;
+  const setup::Case c = setup::load_case(std::filesystem::path(SOLIDUS_SOURCE_DIR) / case_path, overrides);
+  run::RunOptions options;
   options.folder = folder;
   logging::clear_warnings();
-  const model::RunResult result = model::run_case(c, options);
+  const run::RunResult result = run::run_case(c, options);
   if (c.spec.coupling.scheme->name() == "isentropic") {
     EXPECT_THAT(logging::warnings(),
                 ::testing::Not(::testing::Contains(::testing::HasSubstr("functional L of stability grew"))))

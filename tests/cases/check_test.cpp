@@ -31,7 +31,7 @@ std::vector<fs::path> case_files() {
     for (const auto& file : fs::directory_iterator(folder.path())) {
       if (file.path().extension() != ".toml" || file.path().filename() == "plots.toml") continue;
       if (file.path().filename() == "variants.toml") {
-        for (const model::VariantInfo& variant : model::variants_beside(file.path()))
+        for (const setup::VariantInfo& variant : setup::variants_beside(file.path()))
           files.emplace_back(folder.path().string() + ":" + variant.name);
         continue;
       }
@@ -65,7 +65,7 @@ TEST(Check, FindsNothingToSayOfTheProjectsCases) {
   EXPECT_GT(files.size(), 100u);
   for (const fs::path& file : files) {
     logging::clear_warnings();
-    const model::CheckedRun checked = model::check_run(model::load_case(file, overrides(file)));
+    const run::CheckedRun checked = run::check_run(setup::load_case(file, overrides(file)));
     if (!unusual(file)) {
       EXPECT_THAT(logging::warnings(), IsEmpty()) << file;
     }
@@ -86,7 +86,7 @@ TEST(Check, EstimatesWhenCastingsAreSolid) {
                             {"hot_spots/case.toml", 272},
                             {"crankshaft/case.toml", 551}}) {
     const fs::path file = fs::path(SOLIDUS_SOURCE_DIR) / "cases" / m.file;
-    const model::CheckedRun checked = model::check_run(model::load_case(file, overrides(file)));
+    const run::CheckedRun checked = run::check_run(setup::load_case(file, overrides(file)));
     ASSERT_EQ(checked.overview.pours.size(), 1u) << m.file;
     ASSERT_TRUE(checked.overview.pours[0].freezing_time) << m.file;
     const double ratio = *checked.overview.pours[0].freezing_time / m.seconds;
@@ -104,7 +104,7 @@ TEST(Check, EstimatesWhenCastingsWithRisersAreSolid) {
   for (const Measured& m :
        {Measured{"stepped_plate/case.toml", 301, 342}, {"riser_sleeve/sand.toml", 982, 973}}) {
     const fs::path file = fs::path(SOLIDUS_SOURCE_DIR) / "cases" / m.file;
-    const model::CheckedRun checked = model::check_run(model::load_case(file));
+    const run::CheckedRun checked = run::check_run(setup::load_case(file));
     ASSERT_EQ(checked.overview.pours.size(), 2u) << m.file;
     for (const results::PourOverview& pour : checked.overview.pours) {
       ASSERT_TRUE(pour.freezing_time) << m.file;

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/case_materials.hpp"
 #include "case_folder.hpp"
+#include "cases/case_materials.hpp"
 #include "coupling/contact_states.hpp"
 #include "setup/assembly.hpp"
 #include "setup/case_file.hpp"
@@ -137,13 +137,13 @@ Skin pour(const std::string& name, bool solid, const std::string& material,
   k_here.write("plate.geo", k_plate);
   k_here.write("box.geo", k_box);
   k_here.write("range.toml", k_range);
-  model::Case c = model::load_case(k_here.write(name + ".toml", casting(solid, material)), overrides);
-  model::Assembly a;
-  a.materials = model::load_materials(c.spec);
-  a.mesh = model::load_mesh(c.spec);
-  model::build(c.spec, a);
+  setup::Case c = setup::load_case(k_here.write(name + ".toml", casting(solid, material)), overrides);
+  setup::Assembly a;
+  a.materials = cases::load_materials(c.spec);
+  a.mesh = setup::load_mesh(c.spec);
+  setup::build(c.spec, a);
   const auto scheme =
-      model::coupling_scheme(c.spec, a.phases, model::keeps_strain(c.spec, a.materials, a.start));
+      setup::coupling_scheme(c.spec, a.phases, setup::keeps_strain(c.spec, a.materials, a.start));
   scheme->synchronise(a.initial);
   const contact::ContactPair& wall = *a.contacts[0];
   const double height = solid ? 0.024 : 0.03,

@@ -125,13 +125,13 @@ TEST(DifficultShapes, BodiesThatOverlapAreSaidToDoSoInWhateverWayTheyAreMeshed) 
 }
 
 TEST(DifficultShapes, ANewCaseOfBodiesThatOverlapSaysSo) {
-  solidus::model::NewCaseOptions options;
+  solidus::new_case::NewCaseOptions options;
   options.geometry = sunk_in_pin();
   options.alloy = "aluminium_alsi7mg";
   options.fineness = 0.5;
   options.folder = fs::path(SOLIDUS_BINARY_DIR) / "case_runs" / "difficult_shapes" / "sunk_in_pin";
   fs::remove_all(options.folder);
-  EXPECT_THAT(solidus::model::make_new_case(options).text,
+  EXPECT_THAT(solidus::new_case::make_new_case(options).text,
               HasSubstr("bodies of the geometry overlap: 'body_1' and 'body_2' have 4.52 cm3 in common"));
 }
 

@@ -12,10 +12,10 @@
 namespace solidus::testing {
 
 /// Exports the last moment of a run of `here` to a file for CalculiX.
-inline model::ExportReport exported(const CaseFolder& here, const std::string& run,
-                                    const std::filesystem::path& file) {
-  return model::export_state(
-      model::load_case(here.root() / run / "case.toml"),
+inline run::ExportReport exported(const CaseFolder& here, const std::string& run,
+                                  const std::filesystem::path& file) {
+  return run::export_state(
+      setup::load_case(here.root() / run / "case.toml"),
       {.folder = here.root() / run, .file = file, .deck = [](const results::StructuralDeck& deck) {
          return results::structural_deck(deck, results::Dialect::calculix);
        }});

@@ -109,7 +109,7 @@ TEST(Lag, OfMechanicsFirstIsSaidByCheckAndByTheRun) {
   const CaseFolder folder("lag_friction");
   folder.write("steel.toml", steel(1e-9));
   const std::string file = folder.write("rubbing.toml", rubbing_blocks());
-  EXPECT_THAT(solidus::results::text(solidus::model::check_run(solidus::model::load_case(file)).overview),
+  EXPECT_THAT(solidus::results::text(solidus::run::check_run(solidus::setup::load_case(file)).overview),
               HasSubstr("displacements and stresses belong to the temperatures a step before "
                         "(mechanics_first): 1 s of 10 s, 10 % of what changes evenly"));
   const Printed printed;

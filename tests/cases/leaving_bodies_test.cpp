@@ -239,7 +239,7 @@ TEST(LeavingBodies, MeltThatNothingHoldsRunsOutAndTheRunSaysSo) {
 
 TEST(LeavingBodies, MeltThatSinksWithinTheBoxOfItsBodyHasNotRunOut) {
   // The riser of the wheel in its die, whose funnel is deeper than half its size.
-  const solidus::model::MeltWatch::Box riser{{0, 45e-3, 0}, {40e-3, 110e-3, 0}};
+  const solidus::run::MeltWatch::Box riser{{0, 45e-3, 0}, {40e-3, 110e-3, 0}};
   EXPECT_NEAR(riser.diagonal(), 76.32e-3, 1e-5);
   EXPECT_EQ(riser.distance_outside({0, 110e-3 - 44.3e-3, 0}), 0);
   EXPECT_NEAR(riser.distance_outside({43e-3, 41e-3, 0}), 5e-3, 1e-15);

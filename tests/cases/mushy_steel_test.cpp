@@ -77,14 +77,14 @@ gas_conductivity = "0.05 W/m/K"
 TEST(MushySteel, FreezesInFewIterationsAndMayBeStoppedBeforeEveryTry) {
   k_here.write("steel.geo", k_geometry);
   const std::string file = k_here.write("steel.toml", k_case);
-  solidus::model::RunOptions options;
+  solidus::run::RunOptions options;
   options.folder = k_here.root() / "steel";
   int asked = 0;
   options.stop_asked = [&] {
     ++asked;
     return false;
   };
-  const auto result = solidus::model::run_case(solidus::model::load_case(file), options);
+  const auto result = solidus::run::run_case(solidus::setup::load_case(file), options);
   ASSERT_TRUE(result.finished) << result.reason;
   const auto history = solidus::testing::read_csv(options.folder / "history.csv");
   EXPECT_EQ(history.at("solid_fraction[1]").back(), 1);

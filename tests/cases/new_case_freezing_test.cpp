@@ -129,17 +129,17 @@ double froze(const fs::path& run) {
 }
 
 TEST(NewCase, OfABallInSandFreezesWithinTwoPerCentOfItsTimeAtSevenTenthsOfTheFineness) {
-  solidus::model::NewCaseOptions options;
+  solidus::new_case::NewCaseOptions options;
   options.geometry = ball(30);
   options.alloy = "aluminium_alsi7mg";
   options.fineness = 0.7;
   options.folder = root() / "ball";
   fs::remove_all(options.folder);
-  const solidus::model::NewCaseReport report = solidus::model::make_new_case(options);
-  solidus::model::RunOptions run;
+  const solidus::new_case::NewCaseReport report = solidus::new_case::make_new_case(options);
+  solidus::run::RunOptions run;
   run.folder = root() / "run";
-  const solidus::model::RunResult result = solidus::model::run_case(
-      solidus::model::load_case(report.file, {}, solidus::model::Physics::heat), run);
+  const solidus::run::RunResult result =
+      solidus::run::run_case(solidus::setup::load_case(report.file, {}, solidus::cases::Physics::heat), run);
   ASSERT_TRUE(result.finished) << result.reason;
   const double right = ball_is_solid_after(0.03, 695);
   EXPECT_NEAR(right, 337, 0.5);

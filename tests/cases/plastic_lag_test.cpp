@@ -189,7 +189,7 @@ TEST(PlasticLagOfFriction, BodiesThatYieldConductHeatFirst) {
     const std::string cold = "initial_temperature = \"20 degC\"";
     text.replace(text.find(cold), cold.size(), "initial_temperature = \"200 degC\"");
     const std::string file = folder.write(name + ".toml", text);
-    return solidus::results::text(solidus::model::check_run(solidus::model::load_case(file)).overview);
+    return solidus::results::text(solidus::run::check_run(solidus::setup::load_case(file)).overview);
   };
   const std::string elastic = metal("");
   EXPECT_THAT(overview("elastic", elastic.substr(0, elastic.find("[plasticity]"))),
@@ -204,7 +204,7 @@ TEST(PlasticLagOfFriction, ThePrintedThermalPhaseOfFrictionGoesWithMechanicsFirs
   EXPECT_THAT(folder.refusal("refused", rubbing(printed, "[coupling]\norder = \"heat_first\"\n")),
               HasSubstr("thermal_return_mapping with heat first"));
   const std::string file = folder.write("chosen.toml", rubbing(printed));
-  EXPECT_THAT(solidus::results::text(solidus::model::check_run(solidus::model::load_case(file)).overview),
+  EXPECT_THAT(solidus::results::text(solidus::run::check_run(solidus::setup::load_case(file)).overview),
               HasSubstr("(mechanics_first)"));
 }
 

@@ -102,10 +102,10 @@ TEST(SheetSliding, EveryVariantIsInOrder) {
     for (const char* force : {"_3920", "_2940", "_1960", "_980"})
       for (const char* law : {"", "_work"}) missing.insert(std::string(steel) + force + law);
   EXPECT_EQ(missing.size(), 16u);
-  for (const auto& variant : solidus::model::variants_beside(k_folder / "case.toml")) {
+  for (const auto& variant : solidus::setup::variants_beside(k_folder / "case.toml")) {
     missing.erase(variant.name);
     EXPECT_NO_THROW(
-        solidus::model::check_run(solidus::model::load_case(k_folder.string() + ":" + variant.name)))
+        solidus::run::check_run(solidus::setup::load_case(k_folder.string() + ":" + variant.name)))
         << variant.name;
   }
   EXPECT_THAT(missing, ::testing::IsEmpty());

@@ -310,10 +310,10 @@ TEST(Shots, GoOnWithTheSameBitsInAnyShot) {
 TEST(Shots, AFinishedSearchGoesOnToASmallerTolerance) {
   const std::string file = k_here.write("smaller.toml", k_shots);
   const auto go = [&](const std::string& tolerance, bool restart) {
-    solidus::model::RunOptions options;
+    solidus::run::RunOptions options;
     options.folder = k_here.root() / "smaller";
     options.restart = restart;
-    return solidus::model::run_case(solidus::model::load_case(file, periodic(tolerance, "anderson")), options)
+    return solidus::run::run_case(solidus::setup::load_case(file, periodic(tolerance, "anderson")), options)
         .finished;
   };
   ASSERT_TRUE(go("1 K", false));

@@ -271,11 +271,11 @@ TEST(Stages, ContactThatIsSwitchedOffKeepsTheFirstLawWithInertia) {
 TEST(Stages, MoreCyclesMakeAFinishedRunLonger) {
   const std::string file = k_here.write("longer.toml", k_strokes);
   const auto go = [&](const std::string& repeat, bool restart) {
-    solidus::model::RunOptions options;
+    solidus::run::RunOptions options;
     options.folder = k_here.root() / "longer";
     options.restart = restart;
-    const auto c = solidus::model::load_case(file, {"cycle.strokes.repeat=" + repeat});
-    return solidus::model::run_case(c, options).finished;
+    const auto c = solidus::setup::load_case(file, {"cycle.strokes.repeat=" + repeat});
+    return solidus::run::run_case(c, options).finished;
   };
   ASSERT_TRUE(go("1", false));
   ASSERT_TRUE(go("2", true));

@@ -132,7 +132,7 @@ std::filesystem::path hollow_box() {
 }
 
 TEST(NewCase, OfAHollowPartHasAMouldACoreARiserAndRunsBothWays) {
-  solidus::model::NewCaseOptions options;
+  solidus::new_case::NewCaseOptions options;
   options.geometry = hollow_box();
   options.alloy = "aluminium_alsi7mg";
   options.riser = true;
@@ -140,21 +140,21 @@ TEST(NewCase, OfAHollowPartHasAMouldACoreARiserAndRunsBothWays) {
   options.fineness = 0.5;
   options.folder = root() / "hollow";
   fs::remove_all(options.folder);
-  const solidus::model::NewCaseReport report = solidus::model::make_new_case(options);
+  const solidus::new_case::NewCaseReport report = solidus::new_case::make_new_case(options);
   EXPECT_THAT(report.text, HasSubstr("core"));
-  using solidus::model::Physics;
+  using solidus::cases::Physics;
   for (const Physics physics : {Physics::heat, Physics::thermomechanical}) {
-    const solidus::model::Case c =
-        solidus::model::load_case(report.file, {"time.end=\"3 s\"", "time.step=\"1 s\""}, physics);
+    const solidus::setup::Case c =
+        solidus::setup::load_case(report.file, {"time.end=\"3 s\"", "time.step=\"1 s\""}, physics);
     ASSERT_EQ(c.spec.bodies.size(), 4U);
     EXPECT_EQ(c.spec.mechanical_conditions.size(), physics == Physics::heat ? 0U : 2U);  // symmetry
-    solidus::model::RunOptions run;
+    solidus::run::RunOptions run;
     run.folder = root() / (physics == Physics::heat ? "hollow_heat" : "hollow_coupled");
-    const solidus::model::RunResult result = solidus::model::run_case(c, run);
+    const solidus::run::RunResult result = solidus::run::run_case(c, run);
     EXPECT_TRUE(result.finished) << result.reason;
   }
-  const solidus::model::CheckedRun checked =
-      solidus::model::check_run(solidus::model::load_case(report.file, {}, Physics::heat));
+  const solidus::run::CheckedRun checked =
+      solidus::run::check_run(solidus::setup::load_case(report.file, {}, Physics::heat));
   double metal = 0, riser = 0;
   for (const auto& body : checked.overview.bodies) {
     if (body.name == "core") {
@@ -165,12 +165,12 @@ TEST(NewCase, OfAHollowPartHasAMouldACoreARiserAndRunsBothWays) {
   }
   EXPECT_NEAR(metal, (96e-6 - 8e-6) / 2, 1e-10);
   // It stands on the plane of symmetry. Its foot is sunk into the part by 0.05 diameters.
-  const auto cylinder = *solidus::model::load_case(report.file, {}, Physics::heat).spec.mesh.riser;
+  const auto cylinder = *solidus::setup::load_case(report.file, {}, Physics::heat).spec.mesh.riser;
   EXPECT_EQ(cylinder.foot[1], 0.02);
   const double half = std::numbers::pi / 8 * cylinder.diameter * cylinder.diameter * cylinder.height;
   EXPECT_GT(riser, 0.85 * half);
   EXPECT_LT(riser, half);
-  EXPECT_THROW(solidus::model::make_new_case(options), solidus::InputError);  // there is a case already
+  EXPECT_THROW(solidus::new_case::make_new_case(options), solidus::InputError);  // there is a case already
 }
 
 /// Two balls of 40 mm on a thin bar, 120 mm apart along y.
@@ -192,7 +192,7 @@ std::filesystem::path dumbbell() {
 }
 
 TEST(NewCase, WhereAPartIsThickestBesideThePlaneOfSymmetryEachHalfHasARiser) {
-  solidus::model::NewCaseOptions options;
+  solidus::new_case::NewCaseOptions options;
   options.geometry = dumbbell();
   options.alloy = "aluminium_alsi7mg";
   options.riser = true;
@@ -200,15 +200,15 @@ TEST(NewCase, WhereAPartIsThickestBesideThePlaneOfSymmetryEachHalfHasARiser) {
   options.fineness = 0.6;
   options.folder = root() / "dumbbell";
   fs::remove_all(options.folder);
-  const solidus::model::NewCaseReport report = solidus::model::make_new_case(options);
+  const solidus::new_case::NewCaseReport report = solidus::new_case::make_new_case(options);
   // Where exactly is a matter of the mesh, and so of the version of Gmsh.
   const std::string before = "the part is thickest ";
   const std::size_t found = report.text.find(before);
   ASSERT_NE(found, std::string::npos) << report.text;
   EXPECT_NEAR(std::stod(report.text.substr(found + before.size())), 60, 0.5);
   EXPECT_THAT(report.text, HasSubstr(" mm beside the plane of symmetry: there is a riser on each half"));
-  const solidus::model::Case c = solidus::model::load_case(report.file, {}, solidus::model::Physics::heat);
-  const solidus::model::RiserBlockSpec& riser = *c.spec.mesh.riser;
+  const solidus::setup::Case c = solidus::setup::load_case(report.file, {}, solidus::cases::Physics::heat);
+  const solidus::cases::RiserBlockSpec& riser = *c.spec.mesh.riser;
   EXPECT_NEAR(riser.foot[1], -0.06, 1e-3);
   EXPECT_GT(std::abs(riser.foot[1]), 0.5 * riser.diameter);
 }
@@ -287,7 +287,7 @@ std::filesystem::path die_with_a_bore() {
 }
 
 TEST(NewCase, ADrawnDieWithABoreHasWaterInItAndAirOutside) {
-  solidus::model::NewCaseOptions options;
+  solidus::new_case::NewCaseOptions options;
   options.geometry = die_with_a_bore();
   options.alloy = "aluminium_alsi7mg";
   options.process = "gravity_die";
@@ -296,12 +296,12 @@ TEST(NewCase, ADrawnDieWithABoreHasWaterInItAndAirOutside) {
   options.shots = 3;
   options.folder = root() / "die_with_a_bore";
   fs::remove_all(options.folder);
-  const solidus::model::NewCaseReport report = solidus::model::make_new_case(options);
+  const solidus::new_case::NewCaseReport report = solidus::new_case::make_new_case(options);
   EXPECT_THAT(report.text, HasSubstr("1 bore of 10 mm in "));
   EXPECT_THAT(report.text, HasSubstr("the outside of the die cooled by air alone"));
   EXPECT_THAT(report.text,
               Not(HasSubstr("W/m2/K outside the die take")));  // the lumped film of a die without
-  const solidus::model::Case c = solidus::model::load_case(report.file, {}, solidus::model::Physics::heat);
+  const solidus::setup::Case c = solidus::setup::load_case(report.file, {}, solidus::cases::Physics::heat);
   const auto film_on = [&](const std::string& group) {
     for (const auto& condition : c.spec.thermal_conditions)
       if (condition.group == group) return condition;
@@ -309,19 +309,19 @@ TEST(NewCase, ADrawnDieWithABoreHasWaterInItAndAirOutside) {
   };
   EXPECT_THAT(film_on("body_2_channel_1").name, HasSubstr("water"));
   EXPECT_THAT(film_on("body_2_free").name, HasSubstr("air"));
-  const solidus::model::CheckedRun checked = solidus::model::check_run(c);
+  const solidus::run::CheckedRun checked = solidus::run::check_run(c);
   EXPECT_GT(checked.overview.bodies.size(), 1U);
 }
 
 TEST(NewCase, SaysThatAPartIsNotSymmetric) {
-  solidus::model::NewCaseOptions options;
+  solidus::new_case::NewCaseOptions options;
   options.geometry = hollow_box();
   options.alloy = "aluminium_alsi7mg";
   options.symmetry = "x";
   options.folder = root() / "hollow_x";
   fs::remove_all(options.folder);
   try {
-    solidus::model::make_new_case(options);
+    solidus::new_case::make_new_case(options);
     ADD_FAILURE();
   } catch (const solidus::InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("not symmetric in x"));

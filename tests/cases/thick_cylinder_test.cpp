@@ -79,19 +79,19 @@ std::set<std::string> expected_variants() {
 TEST(ThickCylinder, EveryVariantIsInOrder) {
   std::set<std::string> missing = expected_variants();
   EXPECT_EQ(missing.size(), 86u);
-  for (const auto& variant : solidus::model::variants_beside(k_folder / "case.toml")) {
+  for (const auto& variant : solidus::setup::variants_beside(k_folder / "case.toml")) {
     missing.erase(variant.name);
     EXPECT_NO_THROW(
-        solidus::model::check_run(solidus::model::load_case(k_folder.string() + ":" + variant.name)))
+        solidus::run::check_run(solidus::setup::load_case(k_folder.string() + ":" + variant.name)))
         << variant.name;
   }
   EXPECT_THAT(missing, ::testing::IsEmpty());
 }
 
 TEST(ThickCylinder, TheDefaultIsTheElasticWallByTheIsentropicSplit) {
-  const auto a = solidus::model::load_case(k_folder).document;
+  const auto a = solidus::setup::load_case(k_folder).document;
   EXPECT_EQ(solidus::to_toml(a),
-            solidus::to_toml(solidus::model::load_case(k_folder.string() + ":te_x1_isentropic").document));
+            solidus::to_toml(solidus::setup::load_case(k_folder.string() + ":te_x1_isentropic").document));
 }
 
 // The control values of the case: Δt = 10 s, 50 elements, elastic.

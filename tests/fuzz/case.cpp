@@ -5,5 +5,5 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace solidus;
   const auto file = fuzz::as_file("case.toml", data, size);
-  return fuzz::answer([&] { model::load_case(file).toml(); });
+  return fuzz::answer([&] { setup::load_case(file).toml(); });
 }

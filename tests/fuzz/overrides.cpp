@@ -35,5 +35,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::istringstream text(std::string(reinterpret_cast<const char*>(data), size));  // NOLINT: bytes are bytes
   std::vector<std::string> overrides;
   for (std::string line; std::getline(text, line);) overrides.push_back(line);
-  return fuzz::answer([&] { model::load_case(file, overrides); });
+  return fuzz::answer([&] { setup::load_case(file, overrides); });
 }

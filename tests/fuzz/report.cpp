@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 6);
   }
   return fuzz::answer([&] {
-    report::report_text({{fuzz::folder()}});
-    report::body_materials(fuzz::folder());
+    results::report_text({{fuzz::folder()}});
+    results::body_materials(fuzz::folder());
   });
 }

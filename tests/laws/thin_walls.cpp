@@ -5,14 +5,15 @@
 
 namespace {
 
-using namespace solidus::model;
+using namespace solidus;
 
 /// Twice the volume over the skin of what melt fills in sand [m].
 constexpr double k_thinnest = 2e-3;
 
-void find(const CaseSpec& spec, const Assembly&, const CaseMeasures& m, Findings& findings) {
-  for (const Pour& pour : m.pours) {
-    const BodyMeasures& body = m.bodies[pour.body];
+void find(const cases::CaseSpec& spec, const setup::Assembly&, const check::CaseMeasures& m,
+          check::Findings& findings) {
+  for (const check::Pour& pour : m.pours) {
+    const check::BodyMeasures& body = m.bodies[pour.body];
     const double thickness = 2 * body.volume / body.skin;
     if (thickness < k_thinnest)
       findings.push_back(
@@ -23,11 +24,11 @@ void find(const CaseSpec& spec, const Assembly&, const CaseMeasures& m, Findings
   }
 }
 
-const AddFindings k_thin_walls{
-    {.name = "thin walls",
-     .place = 75,
-     .find = &find,
-     .rows = {{Topic::pour, "thin walls",
-               fmt::format("a body that is poured has 2 V/A below {} mm", number(1e3 * k_thinnest))}}}};
+const check::AddFindings k_thin_walls{{.name = "thin walls",
+                                       .place = 75,
+                                       .find = &find,
+                                       .rows = {{check::Topic::pour, "thin walls",
+                                                 fmt::format("a body that is poured has 2 V/A below {} mm",
+                                                             check::number(1e3 * k_thinnest))}}}};
 
 }  // namespace

@@ -17,7 +17,7 @@ class Weigh final : public Verb {
   }
   ExitCode run() override {
     const double in_kilograms = unit_ == "g" ? 1000 : 1;
-    const model::CheckedRun checked = model::check_run(load_case(arguments_));
+    const run::CheckedRun checked = run::check_run(load_case(arguments_));
     for (const results::BodyOverview& body : checked.overview.bodies)
       print(fmt::format("{} {:.6g} {}\n", body.name, in_kilograms * body.mass, unit_));
     return k_done;

@@ -103,8 +103,8 @@ TEST(Memory, CuttingAMeshTakesLessThanThreeMeshes) {
 
 TEST(Memory, MeasuringBodiesLooksAtAPartOfTheirElements) {
   const mesh::Mesh mesh = mesh::distribute(tetrahedra(), {"block"}, {}, {});
-  std::vector<model::BodyMeasures> measures;
-  const double most = most_by([&] { measures = model::measure_bodies(mesh, AnalysisKind::solid); });
+  std::vector<check::BodyMeasures> measures;
+  const double most = most_by([&] { measures = check::measure_bodies(mesh, AnalysisKind::solid); });
   EXPECT_NEAR(measures[0].volume, 1e-3, 1e-15);
   EXPECT_NEAR(measures[0].skin, 0.06, 1e-12);
   EXPECT_LT(most, 220);  // of their faces a portion of the nodes, too, 275 bytes each

@@ -6,6 +6,11 @@ import unittest
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2] / "src"
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+DECLARED_IN_ADVANCE = re.compile(r"^(template <[^>]*>\s*)?(class|struct|enum class) \w+( : \w+)?;", re.MULTILINE)
+# What all rooms stand on has no namespace of its own but `solidus` (decision 0076).
+BASE = ("numbers", "system", "input")
+# Wrappers of a library within a room, in a namespace that has the library's name.
+WRAPPERS = {"parallel": "petsc"}
 
 
 def imports():
@@ -15,6 +20,24 @@ def imports():
         included = INCLUDE.findall(file.read_text(encoding="utf-8"))
         graph[file.relative_to(SOURCES).as_posix()] = [name for name in included if (SOURCES / name).exists()]
     return graph
+
+
+def foreign_namespaces(file, text):
+    """The namespaces that a file of src/ opens and that are not those of its room. What another room declares may be declared in advance in
+    the namespace of that room."""
+    room = file.split("/")[0]
+    own = [f"solidus::{name}" for name in (room, WRAPPERS.get(room)) if name]
+    found = []
+    for opened in re.finditer(r"^namespace (solidus[\w:]*) \{[^\n]*\n", text, re.MULTILINE):
+        name = opened.group(1)
+        if room in BASE:
+            is_own = not (SOURCES / name.partition("::")[2].partition("::")[0]).is_dir() or name == "solidus"
+        else:
+            is_own = any(name == prefix or name.startswith(prefix + "::") for prefix in own)
+        body = text[opened.end():text.index("\n}", opened.end() - 1)]
+        if not is_own and DECLARED_IN_ADVANCE.sub("", re.sub(r"//[^\n]*", "", body)).strip():
+            found.append(name)
+    return found
 
 
 def is_interface(file):
@@ -70,6 +93,17 @@ class Imports(unittest.TestCase):
                       for file, included in imports().items() if file.startswith(room + "/") and file.split("/")[1] not in plugged_in}
             folders = merged(within, lambda file: file.split("/")[1] if file.count("/") > 1 else ".")
             self.assertEqual(circle(folders), [], room)
+
+    def test_a_foreign_namespace_is_found(self):
+        self.assertEqual(foreign_namespaces("heat/a.hpp", "namespace solidus::mesh {\nclass Mesh;\n}\n\nnamespace solidus::heat {\nint a;\n}\n"), [])
+        self.assertEqual(foreign_namespaces("heat/a.hpp", "namespace solidus::mesh {\nint a;\n}\n"), ["solidus::mesh"])
+        self.assertEqual(foreign_namespaces("cases/a.hpp", "namespace solidus {\nstruct A {\n};\n}\n"), ["solidus"])
+        self.assertEqual(foreign_namespaces("system/a.hpp", "namespace solidus::logging {\nint a;\n}\n"), [])
+
+    def test_a_namespace_is_that_of_the_folder(self):
+        """A room is a folder of src/ and a namespace of the same name, whatever inner folders it has."""
+        for file in imports():
+            self.assertEqual(foreign_namespaces(file, (SOURCES / file).read_text(encoding="utf-8")), [], file)
 
     def test_headers_import_one_way(self):
         graph = imports()

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "case/case_materials.hpp"
+#include "cases/case_materials.hpp"
 #include "csv.hpp"
 #include "setup/assembly.hpp"
 #include "setup/case_file.hpp"
@@ -80,11 +80,11 @@ formula = "q/(2*pi*s^2)*exp(-((x - start)^2 + y^2)/(2*s^2))"
 constants = { q = "100 kW/m", s = "6 mm", start = "60 mm" }
 moving = ["5 mm/s", "0 mm/s"]
 )~";
-  model::Case c = model::load_case(folder / "case.toml");
-  model::Assembly a;
-  a.materials = model::load_materials(c.spec);
-  a.mesh = model::load_mesh(c.spec);
-  model::build(c.spec, a);
+  setup::Case c = setup::load_case(folder / "case.toml");
+  setup::Assembly a;
+  a.materials = cases::load_materials(c.spec);
+  a.mesh = setup::load_mesh(c.spec);
+  setup::build(c.spec, a);
   heat::ThermalState state = a.initial.heat;
   const int steps = static_cast<int>(std::lround(48 / dt));
   for (int i = 1; i <= steps; ++i) {

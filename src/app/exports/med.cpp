@@ -14,7 +14,8 @@ namespace {
 std::string write(const ExportRequest& request) {
   const std::filesystem::path collection = collection_of(request);
   std::vector<std::string> bodies;
-  for (const report::BodyMaterial& body : report::body_materials(request.folder)) bodies.push_back(body.body);
+  for (const results::BodyMaterial& body : results::body_materials(request.folder))
+    bodies.push_back(body.body);
   return gathered_text(request.file, results::write_med(collection, bodies, request.file));
 }
 

@@ -8,15 +8,15 @@ namespace solidus::app {
 
 std::string write_structural_start(const ExportRequest& request,
                                    std::string (*deck)(const results::StructuralDeck&)) {
-  const model::ExportOptions options{.folder = request.folder,
-                                     .file = request.file,
-                                     .deck = deck,
-                                     .deformed = request.deformed,
-                                     .temperature_history = request.temperature_history};
+  const run::ExportOptions options{.folder = request.folder,
+                                   .file = request.file,
+                                   .deck = deck,
+                                   .deformed = request.deformed,
+                                   .temperature_history = request.temperature_history};
   // The run's own copy of its case is read, so that a case that was changed since does no harm.
-  model::Case c = model::load_case(request.folder);
+  setup::Case c = setup::load_case(request.folder);
   c.spec.mesh.trust_script = request.trust_script;
-  const model::ExportReport report = model::export_state(c, options);
+  const run::ExportReport report = run::export_state(c, options);
   // Histories are told by their times; a state by how far it was from equilibrium at its final
   // temperature.
   if (options.temperature_history)

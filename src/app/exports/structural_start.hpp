@@ -11,7 +11,7 @@ namespace solidus::app {
 /// Reads the run's case and its checkpoint, writes the file as `deck` has it, and returns what is to be
 /// printed.
 /// @param deck  the text of the file
-/// Throws as model::export_state does.
+/// Throws as run::export_state does.
 std::string write_structural_start(const ExportRequest& request,
                                    std::string (*deck)(const results::StructuralDeck&));
 

@@ -4,7 +4,7 @@
 
 #include "app/case_arguments.hpp"
 #include "app/verb.hpp"
-#include "case/stage_input.hpp"
+#include "cases/stage_input.hpp"
 #include "run/session.hpp"
 
 namespace solidus::app {
@@ -23,26 +23,26 @@ const char* text(AnalysisKind kind) {
   return "";
 }
 
-const char* text(model::Physics physics) {
+const char* text(cases::Physics physics) {
   switch (physics) {
-    case model::Physics::heat:
+    case cases::Physics::heat:
       return "heat";
-    case model::Physics::mechanics:
+    case cases::Physics::mechanics:
       return "mechanics";
-    case model::Physics::thermomechanical:
+    case cases::Physics::thermomechanical:
       return "heat and mechanics";
   }
   return "";
 }
 
 /// Stages as they come first, and how often each cycle comes round.
-std::string stage_lines(const model::CaseSpec& spec) {
+std::string stage_lines(const cases::CaseSpec& spec) {
   std::string out;
-  for (const model::StageRun& run : model::stage_runs(spec))
+  for (const cases::StageRun& run : cases::stage_runs(spec))
     if (run.cycle <= 1)
       out += fmt::format("\n  stage       {}: {:.6g} s to {:.6g} s in steps of {:.6g} s", run.stage->name,
-                         run.start, run.end, model::first_step(*run.stage, spec.time));
-  for (const model::CycleSpec& cycle : spec.cycles)
+                         run.start, run.end, cases::first_step(*run.stage, spec.time));
+  for (const cases::CycleSpec& cycle : spec.cycles)
     out += fmt::format(
         "\n  cycle       {}: {}{} times {}{}", cycle.name, cycle.periodic ? "at most " : "", cycle.repeat,
         fmt::join(cycle.stages, ", "),
@@ -53,10 +53,10 @@ std::string stage_lines(const model::CaseSpec& spec) {
 }
 
 ExitCode check_case(const CaseArguments& arguments) {
-  const model::Case c = load_case(arguments);
-  const model::CaseSpec& spec = c.spec;
+  const setup::Case c = load_case(arguments);
+  const cases::CaseSpec& spec = c.spec;
   // All that a run needs is built first; the overview is printed only if that went well.
-  const model::CheckedRun checked = model::check_run(c);
+  const run::CheckedRun checked = run::check_run(c);
   const results::MeshCounts& counts = checked.mesh;
 
   // Title, kind and mesh at the head.
@@ -68,8 +68,8 @@ ExitCode check_case(const CaseArguments& arguments) {
   out += results::text(checked.overview);
   for (const auto& m : spec.mechanical_conditions)
     out += fmt::format("\n  mechanics   {} on {}", m.name, m.group);
-  for (const model::CouplingEstimate& estimate : checked.couplings)
-    out += "\n  coupling    " + model::text(estimate);
+  for (const check::CouplingEstimate& estimate : checked.couplings)
+    out += "\n  coupling    " + check::text(estimate);
   out += stage_lines(spec);
   // At last the time, or the stages in place of it.
   if (!spec.stages.empty())

@@ -3,8 +3,8 @@
 
 #include "app/case_arguments.hpp"
 #include "app/verb.hpp"
-#include "case/case_keys.hpp"
-#include "case/case_materials.hpp"
+#include "cases/case_keys.hpp"
+#include "cases/case_materials.hpp"
 #include "input/key_docs.hpp"
 #include "material/cards/library.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 
 /// The words that completion offers besides verbs and options.
 KnownWords known_words() {
-  return {key_paths(model::case_keys().info()), material::material_names(model::material_folders())};
+  return {key_paths(cases::case_keys().info()), material::material_names(cases::material_folders())};
 }
 
 class Completion final : public Verb {

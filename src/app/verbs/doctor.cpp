@@ -16,7 +16,7 @@
 #include "app/process_choice.hpp"
 #include "app/python_tools.hpp"
 #include "app/verb.hpp"
-#include "case/case_materials.hpp"
+#include "cases/case_materials.hpp"
 #include "material/cards/library.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "system/errors.hpp"
@@ -49,7 +49,7 @@ Finding look_at_machine() {
 }
 
 Finding look_for_materials() {
-  const std::size_t n = material::material_names(model::material_folders()).size();
+  const std::size_t n = material::material_names(cases::material_folders()).size();
   if (n > 0) return {"materials", Kind::works, fmt::format("{} cards", n)};
   return {"materials", Kind::missing,
           fmt::format("there is no library near '{}'; SOLIDUS_MATERIALS=FOLDER names one elsewhere",

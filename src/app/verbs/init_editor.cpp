@@ -10,7 +10,7 @@
 
 #include "app/case_arguments.hpp"
 #include "app/verb.hpp"
-#include "case/case_keys.hpp"
+#include "cases/case_keys.hpp"
 #include "input/key_docs.hpp"
 #include "material/cards/library.hpp"
 #include "point/spec.hpp"
@@ -105,7 +105,7 @@ ExitCode init_editor(const std::string& wanted) {
     // All schemas are those of this very program.
     make_folder(folder / ".solidus");
     const std::vector<std::pair<std::string, std::string>> files = {
-        {".solidus/case.schema.json", json_schema(model::case_keys().info(), "Solidus case")},
+        {".solidus/case.schema.json", json_schema(cases::case_keys().info(), "Solidus case")},
         {".solidus/variants.schema.json", k_variants_schema},
         {".solidus/material.schema.json",
          json_schema(material::material_section().info(), "Solidus material")},

@@ -8,7 +8,7 @@
 #include "app/material_import.hpp"
 #include "app/material_tables.hpp"
 #include "app/verb.hpp"
-#include "case/case_materials.hpp"
+#include "cases/case_materials.hpp"
 #include "input/units.hpp"
 #include "material/cards/designations.hpp"
 #include "material/cards/library.hpp"
@@ -109,12 +109,12 @@ std::string describe(const Material& m) {
 std::string spreads(const material::MaterialSpreads& of) {
   std::string out;
   for (const material::VariedProperty& row : material::varied_properties()) {
-    const std::optional<Spread>& spread = of.*row.spread;
+    const std::optional<material::Spread>& spread = of.*row.spread;
     if (!spread) continue;
     const std::string origin = !spread->estimate        ? spread->source
                                : spread->source.empty() ? "estimate"
                                                         : "estimate: " + spread->source;
-    out += fmt::format("  {:<29} {:<15} {}\n", row.key, spread_text(*spread), origin);
+    out += fmt::format("  {:<29} {:<15} {}\n", row.key, material::spread_text(*spread), origin);
   }
   return out.empty() ? "" : "Spread: half the width that holds 95 %\n" + out;
 }
@@ -154,7 +154,7 @@ CLI::App* add_solidification(CLI::App& materials, SolidificationArguments& argum
 /// @param name   a material of the library or a file; empty: the list
 /// @param output a folder for its tables (CSV); empty: none
 ExitCode list_materials(const std::string& name, const std::string& output) {
-  const auto folders = model::material_folders();
+  const auto folders = cases::material_folders();
   // One material in full, or the names of all.
   if (!name.empty()) {
     const Material material = material::find_material(name, folders);

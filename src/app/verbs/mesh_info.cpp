@@ -43,9 +43,9 @@ struct NamedMesh {
 
 NamedMesh read(const CaseArguments& arguments, const std::string& unit) {
   if (is_case(arguments.path)) {
-    const model::Case given = load_case(arguments);
-    NamedMesh named{model::raw_mesh(given.spec), {}};
-    for (const model::BodySpec& body : given.spec.bodies) named.bodies[body.mesh_group()] = body.name;
+    const setup::Case given = load_case(arguments);
+    NamedMesh named{setup::raw_mesh(given.spec), {}};
+    for (const cases::BodySpec& body : given.spec.bodies) named.bodies[body.mesh_group()] = body.name;
     return named;
   }
   mesh::MeshSource source{arguments.path, mesh::metres_of_unit(arguments.path, unit, "m", {"--unit", 0, 0})};
@@ -59,7 +59,7 @@ NamedMesh read(const CaseArguments& arguments, const std::string& unit) {
 std::vector<std::string> bodies_of(const NamedMesh& named, const std::string& path, std::string& text) {
   try {
     const mesh::BodyPartition partition = mesh::partition_of(named.mesh, path, [&](const std::string& group) {
-      return named.bodies.contains(group) ? 3 : model::body_preference(group);
+      return named.bodies.contains(group) ? 3 : setup::body_preference(group);
     });
     for (const std::string& note : partition.notes) text += note + "\n";
     return partition.bodies;

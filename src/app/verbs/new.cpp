@@ -23,7 +23,7 @@ struct NewArguments {
 
 /// Thickness of the shell [m]; zero where none is asked for. Throws InputError.
 double shell_of(const NewArguments& arguments) {
-  if (arguments.shell.empty()) return arguments.coats * model::k_coat_of_shell;
+  if (arguments.shell.empty()) return arguments.coats * new_case::k_coat_of_shell;
   if (arguments.coats > 0)
     throw InputError({"--coats"}, "--shell says how thick the shell is already", "one of the two");
   double thickness = 0;
@@ -40,7 +40,7 @@ double shell_of(const NewArguments& arguments) {
 
 ExitCode new_case(const NewArguments& arguments) {
   // The words of the command line, one by one.
-  model::NewCaseOptions options;
+  new_case::NewCaseOptions options;
   options.geometry = arguments.geometry;
   options.process = arguments.process;
   options.alloy = arguments.alloy;
@@ -58,7 +58,7 @@ ExitCode new_case(const NewArguments& arguments) {
   if (!(options.fineness >= 0.3 && options.fineness <= 5))
     throw InputError({"--fineness"}, fmt::format("{:g} is out of range", options.fineness), "0.3 to 5");
   // All else is chosen by the rules of the process.
-  const model::NewCaseReport report = model::make_new_case(options);
+  const new_case::NewCaseReport report = new_case::make_new_case(options);
   print(fmt::format("{}\nWritten to {}. Next: solidus check {}; solidus run --heat-only {}\n", report.text,
                     report.file.string(), report.file.parent_path().string(),
                     report.file.parent_path().string()));

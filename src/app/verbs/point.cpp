@@ -10,8 +10,8 @@
 #include "app/case_arguments.hpp"
 #include "app/places.hpp"
 #include "app/verb.hpp"
-#include "case/case_materials.hpp"
-#include "case/overrides.hpp"
+#include "cases/case_materials.hpp"
+#include "cases/overrides.hpp"
 #include "material/cards/library.hpp"
 #include "material/external_law.hpp"
 #include "numbers/types.hpp"
@@ -201,8 +201,8 @@ PointCase load_point_case(const PointArguments& arguments, const fs::path& file)
   if (processes::count() > 1)
     throw InputError({}, "a point runs on one process", "solidus point without mpirun");
   Value document = load_document(file);
-  for (const std::string& assignment : arguments.set) model::apply_override(document, assignment);
-  const auto library = model::material_folders();
+  for (const std::string& assignment : arguments.set) cases::apply_override(document, assignment);
+  const auto library = cases::material_folders();
   PointCase point_case = point::make_point_case(std::move(document), library);
   for (Curve& curve : point_case.curves)
     if (const material::ExternalLaw* law = external_law(curve.material))

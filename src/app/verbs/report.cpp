@@ -9,7 +9,7 @@
 #include "app/case_arguments.hpp"
 #include "app/report_page.hpp"
 #include "app/verb.hpp"
-#include "case/case_materials.hpp"
+#include "cases/case_materials.hpp"
 #include "material/cards/library.hpp"
 #include "results/report/report_page.hpp"
 #include "system/errors.hpp"
@@ -61,11 +61,11 @@ Json card(const material::Material& m) {
 /// One card a body. A material that is not there any more is no reason to have no report.
 Json::Array cards(const fs::path& folder) {
   Json::Array out;
-  for (const auto& [body, name] : report::body_materials(folder)) {
+  for (const auto& [body, name] : results::body_materials(folder)) {
     Json entry;
     entry.add("body", body).add("material", fs::path(name).stem().string());
     try {
-      entry.add("card", card(material::find_material(name, model::material_folders())));
+      entry.add("card", card(material::find_material(name, cases::material_folders())));
     } catch (const InputError& error) {
       entry.add("missing", std::string(error.what()));
     }
@@ -77,13 +77,13 @@ Json::Array cards(const fs::path& folder) {
 }  // namespace
 
 void write_report(const std::vector<std::string>& folders, const std::string& output) {
-  std::vector<report::ReportedRun> runs;
+  std::vector<results::ReportedRun> runs;
   for (const std::string& folder : folders) {
     runs.push_back({folder});
     if (fs::exists(fs::path(folder) / "case.toml")) runs.back().materials = cards(folder);
   }
   const fs::path page = output.empty() ? fs::path(folders.front()) / "report.html" : fs::path(output);
-  const report::WrittenReport written = report::write_report(runs, page);
+  const results::WrittenReport written = results::write_report(runs, page);
   for (const std::string& note : written.notes) std::cerr << "solidus: " << note << "\n";
   print(fmt::format("Report in {} ({:.1f} MB); it opens in any browser\n", page.lexically_normal().string(),
                     1e-6 * static_cast<double>(written.bytes)));

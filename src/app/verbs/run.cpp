@@ -45,7 +45,7 @@ struct RunArguments : CaseArguments {
 constexpr int k_most_processes = 1024;  // of one machine
 
 /// -o, else the case's own wish (seen from the present folder), else results/CASE/VARIANT.
-fs::path results_folder(const RunArguments& arguments, const model::Case& c) {
+fs::path results_folder(const RunArguments& arguments, const setup::Case& c) {
   if (!arguments.output.empty()) return arguments.output;
   if (c.spec.output.folder) return *c.spec.output.folder;
   return results_root() / results::default_run_folder(c.file, c.variant);
@@ -58,17 +58,17 @@ std::string shown_path(const fs::path& folder) {
 }
 
 /// Runs the case, and what --sure asks for beside it.
-model::RunResult run_all(const RunArguments& arguments, const model::Case& c, model::RunOptions options) {
+run::RunResult run_all(const RunArguments& arguments, const setup::Case& c, run::RunOptions options) {
   std::optional<results::Summary> summary;
   double displacement_error = 0;
   {
-    model::Session session(c, options);  // whose memory the runs beside it need
-    const model::RunResult result = session.run();
+    run::Session session(c, options);  // whose memory the runs beside it need
+    const run::RunResult result = session.run();
     if (!result.finished || !arguments.sure) return result;
     summary = *session.summary();
     options.mesh.reset();  // those beside it have others
     displacement_error =
-        model::displacement_error(c.spec.time, model::sections_of(c.spec, session.assembly().mesh));
+        setup::displacement_error(c.spec.time, setup::sections_of(c.spec, session.assembly().mesh));
   }
   // The runs beside it differ in some keys alone; all else is as given on the command line.
   const auto load = [&](const std::vector<std::string>& overrides) {
@@ -77,10 +77,10 @@ model::RunResult run_all(const RunArguments& arguments, const model::Case& c, mo
     return load_case(beside);
   };
   // Their errors of the answers are printed below the summary.
-  const model::ErrorRuns made =
-      model::run_beside(c, std::move(*summary), displacement_error, options, load,
-                        [](const std::string& text) { print("--sure: " + text + "\n"); });
-  const model::OutputSpec& output = c.spec.output;
+  const run::ErrorRuns made =
+      run::run_beside(c, std::move(*summary), displacement_error, options, load,
+                      [](const std::string& text) { print("--sure: " + text + "\n"); });
+  const cases::OutputSpec& output = c.spec.output;
   print(results::text(*made.summary.answers, made.summary.criteria,
                       {output.length_unit, output.temperature_unit, output.stress_unit}));
   return {};
@@ -89,11 +89,11 @@ model::RunResult run_all(const RunArguments& arguments, const model::Case& c, mo
 ExitCode run_case(const RunArguments& arguments) {
   // The order of a run at the command line: case, options, the page that watches it, the run itself, and what
   // is said at its end.
-  const model::Case c = load_case(arguments);
+  const setup::Case c = load_case(arguments);
   if (arguments.sure && c.spec.time.steady)
     throw InputError(c.spec.time.where, "--sure compares answers of a transient run, and this case is steady",
                      "a run without --sure");
-  model::RunOptions options;
+  run::RunOptions options;
   options.folder = results_folder(arguments, c);
   const int rank = processes::rank();
   // The first process alone talks; the others compute.
@@ -111,7 +111,7 @@ ExitCode run_case(const RunArguments& arguments) {
     watch.emplace(options.folder);
     print("Watch it in a browser on this machine: " + watch->address() + "\n");
   }
-  const model::RunResult result = run_all(arguments, c, options);
+  const run::RunResult result = run_all(arguments, c, options);
   // The folder is noted before the outcome is judged, because pictures are drawn of a run that stopped too.
   if (watch) watch->finish();
   note_folder(options.folder);  // a run that stopped is drawn as far as it came

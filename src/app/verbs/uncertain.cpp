@@ -13,7 +13,7 @@ namespace solidus::app {
 
 namespace {
 
-using model::UncertainParameter;
+using check::UncertainParameter;
 using results::Json;
 
 const char* text(UncertainParameter::Origin origin) {
@@ -45,15 +45,15 @@ Json json(const UncertainParameter& p) {
   if (p.spread.relative) json.add("relative", *p.spread.relative);
   if (p.spread.factor) json.add("factor", *p.spread.factor);
   if (p.spread.shift) json.add("shift[K]", *p.spread.shift);
-  return json.add("spread", spread_text(p.spread))
+  return json.add("spread", material::spread_text(p.spread))
       .add("origin", text(p.origin))
       .add("source", p.spread.source);
 }
 
 /// Prints as JSON what of a case is uncertain, and by how much; checks the case as `check` does.
 ExitCode list_uncertain(const CaseArguments& arguments) {
-  const model::Case c = load_case(arguments);
-  const model::CheckedRun checked = model::check_run(c);
+  const setup::Case c = load_case(arguments);
+  const run::CheckedRun checked = run::check_run(c);
   Json::Array parameters, fixed;
   for (const UncertainParameter& p : checked.uncertain.list) parameters.push_back(json(p));
   for (const std::string& what : checked.uncertain.fixed) fixed.emplace_back(what);

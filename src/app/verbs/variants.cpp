@@ -12,17 +12,17 @@ namespace solidus::app {
 namespace {
 
 ExitCode list_variants(const std::string& path) {
-  const model::CaseName name = model::case_named(path);
-  const std::vector<model::VariantInfo> variants = model::variants_beside(name.file);
+  const setup::CaseName name = setup::case_named(path);
+  const std::vector<setup::VariantInfo> variants = setup::variants_beside(name.file);
   if (variants.empty()) {
     print(fmt::format("{} has no variants: there is no variants.toml beside it.\n", name.file.string()));
     return k_done;
   }
   // Names in a column as wide as the longest, with the titles behind them.
   std::size_t widest = 0;
-  for (const model::VariantInfo& variant : variants) widest = std::max(widest, variant.name.size());
+  for (const setup::VariantInfo& variant : variants) widest = std::max(widest, variant.name.size());
   std::string out;
-  for (const model::VariantInfo& variant : variants)
+  for (const setup::VariantInfo& variant : variants)
     out += variant.title.empty() ? variant.name + "\n"
                                  : fmt::format("{:<{}}  {}\n", variant.name, widest, variant.title);
   print(out);

@@ -9,7 +9,7 @@
 #include "material/melt.hpp"
 #include "setup/body_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -28,7 +28,7 @@ constexpr double k_thinnest = 2e-4, k_thickest = 3e-2;                   // visc
 constexpr double k_first_coherent = 0.2;                                 // solid fraction
 constexpr double k_no_shear = 1e-3 * material::k_least_melt_share;       // of the bulk modulus
 
-void warn(const BodySpec& body, const std::string& what, const char* usual, Findings& findings) {
+void warn(const cases::BodySpec& body, const std::string& what, const char* usual, Findings& findings) {
   findings.push_back({false, body.where,
                       fmt::format("body '{}', material '{}': {}", body.name, body.material, what), usual});
 }
@@ -37,7 +37,8 @@ void warn(const BodySpec& body, const std::string& what, const char* usual, Find
 /// melt. Per volume, which needs no molar mass, L ρ/Θ_L is 0.43 for lead, 0.7 for magnesium, 1.1 to 1.2 for
 /// aluminium, iron and zinc, 1.65 for aluminium with 12 % silicon and 2.5 for silicon itself, whose latent
 /// heat no metal has [MJ/(m³ K)].
-void compare_entropy_of_melting(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_entropy_of_melting(const cases::BodySpec& body, const material::Material& m,
+                                Findings& findings) {
   const material::PhaseChange& freezing = *m.solidification();
   const double most = freezing.latent_heat > k_silicon ? k_most_of_silicon : k_most_entropy;
   const double entropy = freezing.latent_heat * m.density / freezing.fraction.liquidus();
@@ -51,7 +52,7 @@ void compare_entropy_of_melting(const BodySpec& body, const material::Material& 
 
 /// Dulong and Petit's rule: a mole of any metal takes about 25 J/K, 7 to 15 cm³ of it. Per volume that is 1.5
 /// for lead, 1.8 for magnesium, 2.4 for aluminium, 3.5 for copper and iron, 4 for nickel [MJ/(m³ K)].
-void compare_heat_capacity(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_heat_capacity(const cases::BodySpec& body, const material::Material& m, Findings& findings) {
   constexpr double k_cold = 293.15;  // [K]
   const double capacity = m.density * m.specific_heat.value(k_cold);
   if (capacity >= k_least_capacity && capacity <= k_most_capacity) return;
@@ -64,7 +65,7 @@ void compare_heat_capacity(const BodySpec& body, const material::Material& m, Fi
 }
 
 /// Aluminium, magnesium and their alloys, lighter than titanium, conduct 50 to 240 W/(m K).
-void compare_conductivity_of_light_metal(const BodySpec& body, const material::Material& m,
+void compare_conductivity_of_light_metal(const cases::BodySpec& body, const material::Material& m,
                                          Findings& findings) {
   const double solid = m.conductivity.value(m.solidification()->fraction.solidus());
   if (m.density > k_light || solid >= k_least_of_light || solid < 3)
@@ -75,7 +76,7 @@ void compare_conductivity_of_light_metal(const BodySpec& body, const material::M
 
 /// Grüneisen's rule: up to their melting point metals gain about 7 % of volume, so that the expansion times
 /// the melting point is near 0.02, 0.011 for tin.
-void compare_expansion(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_expansion(const cases::BodySpec& body, const material::Material& m, Findings& findings) {
   const double liquidus = m.solidification()->fraction.liquidus(), most = m.expansion.max_value();
   if (!(most > 1e-8) || most * liquidus >= k_least_growth)
     return;  // below: findings/material.cpp, or none at all
@@ -84,7 +85,8 @@ void compare_expansion(const BodySpec& body, const material::Material& m, Findin
 }
 
 /// Young's modulus of a cold metal over its liquidus is 0.027 (lead) to 0.16 (zinc) GPa/K.
-void compare_stiffness_with_liquidus(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_stiffness_with_liquidus(const cases::BodySpec& body, const material::Material& m,
+                                     Findings& findings) {
   constexpr double k_cold = 293.15;  // [K]
   const double liquidus = m.solidification()->fraction.liquidus(), cold = m.young_modulus.value(k_cold);
   if (cold < 1e9 || (cold >= k_least_stiffness * liquidus && cold <= k_most_stiffness * liquidus)) return;
@@ -96,7 +98,7 @@ void compare_stiffness_with_liquidus(const BodySpec& body, const material::Mater
 }
 
 /// A change of volume that is next to none was perhaps meant as a percentage of a percentage.
-void compare_volume_change(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_volume_change(const cases::BodySpec& body, const material::Material& m, Findings& findings) {
   const double change = m.solidification()->volume_change;
   if (change == 0 || std::abs(change) >= k_next_to_none) return;
   warn(body, fmt::format("'{}' changes the volume by {:.2g} %", m.solidification()->name, 100 * change),
@@ -105,7 +107,7 @@ void compare_volume_change(const BodySpec& body, const material::Material& m, Fi
 }
 
 /// Metal at its solidus has next to nothing of its strength when cold.
-void compare_softening(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_softening(const cases::BodySpec& body, const material::Material& m, Findings& findings) {
   if (!m.flow) return;
   constexpr double k_cold = 293.15;  // [K]
   const double cold = m.flow->flow_stress.value(k_cold),
@@ -118,7 +120,7 @@ void compare_softening(const BodySpec& body, const material::Material& m, Findin
 }
 
 /// Metal at its solidus is softer than when cold: 0.02 (steel) to 0.65 (tin) of its stiffness is left.
-void compare_stiffness(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_stiffness(const cases::BodySpec& body, const material::Material& m, Findings& findings) {
   constexpr double k_cold = 293.15;  // [K]
   const double cold = m.young_modulus.value(k_cold),
                hot = m.young_modulus.value(m.solidification()->fraction.solidus());
@@ -131,7 +133,7 @@ void compare_stiffness(const BodySpec& body, const material::Material& m, Findin
 
 /// Metal at its solidus flows by creep: what its rate adds is of the size of its flow stress. Where it is far
 /// from that, the viscosity is one of other units.
-void compare_creep(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_creep(const cases::BodySpec& body, const material::Material& m, Findings& findings) {
   if (!m.flow || m.flow->rate_independent()) return;
   const double solidus = m.solidification()->fraction.solidus(),
                strength = m.flow->flow_stress.value(solidus);
@@ -147,7 +149,7 @@ void compare_creep(const BodySpec& body, const material::Material& m, Findings& 
 
 /// A melt as stiff as the solid does not flow, but for a viscosity with a source, which is that of a
 /// published case. The viscosity of molten metal itself has no effect on stress (material/melt.hpp).
-void compare_melt_viscosity(const BodySpec& body, const material::Material& m, double step,
+void compare_melt_viscosity(const cases::BodySpec& body, const material::Material& m, double step,
                             Findings& findings) {
   if (m.chooses_viscosity() || m.liquid_model != material::LiquidModel::maxwell || !(step > 0)) return;
   // Compared at the solidus, where the solid is softest: melt that is stiffer than it there is so
@@ -180,7 +182,7 @@ void compare_melt_viscosity(const BodySpec& body, const material::Material& m, d
 }
 
 /// Data of the criteria.
-void compare_casting(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_casting(const cases::BodySpec& body, const material::Material& m, Findings& findings) {
   constexpr double k_minute = 60;  // [s]
   if (const auto arms = m.casting.secondary_arm_spacing(k_minute);
       arms && (*arms < k_finest || *arms > k_coarsest))
@@ -195,7 +197,7 @@ void compare_casting(const BodySpec& body, const material::Material& m, Findings
          "metal is coherent from 60 to 90 % solid on, coherency_fraction = 0.6 to 0.9", findings);
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures&, Findings& findings) {
   // Bodies that cannot freeze have no data of alloys to compare.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::Material& m = a.materials[b];
@@ -205,7 +207,7 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings
     if (spec.has_heat()) compare_heat_capacity(spec.bodies[b], m, findings);
     if (spec.has_heat()) compare_conductivity_of_light_metal(spec.bodies[b], m, findings);
     if (spec.has_heat()) compare_casting(spec.bodies[b], m, findings);
-    if (!spec.has_mechanics() || only_conducts(spec.bodies[b])) continue;
+    if (!spec.has_mechanics() || cases::only_conducts(spec.bodies[b])) continue;
     compare_softening(spec.bodies[b], m, findings);
     compare_stiffness(spec.bodies[b], m, findings);
     compare_expansion(spec.bodies[b], m, findings);
@@ -264,4 +266,4 @@ FindingFamily findings_alloys() {
                        number(k_no_shear))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -5,11 +5,11 @@
 #include <array>
 #include <map>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "parallel/parallel.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -60,14 +60,14 @@ std::vector<char> skin_nodes(const mesh::Mesh& mesh, int body) {
 
 /// A plate or a strip of one element of first order through its thickness bends with a third (tetrahedra) to
 /// four fifths (hexahedra) of its deflection, and its stress is even through the thickness.
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   // A strip of a disc or of a tube is one element high, and nothing bends there.
   if (!a.mechanics || spec.analysis.kind == AnalysisKind::axisymmetric) return;
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
     const auto body = static_cast<int>(b);
     const bool told = std::ranges::any_of(
         m.pours, [&](const Pour& pour) { return pour.body == b && pour.spanned > k_most; });
-    if (told || only_conducts(spec.bodies[b]) || !(slenderness(m.bodies[b]) > k_slender) ||
+    if (told || cases::only_conducts(spec.bodies[b]) || !(slenderness(m.bodies[b]) > k_slender) ||
         !of_first_order(a.mesh, body))
       continue;
     const double share = share_between(a.mesh, spec.analysis.kind, body, skin_nodes(a.mesh, body));
@@ -104,4 +104,4 @@ FindingFamily findings_bending() {
                     percent(k_most), number(k_slender))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

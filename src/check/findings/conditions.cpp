@@ -10,7 +10,7 @@
 #include "input/units.hpp"
 #include "parallel/parallel.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -33,7 +33,8 @@ constexpr double k_least_motion = 1e-8, k_most_motion = 5e-3;  // [m]
 constexpr double k_largest_mesh = 30, k_smallest_mesh = 1e-4;  // [m]
 
 /// A table that begins near 20 K was meant in degrees Celsius: surfaces are not so cold.
-void cold_arguments(const ThermalConditionSpec& t, const char* key, const Table& table, Findings& findings) {
+void cold_arguments(const cases::ThermalConditionSpec& t, const char* key, const Table& table,
+                    Findings& findings) {
   if (const double first = table.x().front(); first < k_coldest_argument)
     findings.push_back({false, t.where,
                         fmt::format("the table of '{}' of '{}' begins at {:g} K ({:.0f} degC)", key, t.name,
@@ -41,12 +42,12 @@ void cold_arguments(const ThermalConditionSpec& t, const char* key, const Table&
                         "are its temperatures in degC? argument_unit = \"degC\""});
 }
 
-void surroundings(const CaseSpec& spec, Findings& findings) {
+void surroundings(const cases::CaseSpec& spec, Findings& findings) {
   // Values that are possible and far from usual, condition by condition: surroundings, held temperatures,
   // sources, emissivities, fluxes and films. Constants alone are judged, since a table may pass such values
   // for a moment. Each finding says what is usual.
-  using Kind = ThermalConditionSpec::Kind;
-  for (const ThermalConditionSpec& t : spec.thermal_conditions) {
+  using Kind = cases::ThermalConditionSpec::Kind;
+  for (const cases::ThermalConditionSpec& t : spec.thermal_conditions) {
     const bool surrounded = t.kind == Kind::film || t.kind == Kind::radiation;
     // Near zero kelvins a value was meant in another unit; above the hottest flame likewise.
     if (surrounded && is_number(t.ambient))
@@ -105,18 +106,19 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
 }
 
 /// Less than what radiation alone takes from any mould: 5 W/m²K of an emissivity of 0.85 at room temperature.
-void films_below_radiation(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  using Kind = ThermalConditionSpec::Kind;
+void films_below_radiation(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  using Kind = cases::ThermalConditionSpec::Kind;
   if (m.pours.empty()) return;
   // Only films of one number on a body that is not poured: the others may be small for good reason.
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
-    const ThermalConditionSpec& film = spec.thermal_conditions[t];
+    const cases::ThermalConditionSpec& film = spec.thermal_conditions[t];
     if (film.kind != Kind::film || !is_number(film.coefficient) || !is_number(film.factor)) continue;
     const double h = film.coefficient.table.value(0) * film.factor.table.value(0);
     // Radiation on the same surface makes up for what the film lacks.
-    const bool radiates = std::ranges::any_of(spec.thermal_conditions, [&](const ThermalConditionSpec& c) {
-      return c.kind == Kind::radiation && c.group == film.group;
-    });
+    const bool radiates =
+        std::ranges::any_of(spec.thermal_conditions, [&](const cases::ThermalConditionSpec& c) {
+          return c.kind == Kind::radiation && c.group == film.group;
+        });
     const int body = m.surfaces[t].body;
     // A cover on a riser may let as little pass.
     if (h < k_least_film || h >= k_radiation || radiates || body < 0 ||
@@ -136,15 +138,15 @@ bool looks_like_kelvins(double temperature) {
   return std::abs(celsius - 293.1) < 0.2 || std::abs(celsius - 298.1) < 0.2;
 }
 
-void rooms_in_kelvins(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+void rooms_in_kelvins(const cases::CaseSpec& spec, const setup::Assembly& a, Findings& findings) {
   const auto compare = [&](const SourceLocation& where, const std::string& what, double temperature) {
     if (looks_like_kelvins(temperature))
       findings.push_back({false, where, fmt::format("{} of {:g} degC", what, temperature - k_zero_celsius),
                           "is it in K? 293 K are 20 degC"});
   };
   // Surroundings and initial temperatures that would be plausible as kelvins.
-  for (const ThermalConditionSpec& t : spec.thermal_conditions) {
-    using Kind = ThermalConditionSpec::Kind;
+  for (const cases::ThermalConditionSpec& t : spec.thermal_conditions) {
+    using Kind = cases::ThermalConditionSpec::Kind;
     if ((t.kind == Kind::film || t.kind == Kind::radiation) && t.ambient.place == nullptr)
       compare(t.where, fmt::format("'{}' has surroundings", t.name), t.ambient.table.min_value());
   }
@@ -160,11 +162,12 @@ void rooms_in_kelvins(const CaseSpec& spec, const Assembly& a, Findings& finding
 }
 
 /// Heat that a body does not have.
-void sinks(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+void sinks(const cases::CaseSpec& spec, const setup::Assembly& a, Findings& findings) {
   // Needs a time in which the heat is taken.
   if (spec.time.steady || !spec.time.end) return;
-  for (const ThermalConditionSpec& t : spec.thermal_conditions) {
-    if (t.kind != ThermalConditionSpec::Kind::source || !is_number(t.power) || !is_number(t.factor)) continue;
+  for (const cases::ThermalConditionSpec& t : spec.thermal_conditions) {
+    if (t.kind != cases::ThermalConditionSpec::Kind::source || !is_number(t.power) || !is_number(t.factor))
+      continue;
     const double power = t.power.table.value(0) * t.factor.table.value(0);
     for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
       if (spec.bodies[b].mesh_group() != t.group || power >= 0) continue;
@@ -182,10 +185,10 @@ void sinks(const CaseSpec& spec, const Assembly& a, Findings& findings) {
 }
 
 /// Heat that no body survives.
-void heaters(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+void heaters(const cases::CaseSpec& spec, const setup::Assembly& a, Findings& findings) {
   if (spec.time.steady || !spec.time.end) return;
-  for (const ThermalConditionSpec& t : spec.thermal_conditions) {
-    if (t.kind != ThermalConditionSpec::Kind::source || !is_number(t.power) || !is_number(t.factor) ||
+  for (const cases::ThermalConditionSpec& t : spec.thermal_conditions) {
+    if (t.kind != cases::ThermalConditionSpec::Kind::source || !is_number(t.power) || !is_number(t.factor) ||
         !t.stages.empty())
       continue;
     const double power = t.power.table.value(0) * t.factor.table.value(0);
@@ -207,7 +210,7 @@ void heaters(const CaseSpec& spec, const Assembly& a, Findings& findings) {
 }
 
 /// Residuals that are left in every step.
-void residuals(const CaseSpec& spec, Findings& findings) {
+void residuals(const cases::CaseSpec& spec, Findings& findings) {
   const auto compare = [&](const char* key, double tolerance, const char* of) {
     if (tolerance > k_loose)
       findings.push_back({false, spec.time.where,
@@ -219,8 +222,8 @@ void residuals(const CaseSpec& spec, Findings& findings) {
   if (spec.has_mechanics()) compare("mechanics.tolerance", spec.mechanics.tolerance, "forces");
 }
 
-void periodic_states(const CaseSpec& spec, Findings& findings) {
-  for (const CycleSpec& cycle : spec.cycles)
+void periodic_states(const cases::CaseSpec& spec, Findings& findings) {
+  for (const cases::CycleSpec& cycle : spec.cycles)
     if (cycle.periodic && (*cycle.periodic < k_least_period || *cycle.periodic > k_most_period))
       findings.push_back({false, cycle.where,
                           fmt::format("the cycle '{}' counts as periodic where its rounds differ by {:g} K",
@@ -228,7 +231,7 @@ void periodic_states(const CaseSpec& spec, Findings& findings) {
                           "0.1 to 5 K: below are errors of steps and mesh, above dies that still warm up"});
 }
 
-void outputs(const CaseSpec& spec, Findings& findings) {
+void outputs(const cases::CaseSpec& spec, Findings& findings) {
   if (spec.time.steady || !spec.time.end) return;
   const double end = *spec.time.end;
   double last = spec.output.every.value_or(0);
@@ -240,14 +243,14 @@ void outputs(const CaseSpec& spec, Findings& findings) {
          "output.every and output.times up to the end"});
 }
 
-void gravity(const CaseSpec& spec, Findings& findings) {
+void gravity(const cases::CaseSpec& spec, Findings& findings) {
   const double g = spec.analysis.gravity;
   if (g != 0 && (g < k_least_gravity || g > k_most_gravity))
     findings.push_back(
         {false, spec.analysis.where, fmt::format("gravity is {:g} m/s2", g), "9.81 m/s2 on earth"});
 }
 
-void steps(const CaseSpec& spec, Findings& findings) {
+void steps(const cases::CaseSpec& spec, Findings& findings) {
   if (spec.time.steady || spec.time.adaptive || !spec.stages.empty() || !spec.time.end || !spec.time.step)
     return;
   if (spec.output.every && *spec.output.every < 0.51 * *spec.time.step)
@@ -265,7 +268,7 @@ void steps(const CaseSpec& spec, Findings& findings) {
 /// A table of time that begins when the run has ended is a number in it, of one that goes on for long after
 /// it the run sees next to nothing, and one that ends when the run has hardly begun is a number from then on.
 /// Two points are a ramp, and tables of motion often end early: a tool moves and stays.
-void tables_of_other_times(const CaseSpec& spec, Findings& findings) {
+void tables_of_other_times(const cases::CaseSpec& spec, Findings& findings) {
   if (spec.time.steady || !spec.time.end) return;
   const auto compare = [&](const std::string& what, const Function& f, const SourceLocation& where,
                            bool may_end) {
@@ -293,13 +296,13 @@ void tables_of_other_times(const CaseSpec& spec, Findings& findings) {
   };
   // A clock of the stage begins with it, so that its table is compared with the length of the stage
   // elsewhere.
-  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
-    if (c.clock == TimeOrigin::stage) continue;  // find_in_stage_times
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions) {
+    if (c.clock == cases::TimeOrigin::stage) continue;  // find_in_stage_times
     for (const Function* f : {&c.coefficient, &c.ambient, &c.temperature, &c.flux, &c.emissivity, &c.power})
       compare("'" + c.name + "'", *f, c.where, !c.stages.empty());
   }
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
-    if (c.clock == TimeOrigin::stage) continue;
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    if (c.clock == cases::TimeOrigin::stage) continue;
     compare("'" + c.name + "'", c.pressure, c.where, true);
     for (const auto* u : {&c.ux, &c.uy, &c.uz, &c.ur})
       if (*u) compare("'" + c.name + "'", **u, c.where, true);
@@ -307,11 +310,12 @@ void tables_of_other_times(const CaseSpec& spec, Findings& findings) {
 }
 
 /// Compares the error allowed per step with the range of temperatures of the run.
-void tolerance(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+void tolerance(const cases::CaseSpec& spec, const setup::Assembly& a, Findings& findings) {
   // The bodies' starts span the range in which the run moves; an allowed error is judged as a share
   // of it.
   double high = 0, low = std::numeric_limits<double>::max();
-  for (const InitialTemperatureRange& r : a.start) high = std::max(high, r.high), low = std::min(low, r.low);
+  for (const setup::InitialTemperatureRange& r : a.start)
+    high = std::max(high, r.high), low = std::min(low, r.low);
   if (const double allowed = spec.time.temperature_error.value_or(0);
       high - low > 100 && allowed > k_most_error * (high - low))
     findings.push_back({false, spec.time.where,
@@ -341,7 +345,7 @@ void tolerance(const CaseSpec& spec, const Assembly& a, Findings& findings) {
                         "time.temperature_error of 0.5 to 10 K"});
 }
 
-void size(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+void size(const cases::CaseSpec& spec, const setup::Assembly& a, Findings& findings) {
   double largest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
@@ -354,11 +358,11 @@ void size(const CaseSpec& spec, const Assembly& a, Findings& findings) {
 }
 
 /// Round an axis the surface x = 0 has no area: nothing passes through it.
-void surfaces_on_the_axis(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  using Kind = ThermalConditionSpec::Kind;
+void surfaces_on_the_axis(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  using Kind = cases::ThermalConditionSpec::Kind;
   if (spec.analysis.kind != AnalysisKind::axisymmetric) return;
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
-    const ThermalConditionSpec& c = spec.thermal_conditions[t];
+    const cases::ThermalConditionSpec& c = spec.thermal_conditions[t];
     const bool through = c.kind == Kind::film || c.kind == Kind::radiation || c.kind == Kind::flux;
     if (!through || m.surfaces[t].body == -1 || m.surfaces[t].area > 0) continue;
     findings.push_back(
@@ -368,7 +372,7 @@ void surfaces_on_the_axis(const CaseSpec& spec, const CaseMeasures& m, Findings&
   }
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (spec.has_heat()) surfaces_on_the_axis(spec, m, findings);
   if (spec.has_heat()) surroundings(spec, findings);
   if (spec.has_heat()) films_below_radiation(spec, m, findings);
@@ -444,4 +448,4 @@ FindingFamily findings_conditions() {
                percent(k_most_error), percent(k_most_of_step))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -8,19 +8,19 @@
 #include "coupling/scheme_names.hpp"
 #include "setup/scheme_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
 constexpr double k_late = 0.03;  // of what changes evenly over the run
 
 /// A scheme that conducts heat before deformation has taken up its share is late by δ_K steps.
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.exchanges_heat() || !(m.effort.steps > 0)) return;
   // The lag in steps, over the number of steps, is the share of the run by which temperatures come
   // late.
   const std::vector<CouplingEstimate> estimates = coupling_estimates(spec, a.materials, a.mesh, a.start);
-  const double steps = heat_lag(spec, estimates, keeps_strain(spec, a.materials, a.start));
+  const double steps = heat_lag(spec, estimates, setup::keeps_strain(spec, a.materials, a.start));
   const double share = steps / m.effort.steps;
   if (share < k_late) return;
   // The body with the strongest coupling is the one named.
@@ -57,4 +57,4 @@ FindingFamily findings_coupling() {
                                 percent(k_late))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

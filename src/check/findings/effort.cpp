@@ -6,7 +6,7 @@
 
 #include "check/finding_family.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -19,7 +19,7 @@ double machine_memory() {
   return pages > 0 && size > 0 ? static_cast<double>(pages) * static_cast<double>(size) : 0.0;
 }
 
-void find(const CaseSpec& spec, const Assembly&, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly&, const CaseMeasures& m, Findings& findings) {
   const Effort& effort = m.effort;
   const double memory = machine_memory();
   // Memory against that of this machine, time against a month, outputs against what a disk and a reader can
@@ -54,4 +54,4 @@ FindingFamily findings_effort() {
                                 number(k_most_days), number(k_most_outputs))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

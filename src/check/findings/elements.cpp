@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "mechanics/simplices.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/cast_bodies.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -23,12 +23,12 @@ double shrinkage(const material::Material& metal) {
 
 /// Metal that shrinks without pores and without flow through its mush draws in its walls instead, and
 /// elements with one pressure each do not hold a melt at rest on a mesh that is not regular.
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures&, Findings& findings) {
   if (!a.mechanics) return;
-  for (const results::CastBody& cast : cast_bodies(spec, a.materials, a.start)) {
+  for (const results::CastBody& cast : setup::cast_bodies(spec, a.materials, a.start)) {
     const auto body = static_cast<std::size_t>(cast.body);
     const double shrinks = shrinkage(a.materials[body]);
-    if (shrinks == 0 || only_conducts(spec.bodies[body])) continue;
+    if (shrinks == 0 || cases::only_conducts(spec.bodies[body])) continue;
     const bool others = std::ranges::any_of(a.mesh.blocks, [&](const mesh::ElementBlock& block) {
       return block.body == cast.body && block.size() > 0 &&
              !mechanics::is_mixed(block, a.materials[body], spec.mechanics.simplices);
@@ -57,4 +57,4 @@ FindingFamily findings_elements() {
                     "nor feed; not where its material gives the viscosity of the melt"}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

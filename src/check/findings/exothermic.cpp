@@ -6,7 +6,7 @@
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -15,7 +15,7 @@ double celsius(double kelvin) {
 }
 
 struct Burning {
-  const ThermalConditionSpec& condition;
+  const cases::ThermalConditionSpec& condition;
   Findings& findings;
   void warn(const std::string& what, const char* usual) const {
     findings.push_back({false, condition.where, fmt::format("'{}' {}", condition.name, what), usual});
@@ -27,7 +27,7 @@ constexpr double k_shortest = 1, k_longest = 3600;        // [s]
 
 /// Heat and duration of sleeves and of covers on risers.
 void amounts(const Burning& burning) {
-  const ThermalConditionSpec& c = burning.condition;
+  const cases::ThermalConditionSpec& c = burning.condition;
   if (c.heat < k_least_heat || c.heat > k_most_heat)
     burning.warn(fmt::format("releases {:g} J/m3", c.heat),
                  "exothermic sleeves release 2e8 to 3e9 J/m3: heat per mass times density, per volume");
@@ -39,20 +39,20 @@ void amounts(const Burning& burning) {
 /// Above it nothing ignites: what stands there was switched off [K].
 constexpr double k_switched_off = 3000;
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   // A sleeve is judged by its amounts of heat, by the body it is in, and by whether anything there gets hot
   // enough to ignite it.
   if (!spec.has_heat()) return;
   // What starts hottest is what could ignite the sleeve.
   double hottest = 0;
   for (const auto& start : a.start) hottest = std::max(hottest, start.high);
-  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
-    if (c.kind != ThermalConditionSpec::Kind::exothermic) continue;
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions) {
+    if (c.kind != cases::ThermalConditionSpec::Kind::exothermic) continue;
     const Burning burning{c, findings};
     amounts(burning);
     // The body is the one whose group the sleeve names; more than one body may share a group.
     for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-      const BodySpec& body = spec.bodies[b];
+      const cases::BodySpec& body = spec.bodies[b];
       if (body.mesh_group() != c.group) continue;
       // Heat within the casting itself would be latent heat counted twice.
       const bool poured =
@@ -94,4 +94,4 @@ FindingFamily findings_exothermic() {
                        number(k_longest))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -11,7 +11,7 @@
 #include "parallel/parallel.hpp"
 #include "setup/mechanics_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -19,7 +19,7 @@ constexpr double k_all = 0.9;   // nodes of a feeder, of all that is poured
 constexpr double k_low = 0.25;  // height of a feeder, of that of its casting
 
 /// Feeders that touch no melt, or that lie where melt does not flow down from. Collective.
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat() || m.pours.empty()) return;
   // Which poured body a node belongs to; nodes of moulds keep -1.
   std::vector<int> poured(a.mesh.x.size(), -1);
@@ -27,7 +27,7 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
     for (const Pour& pour : m.pours)
       if (static_cast<int>(pour.body) == block.body)
         for (const Index node : block.nodes) poured[static_cast<std::size_t>(node)] = block.body;
-  const std::array<double, 3> g = gravity(spec.analysis);
+  const std::array<double, 3> g = setup::gravity(spec.analysis);
   double all = 0;                             // nodes of all that is poured
   double all_low = 1e300, all_high = -1e300;  // its ends, against gravity
   // The ends of a box along gravity come from its corners: each direction adds its lower or higher
@@ -104,4 +104,4 @@ FindingFamily findings_feeders() {
           {Topic::pour, "a feeder is all that is poured", fmt::format("{} of its nodes", percent(k_all))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

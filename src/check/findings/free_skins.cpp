@@ -17,28 +17,28 @@
 #include "setup/body_input.hpp"
 #include "setup/mechanics_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
 constexpr double k_closed = 0.02, k_open = 0.25;  // of the skin that faces up, that faces down
 constexpr double k_least_share_of_skin = 0.02;    // of the skin
 
-bool in_contact(const CaseSpec& spec, const std::string& surface) {
-  return std::ranges::any_of(spec.contacts, [&](const ContactSpec& contact) {
+bool in_contact(const cases::CaseSpec& spec, const std::string& surface) {
+  return std::ranges::any_of(spec.contacts, [&](const cases::ContactSpec& contact) {
     const auto sides = contact.sides();
     return std::ranges::find(sides, surface) != sides.end();
   });
 }
 
 /// Surfaces on which something keeps a melt: contacts, supports, loads and held temperatures, as of an inlet.
-std::set<std::string> covered_surfaces(const CaseSpec& spec) {
+std::set<std::string> covered_surfaces(const cases::CaseSpec& spec) {
   std::set<std::string> groups;
-  for (const ContactSpec& contact : spec.contacts)
+  for (const cases::ContactSpec& contact : spec.contacts)
     for (const std::string& side : contact.sides()) groups.insert(side);
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) groups.insert(c.group);
-  for (const ThermalConditionSpec& c : spec.thermal_conditions)
-    if (c.kind == ThermalConditionSpec::Kind::temperature) groups.insert(c.group);
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) groups.insert(c.group);
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions)
+    if (c.kind == cases::ThermalConditionSpec::Kind::temperature) groups.insert(c.group);
   return groups;
 }
 
@@ -49,11 +49,12 @@ struct Facing {
 
 /// Melt stands in its mould with its free surface on top: one whose skin is closed above and open below has
 /// run out, or gravity points the wrong way. Collective.
-void melts_open_below(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void melts_open_below(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                      Findings& findings) {
   constexpr double k_upright = 0.7;  // of the normal
   // The direction in which melt would flow; without gravity or without any contact nothing can be
   // said.
-  const std::array<double, 3> g = gravity(spec.analysis);
+  const std::array<double, 3> g = setup::gravity(spec.analysis);
   const double size = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
   if (!(size > 0) || m.pours.empty() || spec.contacts.empty()) return;
   // Faces count as closed where a contact, a support or another body has them.
@@ -88,19 +89,20 @@ void melts_open_below(const CaseSpec& spec, const Assembly& a, const CaseMeasure
 }
 
 /// A support of all directions on a free surface of a casting keeps it from shrinking there.
-void held_free_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+void held_free_skins(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                     Findings& findings) {
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
     // All components that the analysis has must be held; in a plane or about an axis these are two.
     const bool all =
-        c.kind == MechanicalConditionSpec::Kind::displacement &&
+        c.kind == cases::MechanicalConditionSpec::Kind::displacement &&
         (spec.analysis.kind == AnalysisKind::solid ? c.ux && c.uy && c.uz : (c.ux || c.ur) && (c.uy || c.uz));
     // Only what holds from the start, and where no contact acts, which another finding judges.
-    if (!all || !holds(c.stages, a.first_stage()) || in_contact(spec, c.group)) continue;
-    const SurfaceMeasures surface = measure_surface(a.mesh, c.group, spec.analysis.kind);
+    if (!all || !cases::holds(c.stages, a.first_stage()) || in_contact(spec, c.group)) continue;
+    const setup::SurfaceMeasures surface = setup::measure_surface(a.mesh, c.group, spec.analysis.kind);
     if (!m.is_poured(static_cast<std::size_t>(surface.body))) continue;
     const auto body = static_cast<std::size_t>(surface.body);
     // Small patches hold a casting in place, as they must.
-    if (only_conducts(spec.bodies[body]) || surface.area < k_least_share_of_skin * m.bodies[body].skin)
+    if (cases::only_conducts(spec.bodies[body]) || surface.area < k_least_share_of_skin * m.bodies[body].skin)
       continue;
     findings.push_back(
         {false, c.where,
@@ -113,7 +115,7 @@ void held_free_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures
   }
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_mechanics()) return;
   melts_open_below(spec, a, m, findings);
   held_free_skins(spec, a, m, findings);
@@ -135,4 +137,4 @@ FindingFamily findings_free_skins() {
                                 percent(k_open))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
 #include "setup/body_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -36,23 +36,23 @@ std::string duration(double seconds) {
   return fmt::format("{:.3g} days", seconds / 86400);
 }
 
-double solidus_of(const Assembly& a, const Pour& pour) {
+double solidus_of(const setup::Assembly& a, const Pour& pour) {
   return a.materials[pour.body].solidification()->fraction.solidus();
 }
 
 /// The longest step that a run with fixed steps takes.
-double fixed_step(const CaseSpec& spec, const Assembly& a) {
+double fixed_step(const cases::CaseSpec& spec, const setup::Assembly& a) {
   if (spec.time.adaptive || spec.time.steady) return 0;
   if (a.stages.empty()) return spec.time.step.value_or(0);
-  return first_step(*a.stages.front().stage, spec.time);
+  return cases::first_step(*a.stages.front().stage, spec.time);
 }
 
 /// How long a body that is poured is there at first [s], and whether it leaves then or the run ends.
-std::pair<double, bool> time_there(const CaseSpec& spec, const Assembly& a, std::size_t body) {
+std::pair<double, bool> time_there(const cases::CaseSpec& spec, const setup::Assembly& a, std::size_t body) {
   double pour = 0;
   bool there = false;
-  for (const StageRun& stage : a.stages) {
-    const bool now = holds(spec.bodies[body].stages, &stage);
+  for (const cases::StageRun& stage : a.stages) {
+    const bool now = cases::holds(spec.bodies[body].stages, &stage);
     if (now && !there) pour = stage.start;
     if (there && !now) return {stage.start - pour, true};
     there = now;
@@ -61,9 +61,9 @@ std::pair<double, bool> time_there(const CaseSpec& spec, const Assembly& a, std:
 }
 
 /// Over all processes the same.
-void nothing_to_wait_for(const CaseSpec& spec, const Assembly& a, const std::vector<Pour>& pours,
-                         Findings& findings) {
-  if (spec.time.until != TimeSpec::Until::solid || !pours.empty()) return;
+void nothing_to_wait_for(const cases::CaseSpec& spec, const setup::Assembly& a,
+                         const std::vector<Pour>& pours, Findings& findings) {
+  if (spec.time.until != cases::TimeSpec::Until::solid || !pours.empty()) return;
   std::string what = "the run lasts until all is solid, but nothing is poured";
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     if (const material::PhaseChange* freezing = a.materials[b].solidification()) {
@@ -77,7 +77,8 @@ void nothing_to_wait_for(const CaseSpec& spec, const Assembly& a, const std::vec
        "until = \"end\", or a body that starts above its solidus; is the initial temperature in its unit?"});
 }
 
-void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Findings& findings) {
+void length_of_run(const cases::CaseSpec& spec, const setup::Assembly& a, const Pour& pour,
+                   Findings& findings) {
   // A steady run is told at once, since nothing else here makes sense for it.
   const std::string& name = spec.bodies[pour.body].name;
   if (spec.time.steady) {
@@ -157,7 +158,7 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
 }
 
 /// Over all pours the same: a largest step that no step comes to.
-void largest_step(const CaseSpec& spec, Findings& findings) {
+void largest_step(const cases::CaseSpec& spec, Findings& findings) {
   const double most = spec.time.adaptive ? spec.time.max_step.value_or(0) : 0;
   if (spec.time.steady || most <= k_of_run * *spec.time.end) return;
   findings.push_back({false, spec.time.where,
@@ -168,17 +169,17 @@ void largest_step(const CaseSpec& spec, Findings& findings) {
 
 /// Rounds of a cycle in which no casting leaves go on with the one that was poured before. Where everything
 /// stays, nothing is poured again.
-void rounds_without_a_shot(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+void rounds_without_a_shot(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
                            Findings& findings) {
-  for (const CycleSpec& cycle : spec.cycles) {
+  for (const cases::CycleSpec& cycle : spec.cycles) {
     // A stage belongs to the cycle if the cycle names it; the casting leaves where one of those
     // stages has no such body.
-    const auto is_of_it = [&](const StageRun& stage) {
+    const auto is_of_it = [&](const cases::StageRun& stage) {
       return std::find(cycle.stages.begin(), cycle.stages.end(), stage.stage->name) != cycle.stages.end();
     };
     const bool leaves = std::any_of(m.pours.begin(), m.pours.end(), [&](const Pour& pour) {
-      return std::any_of(a.stages.begin(), a.stages.end(), [&](const StageRun& stage) {
-        return is_of_it(stage) && !holds(spec.bodies[pour.body].stages, &stage);
+      return std::any_of(a.stages.begin(), a.stages.end(), [&](const cases::StageRun& stage) {
+        return is_of_it(stage) && !cases::holds(spec.bodies[pour.body].stages, &stage);
       });
     });
     if (m.pours.empty() || cycle.repeat < 2 || leaves) continue;
@@ -193,13 +194,13 @@ void rounds_without_a_shot(const CaseSpec& spec, const Assembly& a, const CaseMe
 }
 
 /// Conditions on the skin of the body that keep it hot.
-void heating(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, const Pour& pour,
+void heating(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, const Pour& pour,
              Findings& findings) {
-  using Kind = ThermalConditionSpec::Kind;
+  using Kind = cases::ThermalConditionSpec::Kind;
   const std::string& name = spec.bodies[pour.body].name;
   const double solidus = solidus_of(a, pour);
   for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
-    const ThermalConditionSpec& c = spec.thermal_conditions[i];
+    const cases::ThermalConditionSpec& c = spec.thermal_conditions[i];
     // The condition must lie on this body's own skin.
     if (m.surfaces[i].body != static_cast<int>(pour.body)) continue;
     // A temperature above the solidus that lasts, heat that flows in, and surroundings above the solidus.
@@ -231,14 +232,15 @@ void heating(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, con
 }
 
 /// A body that can melt, but starts cold beside one that is poured.
-void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void cold_castings(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                   Findings& findings) {
   if (m.pours.empty() || !spec.criteria.follow) return;
   // Compared body by body; what is not poured by its role is meant to start cold.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::PhaseChange* freezing = a.materials[b].solidification();
     if (freezing == nullptr || a.start[b].high >= freezing->fraction.liquidus()) continue;
-    const Role role = role_of(spec.bodies[b], a.materials[b]);
-    if (!is_poured(role)) continue;  // the case says that it is a chill
+    const cases::Role role = cases::role_of(spec.bodies[b], a.materials[b]);
+    if (!cases::is_poured(role)) continue;  // the case says that it is a chill
     // Between solidus and liquidus it was poured too cold; below, it is no casting, or a riser that cannot
     // feed.
     if (a.start[b].high >= freezing->fraction.solidus()) {
@@ -255,7 +257,7 @@ void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
       continue;
     }
     // A riser that starts solid is worse than a casting that does, as all feeding hangs on it.
-    if (spec.bodies[b].role == Role::riser) {
+    if (spec.bodies[b].role == cases::Role::riser) {
       findings.push_back({false, spec.bodies[b].where,
                           fmt::format("the riser '{}' starts solid at {:.0f} degC: it feeds nothing",
                                       spec.bodies[b].name, celsius(a.start[b].high)),
@@ -274,7 +276,7 @@ void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
 }
 
 /// The temperature to which all bodies come that heat joins and nothing else cools or heats [K].
-double common_temperature(const Assembly& a, const CaseMeasures& m) {
+double common_temperature(const setup::Assembly& a, const CaseMeasures& m) {
   // The heat of all bodies at their start, as the mean of what the coldest and the hottest start
   // give.
   std::vector<material::EnthalpyCurve> curves;
@@ -298,7 +300,8 @@ double common_temperature(const Assembly& a, const CaseMeasures& m) {
 }
 
 /// Where nothing is poured: a body that the others heat above its solidus.
-void bodies_that_melt(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void bodies_that_melt(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                      Findings& findings) {
   if (!m.pours.empty() || !spec.criteria.follow || spec.time.steady) return;
   const double common = common_temperature(a, m);
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
@@ -315,16 +318,18 @@ void bodies_that_melt(const CaseSpec& spec, const Assembly& a, const CaseMeasure
 }
 
 /// Melt beside melt: a contact parts them, and common nodes make two alloys one liquid.
-void melts_side_by_side(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void melts_side_by_side(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                        Findings& findings) {
   const auto poured = [&](int body) {
     return std::any_of(m.pours.begin(), m.pours.end(),
                        [&](const Pour& p) { return static_cast<int>(p.body) == body; });
   };
   // Contacts between poured bodies, then common nodes of different alloys.
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
-    const ContactMeasures& contact = m.contacts[c];
+    const setup::ContactMeasures& contact = m.contacts[c];
     if (!poured(contact.slave_body) || !poured(contact.master_body) ||
-        contact.slave_body == contact.master_body || !holds(spec, spec.contacts[c], a.mesh, a.first_stage()))
+        contact.slave_body == contact.master_body ||
+        !setup::holds(spec, spec.contacts[c], a.mesh, a.first_stage()))
       continue;
     findings.push_back(
         {false, spec.contacts[c].where,
@@ -348,7 +353,7 @@ void melts_side_by_side(const CaseSpec& spec, const Assembly& a, const CaseMeasu
              "one alloy for a casting and its risers"});
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat()) return;
   for (const Pour& pour : m.pours) {
     heating(spec, a, m, pour, findings);
@@ -404,4 +409,4 @@ FindingFamily findings_freezing() {
            "it comes round more than once, and no body that is poured leaves in it"}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

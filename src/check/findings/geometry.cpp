@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -28,15 +28,15 @@ constexpr double k_flat = 150, k_flat_in_layers = 300, k_flat_in_casting = 50;
 constexpr double k_small = 3e-3;  // a casting [m]
 
 /// In quotes.
-std::string name_of(const CaseSpec& spec, int body) {
-  if (body == k_several_bodies) return "several bodies";
+std::string name_of(const cases::CaseSpec& spec, int body) {
+  if (body == setup::k_several_bodies) return "several bodies";
   return body >= 0 ? "'" + spec.bodies[static_cast<std::size_t>(body)].name + "'" : "a tool";
 }
 
 /// Facets of two meshes on one curved skin overlap by a tenth of a face at most.
-void overlaps(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void overlaps(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   for (std::size_t c = 0; c < m.contacts.size(); ++c) {
-    const ContactMeasures& contact = m.contacts[c];
+    const setup::ContactMeasures& contact = m.contacts[c];
     const double depth = -contact.least_start;
     if (contact.paired > 0 && depth > k_overlap * contact.face_size)
       findings.push_back({false, spec.contacts[c].where,
@@ -47,9 +47,9 @@ void overlaps(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   }
 }
 
-void far_apart(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void far_apart(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   for (std::size_t c = 0; c < m.contacts.size(); ++c) {
-    const ContactMeasures& contact = m.contacts[c];
+    const setup::ContactMeasures& contact = m.contacts[c];
     if (!(contact.paired > 0) || contact.slave_body < 0 || !spec.contacts[c].heat) continue;
     const BodyMeasures& body = m.bodies[static_cast<std::size_t>(contact.slave_body)];
     const double size = std::cbrt(body.volume);
@@ -62,7 +62,7 @@ void far_apart(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) 
   }
 }
 
-void same_body(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void same_body(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   for (std::size_t c = 0; c < m.contacts.size(); ++c)
     if (m.contacts[c].slave_body >= 0 && m.contacts[c].slave_body == m.contacts[c].master_body)
       findings.push_back({false, spec.contacts[c].where,
@@ -71,7 +71,8 @@ void same_body(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) 
                           "surfaces of two bodies, unless this one has a slit"});
 }
 
-void shared_nodes(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void shared_nodes(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                  Findings& findings) {
   // Surfaces of a contact that share nodes are one body there. Apart from contacts, bodies that start at
   // different temperatures and share nodes are told, unless a contact has been told already.
   for (std::size_t c = 0; c < m.contacts.size(); ++c)
@@ -90,7 +91,7 @@ void shared_nodes(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
           std::abs(a.start[b].low - a.start[other].high) < k_same_temperature)
         continue;
       const bool told = std::any_of(m.contacts.begin(), m.contacts.end(),
-                                    [](const ContactMeasures& c) { return c.shared_nodes > 0; });
+                                    [](const setup::ContactMeasures& c) { return c.shared_nodes > 0; });
       if (told) continue;
       // Metals that are poured together may share nodes, and then want one temperature.
       const bool one_metal =
@@ -107,7 +108,7 @@ void shared_nodes(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
     }
 }
 
-void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void coarse_castings(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   // Without an estimate there is no depth to compare elements with.
   for (const Pour& pour : m.pours) {
     if (!pour.no_estimate.empty()) continue;
@@ -144,9 +145,9 @@ void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& find
 
 /// Elements whose edges differ so much that what crosses them and what runs along them cannot both be seen;
 /// castings so small that their unit is in doubt.
-void shapes_and_sizes(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void shapes_and_sizes(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
-    const bool conducts = !spec.has_mechanics() || only_conducts(spec.bodies[b]);
+    const bool conducts = !spec.has_mechanics() || cases::only_conducts(spec.bodies[b]);
     // Layers of a mould that conducts may be flat, for heat crosses them in one direction; stresses
     // suffer from flatness.
     const double most = m.is_poured(b) ? k_flat_in_casting : conducts ? k_flat_in_layers : k_flat;
@@ -171,13 +172,13 @@ void shapes_and_sizes(const CaseSpec& spec, const CaseMeasures& m, Findings& fin
 }
 
 /// The mould's first element against the depth that heat reaches until the casting is solid.
-void coarse_moulds(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void coarse_moulds(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   for (const Pour& pour : m.pours) {
     // Without a freezing time or where the mould is all soaked through there is no depth to
     // resolve.
     if (!pour.freezing.time || !(pour.freezing.mould_reach > 0)) continue;
     for (std::size_t c = 0; c < m.contacts.size(); ++c) {
-      const ContactMeasures& contact = m.contacts[c];
+      const setup::ContactMeasures& contact = m.contacts[c];
       const auto body = static_cast<int>(pour.body);
       // The mould is the other partner of whichever side the casting is on.
       const int other = contact.slave_body == body    ? contact.master_body
@@ -200,7 +201,7 @@ void coarse_moulds(const CaseSpec& spec, const CaseMeasures& m, Findings& findin
   }
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   overlaps(spec, m, findings);
   far_apart(spec, m, findings);
   same_body(spec, m, findings);
@@ -247,4 +248,4 @@ FindingFamily findings_geometry() {
                        number(k_flat), number(k_flat_in_casting), number(k_flat_in_layers))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

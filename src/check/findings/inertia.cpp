@@ -3,14 +3,14 @@
 
 #include "check/finding_family.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
 constexpr double k_long = 0.1;  // steps [s]
 
 /// Waves cross a casting in microseconds: inertia over steps so much longer only costs.
-void find(const CaseSpec& spec, const Assembly&, const CaseMeasures&, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly&, const CaseMeasures&, Findings& findings) {
   if (!spec.has_mechanics() || !spec.dynamics || !spec.time.step || *spec.time.step < k_long) return;
   findings.push_back({false, spec.time.where,
                       fmt::format("inertia with steps of {:g} s: waves cross the bodies within a millisecond",
@@ -29,4 +29,4 @@ FindingFamily findings_inertia() {
           .rows = {{Topic::mechanics, "inertia", fmt::format("with steps above {} s", number(k_long))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -16,7 +16,7 @@
 #include "setup/body_input.hpp"
 #include "setup/friction_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -26,19 +26,20 @@ constexpr double k_same_temperature = 50;
 constexpr double k_most_capacity = 1e6;
 
 /// Whether a condition holds while a contact is on: bodies come and leave. Collective.
-bool beside(const CaseSpec& spec, const Assembly& a, const std::vector<std::string>& stages,
-            const ContactSpec& contact) {
-  return a.stages.empty() || std::any_of(a.stages.begin(), a.stages.end(), [&](const StageRun& stage) {
-           return stage.cycle <= 1 && holds(stages, &stage) && holds(spec, contact, a.mesh, &stage);
+bool beside(const cases::CaseSpec& spec, const setup::Assembly& a, const std::vector<std::string>& stages,
+            const cases::ContactSpec& contact) {
+  return a.stages.empty() || std::any_of(a.stages.begin(), a.stages.end(), [&](const cases::StageRun& stage) {
+           return stage.cycle <= 1 && cases::holds(stages, &stage) &&
+                  setup::holds(spec, contact, a.mesh, &stage);
          });
 }
 
-std::set<std::string> sides(const ContactSpec& contact) {
+std::set<std::string> sides(const cases::ContactSpec& contact) {
   const auto pair = contact.sides();
   return {pair.begin(), pair.end()};
 }
 
-void contacts_given_twice(const CaseSpec& spec, Findings& findings) {
+void contacts_given_twice(const cases::CaseSpec& spec, Findings& findings) {
   for (std::size_t i = 0; i < spec.contacts.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (sides(spec.contacts[i]) == sides(spec.contacts[k]) &&
@@ -68,7 +69,8 @@ class Groups {
 };
 
 /// The bodies that meet in a node or an end of a contact, as seen from all processes.
-std::vector<std::vector<int>> meetings(const CaseSpec& spec, const mesh::Mesh& mesh, bool with_heat_only) {
+std::vector<std::vector<int>> meetings(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
+                                       bool with_heat_only) {
   const std::size_t n = spec.bodies.size();
   // A square of marks, any of which a process sets where it sees the two bodies in one node or one
   // contact.
@@ -83,7 +85,7 @@ std::vector<std::vector<int>> meetings(const CaseSpec& spec, const mesh::Mesh& m
   for (const std::set<int>& bodies : of_node)
     if (bodies.size() > 1) note(bodies);
   // Contacts join the bodies of all the faces on their two sides.
-  for (const ContactSpec& contact : spec.contacts) {
+  for (const cases::ContactSpec& contact : spec.contacts) {
     if (with_heat_only && !contact.heat) continue;
     std::set<int> bodies;
     for (const std::string& side : contact.sides())
@@ -102,7 +104,8 @@ std::vector<std::vector<int>> meetings(const CaseSpec& spec, const mesh::Mesh& m
 }
 
 /// A hot body that no heat can leave toward a cold one.
-void bodies_without_a_way_for_heat(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+void bodies_without_a_way_for_heat(const cases::CaseSpec& spec, const setup::Assembly& a,
+                                   Findings& findings) {
   // Groups of bodies that heat joins, directly or over others, and groups that touch at all.
   Groups by_heat(spec.bodies.size()), by_anything(spec.bodies.size());
   for (const std::vector<int>& pair : meetings(spec, a.mesh, true)) by_heat.join(pair[0], pair[1]);
@@ -125,17 +128,17 @@ void bodies_without_a_way_for_heat(const CaseSpec& spec, const Assembly& a, Find
 }
 
 /// Films of place or time alternate: each is one where the others are none.
-bool always_the_same(const ThermalConditionSpec& film) {
+bool always_the_same(const cases::ThermalConditionSpec& film) {
   return is_number(film.coefficient) && is_number(film.factor);
 }
 
-void films_beside_contacts(const CaseSpec& spec, const Assembly& a, Findings& findings) {
-  using Kind = ThermalConditionSpec::Kind;
+void films_beside_contacts(const cases::CaseSpec& spec, const setup::Assembly& a, Findings& findings) {
+  using Kind = cases::ThermalConditionSpec::Kind;
   for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
-    const ThermalConditionSpec& film = spec.thermal_conditions[i];
+    const cases::ThermalConditionSpec& film = spec.thermal_conditions[i];
     if (film.kind != Kind::film) continue;
     // A film and a contact on one surface at one time cool it twice; two films add up too.
-    for (const ContactSpec& contact : spec.contacts)
+    for (const cases::ContactSpec& contact : spec.contacts)
       if (contact.heat && always_the_same(film) && sides(contact).contains(film.group) &&
           beside(spec, a, film.stages, contact))
         findings.push_back(
@@ -144,7 +147,7 @@ void films_beside_contacts(const CaseSpec& spec, const Assembly& a, Findings& fi
                          film.name, film.group, contact.name),
              "a film on outer surfaces alone"});
     for (std::size_t k = 0; k < i; ++k)
-      if (const ThermalConditionSpec& other = spec.thermal_conditions[k];
+      if (const cases::ThermalConditionSpec& other = spec.thermal_conditions[k];
           other.kind == Kind::film && always_the_same(other) && always_the_same(film) &&
           other.group == film.group && share_a_stage(film.stages, other.stages))
         findings.push_back({false, film.where,
@@ -154,8 +157,8 @@ void films_beside_contacts(const CaseSpec& spec, const Assembly& a, Findings& fi
   }
 }
 
-void conductances(const CaseSpec& spec, Findings& findings) {
-  for (const ContactSpec& contact : spec.contacts) {
+void conductances(const cases::CaseSpec& spec, Findings& findings) {
+  for (const cases::ContactSpec& contact : spec.contacts) {
     // Capacities and emissivities that are out of range or meaningless alone, then what each law remarks of
     // its own numbers.
     if (const double capacity = contact.interface.heat_capacity; capacity > k_most_capacity)
@@ -180,15 +183,15 @@ void conductances(const CaseSpec& spec, Findings& findings) {
 
 /// 5.24 without a heat capacity would forbid every slip that changes the entropy: the interface keeps its
 /// temperature instead, and the estimate of a split that holds entropies with it (5.13a).
-void isentropic_friction(const CaseSpec& spec, Findings& findings) {
+void isentropic_friction(const cases::CaseSpec& spec, Findings& findings) {
   if (!spec.isentropic() || spec.coupling.scheme->traits().iterates) return;
-  for (const ContactSpec& contact : spec.contacts) {
+  for (const cases::ContactSpec& contact : spec.contacts) {
     // Only contacts whose friction stores its work and whose interface stores no heat are
     // concerned.
     if (!contact.friction || contact.interface.heat_capacity > 0 ||
         contact.friction->internal_variable != contact::InternalVariable::normal_work)
       continue;
-    const contact::FrictionCoefficient mu(friction_spec(*contact.friction).coefficient);
+    const contact::FrictionCoefficient mu(setup::friction_spec(*contact.friction).coefficient);
     if (mu.hardening_depends_on_temperature())
       findings.push_back(
           {false, contact.friction->where,
@@ -206,7 +209,7 @@ void isentropic_friction(const CaseSpec& spec, Findings& findings) {
   }
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures&, Findings& findings) {
   contacts_given_twice(spec, findings);
   if (!spec.has_heat()) return;
   bodies_without_a_way_for_heat(spec, a, findings);
@@ -264,4 +267,4 @@ FindingFamily findings_interface() {
                 "temperature is held"}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 
-#include "case/interface_library.hpp"
-#include "case/roles.hpp"
+#include "cases/interface_library.hpp"
+#include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "contact/interface/heat_transfer.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -23,7 +23,7 @@ double closed_conductance(const contact::HeatTransferSpec& heat, double temperat
 
 /// Whether a side of the card is for a material or for a role of its own, not for whatever is a die or a
 /// mould.
-bool particular(const InterfaceSide& side) {
+bool particular(const cases::InterfaceSide& side) {
   if (!side.materials.empty()) return true;
   constexpr std::array k_any = {"casting", "riser", "die", "mould", "core"};
   return !side.roles.empty() && std::none_of(side.roles.begin(), side.roles.end(), [&](const auto& role) {
@@ -31,33 +31,35 @@ bool particular(const InterfaceSide& side) {
   });
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   // A law that a section names is compared with the one that the library would choose for these partners.
   // Only a particular card counts as better, and only where the conductances differ by a factor.
   const bool any = std::any_of(spec.contacts.begin(), spec.contacts.end(),
-                               [](const ContactSpec& contact) { return !contact.law.empty(); });
+                               [](const cases::ContactSpec& contact) { return !contact.law.empty(); });
   if (!spec.has_heat() || !any) return;
-  std::vector<InterfaceCard> cards = interface_cards();
+  std::vector<cases::InterfaceCard> cards = cases::interface_cards();
   for (std::size_t c = 0; c < spec.contacts.size() && c < m.contacts.size(); ++c) {
-    const ContactSpec& contact = spec.contacts[c];
-    const ContactMeasures& sides = m.contacts[c];
+    const cases::ContactSpec& contact = spec.contacts[c];
+    const setup::ContactMeasures& sides = m.contacts[c];
     if (contact.law.empty() || sides.slave_body < 0 || sides.master_body < 0) continue;
     // A partner is known by its material and its role, as cards name either.
     const auto partner = [&](int b) {
       const auto body = static_cast<std::size_t>(b);
-      return InterfacePartner{spec.bodies[body].material, role_of(spec.bodies[body], a.materials[body])};
+      return cases::InterfacePartner{spec.bodies[body].material,
+                                     cases::role_of(spec.bodies[body], a.materials[body])};
     };
-    const InterfacePartner one = partner(sides.slave_body), two = partner(sides.master_body);
+    const cases::InterfacePartner one = partner(sides.slave_body), two = partner(sides.master_body);
     // The card that the file names, and the best one without that name.
-    const auto used = std::find_if(cards.begin(), cards.end(),
-                                   [&](const InterfaceCard& card) { return card.name == contact.law; });
-    const InterfaceCard* const best = best_card(cards, one, two);
+    const auto used = std::find_if(cards.begin(), cards.end(), [&](const cases::InterfaceCard& card) {
+      return card.name == contact.law;
+    });
+    const cases::InterfaceCard* const best = cases::best_card(cards, one, two);
     if (used == cards.end() || best == nullptr || !(particular(best->one) || particular(best->other)))
       continue;
     // A card fits a pair if it would be chosen for it, by its partners, without its name.
-    InterfaceCard by_pair = *used;
+    cases::InterfaceCard by_pair = *used;
     by_pair.by_name_alone = false;
-    if (best_card({by_pair}, one, two) != nullptr) continue;
+    if (cases::best_card({by_pair}, one, two) != nullptr) continue;
     // Conductances are compared closed and at the hotter start, where they decide over the cooling.
     const double temperature = std::max(a.start[static_cast<std::size_t>(sides.slave_body)].high,
                                         a.start[static_cast<std::size_t>(sides.master_body)].high);
@@ -87,4 +89,4 @@ FindingFamily findings_interface_laws() {
                                 number(k_alike))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "setup/body_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -23,18 +23,19 @@ constexpr double k_solid_at_last = 0.7;
 /// Rounds that are too few for a search of a periodic state.
 constexpr int k_least_rounds = 3;
 
-bool is_there(const CaseSpec& spec, std::size_t body, const StageRun& stage) {
-  return holds(spec.bodies[body].stages, &stage);
+bool is_there(const cases::CaseSpec& spec, std::size_t body, const cases::StageRun& stage) {
+  return cases::holds(spec.bodies[body].stages, &stage);
 }
 
 /// When the casting that is there in a stage came [s].
-double time_of_pour(const CaseSpec& spec, const Assembly& a, std::size_t body, std::size_t stage) {
+double time_of_pour(const cases::CaseSpec& spec, const setup::Assembly& a, std::size_t body,
+                    std::size_t stage) {
   while (stage > 0 && is_there(spec, body, a.stages[stage - 1])) --stage;
   return a.stages[stage].start;
 }
 
 /// The other side of a contact, where one side is the body; negative where it is no body, or several.
-int partner(const ContactMeasures& sides, std::size_t body) {
+int partner(const setup::ContactMeasures& sides, std::size_t body) {
   const int one = static_cast<int>(body);
   if (sides.slave_body == one) return sides.master_body;
   return sides.master_body == one ? sides.slave_body : -1;
@@ -45,12 +46,12 @@ std::string with_next(std::string names, const std::string& name) {
 }
 
 /// Stages that take moulds, cores or chills away from a casting before it can be solid. Collective.
-void leave_melt(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, const Pour& pour,
-                Findings& findings) {
+void leave_melt(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                const Pour& pour, Findings& findings) {
   if (!pour.freezing.time) return;
   // Pairs of successive stages of the first round: further rounds repeat them.
   for (std::size_t i = 1; i < a.stages.size() && a.stages[i].cycle <= 1; ++i) {
-    const StageRun &before = a.stages[i - 1], &now = a.stages[i];
+    const cases::StageRun &before = a.stages[i - 1], &now = a.stages[i];
     if (!is_there(spec, pour.body, before) || !is_there(spec, pour.body, now)) continue;
     // The time since the pour of this casting, which may itself come late in a cycle.
     const double since = now.start - time_of_pour(spec, a, pour.body, i);
@@ -60,7 +61,8 @@ void leave_melt(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, 
     for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
       const int other = partner(m.contacts[c], pour.body);
       if (other < 0 || m.is_poured(static_cast<std::size_t>(other))) continue;
-      if (holds(spec, spec.contacts[c], a.mesh, &before) && !holds(spec, spec.contacts[c], a.mesh, &now))
+      if (setup::holds(spec, spec.contacts[c], a.mesh, &before) &&
+          !setup::holds(spec, spec.contacts[c], a.mesh, &now))
         names = with_next(names, spec.bodies[static_cast<std::size_t>(other)].name);
     }
     if (names.empty()) continue;
@@ -76,11 +78,11 @@ void leave_melt(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, 
 }
 
 /// Bodies that come to a casting which has stood without them.
-void come_too_late(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, const Pour& pour,
-                   Findings& findings) {
+void come_too_late(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                   const Pour& pour, Findings& findings) {
   std::vector<char> told(spec.bodies.size(), 0);
   for (std::size_t i = 1; i < a.stages.size() && a.stages[i].cycle <= 1; ++i) {
-    const StageRun &before = a.stages[i - 1], &now = a.stages[i];
+    const cases::StageRun &before = a.stages[i - 1], &now = a.stages[i];
     // A partner that comes while the casting is there already: the new body finds metal that has
     // frozen without it.
     if (!is_there(spec, pour.body, before) || !is_there(spec, pour.body, now)) continue;
@@ -112,9 +114,10 @@ bool is_called_pouring(std::string name) {
 }
 
 /// Stages that are called after pouring, in which no casting is new.
-void pour_nothing(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void pour_nothing(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                  Findings& findings) {
   for (std::size_t i = 0; i < a.stages.size() && a.stages[i].cycle <= 1; ++i) {
-    const StageRun& now = a.stages[i];
+    const cases::StageRun& now = a.stages[i];
     // Stages that say in their name that they pour, and in which no casting is new.
     if (!is_called_pouring(now.stage->name)) continue;
     const bool pours = std::ranges::any_of(m.pours, [&](const Pour& pour) {
@@ -126,8 +129,8 @@ void pour_nothing(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
     const std::size_t casting = m.pours.front().body;
     const std::string name = spec.bodies[casting].name;
     // The stage in which the casting really begins is named, for the two are mostly exchanged.
-    const auto first =
-        std::ranges::find_if(a.stages, [&](const StageRun& stage) { return is_there(spec, casting, stage); });
+    const auto first = std::ranges::find_if(
+        a.stages, [&](const cases::StageRun& stage) { return is_there(spec, casting, stage); });
     findings.push_back(
         {false, now.stage->where,
          fmt::format("the stage '{}' begins at {:g} s, but '{}' is poured when '{}' begins, at {:g} s",
@@ -137,10 +140,11 @@ void pour_nothing(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
 }
 
 /// A die that leaves in the course of a shot is new in the next one.
-void cold_dies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void cold_dies(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+               Findings& findings) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    if (spec.bodies[b].role != Role::die || m.is_poured(b)) continue;
-    const auto comes_back = std::ranges::find_if(a.stages, [&](const StageRun& stage) {
+    if (spec.bodies[b].role != cases::Role::die || m.is_poured(b)) continue;
+    const auto comes_back = std::ranges::find_if(a.stages, [&](const cases::StageRun& stage) {
       const auto i = static_cast<std::size_t>(&stage - a.stages.data());
       return i > 0 && stage.cycle > 1 && is_there(spec, b, stage) && !is_there(spec, b, a.stages[i - 1]);
     });
@@ -154,8 +158,8 @@ void cold_dies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, F
 }
 
 /// Rounds that are too few for a search.
-void few_rounds(const CaseSpec& spec, Findings& findings) {
-  for (const CycleSpec& cycle : spec.cycles)
+void few_rounds(const cases::CaseSpec& spec, Findings& findings) {
+  for (const cases::CycleSpec& cycle : spec.cycles)
     if (cycle.periodic && cycle.repeat < k_least_rounds)
       findings.push_back({false, cycle.where,
                           fmt::format("the cycle '{}' looks for its periodic state in {} round{} at most",
@@ -163,7 +167,7 @@ void few_rounds(const CaseSpec& spec, Findings& findings) {
                           "a 'repeat' of 20 to 200: the search ends as soon as it has found"});
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat() || a.stages.empty()) return;
   for (const Pour& pour : m.pours) {
     leave_melt(spec, a, m, pour, findings);
@@ -196,4 +200,4 @@ FindingFamily findings_leaving() {
                     fmt::format("in less than {} rounds", k_least_rounds)}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

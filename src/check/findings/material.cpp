@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "material/laws/rate_law.hpp"
 #include "setup/body_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -43,12 +43,13 @@ constexpr double k_least_of_melt = 0.2;  // conductivity of the melt, of that of
 constexpr double k_cold_table = 150, k_cold_table_end = 1800;  // of a table in °C that was read as K [K]
 
 /// Adds a warning that names body and material.
-void warn_of_material(const BodySpec& body, const std::string& what, const char* usual, Findings& findings) {
+void warn_of_material(const cases::BodySpec& body, const std::string& what, const char* usual,
+                      Findings& findings) {
   findings.push_back({false, body.where,
                       fmt::format("body '{}', material '{}': {}", body.name, body.material, what), usual});
 }
 
-void compare(const BodySpec& body, const Usual& usual, double low, double high, Findings& findings) {
+void compare(const cases::BodySpec& body, const Usual& usual, double low, double high, Findings& findings) {
   if (low >= usual.low && high <= usual.high) return;
   findings.push_back({false, body.where,
                       fmt::format("body '{}', material '{}': {} of {:g} {}", body.name, body.material,
@@ -68,7 +69,7 @@ bool has_shifted_point(const material::Property& property, const material::Phase
 }
 
 /// A table of temperature whose first point is a room's in K, or that would reach far below any casting's.
-void compare_argument(const BodySpec& body, const material::Property& property, double coldest,
+void compare_argument(const cases::BodySpec& body, const material::Property& property, double coldest,
                       const material::PhaseChange* freezing, Findings& findings) {
   if (property.table->constant()) return;
   // Read as Celsius, a first point of 273, 293 or 298 is a room in kelvins.
@@ -96,7 +97,7 @@ void compare_argument(const BodySpec& body, const material::Property& property, 
 }
 
 /// Elastic properties and expansion.
-void compare_solid(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_solid(const cases::BodySpec& body, const material::Material& m, Findings& findings) {
   // A material as dense and conducting as metal counts as one, also where its card has no freezing.
   const bool metal =
       m.solidification() != nullptr || (m.density > k_dense && m.conductivity.min_value() > k_conducts);
@@ -128,7 +129,7 @@ void compare_solid(const BodySpec& body, const material::Material& m, Findings& 
 }
 
 /// Volume that no metal gains or loses as it freezes, a strength or stiffness that no metal has.
-void compare_strength(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_strength(const cases::BodySpec& body, const material::Material& m, Findings& findings) {
   const auto say = [&](const std::string& what, const char* usual) {
     findings.push_back({false, body.where,
                         fmt::format("body '{}', material '{}': {}", body.name, body.material, what), usual});
@@ -152,7 +153,7 @@ void compare_strength(const BodySpec& body, const material::Material& m, Finding
 }
 
 /// Ratios of the elastic and plastic properties that no metal has.
-void compare_ratios(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_ratios(const cases::BodySpec& body, const material::Material& m, Findings& findings) {
   if (const double least = m.poisson_ratio.min_value();
       m.solidification() != nullptr && least < k_least_poisson)
     warn_of_material(body, fmt::format("poisson_ratio of {:g}", least), "metals have 0.2 to 0.45", findings);
@@ -176,7 +177,7 @@ void compare_ratios(const BodySpec& body, const material::Material& m, Findings&
 }
 
 /// Compares the strength that viscosity adds at a casting's rates: other units are off by powers of ten.
-void compare_rate(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_rate(const cases::BodySpec& body, const material::Material& m, Findings& findings) {
   if (!m.flow || m.flow->rate_independent()) return;
   constexpr double k_cold = 293.15;  // [K]
   const double strength = m.flow->flow_stress.max_value();
@@ -194,7 +195,7 @@ void compare_rate(const BodySpec& body, const material::Material& m, Findings& f
 }
 
 /// A specific heat with a hump where the metal freezes holds the latent heat already.
-void compare_latent_heat(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_latent_heat(const cases::BodySpec& body, const material::Material& m, Findings& findings) {
   // A hump is a value within the range of freezing, and a little to its sides, far above those
   // around.
   const material::PhaseFraction& fraction = m.solidification()->fraction;
@@ -218,9 +219,10 @@ void compare_latent_heat(const BodySpec& body, const material::Material& m, Find
 
 /// Heat as of freezing that no solid fraction belongs to: of a body that is no casting by its role, or of a
 /// card that does not say that it freezes.
-void compare_phase_changes(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_phase_changes(const cases::BodySpec& body, const material::Material& m, Findings& findings) {
   for (const material::PhaseChange& change : m.phase_changes)
-    if (change.latent_heat > k_much_latent && !change.solidification && body.role && !is_poured(*body.role))
+    if (change.latent_heat > k_much_latent && !change.solidification && body.role &&
+        !cases::is_poured(*body.role))
       findings.push_back(
           {false, body.where,
            fmt::format("the {} '{}' is of '{}', which melts from {:.0f} degC on and takes up {:.4g} kJ/kg",
@@ -236,7 +238,7 @@ void compare_phase_changes(const BodySpec& body, const material::Material& m, Fi
 }
 
 /// Metal conducts less as it melts, but not that much less.
-void compare_melt(const BodySpec& body, const material::Material& m, Findings& findings) {
+void compare_melt(const cases::BodySpec& body, const material::Material& m, Findings& findings) {
   constexpr double k_beside = 1;  // [K]
   const material::PhaseFraction& fraction = m.solidification()->fraction;
   const double solid = m.conductivity.value(fraction.solidus() - k_beside),
@@ -250,10 +252,10 @@ void compare_melt(const BodySpec& body, const material::Material& m, Findings& f
 }
 
 /// The lowest temperature that starts, surroundings and prescribed ones name [K].
-double coldest(const CaseSpec& spec, const Assembly& a) {
+double coldest(const cases::CaseSpec& spec, const setup::Assembly& a) {
   double low = a.coldest_start();
-  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
-    using Kind = ThermalConditionSpec::Kind;
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions) {
+    using Kind = cases::ThermalConditionSpec::Kind;
     const bool ambient = c.kind == Kind::film || c.kind == Kind::radiation;
     const Function& f = ambient ? c.ambient : c.temperature;
     if ((ambient || c.kind == Kind::temperature) && f.place == nullptr)
@@ -262,7 +264,7 @@ double coldest(const CaseSpec& spec, const Assembly& a) {
   return low;
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures&, Findings& findings) {
   // The coldest temperature that the case knows, with which the first points of tables are
   // compared.
   const double low = coldest(spec, a);
@@ -273,7 +275,7 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings
     // order.
     for (const material::Property& property : m.properties())
       if (spec.has_heat()) compare_argument(spec.bodies[b], property, low, m.solidification(), findings);
-    if (spec.has_mechanics() && m.mechanical() && !only_conducts(spec.bodies[b]))
+    if (spec.has_mechanics() && m.mechanical() && !cases::only_conducts(spec.bodies[b]))
       compare_solid(spec.bodies[b], m, findings), compare_strength(spec.bodies[b], m, findings),
           compare_ratios(spec.bodies[b], m, findings), compare_rate(spec.bodies[b], m, findings);
     // Limits of metals are narrower than those of all materials.
@@ -362,4 +364,4 @@ FindingFamily findings_material() {
                             number(k_cold_table_end))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -10,7 +10,7 @@
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -27,17 +27,17 @@ struct Held {
   double nodes = 0, held = 0;
 };
 
-std::vector<Held> held_nodes(const CaseSpec& spec, const Assembly& a) {
+std::vector<Held> held_nodes(const cases::CaseSpec& spec, const setup::Assembly& a) {
   // For every node the directions in which conditions of the first stage hold it, as bits. In a plane about
   // an axis uz is the second component.
   const int components = displacement_components(spec.analysis.kind);
   std::vector<std::uint8_t> directions(a.mesh.x.size(), 0);
   // Conditions come by their groups, whose nodes are those of a surface, a volume or a set.
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
     const auto nodes = a.mesh.node_sets.find(c.group);
     if (nodes == a.mesh.node_sets.end()) continue;
-    const bool held =
-        c.kind == MechanicalConditionSpec::Kind::displacement && holds(c.stages, a.first_stage());
+    const bool held = c.kind == cases::MechanicalConditionSpec::Kind::displacement &&
+                      cases::holds(c.stages, a.first_stage());
     // Components of one node may be held by different conditions, so that bits are collected.
     unsigned bits = 0;
     if (held) bits = (c.ux || c.ur ? 1U : 0U) | (c.uy ? 2U : 0U) | (c.uz ? (components == 2 ? 2U : 4U) : 0U);
@@ -66,11 +66,12 @@ std::vector<Held> held_nodes(const CaseSpec& spec, const Assembly& a) {
   return of_body;
 }
 
-void supports(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void supports(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+              Findings& findings) {
   const std::vector<Held> held = held_nodes(spec, a);
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    const BodySpec& body = spec.bodies[b];
-    if (only_conducts(body)) continue;
+    const cases::BodySpec& body = spec.bodies[b];
+    if (cases::only_conducts(body)) continue;
     const bool poured =
         std::any_of(m.pours.begin(), m.pours.end(), [&](const Pour& p) { return p.body == b; });
     if (poured && m.bodies[b].elements > 1 && held[b].nodes > 0 && held[b].held > k_all_held * held[b].nodes)
@@ -83,16 +84,17 @@ void supports(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Fi
 }
 
 /// A surface in contact whose nodes are all held leaves nothing to the contact.
-void held_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+void held_skins(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                Findings& findings) {
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
     const bool all =
-        c.kind == MechanicalConditionSpec::Kind::displacement &&
+        c.kind == cases::MechanicalConditionSpec::Kind::displacement &&
         (spec.analysis.kind == AnalysisKind::solid ? c.ux && c.uy && c.uz : (c.ux || c.ur) && (c.uy || c.uz));
     // Either side of a contact may be held; the casting's side is the one where no gap can open
     // then.
     if (!all) continue;
     for (std::size_t k = 0; k < m.contacts.size(); ++k) {
-      const ContactMeasures& contact = m.contacts[k];
+      const setup::ContactMeasures& contact = m.contacts[k];
       for (const auto& [surface, body] :
            {std::pair(contact.slave, contact.slave_body), std::pair(contact.master, contact.master_body)}) {
         const bool poured = std::any_of(m.pours.begin(), m.pours.end(), [&, b = body](const Pour& p) {
@@ -111,8 +113,8 @@ void held_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, 
 }
 
 /// Springs of contacts.
-void contact_numbers(const CaseSpec& spec, Findings& findings) {
-  for (const ContactSpec& contact : spec.contacts)
+void contact_numbers(const cases::CaseSpec& spec, Findings& findings) {
+  for (const cases::ContactSpec& contact : spec.contacts)
     if (const double penalty = contact.penalty.value_or(1e12);
         penalty < k_softest_spring || penalty > k_stiffest_spring)
       findings.push_back(
@@ -122,16 +124,17 @@ void contact_numbers(const CaseSpec& spec, Findings& findings) {
 }
 
 /// Melt gives way to a pressure wherever its skin has neither a mould nor a support. Collective.
-void pressed_melts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  using Kind = MechanicalConditionSpec::Kind;
+void pressed_melts(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                   Findings& findings) {
+  using Kind = cases::MechanicalConditionSpec::Kind;
   const AnalysisKind kind = spec.analysis.kind;
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
     // Only pressures of one number that act from the start: melt freezes, and may be pressed later.
     if (c.kind != Kind::pressure || !is_number(c.pressure) || c.pressure.table.value(0) < k_head) continue;
-    if (!holds(c.stages, a.first_stage())) continue;
+    if (!cases::holds(c.stages, a.first_stage())) continue;
     // The skin of the pressed melt that has anything against it: shared nodes, supports, contacts and the
     // pressure itself.
-    const SurfaceMeasures pressed = measure_surface(a.mesh, c.group, kind);
+    const setup::SurfaceMeasures pressed = setup::measure_surface(a.mesh, c.group, kind);
     for (const Pour& pour : m.pours) {
       const auto body = static_cast<int>(pour.body);
       if (pressed.body != body) continue;
@@ -140,11 +143,13 @@ void pressed_melts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
       // taken as covered too.
       double covered = std::accumulate(measures.shared.begin(), measures.shared.end(), 0.0);
       std::set<std::string> groups;
-      for (const MechanicalConditionSpec& other : spec.mechanical_conditions) groups.insert(other.group);
-      for (const ContactSpec& contact : spec.contacts)
+      for (const cases::MechanicalConditionSpec& other : spec.mechanical_conditions)
+        groups.insert(other.group);
+      for (const cases::ContactSpec& contact : spec.contacts)
         for (const std::string& side : contact.sides()) groups.insert(side);
       for (const std::string& group : groups)
-        if (const SurfaceMeasures s = measure_surface(a.mesh, group, kind); s.body == body) covered += s.area;
+        if (const setup::SurfaceMeasures s = setup::measure_surface(a.mesh, group, kind); s.body == body)
+          covered += s.area;
       // What remains free must be a good part of the skin before it is told.
       if (covered > (1 - k_free) * measures.skin) continue;
       findings.push_back(
@@ -159,8 +164,8 @@ void pressed_melts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
 }
 
 /// Coefficients of friction beyond all metals.
-void friction_numbers(const CaseSpec& spec, Findings& findings) {
-  for (const ContactSpec& contact : spec.contacts) {
+void friction_numbers(const cases::CaseSpec& spec, Findings& findings) {
+  for (const cases::ContactSpec& contact : spec.contacts) {
     if (!contact.friction || contact.friction->coefficient.empty()) continue;
     const Function& mu = contact.friction->coefficient.front();
     const double most = mu.table.max_value();
@@ -173,8 +178,8 @@ void friction_numbers(const CaseSpec& spec, Findings& findings) {
 }
 
 /// Depths of wear that no surface loses.
-void wear_numbers(const CaseSpec& spec, Findings& findings) {
-  for (const ContactSpec& contact : spec.contacts) {
+void wear_numbers(const cases::CaseSpec& spec, Findings& findings) {
+  for (const cases::ContactSpec& contact : spec.contacts) {
     if (!contact.wear) continue;
     if (const double k = contact.wear->archard; k < k_least_wear || k > k_most_wear)
       findings.push_back({false, contact.where,
@@ -190,14 +195,14 @@ void wear_numbers(const CaseSpec& spec, Findings& findings) {
   }
 }
 
-void loads(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void loads(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   // Displacements are compared with the largest body, pressures with what is usual. The messages ask for the
   // unit, which is what is mostly wrong.
   double largest = 0;
   for (const BodyMeasures& body : m.bodies)
     for (std::size_t d = 0; d < 3; ++d) largest = std::max(largest, body.high[d] - body.low[d]);
-  using Kind = MechanicalConditionSpec::Kind;
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+  using Kind = cases::MechanicalConditionSpec::Kind;
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
     // Motions of whatever direction; tables by their largest value on either side.
     for (const auto* u : {&c.ux, &c.uy, &c.uz, &c.ur})
       if (c.kind == Kind::displacement && *u && (*u)->place == nullptr) {
@@ -226,7 +231,7 @@ void loads(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   }
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_mechanics()) return;
   supports(spec, a, m, findings);
   held_skins(spec, a, m, findings);
@@ -268,4 +273,4 @@ FindingFamily findings_mechanics() {
                        number(1e-9 * k_hard))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -8,12 +8,12 @@
 #include <limits>
 #include <string>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
 #include "mesh/locate.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -23,14 +23,14 @@ constexpr double k_sand = 3;                  // conducts less [W/(m K)]
 constexpr double k_coldest = 333.15;          // of the outside of sand [K]
 
 /// Whether the name of a body's material tells that it is sand.
-bool is_sand(const BodySpec& body) {
+bool is_sand(const cases::BodySpec& body) {
   return std::filesystem::path(body.material).stem().string().find("sand") != std::string::npos;
 }
 
 /// Coatings and washes are layers, which interfaces carry as a conductance; a body of one is thin.
-void thick_coatings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void thick_coatings(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    const BodySpec& body = spec.bodies[b];
+    const cases::BodySpec& body = spec.bodies[b];
     const std::string file = std::filesystem::path(body.material).stem().string();
     const bool coating = file.find("wash") != std::string::npos || file.find("coating") != std::string::npos;
     if (!coating || !(m.bodies[b].skin > 0)) continue;
@@ -46,7 +46,7 @@ void thick_coatings(const CaseSpec& spec, const CaseMeasures& m, Findings& findi
 }
 
 /// Heat of a casting does not reach the outside of such walls while it freezes.
-void walls_of_metres(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void walls_of_metres(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   if (m.pours.empty()) return;
   // The box around all that is poured, whose longest side is the measure.
   mesh::Point low, high;
@@ -76,7 +76,8 @@ void walls_of_metres(const CaseSpec& spec, const CaseMeasures& m, Findings& find
 }
 
 /// The distance of a surface from the nearest body that is poured, over some of its faces [m]. Collective.
-double distance_from_melt(const Assembly& a, const CaseMeasures& m, const SurfaceMeasures& surface) {
+double distance_from_melt(const setup::Assembly& a, const CaseMeasures& m,
+                          const setup::SurfaceMeasures& surface) {
   constexpr std::size_t k_faces = 24;
   double least = std::numeric_limits<double>::max();
   const std::size_t stride = std::max<std::size_t>(1, surface.centres.size() / k_faces);
@@ -88,16 +89,17 @@ double distance_from_melt(const Assembly& a, const CaseMeasures& m, const Surfac
 
 /// Nothing keeps the outside of sand as cold as a room once heat has come through to it. Behind a wall that
 /// is thicker than that the condition has no effect, and a mould of metal may have channels. Collective.
-void cold_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void cold_sand(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+               Findings& findings) {
   // The slowest casting decides how far heat comes.
   double freezing = 0;
   for (const Pour& pour : m.pours) freezing = std::max(freezing, pour.freezing.time.value_or(0));
   if (!(freezing > 0)) return;
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
-    const ThermalConditionSpec& c = spec.thermal_conditions[t];
+    const cases::ThermalConditionSpec& c = spec.thermal_conditions[t];
     // Held temperatures of one number, at all times, near that of a room.
-    if (c.kind != ThermalConditionSpec::Kind::temperature || !is_number(c.temperature) || !c.stages.empty() ||
-        c.temperature.table.value(0) > k_coldest || m.surfaces[t].body < 0)
+    if (c.kind != cases::ThermalConditionSpec::Kind::temperature || !is_number(c.temperature) ||
+        !c.stages.empty() || c.temperature.table.value(0) > k_coldest || m.surfaces[t].body < 0)
       continue;
     const auto b = static_cast<std::size_t>(m.surfaces[t].body);
     const material::Material& of = a.materials[b];
@@ -120,7 +122,7 @@ void cold_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, F
 
 /// Moulds of sand that together are thinner than heat goes deep while the casting freezes: their outside then
 /// decides. Ceramic shells are thin, and stand in air.
-void thin_sand(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void thin_sand(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   double reach = 0, metal = 0, volume = 0;
   // Metal that the mould must take the heat of: the depth is that of the slowest, the area that of
   // all.
@@ -128,10 +130,10 @@ void thin_sand(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) 
     if (pour.freezing.time) reach = std::max(reach, pour.freezing.mould_reach);
     metal += pour.cooled_area;
   }
-  const BodySpec* first = nullptr;
+  const cases::BodySpec* first = nullptr;
   // Volume of mould over area of metal is its mean thickness.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    if (m.is_poured(b) || spec.bodies[b].role != Role::mould) continue;
+    if (m.is_poured(b) || spec.bodies[b].role != cases::Role::mould) continue;
     volume += m.bodies[b].volume;
     if (first == nullptr && is_sand(spec.bodies[b])) first = &spec.bodies[b];
   }
@@ -146,12 +148,13 @@ void thin_sand(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) 
 }
 
 /// Sand that deforms as a body that never yields holds its casting back as no sand does: it crushes.
-void elastic_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void elastic_sand(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                  Findings& findings) {
   if (!spec.has_mechanics() || m.pours.empty()) return;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    const BodySpec& body = spec.bodies[b];
+    const cases::BodySpec& body = spec.bodies[b];
     const material::Material& of = a.materials[b];
-    if (m.is_poured(b) || only_conducts(body) || !is_sand(body) || of.flow) continue;
+    if (m.is_poured(b) || cases::only_conducts(body) || !is_sand(body) || of.flow) continue;
     findings.push_back(
         {false, body.where,
          fmt::format("the sand '{}' of '{}' deforms with a young_modulus of {:.3g} MPa and never yields",
@@ -160,7 +163,7 @@ void elastic_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   }
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat()) return;
   thick_coatings(spec, m, findings);
   walls_of_metres(spec, m, findings);
@@ -197,4 +200,4 @@ FindingFamily findings_moulds() {
            "a body that deforms, with `sand` in its material's name and no `[plasticity]`"}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

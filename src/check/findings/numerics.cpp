@@ -7,7 +7,7 @@
 
 #include "check/finding_family.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -20,7 +20,7 @@ constexpr double k_much_touching = 0.2;  // of the shortest side of the slave's 
 constexpr double k_thinnest_air = 100, k_densest_air = 2e8;  // of vacuum furnaces, of die casting [Pa]
 constexpr double k_coarse_nodes = 1.5, k_coarse_points = 3;  // faces of the slave, of those of the melt
 
-void iterations(const CaseSpec& spec, Findings& findings) {
+void iterations(const cases::CaseSpec& spec, Findings& findings) {
   // Limits on iterations that would cut steps for no reason.
   const auto compare = [&](const char* key, int allowed, const char* usual) {
     if (allowed > 0 && allowed < k_least_iterations)
@@ -41,9 +41,9 @@ void iterations(const CaseSpec& spec, Findings& findings) {
 }
 
 /// Points look for partners no farther than that: beyond neither force nor heat passes.
-void search_distances(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void search_distances(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
-    const ContactSpec& contact = spec.contacts[c];
+    const cases::ContactSpec& contact = spec.contacts[c];
     if (!contact.search_distance || m.contacts[c].slave_body < 0) continue;
     const BodyMeasures& body = m.bodies[static_cast<std::size_t>(m.contacts[c].slave_body)];
     // The largest side of the slave's body is the measure, since castings shrink by a share of it.
@@ -63,9 +63,9 @@ void search_distances(const CaseSpec& spec, const CaseMeasures& m, Findings& fin
 }
 
 /// Gaps that the data take as closed.
-void touching_gaps(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void touching_gaps(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
-    const ContactSpec& contact = spec.contacts[c];
+    const cases::ContactSpec& contact = spec.contacts[c];
     if (m.contacts[c].slave_body < 0 || !contact.touching) continue;
     const BodyMeasures& body = m.bodies[static_cast<std::size_t>(m.contacts[c].slave_body)];
     double size = std::numeric_limits<double>::max();
@@ -80,17 +80,17 @@ void touching_gaps(const CaseSpec& spec, const CaseMeasures& m, Findings& findin
 }
 
 /// Whether [[interface]] made a contact and nothing says which gaps count as closed.
-bool is_by_itself(const CaseSpec& spec, const ContactSpec& contact) {
-  return std::ranges::any_of(spec.interfaces, [&](const BodyInterfaceSpec& section) {
+bool is_by_itself(const cases::CaseSpec& spec, const cases::ContactSpec& contact) {
+  return std::ranges::any_of(spec.interfaces, [&](const cases::BodyInterfaceSpec& section) {
     return !section.touching && section.where.text() == contact.where.text();
   });
 }
 
 /// Bodies that were found to face each other and do not touch, by more than facets of curved faces explain.
-void gaps_of_interfaces(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void gaps_of_interfaces(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   constexpr double k_least = 1e-7;  // [m]
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
-    const ContactMeasures& measures = m.contacts[c];
+    const setup::ContactMeasures& measures = m.contacts[c];
     if (!is_by_itself(spec, spec.contacts[c]) || !(measures.largest_start > k_least)) continue;
     findings.push_back(
         {false, spec.contacts[c].where,
@@ -102,8 +102,8 @@ void gaps_of_interfaces(const CaseSpec& spec, const CaseMeasures& m, Findings& f
 }
 
 /// The pressure that holds melt on its wall.
-void atmospheres(const CaseSpec& spec, Findings& findings) {
-  for (const ContactSpec& contact : spec.contacts)
+void atmospheres(const cases::CaseSpec& spec, Findings& findings) {
+  for (const cases::ContactSpec& contact : spec.contacts)
     if (contact.wet && contact.atmosphere > 0 &&
         (contact.atmosphere < k_thinnest_air || contact.atmosphere > k_densest_air))
       findings.push_back(
@@ -114,11 +114,12 @@ void atmospheres(const CaseSpec& spec, Findings& findings) {
 
 /// Points of a slave whose faces are larger than the master's leave nodes of the master between them: melt,
 /// which resists no shear, runs through there.
-void coarse_slaves(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void coarse_slaves(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                   Findings& findings) {
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
     // Nodes are one point a face, Gauss points several; segments of the mortar method see every
     // part of both sides.
-    const ContactMeasures& measures = m.contacts[c];
+    const setup::ContactMeasures& measures = m.contacts[c];
     const bool nodal = spec.contacts[c].integration == contact::IntegrationRule::nodal;
     const auto sliding = spec.contacts[c].formulation == contact::Formulation::large_sliding &&
                          spec.contacts[c].integration != contact::IntegrationRule::segments;
@@ -139,7 +140,7 @@ void coarse_slaves(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   }
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   iterations(spec, findings);
   search_distances(spec, m, findings);
   touching_gaps(spec, m, findings);
@@ -175,4 +176,4 @@ FindingFamily findings_numerics() {
                             k_least_iterations, number(k_hardly))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

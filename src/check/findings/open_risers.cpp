@@ -16,7 +16,7 @@
 #include "parallel/parallel.hpp"
 #include "setup/mechanics_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -29,28 +29,28 @@ struct OpenSkin {
   double bare_up = 0;         ///< upward, with neither a contact nor a condition of heat
 };
 
-std::set<std::string> contact_sides(const CaseSpec& spec) {
+std::set<std::string> contact_sides(const cases::CaseSpec& spec) {
   std::set<std::string> groups;
-  for (const ContactSpec& contact : spec.contacts)
+  for (const cases::ContactSpec& contact : spec.contacts)
     for (const std::string& side : contact.sides()) groups.insert(side);
   return groups;
 }
 
 /// [body], for risers that are poured. Collective.
-std::map<std::size_t, OpenSkin> open_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
-                                           const std::array<double, 3>& up) {
+std::map<std::size_t, OpenSkin> open_skins(const cases::CaseSpec& spec, const setup::Assembly& a,
+                                           const CaseMeasures& m, const std::array<double, 3>& up) {
   constexpr double k_upright = 0.7, k_beside = 0.3;  // of the normal along `up`
   // Only risers that are poured can be open on top.
   std::map<std::size_t, OpenSkin> skins;
   for (const Pour& pour : m.pours)
-    if (spec.bodies[pour.body].role == Role::riser) skins[pour.body] = {};
+    if (spec.bodies[pour.body].role == cases::Role::riser) skins[pour.body] = {};
   if (skins.empty()) return skins;
   // A contact both holds and cools; a held temperature counts as an inlet, which is open to nothing.
   std::set<std::string> held = contact_sides(spec), cooled = held;
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) held.insert(c.group);
-  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) held.insert(c.group);
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions) {
     cooled.insert(c.group);
-    if (c.kind == ThermalConditionSpec::Kind::temperature) held.insert(c.group);  // as of an inlet
+    if (c.kind == cases::ThermalConditionSpec::Kind::temperature) held.insert(c.group);  // as of an inlet
   }
   const auto held_faces = mesh::body_face_keys(a.mesh, held),
              cooled_faces = mesh::body_face_keys(a.mesh, cooled);
@@ -78,13 +78,13 @@ std::map<std::size_t, OpenSkin> open_skins(const CaseSpec& spec, const Assembly&
   return skins;
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  const std::array<double, 3> g = gravity(spec.analysis);
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
+  const std::array<double, 3> g = setup::gravity(spec.analysis);
   const double size = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
   if (!spec.has_heat() || !(size > 0)) return;
   // Faces that look against gravity are the open top of a riser, if it has one.
   for (const auto& [body, skin] : open_skins(spec, a, m, {-g[0] / size, -g[1] / size, -g[2] / size})) {
-    const BodySpec& riser = spec.bodies[body];
+    const cases::BodySpec& riser = spec.bodies[body];
     if (skin.bare_up > k_least_share_of_skin * skin.all)
       findings.push_back(
           {false, riser.where,
@@ -123,4 +123,4 @@ FindingFamily findings_open_risers() {
                     percent(k_least_share_of_skin))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

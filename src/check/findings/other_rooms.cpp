@@ -2,7 +2,7 @@
 // a case, and of the run. Their numbers stand where they are compared.
 #include "check/finding_family.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 // The place of the family among the others, its search, and the rows of the reference page, whose numbers are
 // the thresholds that the search compares with.
@@ -33,4 +33,4 @@ FindingFamily findings_other_rooms() {
                 "a group of the mesh of full dimension has nodes on no body of the case"}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

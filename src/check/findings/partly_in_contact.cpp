@@ -14,7 +14,7 @@
 #include "mesh/body_faces.hpp"
 #include "parallel/parallel.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -25,18 +25,18 @@ struct Condition {
   bool of_heat;
 };
 
-bool has_one_strength(const ThermalConditionSpec& c) {
+bool has_one_strength(const cases::ThermalConditionSpec& c) {
   return is_number(c.coefficient) && is_number(c.flux) && is_number(c.emissivity) && is_number(c.factor);
 }
 
-std::vector<Condition> conditions_of_surfaces(const CaseSpec& spec) {
-  using Heat = ThermalConditionSpec::Kind;
-  using Motion = MechanicalConditionSpec::Kind;
+std::vector<Condition> conditions_of_surfaces(const cases::CaseSpec& spec) {
+  using Heat = cases::ThermalConditionSpec::Kind;
+  using Motion = cases::MechanicalConditionSpec::Kind;
   std::vector<Condition> conditions;
   // Conditions of heat and of motion alike, as long as they act on a surface and with one strength
   // all over it.
   if (spec.has_heat())
-    for (const ThermalConditionSpec& c : spec.thermal_conditions)
+    for (const cases::ThermalConditionSpec& c : spec.thermal_conditions)
       if (!c.in_volume() && has_one_strength(c))
         conditions.push_back({c.kind == Heat::temperature ? "held temperature"
                               : c.kind == Heat::flux      ? "flux"
@@ -44,7 +44,7 @@ std::vector<Condition> conditions_of_surfaces(const CaseSpec& spec) {
                                                           : "radiation",
                               c.name, c.group, &c.stages, c.where, true});
   if (spec.has_mechanics())
-    for (const MechanicalConditionSpec& c : spec.mechanical_conditions)
+    for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions)
       if (c.kind != Motion::plane)
         conditions.push_back({c.kind == Motion::displacement ? "support"
                               : c.kind == Motion::pressure   ? "pressure"
@@ -53,14 +53,14 @@ std::vector<Condition> conditions_of_surfaces(const CaseSpec& spec) {
   return conditions;
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures&, Findings& findings) {
   // A condition whose faces lie partly in a contact acts on what cannot be meant: the whole group or none.
   for (const Condition& condition : conditions_of_surfaces(spec)) {
     const auto faces = mesh::body_face_keys(a.mesh, {condition.group});
     const double all = parallel::global_sum(static_cast<double>(faces.size()));
     if (!(all > 0)) continue;
     // Only contacts that pass what the condition acts on, in a stage that both have.
-    for (const ContactSpec& contact : spec.contacts) {
+    for (const cases::ContactSpec& contact : spec.contacts) {
       if ((condition.of_heat && !contact.heat) || !share_a_stage(*condition.stages, contact.stages)) continue;
       const std::array<std::string, 2> sides = contact.sides();
       const auto in_contact = mesh::body_face_keys(a.mesh, {sides[0], sides[1]});
@@ -93,4 +93,4 @@ FindingFamily findings_partly_in_contact() {
                     "face in contact"}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -23,7 +23,7 @@ double celsius(double kelvin) {
 }
 
 /// The hottest body, where one is hotter than the others by a casting's measure; −1: none is.
-int hottest(const Assembly& a) {
+int hottest(const setup::Assembly& a) {
   const auto hot = std::max_element(a.start.begin(), a.start.end(),
                                     [](const auto& x, const auto& y) { return x.high < y.high; });
   const auto cold = std::min_element(a.start.begin(), a.start.end(),
@@ -33,19 +33,20 @@ int hottest(const Assembly& a) {
 }
 
 /// Whether another body is part of a mould, by its role or name.
-bool has_mould(const CaseSpec& spec, std::size_t other_than) {
-  const auto of_mould = [](std::optional<Role> role) { return role && !is_poured(*role); };
+bool has_mould(const cases::CaseSpec& spec, std::size_t other_than) {
+  const auto of_mould = [](std::optional<cases::Role> role) { return role && !cases::is_poured(*role); };
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
-    if (b != other_than && (of_mould(spec.bodies[b].role) || of_mould(role_in_name(spec.bodies[b].name))))
+    if (b != other_than &&
+        (of_mould(spec.bodies[b].role) || of_mould(cases::role_in_name(spec.bodies[b].name))))
       return true;
   return false;
 }
 
 /// Bodies with the role of a casting or riser that do not freeze, beside others that do.
-void risers_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+void risers_that_do_not_freeze(const cases::CaseSpec& spec, const setup::Assembly& a, Findings& findings) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    const BodySpec& body = spec.bodies[b];
-    if (!body.role || !is_poured(*body.role) || a.materials[b].solidification() != nullptr) continue;
+    const cases::BodySpec& body = spec.bodies[b];
+    if (!body.role || !cases::is_poured(*body.role) || a.materials[b].solidification() != nullptr) continue;
     findings.push_back({false, body.where,
                         fmt::format("the {} '{}' is of '{}', which does not freeze", name(*body.role),
                                     body.name, body.material),
@@ -55,16 +56,16 @@ void risers_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findings
 
 /// Bodies that are to be cast, of what does not freeze: where nothing else is poured, those without a role
 /// too.
-void castings_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+void castings_that_do_not_freeze(const cases::CaseSpec& spec, const setup::Assembly& a, Findings& findings) {
   for (const material::Material& material : a.materials)
     if (material.solidification() != nullptr) return risers_that_do_not_freeze(spec, a, findings);
   // The hottest body, or the first where none is hot: the comparison below asks again.
   const auto hot = static_cast<std::size_t>(std::max(hottest(a), 0));
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    const BodySpec& body = spec.bodies[b];
+    const cases::BodySpec& body = spec.bodies[b];
     // Three signs that a body was meant to be cast: its role, sand that is hot, and a mould around
     // it.
-    const bool told = body.role && is_poured(*body.role);
+    const bool told = body.role && cases::is_poured(*body.role);
     const bool of_sand = hottest(a) >= 0 && b == hot && !body.role && a.start[b].high > k_hot &&
                          a.materials[b].conductivity.value(a.start[b].high) < k_conducts;
     const bool in_a_mould =
@@ -80,16 +81,17 @@ void castings_that_do_not_freeze(const CaseSpec& spec, const Assembly& a, Findin
   }
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures&, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures&, Findings& findings) {
   if (spec.has_heat() && spec.criteria.follow) castings_that_do_not_freeze(spec, a, findings);
   // A case that switches the criteria of castings off states that nothing freezes in it.
   if (!spec.has_heat() || !spec.criteria.follow || hottest(a) < 0) return;
   // The hottest body is taken for the casting: its role, then its superheat, then whether it freezes at all.
   const auto poured = static_cast<std::size_t>(hottest(a));
-  const BodySpec& body = spec.bodies[poured];
-  if (body.role && !is_poured(*body.role)) {
-    const auto casting = std::find_if(spec.bodies.begin(), spec.bodies.end(),
-                                      [](const BodySpec& other) { return other.role == Role::casting; });
+  const cases::BodySpec& body = spec.bodies[poured];
+  if (body.role && !cases::is_poured(*body.role)) {
+    const auto casting =
+        std::find_if(spec.bodies.begin(), spec.bodies.end(),
+                     [](const cases::BodySpec& other) { return other.role == cases::Role::casting; });
     if (casting != spec.bodies.end())
       findings.push_back(
           {false, body.where,
@@ -157,4 +159,4 @@ FindingFamily findings_pour() {
                     "the hottest body cannot freeze, and a cold one would be liquid at its temperature"}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

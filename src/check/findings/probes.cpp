@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "coupling/all_fields.hpp"
 #include "mesh/locate.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -24,7 +24,8 @@ bool freezes(const coupling::Quantity& field) {
 }
 
 /// The bodies that hold a point: two where they touch. Collective.
-std::vector<std::size_t> bodies_at(const Assembly& a, const CaseMeasures& m, const mesh::Point& point) {
+std::vector<std::size_t> bodies_at(const setup::Assembly& a, const CaseMeasures& m,
+                                   const mesh::Point& point) {
   std::vector<std::size_t> found;
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
     const double slack = 1e-3 * m.bodies[b].mean_edge;
@@ -36,11 +37,11 @@ std::vector<std::size_t> bodies_at(const Assembly& a, const CaseMeasures& m, con
   return found;
 }
 
-void compare(const CaseSpec& spec, const Assembly& a, const ProbeSpec& probe, std::size_t b,
-             Findings& findings) {
-  const BodySpec& body = spec.bodies[b];
+void compare(const cases::CaseSpec& spec, const setup::Assembly& a, const cases::ProbeSpec& probe,
+             std::size_t b, Findings& findings) {
+  const cases::BodySpec& body = spec.bodies[b];
   const coupling::Quantity& field = coupling::field_of(probe.field);
-  const bool rigid = spec.has_heat() && spec.has_mechanics() && only_conducts(body);
+  const bool rigid = spec.has_heat() && spec.has_mechanics() && cases::only_conducts(body);
   // What only conducts keeps the displacement of zero; what cannot freeze keeps its fraction.
   if (deforms(field) && rigid)
     findings.push_back({false, probe.where,
@@ -55,12 +56,13 @@ void compare(const CaseSpec& spec, const Assembly& a, const ProbeSpec& probe, st
                         "a body that is poured"});
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  for (const ProbeSpec& probe : spec.probes) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
+  for (const cases::ProbeSpec& probe : spec.probes) {
     // Differences and global sums are made of other probes or of the whole case.
-    if (probe.kind == ProbeSpec::Kind::difference || probe.kind == ProbeSpec::Kind::global) continue;
+    if (probe.kind == cases::ProbeSpec::Kind::difference || probe.kind == cases::ProbeSpec::Kind::global)
+      continue;
     // Probes of a group are compared with the body that has it.
-    if (probe.kind != ProbeSpec::Kind::point) {
+    if (probe.kind != cases::ProbeSpec::Kind::point) {
       for (std::size_t b = 0; b < spec.bodies.size(); ++b)
         if (spec.bodies[b].mesh_group() == probe.group) compare(spec, a, probe, b, findings);
       continue;
@@ -104,4 +106,4 @@ FindingFamily findings_probes() {
                {Topic::probes, "a probe where two bodies touch", "without `body`; it measures the first"}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

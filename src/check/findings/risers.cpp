@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
 #include "setup/mechanics_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -27,13 +27,13 @@ double celsius(double kelvin) {
   return units::to_display(kelvin, "K", "degC");
 }
 
-bool is_riser(const CaseSpec& spec, const Pour& pour) {
-  return spec.bodies[pour.body].role == Role::riser;
+bool is_riser(const cases::CaseSpec& spec, const Pour& pour) {
+  return spec.bodies[pour.body].role == cases::Role::riser;
 }
 
 /// A riser that freezes long before its casting feeds nothing. Compared are the times that both would take
 /// alone: where they meet they freeze together.
-void risers_that_freeze_first(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void risers_that_freeze_first(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   for (const Pour& riser : m.pours) {
     if (!is_riser(spec, riser) || !riser.alone_time) continue;
     for (const Pour& fed : m.pours) {
@@ -51,11 +51,11 @@ void risers_that_freeze_first(const CaseSpec& spec, const CaseMeasures& m, Findi
 }
 
 /// A riser that touches no other melt feeds nothing.
-void risers_apart(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void risers_apart(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   // Metal passes by shared nodes; a contact at least shows that it was meant to.
   const auto touches = [&](std::size_t one, std::size_t other) {
     return m.bodies[one].shared_nodes[other] > 0 ||
-           std::ranges::any_of(m.contacts, [&](const ContactMeasures& contact) {
+           std::ranges::any_of(m.contacts, [&](const setup::ContactMeasures& contact) {
              const auto a = static_cast<int>(one), b = static_cast<int>(other);
              return (contact.slave_body == a && contact.master_body == b) ||
                     (contact.slave_body == b && contact.master_body == a);
@@ -77,7 +77,7 @@ void risers_apart(const CaseSpec& spec, const CaseMeasures& m, Findings& finding
   }
 }
 
-void risers_larger_than_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void risers_larger_than_castings(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   double castings = 0, risers = 0;
   const Pour* largest = nullptr;
   // Volumes of castings and of risers; a riser much larger than its casting is hardly meant.
@@ -110,8 +110,8 @@ Heights heights(const BodyMeasures& body, const std::array<double, 3>& gravity) 
 
 /// Melt flows down out of a riser: one whose top is below the middle of all castings that it touches feeds
 /// nothing. Feeders that [criteria] names: findings/feeders.cpp.
-void risers_below_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
-  const std::array<double, 3> g = gravity(spec.analysis);
+void risers_below_castings(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  const std::array<double, 3> g = setup::gravity(spec.analysis);
   if (!(std::hypot(g[0], g[1], g[2]) > 0)) return;
   for (const Pour& riser : m.pours) {
     // Risers that the criteria name as feeders are judged with those.
@@ -143,7 +143,7 @@ struct Box {
   mesh::Point low, high;
 };
 
-Box box_of(const CaseSpec& spec, const BodyMeasures& body) {
+Box box_of(const cases::CaseSpec& spec, const BodyMeasures& body) {
   Box box{body.low, body.high};
   if (spec.analysis.kind == AnalysisKind::axisymmetric) box.low[0] = -box.high[0];
   return box;
@@ -161,7 +161,7 @@ double covered(const Box& box, const Box& by, int dimension) {
 }
 
 /// A core that lies outside all castings, and a chill that lies within one.
-void swapped_cores_and_chills(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+void swapped_cores_and_chills(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
                               Findings& findings) {
   // The share of the body's box that lies within the box of a casting, for the casting that covers
   // it most.
@@ -175,11 +175,12 @@ void swapped_cores_and_chills(const CaseSpec& spec, const Assembly& a, const Cas
   // Cores mostly lie within the casting, chills on its outside: a pair that is the other way round
   // is swapped.
   for (std::size_t core = 0; core < spec.bodies.size(); ++core) {
-    if (m.is_poured(core) || role_of(spec.bodies[core], a.materials[core]) != Role::core ||
+    if (m.is_poured(core) || cases::role_of(spec.bodies[core], a.materials[core]) != cases::Role::core ||
         most_covered(core) > k_outside)
       continue;
     for (std::size_t chill = 0; chill < spec.bodies.size(); ++chill)
-      if (!m.is_poured(chill) && role_of(spec.bodies[chill], a.materials[chill]) == Role::chill &&
+      if (!m.is_poured(chill) &&
+          cases::role_of(spec.bodies[chill], a.materials[chill]) == cases::Role::chill &&
           most_covered(chill) > k_within)
         findings.push_back(
             {false, spec.bodies[core].where,
@@ -190,7 +191,7 @@ void swapped_cores_and_chills(const CaseSpec& spec, const Assembly& a, const Cas
 }
 
 /// A mould or core as hot as melt draws no heat from it.
-void moulds_as_hot_as_melt(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+void moulds_as_hot_as_melt(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
                            Findings& findings) {
   double liquidus = 0;
   for (const Pour& pour : m.pours)
@@ -206,7 +207,8 @@ void moulds_as_hot_as_melt(const CaseSpec& spec, const Assembly& a, const CaseMe
 }
 
 /// The binder of sand burns or breaks long before it is as hot as a ceramic shell may be.
-void hot_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void hot_sand(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+              Findings& findings) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const std::string file = std::filesystem::path(spec.bodies[b].material).stem().string();
     const bool sand = file.find("sand") != std::string::npos;
@@ -219,7 +221,8 @@ void hot_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Fi
 }
 
 /// 373, 473 and 573 degC are 100, 200 and 300 degC in kelvins.
-void moulds_in_kelvins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void moulds_in_kelvins(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                       Findings& findings) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     if (m.pours.empty() || m.is_poured(b) || a.start[b].low != a.start[b].high) continue;
     const double read = celsius(a.start[b].low);
@@ -233,12 +236,13 @@ void moulds_in_kelvins(const CaseSpec& spec, const Assembly& a, const CaseMeasur
 }
 
 /// Melt that only conducts, beside melt that deforms: neither draws on the other.
-void castings_that_only_conduct(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void castings_that_only_conduct(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_mechanics()) return;
   for (const Pour& still : m.pours) {
-    if (!only_conducts(spec.bodies[still.body])) continue;
+    if (!cases::only_conducts(spec.bodies[still.body])) continue;
     for (const Pour& moving : m.pours)
-      if (!only_conducts(spec.bodies[moving.body]) && m.bodies[still.body].shared_nodes[moving.body] > 0)
+      if (!cases::only_conducts(spec.bodies[moving.body]) &&
+          m.bodies[still.body].shared_nodes[moving.body] > 0)
         findings.push_back(
             {false, spec.bodies[still.body].where,
              fmt::format("'{}' only conducts heat, but '{}', with which it is poured, deforms: it holds the "
@@ -249,11 +253,12 @@ void castings_that_only_conduct(const CaseSpec& spec, const CaseMeasures& m, Fin
 }
 
 /// Sand gives way to pressures that dies stand; a riser under pressure has less than a die has.
-void pressed_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void pressed_sand(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                  Findings& findings) {
   if (!spec.has_mechanics()) return;
   // Sand is told from metal by its conductivity, at the coldest start of the body.
   const auto sand_around = [&](int body) {
-    return std::ranges::any_of(m.contacts, [&](const ContactMeasures& contact) {
+    return std::ranges::any_of(m.contacts, [&](const setup::ContactMeasures& contact) {
       const int other = contact.slave_body == body    ? contact.master_body
                         : contact.master_body == body ? contact.slave_body
                                                       : -1;
@@ -262,15 +267,15 @@ void pressed_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
       return !m.is_poured(o) && a.materials[o].conductivity.value(a.start[o].low) < k_sand;
     });
   };
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
-    if (c.kind != MechanicalConditionSpec::Kind::pressure) continue;
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    if (c.kind != cases::MechanicalConditionSpec::Kind::pressure) continue;
     // Pressures of tables count by their largest value.
     const double pressure = c.pressure.table.max_value();
     if (!(pressure > k_on_riser)) continue;
-    const int body = measure_surface(a.mesh, c.group, spec.analysis.kind).body;
+    const int body = setup::measure_surface(a.mesh, c.group, spec.analysis.kind).body;
     if (body < 0 || !m.is_poured(static_cast<std::size_t>(body)) || !sand_around(body)) continue;
     // On a riser the limit is lower, as gas presses there and no piston.
-    const bool on_riser = spec.bodies[static_cast<std::size_t>(body)].role == Role::riser;
+    const bool on_riser = spec.bodies[static_cast<std::size_t>(body)].role == cases::Role::riser;
     if (!on_riser && !(pressure > k_stands)) continue;
     findings.push_back(
         {false, c.where,
@@ -281,7 +286,7 @@ void pressed_sand(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   }
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat()) return;
   risers_that_freeze_first(spec, m, findings);
   risers_apart(spec, m, findings);
@@ -334,4 +339,4 @@ FindingFamily findings_risers() {
                number(1e-6 * k_stands), number(1e-6 * k_on_riser), number(k_sand))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

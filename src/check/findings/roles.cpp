@@ -5,12 +5,12 @@
 #include <array>
 #include <cmath>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
 #include "setup/mechanics_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -21,17 +21,18 @@ constexpr double k_hottest_air = 1900;                     // hotter surrounding
 constexpr double k_air = 0.99e5, k_air_at_most = 1.016e5;  // pressures of the air [Pa]
 constexpr double k_least_feeding = 0.3, k_most_evaluation = 0.5;  // criteria
 
-using Kind = ThermalConditionSpec::Kind;
+using Kind = cases::ThermalConditionSpec::Kind;
 
 double celsius(double kelvin) {
   return units::to_display(kelvin, "K", "degC");
 }
 
 /// A chill takes heat up because it is cold and conducts.
-void chills(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void chills(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+            Findings& findings) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    const BodySpec& body = spec.bodies[b];
-    if (m.is_poured(b) || role_of(body, a.materials[b]) != Role::chill) continue;
+    const cases::BodySpec& body = spec.bodies[b];
+    if (m.is_poured(b) || cases::role_of(body, a.materials[b]) != cases::Role::chill) continue;
     if (a.start[b].high > k_hot_chill)
       findings.push_back(
           {false, body.where,
@@ -46,12 +47,13 @@ void chills(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Find
 }
 
 /// A mould takes up what the metal gives off; insulation on the metal is a sleeve.
-void insulating_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void insulating_moulds(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                       Findings& findings) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    const BodySpec& body = spec.bodies[b];
-    if (body.role != Role::mould || m.is_poured(b)) continue;
+    const cases::BodySpec& body = spec.bodies[b];
+    if (body.role != cases::Role::mould || m.is_poured(b)) continue;
     // In contact with something poured, from either side.
-    const bool on_metal = std::ranges::any_of(m.contacts, [&](const ContactMeasures& c) {
+    const bool on_metal = std::ranges::any_of(m.contacts, [&](const setup::ContactMeasures& c) {
       const int self = static_cast<int>(b), other = c.slave_body == self ? c.master_body : c.slave_body;
       return (c.slave_body == self || c.master_body == self) && other >= 0 &&
              m.is_poured(static_cast<std::size_t>(other));
@@ -74,7 +76,8 @@ void insulating_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasur
 }
 
 /// Where every mould lies within the casting's box, groups or roles are swapped. A core may.
-void swapped(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void swapped(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+             Findings& findings) {
   // Box within box, and the smaller volume: a mould around a casting has the larger one, or at
   // least reaches farther.
   const auto within = [&](std::size_t inner, std::size_t outer) {
@@ -88,8 +91,8 @@ void swapped(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Fin
     std::size_t moulds = 0, inside = 0, last = 0;
     // Cores are not counted, for they do lie within.
     for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-      const Role role = role_of(spec.bodies[b], a.materials[b]);
-      if (m.is_poured(b) || (role != Role::mould && role != Role::die)) continue;
+      const cases::Role role = cases::role_of(spec.bodies[b], a.materials[b]);
+      if (m.is_poured(b) || (role != cases::Role::mould && role != cases::Role::die)) continue;
       ++moulds;
       if (within(b, pour.body)) ++inside, last = b;
     }
@@ -102,9 +105,10 @@ void swapped(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Fin
 }
 
 /// Films that water makes, on sand and on risers.
-void strong_films(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void strong_films(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                  Findings& findings) {
   for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
-    const ThermalConditionSpec& c = spec.thermal_conditions[i];
+    const cases::ThermalConditionSpec& c = spec.thermal_conditions[i];
     if (c.kind != Kind::film || m.surfaces[i].body < 0 || !is_number(c.coefficient) || !is_number(c.factor))
       continue;
     // The film acts on this body alone, with a number that is known.
@@ -120,21 +124,22 @@ void strong_films(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
     if (!poured && h > k_on_sand && a.materials[b].conductivity.value(a.start[b].low) < k_sand)
       findings.push_back({false, c.where, what + ", which conducts as sand does",
                           "sand stands in air: 5 to 50 W/m2/K; water cools metal"});
-    if (poured && h > k_on_riser && role_of(spec.bodies[b], a.materials[b]) == Role::riser)
+    if (poured && h > k_on_riser && cases::role_of(spec.bodies[b], a.materials[b]) == cases::Role::riser)
       findings.push_back({false, c.where, what + ", which is to freeze last",
                           "risers stand in air, 5 to 50 W/m2/K, or under a cover"});
   }
 }
 
 /// Finds films, radiation and held temperatures that keep a mould above the solidus of what is poured.
-void heated_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void heated_moulds(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                   Findings& findings) {
   if (m.pours.empty()) return;
   // The highest solidus of all that is poured: below it every casting can still freeze.
   double solidus = 0;
   for (const Pour& pour : m.pours)
     solidus = std::max(solidus, a.materials[pour.body].solidification()->fraction.solidus());
   for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
-    const ThermalConditionSpec& c = spec.thermal_conditions[i];
+    const cases::ThermalConditionSpec& c = spec.thermal_conditions[i];
     const bool surrounded = c.kind == Kind::film || c.kind == Kind::radiation;
     if ((!surrounded && c.kind != Kind::temperature) || !c.stages.empty() || m.surfaces[i].body < 0) continue;
     // Held temperatures and surroundings are compared alike, on bodies that are not poured.
@@ -153,18 +158,18 @@ void heated_moulds(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
 }
 
 /// Risers feed by their weight, and pressures are counted from that of the air.
-void weight(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+void weight(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_mechanics() || m.pours.empty()) return;
   // Any component of gravity gives a weight.
-  const std::array<double, 3> g = gravity(spec.analysis);
+  const std::array<double, 3> g = setup::gravity(spec.analysis);
   const bool weighs = std::any_of(g.begin(), g.end(), [](double v) { return v != 0; });
   for (const Pour& pour : m.pours)
-    if (const BodySpec& body = spec.bodies[pour.body]; !weighs && body.role == Role::riser)
+    if (const cases::BodySpec& body = spec.bodies[pour.body]; !weighs && body.role == cases::Role::riser)
       findings.push_back({false, body.where,
                           fmt::format("the riser '{}' has no weight: gravity is 0", body.name),
                           "gravity = \"9.81 m/s2\" in [analysis]"});
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
-    if (c.kind != MechanicalConditionSpec::Kind::pressure || !is_number(c.pressure)) continue;
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    if (c.kind != cases::MechanicalConditionSpec::Kind::pressure || !is_number(c.pressure)) continue;
     // Near one bar, and no farther off than the weather: this is the pressure of the air.
     if (const double p = c.pressure.table.value(0); p > k_air && p < k_air_at_most)
       findings.push_back(
@@ -175,8 +180,8 @@ void weight(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   }
 }
 
-void criteria(const CaseSpec& spec, Findings& findings) {
-  const CriteriaSpec& c = spec.criteria;
+void criteria(const cases::CaseSpec& spec, Findings& findings) {
+  const cases::CriteriaSpec& c = spec.criteria;
   const auto warn = [&](const std::string& what, const char* usual) {
     findings.push_back({false, c.where, what, usual});
   };
@@ -192,7 +197,7 @@ void criteria(const CaseSpec& spec, Findings& findings) {
          "0 to 0.2, a share of the freezing range above the solidus");
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat()) return;
   chills(spec, a, m, findings);
   insulating_moulds(spec, a, m, findings);
@@ -238,4 +243,4 @@ FindingFamily findings_roles() {
                                 number(1e-5 * k_air_at_most))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -14,7 +14,7 @@
 #include "setup/body_input.hpp"
 #include "setup/mechanics_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -28,7 +28,7 @@ struct Groups {
   std::vector<char> held;  ///< [first body]
 };
 
-Groups joined_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+Groups joined_bodies(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m) {
   // Bodies that touch or share nodes move together, as long as they deform. A body that touches one that does
   // not move is held by it.
   Groups groups;
@@ -36,8 +36,8 @@ Groups joined_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures
   groups.held.assign(spec.bodies.size(), 0);
   std::iota(groups.of_body.begin(), groups.of_body.end(), 0);
   const auto moves = [&](int body) {
-    const BodySpec& of = spec.bodies[static_cast<std::size_t>(body)];
-    return !only_conducts(of) && holds(of.stages, a.first_stage());
+    const cases::BodySpec& of = spec.bodies[static_cast<std::size_t>(body)];
+    return !cases::only_conducts(of) && cases::holds(of.stages, a.first_stage());
   };
   std::vector<char> held(spec.bodies.size(), 0);
   const auto join = [&](int one, int other) {
@@ -53,10 +53,10 @@ Groups joined_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures
   // Contacts of the first stage join their bodies. A contact with several bodies on one side says too little,
   // and then all count as held.
   for (std::size_t c = 0; c < spec.contacts.size(); ++c)
-    if (holds(spec, spec.contacts[c], a.mesh, a.first_stage())) {
+    if (setup::holds(spec, spec.contacts[c], a.mesh, a.first_stage())) {
       join(m.contacts[c].slave_body, m.contacts[c].master_body);
-      const bool several =
-          m.contacts[c].slave_body == k_several_bodies || m.contacts[c].master_body == k_several_bodies;
+      const bool several = m.contacts[c].slave_body == setup::k_several_bodies ||
+                           m.contacts[c].master_body == setup::k_several_bodies;
       if (several) std::fill(held.begin(), held.end(), char{1});  // no finding is better than a wrong one
     }
   // Shared nodes join bodies, too. A group is held if one of its bodies is.
@@ -114,7 +114,7 @@ class RigidMotions {
   Eigen::MatrixXd form_;
 };
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   // A group that nothing else holds turns if its supports hold no more than a point or a line. Inertia
   // resists turning, and around an axis there is none.
   if (!spec.has_mechanics() || spec.dynamics || spec.analysis.kind == AnalysisKind::axisymmetric) return;
@@ -138,10 +138,10 @@ void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findin
       if (groups.of_body[static_cast<std::size_t>(block.body)] == static_cast<int>(first))
         for (const Index node : block.nodes) of_group[static_cast<std::size_t>(node)] = 1;
     RigidMotions motions(a.mesh, centre, size);
-    for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
       const auto nodes = a.mesh.node_sets.find(c.group);
-      if (c.kind != MechanicalConditionSpec::Kind::displacement || nodes == a.mesh.node_sets.end() ||
-          !holds(c.stages, a.first_stage()))
+      if (c.kind != cases::MechanicalConditionSpec::Kind::displacement || nodes == a.mesh.node_sets.end() ||
+          !cases::holds(c.stages, a.first_stage()))
         continue;
       // Nodes count once, on the process that owns them.
       for (const Index node : nodes->second) {
@@ -176,4 +176,4 @@ FindingFamily findings_rotation() {
                     "contact count as one)"}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -14,7 +14,7 @@
 #include "mesh/surfaces/skin.hpp"
 #include "parallel/parallel.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -24,11 +24,11 @@ constexpr double k_least_share_of_skin = 0.05;  // of the skin of the smaller bo
 using Key = std::array<GlobalIndex, 4>;
 
 /// Keys of the faces of this process to which the case gives a contact or a thermal condition.
-std::set<Key> faces_with_a_role(const CaseSpec& spec, const mesh::Mesh& mesh) {
+std::set<Key> faces_with_a_role(const cases::CaseSpec& spec, const mesh::Mesh& mesh) {
   std::set<std::string> groups;
-  for (const ContactSpec& contact : spec.contacts)
+  for (const cases::ContactSpec& contact : spec.contacts)
     for (const std::string& side : contact.sides()) groups.insert(side);
-  for (const ThermalConditionSpec& condition : spec.thermal_conditions) groups.insert(condition.group);
+  for (const cases::ThermalConditionSpec& condition : spec.thermal_conditions) groups.insert(condition.group);
   return mesh::body_face_keys(mesh, groups);
 }
 
@@ -41,7 +41,7 @@ mesh::SkinFace measured(const mesh::Mesh& mesh, const mesh::BodyFace& face) {
 using Skins = std::vector<std::vector<mesh::SkinFace>>;  ///< [body][face], of this process
 
 /// Returns the faces of the skins of castings that have no role and are no face of another body.
-Skins bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+Skins bare_skins(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m) {
   const std::set<Key> roles = faces_with_a_role(spec, a.mesh);
   Skins skins(spec.bodies.size());
   mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
@@ -52,7 +52,7 @@ Skins bare_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m)
   return skins;
 }
 
-Skins all_skins(const CaseSpec& spec, const Assembly& a) {
+Skins all_skins(const cases::CaseSpec& spec, const setup::Assembly& a) {
   Skins skins(spec.bodies.size());
   mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace>) {
     skins[static_cast<std::size_t>(face.body)].push_back(measured(a.mesh, face));
@@ -77,7 +77,7 @@ std::vector<mesh::SkinFace> gather_near(const std::vector<mesh::SkinFace>& faces
     for (std::size_t i = 0; near && i < 4; ++i)
       mine.push_back(face.corners[std::min(i, face.corners.size() - 1)]);
   }
-  const std::vector<mesh::Point> all = gather(mine);
+  const std::vector<mesh::Point> all = setup::gather(mine);
   std::vector<mesh::SkinFace> found;
   // Repeated corners at the end tell a triangle or a line from a quadrangle.
   for (std::size_t i = 0; i + 3 < all.size(); i += 4) {
@@ -113,14 +113,14 @@ double total_area(const std::vector<mesh::SkinFace>& faces) {
 /// it.
 bool is_joined(const CaseMeasures& m, std::size_t body) {
   return std::ranges::any_of(m.bodies[body].shared_nodes, [](GlobalIndex n) { return n > 0; }) ||
-         std::ranges::any_of(m.contacts, [&](const ContactMeasures& c) {
+         std::ranges::any_of(m.contacts, [&](const setup::ContactMeasures& c) {
            const auto b = static_cast<int>(body);
-           return c.slave_body == b || c.master_body == b || c.slave_body == k_several_bodies ||
-                  c.master_body == k_several_bodies;
+           return c.slave_body == b || c.master_body == b || c.slave_body == setup::k_several_bodies ||
+                  c.master_body == setup::k_several_bodies;
          });
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   // Bare faces of a poured body that lie on another body without contact or shared nodes pass no heat. Both
   // skins are compared where they come near each other; the size of the largest face is the distance that
   // counts.
@@ -181,4 +181,4 @@ FindingFamily findings_skins() {
                        percent(k_least_share_of_skin), number(k_near))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

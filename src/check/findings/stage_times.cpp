@@ -12,7 +12,7 @@
 #include "check/finding_family.hpp"
 #include "setup/body_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -23,11 +23,12 @@ constexpr double k_many = 5e4;  // steps of a stage that are too many
 constexpr double k_least_share_of_range = 0.2;  // of the range of a table
 
 /// Stages of which a casting sees something while it freezes, as they first come.
-std::vector<const StageRun*> freezing_stages(const CaseSpec& spec, const Assembly& a, const Pour& pour) {
-  std::vector<const StageRun*> stages;
+std::vector<const cases::StageRun*> freezing_stages(const cases::CaseSpec& spec, const setup::Assembly& a,
+                                                    const Pour& pour) {
+  std::vector<const cases::StageRun*> stages;
   std::optional<double> poured;
-  for (const StageRun& stage : a.stages) {
-    const bool there = holds(spec.bodies[pour.body].stages, &stage);
+  for (const cases::StageRun& stage : a.stages) {
+    const bool there = cases::holds(spec.bodies[pour.body].stages, &stage);
     if (!there && poured) break;
     if (!there) continue;
     if (!poured) poured = stage.start;
@@ -38,15 +39,16 @@ std::vector<const StageRun*> freezing_stages(const CaseSpec& spec, const Assembl
 }
 
 /// The first stage has the rule of runs without stages where steps are fixed; all others have theirs here.
-void steps_of_freezing(const CaseSpec& spec, const Assembly& a, const Pour& pour, Findings& findings) {
+void steps_of_freezing(const cases::CaseSpec& spec, const setup::Assembly& a, const Pour& pour,
+                       Findings& findings) {
   if (!pour.freezing.time) return;
   const double time = *pour.freezing.time;
   const std::string& name = spec.bodies[pour.body].name;
   // One finding is enough: later stages would repeat it.
-  for (const StageRun* run : freezing_stages(spec, a, pour)) {
-    const StageSpec& stage = *run->stage;
+  for (const cases::StageRun* run : freezing_stages(spec, a, pour)) {
+    const cases::StageSpec& stage = *run->stage;
     // Adaptive stages are judged by their first step, fixed ones by the step they keep.
-    const double step = first_step(stage, spec.time);
+    const double step = cases::first_step(stage, spec.time);
     const bool first = run == a.first_stage();
     if (k_fine * step > time && (spec.time.adaptive || !first)) {
       findings.push_back(
@@ -72,14 +74,14 @@ void steps_of_freezing(const CaseSpec& spec, const Assembly& a, const Pour& pour
 }
 
 /// Steps of a stage by themselves.
-void steps_of_stages(const CaseSpec& spec, Findings& findings) {
-  for (const StageSpec& stage : spec.stages) {
+void steps_of_stages(const cases::CaseSpec& spec, Findings& findings) {
+  for (const cases::StageSpec& stage : spec.stages) {
     if (const double most = stage.max_step.value_or(0); most > stage.duration)
       findings.push_back({false, stage.where,
                           fmt::format("a max_step of {:g} s limits nothing: the stage '{}' takes {:g} s",
                                       most, stage.name, stage.duration),
                           "a tenth of the stage and less, or none; is its unit right?"});
-    const double step = spec.time.adaptive ? stage.max_step.value_or(0) : first_step(stage, spec.time);
+    const double step = spec.time.adaptive ? stage.max_step.value_or(0) : cases::first_step(stage, spec.time);
     if (step > 0 && stage.duration > k_many * step)
       findings.push_back({false, stage.where,
                           fmt::format("the stage '{}' of {:g} s takes {:.3g} steps of {:g} s", stage.name,
@@ -92,12 +94,12 @@ void steps_of_stages(const CaseSpec& spec, Findings& findings) {
 struct TimeTable {
   const Table& table;
   const std::vector<std::string>& stages;
-  TimeOrigin clock;
+  cases::TimeOrigin clock;
   std::string name;
   SourceLocation where;
 };
 
-std::vector<TimeTable> time_tables(const CaseSpec& spec) {
+std::vector<TimeTable> time_tables(const cases::CaseSpec& spec) {
   std::vector<TimeTable> tables;
   // Only tables of time that are tables: those of place have the time within them.
   const auto add = [&](const auto& c, const Function& f) {
@@ -105,11 +107,11 @@ std::vector<TimeTable> time_tables(const CaseSpec& spec) {
       tables.push_back({f.table, c.stages, c.clock, c.name, c.where});
   };
   // All functions of both kinds of conditions, components of motion included.
-  for (const ThermalConditionSpec& c : spec.thermal_conditions)
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions)
     for (const Function* f :
          {&c.coefficient, &c.ambient, &c.temperature, &c.flux, &c.emissivity, &c.power, &c.factor})
       add(c, *f);
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
     add(c, c.pressure);
     for (const auto* u : {&c.ux, &c.uy, &c.uz, &c.ur})
       if (*u) add(c, **u);
@@ -119,11 +121,11 @@ std::vector<TimeTable> time_tables(const CaseSpec& spec) {
 
 /// A table that counts from the start of the run, and is over when its stage begins, or in the first of
 /// several rounds. Two points of a condition of all stages are a start that is over.
-void tables_of_the_run(const Assembly& a, const TimeTable& t, Findings& findings) {
+void tables_of_the_run(const setup::Assembly& a, const TimeTable& t, Findings& findings) {
   // The stages in which the condition holds, in the order in which they run.
-  std::vector<const StageRun*> runs;
-  for (const StageRun& stage : a.stages)
-    if (holds(t.stages, &stage)) runs.push_back(&stage);
+  std::vector<const cases::StageRun*> runs;
+  for (const cases::StageRun& stage : a.stages)
+    if (cases::holds(t.stages, &stage)) runs.push_back(&stage);
   const double last = t.table.x().back();
   if (runs.empty()) return;
   const bool named = !t.stages.empty();
@@ -137,7 +139,8 @@ void tables_of_the_run(const Assembly& a, const TimeTable& t, Findings& findings
   }
   // Rounds repeat a stage at later times, at which a table of the run is over.
   const int rounds = runs.back()->cycle;
-  const auto first_round = std::ranges::find_if(runs, [](const StageRun* run) { return run->cycle > 1; });
+  const auto first_round =
+      std::ranges::find_if(runs, [](const cases::StageRun* run) { return run->cycle > 1; });
   constexpr std::size_t k_ramp = 2;
   if (first_round == runs.end() || runs.front()->cycle == 0 || (!named && t.table.x().size() <= k_ramp))
     return;
@@ -164,14 +167,14 @@ double share_of_range(const Table& table, double seconds) {
 
 /// A table that counts from the start of its stage, and changes when that is over, or begins where the stage
 /// begins in the run.
-void tables_of_the_stage(const Assembly& a, const TimeTable& t, Findings& findings) {
+void tables_of_the_stage(const setup::Assembly& a, const TimeTable& t, Findings& findings) {
   constexpr double k_same = 0.01;
   double longest = 0;
-  const StageRun* begins_there = nullptr;
+  const cases::StageRun* begins_there = nullptr;
   const double first = t.table.x().front(), last = t.table.x().back();
   // The longest of its stages is what the table has to be spread over.
-  for (const StageRun& stage : a.stages) {
-    if (!holds(t.stages, &stage)) continue;
+  for (const cases::StageRun& stage : a.stages) {
+    if (!cases::holds(t.stages, &stage)) continue;
     longest = std::max(longest, stage.stage->duration);
     if (first > 0 && std::abs(first - stage.start) <= k_same * stage.start) begins_there = &stage;
   }
@@ -194,21 +197,23 @@ void tables_of_the_stage(const Assembly& a, const TimeTable& t, Findings& findin
 }
 
 /// A support that begins later pulls the nodes to their places in the mesh. Collective.
-void late_supports(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+void late_supports(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                   Findings& findings) {
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
     // Relative supports hold where the node is; those that move in time are meant to.
-    if (c.kind != MechanicalConditionSpec::Kind::displacement || c.relative || c.stages.empty()) continue;
+    if (c.kind != cases::MechanicalConditionSpec::Kind::displacement || c.relative || c.stages.empty())
+      continue;
     const std::array components{&c.ux, &c.uy, &c.uz, &c.ur};
     if (std::ranges::any_of(components, [](const auto* u) { return *u && !is_number(**u); })) continue;
-    const int number = measure_surface(a.mesh, c.group, spec.analysis.kind).body;
+    const int number = setup::measure_surface(a.mesh, c.group, spec.analysis.kind).body;
     if (number < 0 || !m.is_poured(static_cast<std::size_t>(number))) continue;
-    const BodySpec& body = spec.bodies[static_cast<std::size_t>(number)];
+    const cases::BodySpec& body = spec.bodies[static_cast<std::size_t>(number)];
     // A stage in which the support is new while the casting has been there before.
     for (std::size_t i = 1; i < a.stages.size() && a.stages[i].cycle <= 1; ++i) {
-      const StageRun &before = a.stages[i - 1], &now = a.stages[i];
-      const bool begins = holds(c.stages, &now) && !holds(c.stages, &before) && holds(body.stages, &before) &&
-                          holds(body.stages, &now);
-      if (only_conducts(body) || !begins) continue;
+      const cases::StageRun &before = a.stages[i - 1], &now = a.stages[i];
+      const bool begins = cases::holds(c.stages, &now) && !cases::holds(c.stages, &before) &&
+                          cases::holds(body.stages, &before) && cases::holds(body.stages, &now);
+      if (cases::only_conducts(body) || !begins) continue;
       findings.push_back(
           {false, c.where,
            fmt::format("the support '{}' begins at {:g} s, in the stage '{}', and pulls '{}' of '{}' to its "
@@ -220,11 +225,11 @@ void late_supports(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   }
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (a.stages.empty()) return;
   for (const TimeTable& table : time_tables(spec))
-    table.clock == TimeOrigin::run ? tables_of_the_run(a, table, findings)
-                                   : tables_of_the_stage(a, table, findings);
+    table.clock == cases::TimeOrigin::run ? tables_of_the_run(a, table, findings)
+                                          : tables_of_the_stage(a, table, findings);
   if (m.pours.empty()) return;
   for (const Pour& pour : m.pours) steps_of_freezing(spec, a, pour, findings);
   steps_of_stages(spec, findings);
@@ -254,4 +259,4 @@ FindingFamily findings_stage_times() {
                "on a surface of a casting that was there before, of one number and not `relative`"}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -11,7 +11,7 @@
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -21,8 +21,8 @@ constexpr double k_short = 0.1;
 constexpr double k_small = 0.2;
 
 /// Bodies that are there in a stage and that shared nodes join to one, itself included, [body].
-std::vector<char> joined(const CaseSpec& spec, const CaseMeasures& m, std::size_t body,
-                         const StageRun& stage) {
+std::vector<char> joined(const cases::CaseSpec& spec, const CaseMeasures& m, std::size_t body,
+                         const cases::StageRun& stage) {
   // A walk over shared nodes, from body to body, among those that the stage has.
   std::vector<char> found(spec.bodies.size(), 0);
   std::vector<std::size_t> next{body};
@@ -32,7 +32,7 @@ std::vector<char> joined(const CaseSpec& spec, const CaseMeasures& m, std::size_
     next.pop_back();
     for (std::size_t other = 0; other < found.size(); ++other)
       if (found[other] == 0 && m.bodies[one].shared_nodes[other] > 0 &&
-          holds(spec.bodies[other].stages, &stage)) {
+          cases::holds(spec.bodies[other].stages, &stage)) {
         found[other] = 1;
         next.push_back(other);
       }
@@ -41,45 +41,46 @@ std::vector<char> joined(const CaseSpec& spec, const CaseMeasures& m, std::size_
 }
 
 /// Whether a condition or a contact passes heat through the skin of some bodies in a stage.
-bool exchanges_heat(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
-                    const std::vector<char>& bodies, const StageRun& stage) {
+bool exchanges_heat(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                    const std::vector<char>& bodies, const cases::StageRun& stage) {
   // Measures of a surface give one body, or that there are several, any of which it may be.
   const auto among = [&](int body) {
-    return body == k_several_bodies || (body >= 0 && bodies[static_cast<std::size_t>(body)] != 0);
+    return body == setup::k_several_bodies || (body >= 0 && bodies[static_cast<std::size_t>(body)] != 0);
   };
   // Conditions first, then contacts with a law of heat on either side.
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
-    const ThermalConditionSpec& condition = spec.thermal_conditions[t];
+    const cases::ThermalConditionSpec& condition = spec.thermal_conditions[t];
     const bool within =
         m.surfaces[t].area == 0 || condition.in_volume();  // of volumes and nodes: it may be any body's
-    if (holds(condition.stages, &stage) && (within || among(m.surfaces[t].body))) return true;
+    if (cases::holds(condition.stages, &stage) && (within || among(m.surfaces[t].body))) return true;
   }
   for (std::size_t c = 0; c < spec.contacts.size(); ++c)
-    if (spec.contacts[c].heat && holds(spec, spec.contacts[c], a.mesh, &stage) &&
+    if (spec.contacts[c].heat && setup::holds(spec, spec.contacts[c], a.mesh, &stage) &&
         (among(m.contacts[c].slave_body) || among(m.contacts[c].master_body)))
       return true;
   return false;
 }
 
 /// Surfaces on which a condition of a stage, or one of its contacts that pass heat, acts.
-std::set<std::string> cooled_surfaces(const CaseSpec& spec, const Assembly& a, const StageRun& stage) {
+std::set<std::string> cooled_surfaces(const cases::CaseSpec& spec, const setup::Assembly& a,
+                                      const cases::StageRun& stage) {
   std::set<std::string> surfaces;
-  for (const ThermalConditionSpec& condition : spec.thermal_conditions)
-    if (!condition.in_volume() && holds(condition.stages, &stage)) surfaces.insert(condition.group);
-  for (const ContactSpec& contact : spec.contacts)
-    if (contact.heat && holds(spec, contact, a.mesh, &stage))
+  for (const cases::ThermalConditionSpec& condition : spec.thermal_conditions)
+    if (!condition.in_volume() && cases::holds(condition.stages, &stage)) surfaces.insert(condition.group);
+  for (const cases::ContactSpec& contact : spec.contacts)
+    if (contact.heat && setup::holds(spec, contact, a.mesh, &stage))
       for (const std::string& side : contact.sides()) surfaces.insert(side);
   return surfaces;
 }
 
 /// The share of the faces of a casting that contacts cooled in an earlier stage, and that nothing cools in
 /// this one. Collective.
-double share_left_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, std::size_t body,
-                        const StageRun& stage) {
+double share_left_alone(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                        std::size_t body, const cases::StageRun& stage) {
   std::set<std::string> sides;
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
-    const bool earlier = std::any_of(a.stages.data(), &stage, [&](const StageRun& before) {
-      return before.cycle <= 1 && holds(spec, spec.contacts[c], a.mesh, &before);
+    const bool earlier = std::any_of(a.stages.data(), &stage, [&](const cases::StageRun& before) {
+      return before.cycle <= 1 && setup::holds(spec, spec.contacts[c], a.mesh, &before);
     });
     if (!spec.contacts[c].heat || !earlier) continue;
     if (m.contacts[c].slave_body == static_cast<int>(body)) sides.insert(m.contacts[c].slave);
@@ -93,19 +94,19 @@ double share_left_alone(const CaseSpec& spec, const Assembly& a, const CaseMeasu
   return n > 0 ? left / n : 0;
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   // After the shake-out the surface of a casting needs a condition of its own. For each poured body and later
   // stage the share of the skin is found that a contact cooled before and nothing cools now.
   if (!spec.has_heat()) return;
   for (const Pour& pour : m.pours) {
     std::set<std::string> told;
-    for (const StageRun& stage : a.stages) {
-      const StageSpec& its = *stage.stage;
+    for (const cases::StageRun& stage : a.stages) {
+      const cases::StageSpec& its = *stage.stage;
       // Stages that are short against the freezing time (the body is carried from place to place) are left
       // out, and a stage of a cycle is told once.
       const double freezes = pour.freezing.time.value_or(0);
-      if (&stage == &a.stages.front() || !holds(spec.bodies[pour.body].stages, &stage) || !(freezes > 0) ||
-          its.duration < k_short * freezes || !told.insert(its.name).second)
+      if (&stage == &a.stages.front() || !cases::holds(spec.bodies[pour.body].stages, &stage) ||
+          !(freezes > 0) || its.duration < k_short * freezes || !told.insert(its.name).second)
         continue;
       const std::vector<char> bodies = joined(spec, m, pour.body, stage);
       bool alone = true;
@@ -154,4 +155,4 @@ FindingFamily findings_stages() {
                                 percent(k_small))}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -11,17 +11,17 @@
 
 #include "check/finding_family.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
 constexpr double k_balanced = 1e-3;  // of the heat that passes
 
-using Kind = ThermalConditionSpec::Kind;
+using Kind = cases::ThermalConditionSpec::Kind;
 
 /// Bodies in groups that exchange heat with each other, through shared nodes or contacts: [body] the number
 /// of its group.
-std::vector<std::size_t> groups_of(const CaseSpec& spec, const CaseMeasures& m) {
+std::vector<std::size_t> groups_of(const cases::CaseSpec& spec, const CaseMeasures& m) {
   std::vector<std::size_t> group(spec.bodies.size());
   std::iota(group.begin(), group.end(), 0);
   const auto join = [&](std::size_t a, std::size_t b) {
@@ -32,9 +32,10 @@ std::vector<std::size_t> groups_of(const CaseSpec& spec, const CaseMeasures& m) 
     for (std::size_t b = 0; b < a; ++b)
       if (m.bodies[a].shared_nodes[b] > 0) join(a, b);
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
-    const ContactMeasures& sides = m.contacts[c];
+    const setup::ContactMeasures& sides = m.contacts[c];
     if (!spec.contacts[c].heat || !(sides.paired > 0)) continue;
-    const bool several = sides.slave_body == k_several_bodies || sides.master_body == k_several_bodies;
+    const bool several =
+        sides.slave_body == setup::k_several_bodies || sides.master_body == setup::k_several_bodies;
     for (std::size_t b = 1; several && b < group.size(); ++b) join(0, b);
     if (sides.slave_body >= 0 && sides.master_body >= 0)
       join(static_cast<std::size_t>(sides.slave_body), static_cast<std::size_t>(sides.master_body));
@@ -43,7 +44,7 @@ std::vector<std::size_t> groups_of(const CaseSpec& spec, const CaseMeasures& m) 
 }
 
 /// Marks the groups in which something has a temperature of its own: surroundings, a tool, a held node.
-std::vector<char> held_groups(const CaseSpec& spec, const CaseMeasures& m,
+std::vector<char> held_groups(const cases::CaseSpec& spec, const CaseMeasures& m,
                               const std::vector<std::size_t>& group) {
   std::vector<char> held(group.size(), 0);
   // Where the body is not known the whole case counts as held: no finding is better than a wrong
@@ -61,7 +62,7 @@ std::vector<char> held_groups(const CaseSpec& spec, const CaseMeasures& m,
       hold(m.surfaces[t].body);
   // A tool with a temperature holds whatever its contact passes heat to.
   for (std::size_t c = 0; c < spec.contacts.size(); ++c)
-    if (const RigidSurfaceSpec* tool = spec.rigid_surface(m.contacts[c].master);
+    if (const cases::RigidSurfaceSpec* tool = spec.rigid_surface(m.contacts[c].master);
         tool != nullptr && tool->temperature && spec.contacts[c].heat)
       hold(m.contacts[c].slave_body);
   return held;
@@ -72,17 +73,17 @@ std::vector<char> held_groups(const CaseSpec& spec, const CaseMeasures& m,
 struct Supply {
   double net = 0, all = 0;
 };
-std::optional<Supply> supply_of(const CaseSpec& spec, const CaseMeasures& m,
+std::optional<Supply> supply_of(const cases::CaseSpec& spec, const CaseMeasures& m,
                                 const std::vector<std::size_t>& group, std::size_t which) {
   Supply supply;
   // Heat of sources and fluxes alone, in W; without numbers for all of them nothing can be told of the
   // balance.
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
-    const ThermalConditionSpec& c = spec.thermal_conditions[t];
+    const cases::ThermalConditionSpec& c = spec.thermal_conditions[t];
     int body = m.surfaces[t].body;
     double heat = 0;
     if (c.kind == Kind::source) {
-      const auto found = std::ranges::find(spec.bodies, c.group, &BodySpec::mesh_group);
+      const auto found = std::ranges::find(spec.bodies, c.group, &cases::BodySpec::mesh_group);
       if (found == spec.bodies.end() || !is_number(c.power)) return {};
       body = static_cast<int>(found - spec.bodies.begin());
       heat = c.power.table.value(0) * m.bodies[static_cast<std::size_t>(body)].volume;
@@ -102,7 +103,7 @@ std::optional<Supply> supply_of(const CaseSpec& spec, const CaseMeasures& m,
   return supply;
 }
 
-void find(const CaseSpec& spec, const Assembly&, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly&, const CaseMeasures& m, Findings& findings) {
   // A steady state needs something that holds a temperature in each group of bodies that exchange heat.
   // Without it there is none, if more heat comes in than goes out, or one up to a constant.
   if (!spec.time.steady || !spec.has_heat()) return;
@@ -153,4 +154,4 @@ FindingFamily findings_steady() {
                "warning, error"}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

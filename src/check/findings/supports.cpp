@@ -17,7 +17,7 @@
 #include "setup/body_input.hpp"
 #include "setup/mechanics_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
@@ -40,7 +40,8 @@ Eigen::Map<const Eigen::VectorXd> vector_of(const SymmetricEigen& modes, Eigen::
 class Translations {
  public:
   /// @param stage  in which they hold; null: the run has none
-  Translations(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, const StageRun* stage);
+  Translations(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+               const cases::StageRun* stage);
 
   /// Bodies that are joined to each other by contacts and common nodes: the number of the first one of each.
   const std::vector<int>& group() const { return group_; }
@@ -62,8 +63,9 @@ class Translations {
   Eigen::VectorXd followed(std::size_t body, const Eigen::VectorXd& pull) const;
 
  private:
-  void add_supports(const CaseSpec& spec, const Assembly& a, const StageRun* stage);
-  void add_contacts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, const StageRun* stage);
+  void add_supports(const cases::CaseSpec& spec, const setup::Assembly& a, const cases::StageRun* stage);
+  void add_contacts(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                    const cases::StageRun* stage);
   void join(int one, int other, const Eigen::MatrixXd& normals);
   void hold(int body, const Eigen::MatrixXd& normals) {
     form_.block(n_ * body, n_ * body, n_, n_) += normals;
@@ -79,8 +81,8 @@ class Translations {
   Eigen::MatrixXd supports_;      ///< the part of fixed_ by supports
 };
 
-Translations::Translations(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
-                           const StageRun* stage)
+Translations::Translations(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                           const cases::StageRun* stage)
     : axisymmetric_(spec.analysis.kind == AnalysisKind::axisymmetric),
       n_(axisymmetric_ ? 1 : displacement_components(spec.analysis.kind)),
       group_(spec.bodies.size()) {
@@ -91,22 +93,23 @@ Translations::Translations(const CaseSpec& spec, const Assembly& a, const CaseMe
   form_.setZero(n_ * n_bodies, n_ * n_bodies);
   fixed_.setZero(n_ * n_bodies, n_);
   // Bodies that do not move in this stage are held; then supports, contacts and shared nodes tie what moves.
-  for (const BodySpec& body : spec.bodies)
-    moves_.push_back(!only_conducts(body) && holds(body.stages, stage));
+  for (const cases::BodySpec& body : spec.bodies)
+    moves_.push_back(!cases::only_conducts(body) && cases::holds(body.stages, stage));
   for (std::size_t b = 0; b < moves_.size(); ++b)
     if (moves_[b] == 0) hold(static_cast<int>(b), Eigen::MatrixXd::Identity(n_, n_));
   add_supports(spec, a, stage);
   supports_ = fixed_;
-  add_contacts(spec, a, m, stage);
+  setup::add_contacts(spec, a, m, stage);
   // Shared nodes tie all directions of two bodies that are both there.
   for (std::size_t b = 0; b < m.bodies.size(); ++b)
     for (std::size_t other = 0; other < b; ++other)
-      if (m.bodies[b].shared_nodes[other] > 0 && holds(spec.bodies[b].stages, stage) &&
-          holds(spec.bodies[other].stages, stage))
+      if (m.bodies[b].shared_nodes[other] > 0 && cases::holds(spec.bodies[b].stages, stage) &&
+          cases::holds(spec.bodies[other].stages, stage))
         join(static_cast<int>(b), static_cast<int>(other), Eigen::MatrixXd::Identity(n_, n_));
 }
 
-void Translations::add_supports(const CaseSpec& spec, const Assembly& a, const StageRun* stage) {
+void Translations::add_supports(const cases::CaseSpec& spec, const setup::Assembly& a,
+                                const cases::StageRun* stage) {
   using Bits = std::uint64_t;
   const auto bit = [](std::size_t body) { return Bits{1} << std::min<std::size_t>(body, 63); };
   // A bit of each body at its nodes tells which bodies a group of nodes belongs to; the last bit is shared by
@@ -115,8 +118,9 @@ void Translations::add_supports(const CaseSpec& spec, const Assembly& a, const S
   for (const mesh::ElementBlock& block : a.mesh.blocks)
     for (const Index node : block.nodes)
       of_node[static_cast<std::size_t>(node)] |= bit(static_cast<std::size_t>(block.body));
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
-    if (c.kind != MechanicalConditionSpec::Kind::displacement || !holds(c.stages, stage)) continue;
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    if (c.kind != cases::MechanicalConditionSpec::Kind::displacement || !cases::holds(c.stages, stage))
+      continue;
     // Which bodies the nodes of the group belong to, as far as this process sees them.
     Bits touched = 0;
     if (const auto nodes = a.mesh.node_sets.find(c.group); nodes != a.mesh.node_sets.end())
@@ -155,12 +159,12 @@ Eigen::MatrixXd Translations::normals_of(const mesh::Mesh& mesh, const std::stri
   return sum.block(first, first, n_, n_);
 }
 
-void Translations::add_contacts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
-                                const StageRun* stage) {
+void Translations::add_contacts(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                                const cases::StageRun* stage) {
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
-    const ContactSpec& contact = spec.contacts[c];
-    const ContactMeasures& sides = m.contacts[c];
-    if (!holds(spec, contact, a.mesh, stage)) continue;
+    const cases::ContactSpec& contact = spec.contacts[c];
+    const setup::ContactMeasures& sides = m.contacts[c];
+    if (!setup::holds(spec, contact, a.mesh, stage)) continue;
     // With friction a contact holds in all directions; without it along its normals alone.
     const Eigen::MatrixXd normals = contact.friction ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(n_, n_))
                                                      : normals_of(a.mesh, sides.slave);
@@ -171,7 +175,7 @@ void Translations::add_contacts(const CaseSpec& spec, const Assembly& a, const C
       for (const int body : {sides.slave_body, sides.master_body})
         if (body >= 0) hold(body, normals);
     // With several bodies on a side every one of them may be the one that is held.
-    if (sides.slave_body == k_several_bodies || sides.master_body == k_several_bodies)
+    if (sides.slave_body == setup::k_several_bodies || sides.master_body == setup::k_several_bodies)
       for (std::size_t b = 0; b < moves_.size(); ++b)
         hold(static_cast<int>(b), Eigen::MatrixXd::Identity(n_, n_));
   }
@@ -220,7 +224,7 @@ std::string direction_text(const Translations& t, const Eigen::VectorXd& directi
 
 /// Groups of bodies that hold each other, but that can move together.
 /// @param when  " in the stage 'air'"; empty: when the run begins
-void loose_groups(const CaseSpec& spec, const Translations& t, const std::string& when,
+void loose_groups(const cases::CaseSpec& spec, const Translations& t, const std::string& when,
                   std::vector<char>& told, Findings& findings) {
   // The first body of a group speaks for it.
   for (std::size_t first = 0; first < spec.bodies.size(); ++first) {
@@ -255,15 +259,15 @@ void loose_groups(const CaseSpec& spec, const Translations& t, const std::string
 }
 
 /// The direction of gravity among those in which bodies move, of length one; zero where none acts.
-Eigen::VectorXd direction_of_weight(const CaseSpec& spec, const Translations& t) {
-  const std::array<double, 3> g = gravity(spec.analysis);
+Eigen::VectorXd direction_of_weight(const cases::CaseSpec& spec, const Translations& t) {
+  const std::array<double, 3> g = setup::gravity(spec.analysis);
   Eigen::VectorXd weight(t.directions());
   for (int d = 0; d < t.directions(); ++d) weight[d] = g[t.axis(d)];
   return weight.normalized();  // which leaves zero as it is
 }
 
 /// Bodies whose weight neither a support nor a contact takes.
-void falling_bodies(const CaseSpec& spec, const Translations& t, const std::string& when,
+void falling_bodies(const cases::CaseSpec& spec, const Translations& t, const std::string& when,
                     std::vector<char>& told, Findings& findings) {
   // Without weight nothing falls.
   const Eigen::VectorXd weight = direction_of_weight(spec, t);
@@ -286,7 +290,8 @@ void falling_bodies(const CaseSpec& spec, const Translations& t, const std::stri
 
 /// Whether a contact carries the weight of a set of bodies: contacts push and do not pull, so something of it
 /// has to lie below them. Friction on upright faces counts, for a mould may clamp what it holds.
-bool carries(const ContactSpec& contact, const ContactMeasures& sides, const std::vector<char>& bodies) {
+bool carries(const cases::ContactSpec& contact, const setup::ContactMeasures& sides,
+             const std::vector<char>& bodies) {
   const auto is_of_them = [&](int body) { return body >= 0 && bodies[static_cast<std::size_t>(body)] != 0; };
   constexpr double k_least_share_of_area = 0.01;  // of the area
   const bool slave = is_of_them(sides.slave_body), master = is_of_them(sides.master_body);
@@ -297,8 +302,8 @@ bool carries(const ContactSpec& contact, const ContactMeasures& sides, const std
 
 /// Bodies that two-sided contacts would hold, but that gravity takes off what they lie on. A body that shares
 /// nodes with others counts as one with them.
-void lifted_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, const Translations& t,
-                   const std::vector<char>& told, Findings& findings) {
+void lifted_bodies(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                   const Translations& t, const std::vector<char>& told, Findings& findings) {
   const Eigen::VectorXd weight = direction_of_weight(spec, t);
   if (weight.isZero()) return;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
@@ -318,17 +323,17 @@ void lifted_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
     for (std::size_t i = 0; i < one.size(); ++i)
       held |= one[i] != 0 && (!t.moves(i) || t.supported(i, weight));
     for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
-      const ContactMeasures& sides = m.contacts[c];
+      const setup::ContactMeasures& sides = m.contacts[c];
       // Contacts count from the start only; with several bodies on a side it may be held there.
-      if (!holds(spec, spec.contacts[c], a.mesh, a.first_stage())) continue;
-      held |= sides.slave_body == k_several_bodies || sides.master_body == k_several_bodies ||
+      if (!setup::holds(spec, spec.contacts[c], a.mesh, a.first_stage())) continue;
+      held |= sides.slave_body == setup::k_several_bodies || sides.master_body == setup::k_several_bodies ||
               carries(spec.contacts[c], sides, one);
       touches |= sides.above + sides.below > 0 &&
                  (sides.slave_body == static_cast<int>(b) || sides.master_body == static_cast<int>(b));
     }
     // A load may press it against what it touches.
-    using Kind = MechanicalConditionSpec::Kind;
-    for (const MechanicalConditionSpec& c : spec.mechanical_conditions)
+    using Kind = cases::MechanicalConditionSpec::Kind;
+    for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions)
       held |= c.kind == Kind::pressure || c.kind == Kind::traction;
     if (held || !touches) continue;
     findings.push_back(
@@ -340,7 +345,7 @@ void lifted_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   }
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_mechanics() || spec.dynamics) return;
   // The first stage in full, then what becomes loose in later ones; each body is told once.
   const Translations translations(spec, a, m, a.first_stage());
@@ -374,4 +379,4 @@ FindingFamily findings_supports() {
                     "along gravity nor a load acts"}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -15,24 +15,24 @@
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
 constexpr double k_least_ratio_of_films = 0.2;  // a film, of the other one on its face
 
-using Heat = ThermalConditionSpec::Kind;
-using Motion = MechanicalConditionSpec::Kind;
+using Heat = cases::ThermalConditionSpec::Kind;
+using Motion = cases::MechanicalConditionSpec::Kind;
 
-bool lies_on(const ContactSpec& contact, const std::string& group) {
+bool lies_on(const cases::ContactSpec& contact, const std::string& group) {
   const auto sides = contact.sides();
   return std::find(sides.begin(), sides.end(), group) != sides.end();
 }
 
 /// A surface in contact gives its heat to its partner. Films beside contacts: findings/interface.cpp.
-void heat_beside_contacts(const CaseSpec& spec, Findings& findings) {
-  for (const ThermalConditionSpec& c : spec.thermal_conditions)
-    for (const ContactSpec& contact : spec.contacts) {
+void heat_beside_contacts(const cases::CaseSpec& spec, Findings& findings) {
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions)
+    for (const cases::ContactSpec& contact : spec.contacts) {
       // Both act on one surface at one time, and the contact passes heat.
       if (!contact.heat || !lies_on(contact, c.group) || !share_a_stage(c.stages, contact.stages)) continue;
       if (c.kind == Heat::temperature && is_number(c.temperature))
@@ -59,12 +59,12 @@ void heat_beside_contacts(const CaseSpec& spec, Findings& findings) {
 }
 
 /// A held temperature leaves nothing to another condition of its surface.
-void beside_held_temperatures(const CaseSpec& spec, Findings& findings) {
+void beside_held_temperatures(const cases::CaseSpec& spec, Findings& findings) {
   for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
-    const ThermalConditionSpec& held = spec.thermal_conditions[i];
+    const cases::ThermalConditionSpec& held = spec.thermal_conditions[i];
     if (held.kind != Heat::temperature) continue;
     for (std::size_t k = 0; k < spec.thermal_conditions.size(); ++k) {
-      const ThermalConditionSpec& other = spec.thermal_conditions[k];
+      const cases::ThermalConditionSpec& other = spec.thermal_conditions[k];
       const bool twice = other.kind == Heat::temperature;
       // A pair of two held temperatures is told once, by the later of them.
       if (k == i || (twice && k > i) || other.in_volume() || other.group != held.group ||
@@ -81,12 +81,12 @@ void beside_held_temperatures(const CaseSpec& spec, Findings& findings) {
 
 /// Two films on one face add up, as one of a channel and one of the whole outside around it. One of less than
 /// a fifth of the other changes little. Films of one surface: findings/interface.cpp. Collective.
-void films_in_one_place(const CaseSpec& spec, const mesh::Mesh& mesh, Findings& findings) {
+void films_in_one_place(const cases::CaseSpec& spec, const mesh::Mesh& mesh, Findings& findings) {
   // Films of one number are compared pair by pair over their faces, of whatever group they are.
-  std::vector<const ThermalConditionSpec*> films;
-  for (const ThermalConditionSpec& c : spec.thermal_conditions)
+  std::vector<const cases::ThermalConditionSpec*> films;
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions)
     if (c.kind == Heat::film && is_number(c.coefficient) && is_number(c.factor)) films.push_back(&c);
-  const auto strength = [](const ThermalConditionSpec& c) {
+  const auto strength = [](const cases::ThermalConditionSpec& c) {
     return c.coefficient.table.value(0) * c.factor.table.value(0);
   };
   for (std::size_t i = 0; i < films.size(); ++i) {
@@ -113,10 +113,10 @@ void films_in_one_place(const CaseSpec& spec, const mesh::Mesh& mesh, Findings& 
 }
 
 /// A body all of whose nodes have their temperature prescribed.
-void held_bodies(const CaseSpec& spec, Findings& findings) {
-  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
+void held_bodies(const cases::CaseSpec& spec, Findings& findings) {
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions) {
     if (c.kind != Heat::temperature || !is_number(c.temperature) || !c.stages.empty()) continue;
-    for (const BodySpec& body : spec.bodies)
+    for (const cases::BodySpec& body : spec.bodies)
       if (body.mesh_group() == c.group)
         findings.push_back(
             {false, c.where,
@@ -127,8 +127,8 @@ void held_bodies(const CaseSpec& spec, Findings& findings) {
 }
 
 /// Loads on surfaces in contact, and loads that pull.
-void pressures(const CaseSpec& spec, Findings& findings) {
-  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+void pressures(const cases::CaseSpec& spec, Findings& findings) {
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
     if (c.kind != Motion::pressure || !is_number(c.pressure)) continue;
     const double pressure = c.pressure.table.value(0);
     // A negative one pulls, which melt and sand cannot bear.
@@ -138,7 +138,7 @@ void pressures(const CaseSpec& spec, Findings& findings) {
            fmt::format("the pressure '{}' of {:.4g} MPa pulls at '{}'", c.name, 1e-6 * pressure, c.group),
            "a pressure is positive into the body"});
     // Where a contact acts its pressure is an unknown of the run, and a load adds to it.
-    for (const ContactSpec& contact : spec.contacts)
+    for (const cases::ContactSpec& contact : spec.contacts)
       if (lies_on(contact, c.group) && share_a_stage(c.stages, contact.stages))
         findings.push_back(
             {false, c.where,
@@ -148,18 +148,18 @@ void pressures(const CaseSpec& spec, Findings& findings) {
   }
 }
 
-const std::optional<Function>& along(const MechanicalConditionSpec& c, std::size_t axis) {
+const std::optional<Function>& along(const cases::MechanicalConditionSpec& c, std::size_t axis) {
   const std::array<const std::optional<Function>*, 3> u{&c.ux, &c.uy, &c.uz};
   return axis == 0 && c.ur ? c.ur : *u[axis];
 }
 
 /// Two motions of the same nodes along the same axis.
-void opposed_supports(const CaseSpec& spec, Findings& findings) {
+void opposed_supports(const cases::CaseSpec& spec, Findings& findings) {
   for (std::size_t i = 0; i < spec.mechanical_conditions.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       // Only motions by numbers can be compared; equal ones may be stated twice.
-      const MechanicalConditionSpec &one = spec.mechanical_conditions[k],
-                                    &two = spec.mechanical_conditions[i];
+      const cases::MechanicalConditionSpec &one = spec.mechanical_conditions[k],
+                                           &two = spec.mechanical_conditions[i];
       if (one.kind != Motion::displacement || two.kind != Motion::displacement || one.group != two.group ||
           !share_a_stage(one.stages, two.stages))
         continue;
@@ -212,10 +212,11 @@ std::vector<char> nodes_of_body(const mesh::Mesh& mesh, std::size_t body) {
 }
 
 /// Castings that supports hold at both ends of an axis cannot shrink along it. Collective.
-void clamped_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void clamped_castings(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
+                      Findings& findings) {
   for (const Pour& pour : m.pours) {
-    const BodySpec& body = spec.bodies[pour.body];
-    if (only_conducts(body)) continue;
+    const cases::BodySpec& body = spec.bodies[pour.body];
+    if (cases::only_conducts(body)) continue;
     const BodyMeasures& measures = m.bodies[pour.body];
     const std::vector<char> of_body = nodes_of_body(a.mesh, pour.body);
     // Along each axis the supports at both ends of the casting; the axis of revolution has no second end.
@@ -225,11 +226,11 @@ void clamped_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasure
       if (round || !(extent > 0)) continue;
       // The last condition found at an end gives the name in the message.
       std::string low, high;
-      for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+      for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
         const std::optional<Function>& u = along(c, axis);
         const auto nodes = a.mesh.node_sets.find(c.group);
         if (c.kind != Motion::displacement || !u || !is_number(*u) || nodes == a.mesh.node_sets.end() ||
-            !model::holds(c.stages, a.first_stage()))
+            !cases::holds(c.stages, a.first_stage()))
           continue;
         const Ends ends = ends_of(a.mesh, nodes->second, of_body, measures, axis);
         if (ends.low) low = c.name;
@@ -247,7 +248,7 @@ void clamped_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   }
 }
 
-void find(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
   if (spec.has_heat()) {
     heat_beside_contacts(spec, findings);
     beside_held_temperatures(spec, findings);
@@ -282,4 +283,4 @@ FindingFamily findings_surfaces() {
           {Topic::mechanics, "two motions of one surface along one axis", "of different size"}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

@@ -5,25 +5,25 @@
 
 #include "check/finding_family.hpp"
 
-namespace solidus::model {
+namespace solidus::check {
 
 namespace {
 
 /// A support along one axis on a surface of the casting is a plane of symmetry: no heat crosses it.
-void find(const CaseSpec& spec, const Assembly&, const CaseMeasures& m, Findings& findings) {
+void find(const cases::CaseSpec& spec, const setup::Assembly&, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_heat() || !spec.has_mechanics()) return;
-  using Film = ThermalConditionSpec::Kind;
+  using Film = cases::ThermalConditionSpec::Kind;
   // Films and radiation on a skin of the casting, by the body that its surface belongs to.
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
-    const ThermalConditionSpec& film = spec.thermal_conditions[t];
+    const cases::ThermalConditionSpec& film = spec.thermal_conditions[t];
     const bool poured = std::any_of(m.pours.begin(), m.pours.end(), [&](const Pour& p) {
       return m.surfaces[t].body == static_cast<int>(p.body);
     });
     if (!poured || (film.kind != Film::film && film.kind != Film::radiation)) continue;
-    for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
       // Exactly one direction is held: two or three would be a clamp.
       const int held = (c.ux || c.ur ? 1 : 0) + (c.uy ? 1 : 0) + (c.uz ? 1 : 0);
-      if (c.kind != MechanicalConditionSpec::Kind::displacement || c.group != film.group || held != 1)
+      if (c.kind != cases::MechanicalConditionSpec::Kind::displacement || c.group != film.group || held != 1)
         continue;
       findings.push_back(
           {false, film.where,
@@ -47,4 +47,4 @@ FindingFamily findings_symmetry_planes() {
                     "on a surface of the casting that is held along one axis"}}};
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::check

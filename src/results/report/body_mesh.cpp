@@ -10,7 +10,7 @@
 
 #include "system/errors.hpp"
 
-namespace solidus::report {
+namespace solidus::results {
 
 namespace fs = std::filesystem;
 using boost::property_tree::ptree;
@@ -309,4 +309,4 @@ PieceMap Bodies::make_map(const FieldFile::Piece& piece, std::vector<double> nod
   return map;
 }
 
-}  // namespace solidus::report
+}  // namespace solidus::results

@@ -14,7 +14,7 @@
 #include "mesh/files/vtu_pieces.hpp"
 #include "mesh/shape.hpp"
 
-namespace solidus::report {
+namespace solidus::results {
 
 /// A .vtu, or the parts of all processes that a .pvtu lists.
 class FieldFile {
@@ -91,4 +91,4 @@ std::vector<std::vector<int>> simplices(mesh::Shape shape);
 /// Triangles of a face.
 std::vector<std::array<int, 3>> face_triangles(mesh::Shape face);
 
-}  // namespace solidus::report
+}  // namespace solidus::results

@@ -3,7 +3,7 @@
 
 #include "results/report/body_mesh.hpp"
 
-namespace solidus::report {
+namespace solidus::results {
 
 using mesh::Shape;
 
@@ -55,4 +55,4 @@ std::vector<std::vector<int>> simplices(Shape shape) {
   }
 }
 
-}  // namespace solidus::report
+}  // namespace solidus::results

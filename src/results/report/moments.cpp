@@ -14,7 +14,7 @@
 #include "mechanics/quantities.hpp"
 #include "system/errors.hpp"
 
-namespace solidus::report {
+namespace solidus::results {
 
 using boost::property_tree::ptree;
 
@@ -261,4 +261,4 @@ PackedMoments pack_moments(Bodies& bodies, const std::vector<ReportMoment>& mome
   return packed;
 }
 
-}  // namespace solidus::report
+}  // namespace solidus::results

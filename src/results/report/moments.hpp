@@ -9,7 +9,7 @@
 #include "results/report/body_mesh.hpp"
 #include "results/report/pack.hpp"
 
-namespace solidus::report {
+namespace solidus::results {
 
 /// A number at every node that the page can paint.
 struct FieldColumn {
@@ -69,4 +69,4 @@ PackedMoments pack_moments(Bodies& bodies, const std::vector<ReportMoment>& mome
 /// The largest eigenvalue of the symmetric tensor xx, yy, zz, xy, yz, xz.
 double largest_principal(const double* tensor);
 
-}  // namespace solidus::report
+}  // namespace solidus::results

@@ -10,7 +10,7 @@
 #include <new>
 #include <stdexcept>
 
-namespace solidus::report {
+namespace solidus::results {
 
 namespace {
 
@@ -159,4 +159,4 @@ int Blocks::add(const std::string& bytes, Bytes like) {
   return found->second;
 }
 
-}  // namespace solidus::report
+}  // namespace solidus::results

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace solidus::report {
+namespace solidus::results {
 
 /// The kind of bytes, which decides how deflate packs them fastest: noise has runs alone (50 times as fast
 /// as a search for strings, and no larger), masks come back moment after moment.
@@ -58,4 +58,4 @@ class Blocks {
   std::size_t size_ = 0;
 };
 
-}  // namespace solidus::report
+}  // namespace solidus::results

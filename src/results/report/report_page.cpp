@@ -14,7 +14,7 @@
 #include "results/report/viewer.hpp"
 #include "system/version.hpp"
 
-namespace solidus::report {
+namespace solidus::results {
 
 using results::Json;
 
@@ -90,4 +90,4 @@ WrittenReport write_report(const std::vector<ReportedRun>& runs, const std::file
   return {written.text.size(), std::move(written.notes)};
 }
 
-}  // namespace solidus::report
+}  // namespace solidus::results

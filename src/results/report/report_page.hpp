@@ -11,7 +11,7 @@
 
 #include "results/output/json_document.hpp"
 
-namespace solidus::report {
+namespace solidus::results {
 
 struct ReportedRun {
   std::filesystem::path folder;
@@ -49,4 +49,4 @@ struct BodyMaterial {
 };
 std::vector<BodyMaterial> body_materials(const std::filesystem::path& folder);
 
-}  // namespace solidus::report
+}  // namespace solidus::results

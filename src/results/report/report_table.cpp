@@ -10,7 +10,7 @@
 #include "system/errors.hpp"
 #include "system/input_file.hpp"
 
-namespace solidus::report {
+namespace solidus::results {
 
 namespace {
 
@@ -101,4 +101,4 @@ ReportTable read_table(const std::filesystem::path& file, std::size_t most) {
   return table;
 }
 
-}  // namespace solidus::report
+}  // namespace solidus::results

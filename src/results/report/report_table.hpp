@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace solidus::report {
+namespace solidus::results {
 
 struct TableColumn {
   std::string header;              ///< "T_center[degC]"
@@ -24,4 +24,4 @@ struct ReportTable {
 /// InputError with file and line for rows with another number of cells than the header.
 ReportTable read_table(const std::filesystem::path& file, std::size_t most);
 
-}  // namespace solidus::report
+}  // namespace solidus::results

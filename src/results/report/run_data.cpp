@@ -23,7 +23,7 @@
 #include "system/errors.hpp"
 #include "system/input_file.hpp"
 
-namespace solidus::report {
+namespace solidus::results {
 
 namespace fs = std::filesystem;
 using results::Json;
@@ -349,4 +349,4 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
   return out;
 }
 
-}  // namespace solidus::report
+}  // namespace solidus::results

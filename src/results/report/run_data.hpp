@@ -8,11 +8,11 @@
 #include "results/report/pack.hpp"
 #include "results/report/report_page.hpp"
 
-namespace solidus::report {
+namespace solidus::results {
 
 /// @param most_bytes  of the blocks of this run
 /// @param notes  gets what is missing
 results::Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t most_bytes,
                        Blocks& blocks, std::vector<std::string>& notes);
 
-}  // namespace solidus::report
+}  // namespace solidus::results

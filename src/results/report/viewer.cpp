@@ -13,10 +13,10 @@ asm(".section .rodata\n"
 extern "C" const char solidus_viewer_begin[];  // NOLINT
 extern "C" const char solidus_viewer_end[];    // NOLINT
 
-namespace solidus::report {
+namespace solidus::results {
 
 std::string_view viewer() {
   return {solidus_viewer_begin, static_cast<std::size_t>(solidus_viewer_end - solidus_viewer_begin)};
 }
 
-}  // namespace solidus::report
+}  // namespace solidus::results

@@ -3,8 +3,8 @@
 
 #include <string_view>
 
-namespace solidus::report {
+namespace solidus::results {
 
 std::string_view viewer();
 
-}  // namespace solidus::report
+}  // namespace solidus::results

@@ -13,7 +13,7 @@
 #include "system/errors.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model::test {
+namespace solidus::check::test {
 
 inline constexpr const char* k_casting = R"(title = "An aluminium block on a steel mould"
 [analysis]
@@ -92,7 +92,7 @@ class FindingsTest : public ::testing::Test {
     std::ofstream(folder_ / "case.toml") << text;
     logging::clear_warnings();
     try {
-      check_run(load_case(folder_ / "case.toml"));
+      run::check_run(setup::load_case(folder_ / "case.toml"));
     } catch (const InputError& error) {
       return {std::string("error: ") + error.what()};
     }
@@ -106,4 +106,4 @@ struct Slip {
   std::string what, with, said;
 };
 
-}  // namespace solidus::model::test
+}  // namespace solidus::check::test

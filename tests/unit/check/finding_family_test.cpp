@@ -11,7 +11,7 @@
 
 namespace {
 
-using namespace solidus::model;
+using namespace solidus::check;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;

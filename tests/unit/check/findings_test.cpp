@@ -10,15 +10,15 @@
 #include <utility>
 #include <vector>
 
-#include "case/case_materials.hpp"
+#include "cases/case_materials.hpp"
 #include "casting.hpp"
 #include "run/range_watch.hpp"
 
 namespace {
 
 using namespace solidus;
-using namespace solidus::model;
-using namespace solidus::model::test;
+using namespace solidus::check;
+using namespace solidus::check::test;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -85,10 +85,10 @@ TEST_F(FindingsTest, NormalPoursOfAllAlloysIntoAllMouldsGiveNone) {
     }
     // The properties of the solid count up to its solidus, those of heat in the melt too.
     said_of(changed(changed(deforming(), "aluminium_alsi7mg", alloy), "700 degC", temperature));
-    const CaseSpec spec = load_case(folder_ / "case.toml").spec;
+    const cases::CaseSpec spec = setup::load_case(folder_ / "case.toml").spec;
     const double hot = spec.bodies[0].initial_temperature.table.value(0);
     std::vector<std::string> said;
-    EXPECT_EQ(left_data(spec, 0, load_materials(spec)[0], 293.15, hot, said), "") << alloy;
+    EXPECT_EQ(run::left_data(spec, 0, cases::load_materials(spec)[0], 293.15, hot, said), "") << alloy;
   }
 }
 

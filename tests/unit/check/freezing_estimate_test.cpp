@@ -8,7 +8,7 @@
 namespace {
 
 using namespace solidus;
-using namespace solidus::model;
+using namespace solidus::check;
 
 constexpr double k_melting = 900, k_cold = 300;  // [K]
 

@@ -13,7 +13,7 @@
 namespace {
 
 using namespace solidus;
-using namespace solidus::model;
+using namespace solidus::check;
 using solidus::test::distribute_blocks;
 using solidus::test::raw_blocks;
 

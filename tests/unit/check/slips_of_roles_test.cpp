@@ -9,7 +9,7 @@
 
 namespace {
 
-using namespace solidus::model::test;
+using namespace solidus::check::test;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;

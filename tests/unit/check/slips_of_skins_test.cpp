@@ -8,7 +8,7 @@
 
 namespace {
 
-using namespace solidus::model::test;
+using namespace solidus::check::test;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;

@@ -49,14 +49,15 @@ TEST(DieChannels, AreBoresThatOpenToNoCavity) {
         mesh, {"body_1"},
         {.name = "top", .normal = mesh::Point{0, 0, 1}, .angle = 0.1, .plane = mesh::Point{0, 0, 30e-3}},
         file);
-    const std::vector<model::DieChannel> open = model::die_channels(mesh, "body_1", "free", {});
+    const std::vector<new_case::DieChannel> open = new_case::die_channels(mesh, "body_1", "free", {});
     ASSERT_EQ(open.size(), 2U) << size;  // the hollow is wider than it is deep
     EXPECT_NEAR(open[0].length, 40e-3, 0.01 * 40e-3) << size;
     EXPECT_NEAR(open[1].length, 20e-3, 0.01 * 20e-3) << size;
     EXPECT_NEAR(open[0].diameter, 8e-3, 1e-9) << size;
     EXPECT_NEAR(open[1].diameter, 6e-3, 1e-9) << size;
     // The hole in the top ends where another body is: one for a pin.
-    const std::vector<model::DieChannel> channels = model::die_channels(mesh, "body_1", "free", {"top"});
+    const std::vector<new_case::DieChannel> channels =
+        new_case::die_channels(mesh, "body_1", "free", {"top"});
     ASSERT_EQ(channels.size(), 1U) << size;
     EXPECT_EQ(channels[0], open[0]);
   }
@@ -68,19 +69,20 @@ TEST(DieChannels, OfAMeshWithoutItsDrawingHaveTheCrossSectionOfTheirFacets) {
   mesh::validate_and_orient(mesh, file);
   mesh.drawn_faces.clear();
   mesh::add_faces_by_rule(mesh, {"body_1"}, {.name = "free", .owner = "body_1"}, file);
-  const std::vector<model::DieChannel> open = model::die_channels(mesh, "body_1", "free", {});
+  const std::vector<new_case::DieChannel> open = new_case::die_channels(mesh, "body_1", "free", {});
   ASSERT_EQ(open.size(), 2U);
   EXPECT_NEAR(open[0].diameter, 8e-3, 0.02 * 8e-3);
 }
 
 TEST(DieChannels, HaveTheFilmOfTurbulentWater) {
   // Re = 12 500 at 10 mm, Nu = 0.023 · 12500^0.8 · 5.4^0.4 = 85.6.
-  EXPECT_NEAR(model::film_of_water(10e-3), 85.6 * 0.615 / 10e-3, 5);
-  EXPECT_NEAR(model::film_of_water(20e-3) / model::film_of_water(10e-3), 0.8706, 1e-3);  // 2^−0.2
+  EXPECT_NEAR(new_case::film_of_water(10e-3), 85.6 * 0.615 / 10e-3, 5);
+  EXPECT_NEAR(new_case::film_of_water(20e-3) / new_case::film_of_water(10e-3), 0.8706, 1e-3);  // 2^−0.2
   // In a narrow one as much faster as makes Re = 10 000.
-  EXPECT_DOUBLE_EQ(model::speed_of_water(8e-3), 1);
-  EXPECT_DOUBLE_EQ(model::speed_of_water(4e-3), 2);
-  EXPECT_NEAR(model::film_of_water(4e-3), 0.023 * std::pow(1e4, 0.8) * std::pow(5.4, 0.4) * 0.615 / 4e-3, 5);
+  EXPECT_DOUBLE_EQ(new_case::speed_of_water(8e-3), 1);
+  EXPECT_DOUBLE_EQ(new_case::speed_of_water(4e-3), 2);
+  EXPECT_NEAR(new_case::film_of_water(4e-3), 0.023 * std::pow(1e4, 0.8) * std::pow(5.4, 0.4) * 0.615 / 4e-3,
+              5);
 }
 
 TEST(DieChannels, AreAsWideAsChannelsAreMade) {
@@ -102,7 +104,7 @@ TEST(DieChannels, AreAsWideAsChannelsAreMade) {
   mesh::validate_and_orient(mesh, file);
   mesh::add_faces_by_rule(mesh, {"body_1"}, {.name = "free", .owner = "body_1"}, file);
   std::vector<double> widths;
-  for (const model::DieChannel& channel : model::die_channels(mesh, "body_1", "free", {}))
+  for (const new_case::DieChannel& channel : new_case::die_channels(mesh, "body_1", "free", {}))
     widths.push_back(1e3 * channel.diameter);
   std::ranges::sort(widths);
   ASSERT_EQ(widths.size(), 2U);

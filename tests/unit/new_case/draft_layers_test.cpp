@@ -5,24 +5,24 @@
 
 #include <cmath>
 
-#include "case/roles.hpp"
+#include "cases/roles.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 namespace {
 
 Draft draft() {
   Draft d;
-  const auto body = [&](const char* name, const char* group, const char* material, Role role) {
+  const auto body = [&](const char* name, const char* group, const char* material, cases::Role role) {
     DraftBody& b = d.bodies.emplace_back();
     b.name = name;
     b.group = group;
     b.material = material;
     b.role = role;
   };
-  body("casting", "body_1", "aluminium_alsi7mg", Role::casting);
-  body("riser", "riser", "aluminium_alsi7mg", Role::riser);
-  body("mould", "mould", "green_sand", Role::mould);
-  body("core", "core", "furan_sand", Role::core);
+  body("casting", "body_1", "aluminium_alsi7mg", cases::Role::casting);
+  body("riser", "riser", "aluminium_alsi7mg", cases::Role::riser);
+  body("mould", "mould", "green_sand", cases::Role::mould);
+  body("core", "core", "furan_sand", cases::Role::core);
   return d;
 }
 
@@ -74,17 +74,21 @@ TEST(DraftLayers, ThereAreNoneWithoutAnEstimateNorInDiesAndChills) {
   EXPECT_TRUE(
       choose_layers(draft(), {{"mould_to_casting", "mould", "casting", 0.02, 0.05}}, {{"casting", 0, 850}}, 1)
           .empty());
-  for (const Role role : {Role::mould, Role::core, Role::sleeve, Role::insulation})
-    EXPECT_TRUE(has_layers(role)) << name(role);
-  for (const Role role : {Role::casting, Role::riser, Role::chill, Role::die})
-    EXPECT_FALSE(has_layers(role)) << name(role);
+  for (const cases::Role role :
+       {cases::Role::mould, cases::Role::core, cases::Role::sleeve, cases::Role::insulation})
+    EXPECT_TRUE(has_layers(role)) << cases::name(role);
+  for (const cases::Role role :
+       {cases::Role::casting, cases::Role::riser, cases::Role::chill, cases::Role::die})
+    EXPECT_FALSE(has_layers(role)) << cases::name(role);
 }
 
 TEST(Roles, PouredAreCastingsAndRisers) {
-  for (const Role role : {Role::casting, Role::riser}) EXPECT_TRUE(is_poured(role)) << name(role);
-  for (const Role role : {Role::mould, Role::core, Role::chill, Role::sleeve, Role::die, Role::insulation})
-    EXPECT_FALSE(is_poured(role)) << name(role);
+  for (const cases::Role role : {cases::Role::casting, cases::Role::riser})
+    EXPECT_TRUE(cases::is_poured(role)) << cases::name(role);
+  for (const cases::Role role : {cases::Role::mould, cases::Role::core, cases::Role::chill,
+                                 cases::Role::sleeve, cases::Role::die, cases::Role::insulation})
+    EXPECT_FALSE(cases::is_poured(role)) << cases::name(role);
 }
 
 }  // namespace
-}  // namespace solidus::model
+}  // namespace solidus::new_case

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace solidus::model {
+namespace solidus::new_case {
 namespace {
 
 using ::testing::HasSubstr;
@@ -26,7 +26,7 @@ struct Report {
                      .group = "body_1",
                      .material = draft.alloy,
                      .comment = "",
-                     .role = Role::casting,
+                     .role = cases::Role::casting,
                      .start = 695}};
     draft.size = 6e-3;
     draft.smallest = 5e-3;
@@ -123,4 +123,4 @@ TEST(NewCaseReport, NotesPartsSoLargeThatTheirUnitIsInDoubt) {
 }
 
 }  // namespace
-}  // namespace solidus::model
+}  // namespace solidus::new_case

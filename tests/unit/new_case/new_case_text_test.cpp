@@ -2,12 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "case/case_keys.hpp"
-#include "case/stage_input.hpp"
+#include "cases/case_keys.hpp"
+#include "cases/stage_input.hpp"
 #include "new_case/new_case_text.hpp"
 #include "setup/body_input.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 namespace {
 
 using ::testing::ElementsAre;
@@ -23,19 +23,19 @@ Draft draft() {
                .group = "casting",
                .material = d.alloy,
                .comment = "",
-               .role = Role::casting,
+               .role = cases::Role::casting,
                .start = 690},
               {.name = "core",
                .group = "core",
                .material = "furan_sand",
                .comment = "",
-               .role = Role::core,
+               .role = cases::Role::core,
                .start = 80},
               {.name = "die",
                .group = "die",
                .material = "h13_tool_steel",
                .comment = "",
-               .role = Role::die,
+               .role = cases::Role::die,
                .start = 250}};
   d.size = 0.005;
   d.smallest = 0.003;
@@ -61,17 +61,17 @@ TEST(NewCaseText, OfShotsHasStagesACycleAndSpray) {
              .spray_film = 300,
              .spray_source = "a guess",
              .cooling = 0};
-  CaseSpec spec = case_keys().read(parse_document(case_text(d), "case.toml"));
-  resolve_stages(spec);
-  const std::vector<StageRun> runs = stage_runs(spec);
+  cases::CaseSpec spec = cases::case_keys().read(parse_document(case_text(d), "case.toml"));
+  cases::resolve_stages(spec);
+  const std::vector<cases::StageRun> runs = cases::stage_runs(spec);
   ASSERT_EQ(runs.size(), 42u);
   EXPECT_EQ(runs.back().shot, 7);
-  EXPECT_EQ(first_step(*runs[4].stage, spec.time), 0.25);  // no longer than its stage
-  EXPECT_THAT(staying_bodies(spec), ElementsAre(0, 0, 1));
-  EXPECT_THAT(new_bodies(spec, runs, 6), ElementsAre(1, 1, 0));
+  EXPECT_EQ(cases::first_step(*runs[4].stage, spec.time), 0.25);  // no longer than its stage
+  EXPECT_THAT(cases::staying_bodies(spec), ElementsAre(0, 0, 1));
+  EXPECT_THAT(setup::new_bodies(spec, runs, 6), ElementsAre(1, 1, 0));
   std::vector<std::string> names;
-  for (const ThermalConditionSpec& c : spec.thermal_conditions)
-    if (holds(c.stages, &runs[4])) names.push_back(c.name);
+  for (const cases::ThermalConditionSpec& c : spec.thermal_conditions)
+    if (cases::holds(c.stages, &runs[4])) names.push_back(c.name);
   EXPECT_THAT(names, ElementsAre("air_on_die", "spray_on_die_to_casting"));
 }
 
@@ -97,30 +97,30 @@ TEST(NewCaseText, OfOneCastingHasNoStages) {
   const std::string text = case_text(draft());
   EXPECT_THAT(text, HasSubstr("end = \"200 s\""));
   EXPECT_THAT(text, HasSubstr("until = \"solid\""));
-  const CaseSpec spec = case_keys().read(parse_document(text, "case.toml"));
+  const cases::CaseSpec spec = cases::case_keys().read(parse_document(text, "case.toml"));
   EXPECT_TRUE(spec.stages.empty());
   EXPECT_EQ(spec.thermal_conditions.size(), 1u);
 }
 
 TEST(NewCaseText, NamesTheWayOfMeshingWhereItHadToBeLookedFor) {
   Draft d = draft();
-  EXPECT_EQ(case_keys().read(parse_document(case_text(d), "case.toml")).mesh.way, 0);
+  EXPECT_EQ(cases::case_keys().read(parse_document(case_text(d), "case.toml")).mesh.way, 0);
   d.way = 5;
-  EXPECT_EQ(case_keys().read(parse_document(case_text(d), "case.toml")).mesh.way, 5);
+  EXPECT_EQ(cases::case_keys().read(parse_document(case_text(d), "case.toml")).mesh.way, 5);
 }
 
 TEST(NewCaseText, HasALayerSectionForEachWallAndSandThatGrowsSlowlyBehindThem) {
   Draft d = draft();
   d.layers = {{"core_on_casting", "core_to_casting", "core", 7, 1.2, 0.0015},
               {"core_on_riser", "core_to_riser", "core", 7, 1.2, 0.002}};
-  const CaseSpec spec = case_keys().read(parse_document(case_text(d), "case.toml"));
+  const cases::CaseSpec spec = cases::case_keys().read(parse_document(case_text(d), "case.toml"));
   ASSERT_EQ(spec.mesh.layers.size(), 2U);
   EXPECT_EQ(spec.mesh.layers[1].surface, "core_to_riser");
   EXPECT_EQ(spec.mesh.layers[1].body, "core");
   EXPECT_EQ(spec.mesh.layers[1].number, 7);
   EXPECT_EQ(spec.mesh.layers[1].growth, 1.2);
   EXPECT_NEAR(*spec.mesh.layers[1].first, 0.002, 1e-12);
-  for (const MeshSizeSpec& size : spec.mesh.sizes) {
+  for (const cases::MeshSizeSpec& size : spec.mesh.sizes) {
     if (size.body == "core") EXPECT_EQ(size.growth, 0.2);
     if (size.body == "die") EXPECT_EQ(size.growth, 0.6) << "without layers as before";
   }
@@ -129,10 +129,10 @@ TEST(NewCaseText, HasALayerSectionForEachWallAndSandThatGrowsSlowlyBehindThem) {
 TEST(NewCaseText, OfAMeshWithItsMouldAsksForNoElements) {
   Draft d = draft();
   d.meshed = true;
-  const CaseSpec spec = case_keys().read(parse_document(case_text(d), "case.toml"));
+  const cases::CaseSpec spec = cases::case_keys().read(parse_document(case_text(d), "case.toml"));
   EXPECT_TRUE(spec.mesh.sizes.empty());
   EXPECT_FALSE(spec.mesh.mould);
 }
 
 }  // namespace
-}  // namespace solidus::model
+}  // namespace solidus::new_case

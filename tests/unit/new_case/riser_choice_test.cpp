@@ -6,7 +6,7 @@
 
 #include "mesh/making/parametric_meshes.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 namespace {
 
 /// Bodies that are blocks in one mesh.
@@ -102,4 +102,4 @@ TEST(RiserChoice, PrefersAPlaceFromWhichMetalLeadsStraightUp) {
 }
 
 }  // namespace
-}  // namespace solidus::model
+}  // namespace solidus::new_case

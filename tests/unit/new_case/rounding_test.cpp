@@ -5,7 +5,7 @@
 
 #include "new_case/rounding.hpp"
 
-namespace solidus::model {
+namespace solidus::new_case {
 namespace {
 
 TEST(Rounding, APlaceThatIsRoundButForItsMeasuringIsRound) {
@@ -29,4 +29,4 @@ TEST(Rounding, AHotSpotOnThePlaneOfSymmetryStandsThereWithoutTheNoiseOfItsSearch
   EXPECT_DOUBLE_EQ(to_micrometre(0.1378168), 0.137817);
 }
 
-}  // namespace solidus::model
+}  // namespace solidus::new_case

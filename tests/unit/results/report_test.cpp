@@ -25,7 +25,7 @@
 #include "system/processes.hpp"
 #include "vtu_reader.hpp"
 
-namespace solidus::report {
+namespace solidus::results {
 namespace {
 
 namespace fs = std::filesystem;
@@ -350,4 +350,4 @@ TEST(RunFolder, TakesAwayTheReportOfTheRunBefore) {
 }
 
 }  // namespace
-}  // namespace solidus::report
+}  // namespace solidus::results

@@ -4,13 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../case/small_case.hpp"
+#include "../cases/small_case.hpp"
 #include "check/coupling_estimate.hpp"
 #include "coupling/state.hpp"
 #include "run/audit_watch.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 namespace {
 
 using test::bar_case;
@@ -90,24 +90,24 @@ std::vector<std::string> warned(const std::function<void()>& action) {
 }
 
 TEST(StabilityWatch, WarnsOnceWhenTheFunctionalGrowsBeyondResiduals) {
-  const CaseSpec spec = bar_case("[coupling]\nscheme = \"isothermal\"\n");
+  const cases::CaseSpec spec = bar_case("[coupling]\nscheme = \"isothermal\"\n");
   coupling::StepRecord step;
   step.number = 7;
   step.time = 7;
   step.stability = {.mechanical = 3, .thermal = -2, .tolerance = 0.5};
   const auto warnings = warned([&] {
-    StabilityWatch watch(spec);
+    run::StabilityWatch watch(spec);
     watch.step(step, {});
     watch.step(step, {});
   });
   EXPECT_THAT(warnings, ElementsAre(AllOf(HasSubstr("t = 7 s, step 7"), HasSubstr("grew by 1 J"),
                                           HasSubstr("isentropic"))));
   step.stability.tolerance = 2;
-  EXPECT_THAT(warned([&] { StabilityWatch(spec).step(step, {}); }), IsEmpty());
+  EXPECT_THAT(warned([&] { run::StabilityWatch(spec).step(step, {}); }), IsEmpty());
 }
 
 TEST(StabilityWatch, IsSilentWhereSomethingFeedsTheBody) {
-  const CaseSpec spec = bar_case(R"([[thermal_condition]]
+  const cases::CaseSpec spec = bar_case(R"([[thermal_condition]]
 name = "oven"
 group = "bar"
 kind = "source"
@@ -115,7 +115,7 @@ power = "1 W/m3"
 )");
   coupling::StepRecord step;
   step.stability.thermal = 10;
-  EXPECT_THAT(warned([&] { StabilityWatch(spec).step(step, {}); }), IsEmpty());
+  EXPECT_THAT(warned([&] { run::StabilityWatch(spec).step(step, {}); }), IsEmpty());
 }
 
 TEST(FirstLawWatch, WarnsWhereMoreIsLostThanResidualsExplain) {
@@ -123,14 +123,15 @@ TEST(FirstLawWatch, WarnsWhereMoreIsLostThanResidualsExplain) {
   step.energy.stored_heat = 100.5;
   step.energy.heat_in = 100;
   step.energy.heat_exchanged = 100;
-  const auto run = [&](const CaseSpec& spec) {
+  const auto run = [&](const cases::CaseSpec& spec) {
     return warned([&] {
-      FirstLawWatch watch(spec);
+      run::FirstLawWatch watch(spec);
       watch.step(step, {});
       watch.end({});
     });
   };
-  const CaseSpec energy = bar_case(), entropy = bar_case("[coupling]\nstructural_heating = \"entropy\"\n");
+  const cases::CaseSpec energy = bar_case(),
+                        entropy = bar_case("[coupling]\nstructural_heating = \"entropy\"\n");
   EXPECT_THAT(run(energy), ElementsAre(HasSubstr("violated by 0.005 of the heat exchanged, 0.5 J")));
   EXPECT_THAT(run(entropy), ElementsAre(HasSubstr("structural_heating = \"energy\"")));
   step.energy.unbalanced = 0.6;  // Newton's criterion of the mechanical phase
@@ -141,29 +142,29 @@ TEST(FirstLawWatch, WarnsWhereMoreIsLostThanResidualsExplain) {
 }
 
 TEST(IsothermalPasses, AreAnnouncedByTheirCouplingNumber) {
-  CouplingEstimate e;
+  check::CouplingEstimate e;
   e.body = "wall";
   e.initial = e.worst = 593;
   e.plane = true;
   e.at_initial = e.at_worst = {.uniaxial = 0.04, .plane = 0.056, .bound = 0.065};
-  const CaseSpec isothermal = bar_case("[coupling]\nscheme = \"isothermal\"\n");
-  EXPECT_THAT(warned([&] { announce_isothermal(isothermal, {e}); }), IsEmpty());
-  EXPECT_THAT(text(e), HasSubstr("stable: 2 (1 - nu) delta = 0.0560"));
+  const cases::CaseSpec isothermal = bar_case("[coupling]\nscheme = \"isothermal\"\n");
+  EXPECT_THAT(warned([&] { check::announce_isothermal(isothermal, {e}); }), IsEmpty());
+  EXPECT_THAT(check::text(e), HasSubstr("stable: 2 (1 - nu) delta = 0.0560"));
   e.at_worst = {.uniaxial = 1.44, .plane = 2.02, .bound = 2.33};
-  EXPECT_THAT(warned([&] { announce_isothermal(isothermal, {e}); }),
+  EXPECT_THAT(warned([&] { check::announce_isothermal(isothermal, {e}); }),
               ElementsAre(AllOf(HasSubstr("unstable"), HasSubstr("scheme = \"isentropic\""))));
-  EXPECT_THAT(warned([&] { announce_isothermal(bar_case(), {e}); }), IsEmpty());
+  EXPECT_THAT(warned([&] { check::announce_isothermal(bar_case(), {e}); }), IsEmpty());
 }
 
 TEST(IsothermalPasses, WithInertiaAreWarnedOfHoweverWeakTheCouplingUnlessBackwardEulerDamps) {
-  CouplingEstimate e;
+  check::CouplingEstimate e;
   e.at_initial = e.at_worst = {.uniaxial = 0.04, .plane = 0.056, .bound = 0.065};
   const std::string inertia = "[coupling]\nscheme = \"isothermal\"\n[dynamics]\nmethod = ";
-  EXPECT_THAT(warned([&] { announce_isothermal(bar_case(inertia + "\"trapezoidal\"\n"), {e}); }),
+  EXPECT_THAT(warned([&] { check::announce_isothermal(bar_case(inertia + "\"trapezoidal\"\n"), {e}); }),
               ElementsAre(HasSubstr("by newmark")));  // the trapezoidal rule is one of Newmark's methods
-  EXPECT_THAT(warned([&] { announce_isothermal(bar_case(inertia + "\"backward_euler\"\n"), {e}); }),
+  EXPECT_THAT(warned([&] { check::announce_isothermal(bar_case(inertia + "\"backward_euler\"\n"), {e}); }),
               IsEmpty());
 }
 
 }  // namespace
-}  // namespace solidus::model
+}  // namespace solidus::setup

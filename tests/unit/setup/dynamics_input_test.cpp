@@ -9,7 +9,7 @@
 
 #include "setup/case_file.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 namespace {
 
 namespace fs = std::filesystem;
@@ -44,7 +44,7 @@ class Dynamics : public ::testing::Test {
               (std::string("solidus_dynamics_") +
                ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml")) {}
   ~Dynamics() override { fs::remove(file_); }
-  CaseSpec read(const std::string& more) {
+  cases::CaseSpec read(const std::string& more) {
     std::ofstream(file_) << k_bar << more;
     return load_case(file_, {}).spec;
   }
@@ -101,4 +101,4 @@ TEST_F(Dynamics, RefusesWhatDoesNotFitTogether) {
 }
 
 }  // namespace
-}  // namespace solidus::model
+}  // namespace solidus::setup

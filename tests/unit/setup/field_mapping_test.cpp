@@ -21,7 +21,7 @@
 #include "setup/initial_temperature.hpp"
 #include "system/log.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 namespace {
 
 using mesh::Shape;
@@ -51,7 +51,7 @@ class FieldMapping : public ::testing::Test {
   void SetUp() override { fs::create_directories(folder_); }
 
   /// A case whose bar starts with the field of the file.
-  CaseSpec spec(AnalysisKind kind, const std::string& more = {}) const {
+  cases::CaseSpec spec(AnalysisKind kind, const std::string& more = {}) const {
     const std::string name = kind == AnalysisKind::axisymmetric ? "axisymmetric" : "plane_strain";
     std::ofstream(folder_ / "case.toml") << "title = \"A bar\"\n[analysis]\nkind = \"" << name << R"("
 physics = "heat"
@@ -280,7 +280,7 @@ TEST_F(FieldMapping, CellsOfOpenFoamKeepTheirEnthalpy) {
   std::vector<double> temperature;
   for (const mesh::Point& x : box.centres()) temperature.push_back(wavy(x));
   FoamBox::write_field(folder_ / "filling/0.5/T", temperature);
-  CaseSpec with = spec(AnalysisKind::plane_strain);  // for its keys
+  cases::CaseSpec with = spec(AnalysisKind::plane_strain);  // for its keys
   with.analysis.kind = AnalysisKind::solid;
   auto place = std::make_shared<PlaceSpec>(*with.bodies[0].initial_temperature.place);
   place->file = (folder_ / "filling/0.5").string();
@@ -344,4 +344,4 @@ TEST_F(FieldMapping, FoldersThatCannotBeReadAreNamed) {
 }
 
 }  // namespace
-}  // namespace solidus::model
+}  // namespace solidus::setup

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "case/case_keys.hpp"
+#include "cases/case_keys.hpp"
 #include "coupling/simulation.hpp"
 #include "setup/case_file.hpp"
 #include "setup/contact_input.hpp"
@@ -13,7 +13,7 @@
 #include "setup/run_input.hpp"
 #include "setup/time_input.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 namespace {
 
 using ::testing::HasSubstr;
@@ -46,8 +46,8 @@ material = "b"
 initial_temperature = "200 degC"
 )";
 
-CaseSpec read(const std::string& more = "") {
-  const CaseSpec spec = case_keys().read(parse_document(k_mould + more, "case.toml"));
+cases::CaseSpec read(const std::string& more = "") {
+  const cases::CaseSpec spec = cases::case_keys().read(parse_document(k_mould + more, "case.toml"));
   check_case(spec);
   return spec;
 }
@@ -63,7 +63,7 @@ std::string error(const std::function<void()>& action) {
 
 TEST(ModelInput, GravityPointsDownTheAxisUnlessSaidOtherwise) {
   EXPECT_DOUBLE_EQ(gravity(read().analysis)[1], -9.81);
-  AnalysisSpec solid;
+  cases::AnalysisSpec solid;
   solid.kind = AnalysisKind::solid;
   solid.gravity = 2;
   EXPECT_DOUBLE_EQ(gravity(solid)[2], -2);
@@ -73,7 +73,7 @@ TEST(ModelInput, GravityPointsDownTheAxisUnlessSaidOtherwise) {
 }
 
 TEST(ModelInput, InAxisymmetryTheAxialDisplacementIsTheSecondComponent) {
-  const CaseSpec spec = read(
+  const cases::CaseSpec spec = read(
       "[[mechanical_condition]]\nname = \"a\"\ngroup = \"mould_bottom\"\nkind = \"displacement\"\nuz = \"1 "
       "mm\"\n"
       "[[mechanical_condition]]\nname = \"b\"\ngroup = \"mould_outside\"\nkind = \"displacement\"\nur = \"2 "
@@ -148,8 +148,8 @@ TEST(ModelInput, TheSplitChoosesWhatTheMechanicalPhaseHolds) {
   EXPECT_EQ(mechanics_options(read("[coupling]\nscheme = \"isothermal\"\n")).mapping, Mapping::isothermal);
   const std::string isentropic = "[coupling]\nscheme = \"isentropic\"\n";
   EXPECT_EQ(mechanics_options(read(isentropic)).mapping, Mapping::isentropic);
-  CaseSpec alone = read(isentropic);
-  alone.analysis.physics = Physics::mechanics;
+  cases::CaseSpec alone = read(isentropic);
+  alone.analysis.physics = cases::Physics::mechanics;
   EXPECT_EQ(mechanics_options(alone).mapping, Mapping::isothermal);
   EXPECT_EQ(mechanics_options(read(isentropic + "structural_heating = \"none\"\n")).mapping,
             Mapping::isothermal);
@@ -219,4 +219,4 @@ TEST(ModelInput, GroupsOfTheWrongDimensionAreRefused) {
 }
 
 }  // namespace
-}  // namespace solidus::model
+}  // namespace solidus::setup

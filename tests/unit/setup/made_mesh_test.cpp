@@ -10,7 +10,7 @@
 
 #include "mesh/making/parametric_meshes.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 namespace {
 
 TEST(MadeMesh, ArrivesAsItWasSent) {
@@ -46,4 +46,4 @@ TEST(MadeMesh, ArrivesAsItWasSent) {
 }
 
 }  // namespace
-}  // namespace solidus::model
+}  // namespace solidus::setup

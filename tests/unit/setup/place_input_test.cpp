@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "../case/small_case.hpp"
+#include "../cases/small_case.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 namespace {
 
 using ::testing::AllOf;
@@ -28,9 +28,10 @@ coefficient = )" + coefficient)
 }
 
 double value(const std::string& coefficient, const Position& x, double time,
-             AnalysisKind kind = AnalysisKind::plane_strain, const StageRun* stage = nullptr) {
+             AnalysisKind kind = AnalysisKind::plane_strain, const cases::StageRun* stage = nullptr) {
   double result = 0;
-  place_function(film(coefficient), stage == nullptr ? TimeOrigin::run : TimeOrigin::stage, stage, kind)
+  place_function(film(coefficient), stage == nullptr ? cases::TimeOrigin::run : cases::TimeOrigin::stage,
+                 stage, kind)
       .values(std::span(&x, 1), time, std::span(&result, 1));
   return result;
 }
@@ -58,9 +59,9 @@ TEST(PlaceInput, APlaceThatMovesIsSeenFromWhereItStarted) {
 }
 
 TEST(PlaceInput, TimeIsThatOfTheStageAndHeldAtItsEnd) {
-  StageSpec stage;
+  cases::StageSpec stage;
   stage.duration = 4;
-  const StageRun run{&stage, 1, 0, 10, 14};
+  const cases::StageRun run{&stage, 1, 0, 10, 14};
   EXPECT_EQ(value(R"({ formula = "t" })", {}, 11, AnalysisKind::plane_strain, &run), 1);
   EXPECT_EQ(value(R"({ formula = "t" })", {}, 14.5, AnalysisKind::plane_strain, &run), 4);
 }
@@ -97,10 +98,10 @@ TEST(PlaceInput, PointsOfAFileOutsideOfWhichIsTheNearestOrAnError) {
 }
 
 TEST(PlaceInput, AnInitialTemperatureHasAPlaceButNoTime) {
-  CaseSpec spec = test::bar_case();
+  cases::CaseSpec spec = test::bar_case();
   EXPECT_EQ(spec.bodies[0].initial_temperature.table.value(0), 600);
   EXPECT_EQ(spec.bodies[0].initial_temperature.place, nullptr);
 }
 
 }  // namespace
-}  // namespace solidus::model
+}  // namespace solidus::setup

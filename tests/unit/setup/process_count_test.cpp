@@ -3,32 +3,32 @@
 
 #include <gtest/gtest.h>
 
-#include "case/case_keys.hpp"
+#include "cases/case_keys.hpp"
 #include "setup/mesh_input.hpp"
 
-namespace solidus::model {
+namespace solidus::setup {
 namespace {
 
 TEST(ProcessCount, SmallCasesStayOnOneProcessAndLargeOnesTakeMore) {
-  const RunWork small{500, 500, false, 100}, large{227000, 227000, true, 50};
-  EXPECT_EQ(processes_that_pay(small, 64), 1);
-  EXPECT_EQ(processes_that_pay(large, 1), 1);
-  EXPECT_EQ(processes_that_pay(large, 2), 2);
-  const int of_many = processes_that_pay(large, 256);
+  const run::RunWork small{500, 500, false, 100}, large{227000, 227000, true, 50};
+  EXPECT_EQ(run::processes_that_pay(small, 64), 1);
+  EXPECT_EQ(run::processes_that_pay(large, 1), 1);
+  EXPECT_EQ(run::processes_that_pay(large, 2), 2);
+  const int of_many = run::processes_that_pay(large, 256);
   EXPECT_GT(of_many, 8);
   EXPECT_LT(of_many, 256) << "messages cost more than the last of them save";
-  EXPECT_LT(expected_seconds(large, of_many), expected_seconds(large, of_many / 2));
+  EXPECT_LT(run::expected_seconds(large, of_many), run::expected_seconds(large, of_many / 2));
 }
 
 TEST(ProcessCount, FewNodesOrFewStepsPayForNoFurtherProcess) {
-  EXPECT_EQ(processes_that_pay({20000, 0, true, 40}, 2), 1) << "a step of heat is short";
-  EXPECT_EQ(processes_that_pay({20000, 20000, true, 40}, 2), 2);
-  EXPECT_EQ(processes_that_pay({20000, 20000, true, 1}, 2), 1) << "as long as starting them";
-  EXPECT_EQ(processes_that_pay({10000, 10000, false, 400}, 2), 1) << "factors in a plane are small";
+  EXPECT_EQ(run::processes_that_pay({20000, 0, true, 40}, 2), 1) << "a step of heat is short";
+  EXPECT_EQ(run::processes_that_pay({20000, 20000, true, 40}, 2), 2);
+  EXPECT_EQ(run::processes_that_pay({20000, 20000, true, 1}, 2), 1) << "as long as starting them";
+  EXPECT_EQ(run::processes_that_pay({10000, 10000, false, 400}, 2), 1) << "factors in a plane are small";
 }
 
 TEST(ProcessCount, BodiesThatOnlyConductCountForHeatAlone) {
-  const CaseSpec spec = case_keys().read(parse_document(R"(title = "Two blocks"
+  const cases::CaseSpec spec = cases::case_keys().read(parse_document(R"(title = "Two blocks"
 [analysis]
 kind = "plane_strain"
 [mesh]
@@ -52,8 +52,8 @@ material = "b"
 physics = "heat"
 initial_temperature = "20 degC"
 )",
-                                                        "case.toml"));
-  const RunWork work = run_work(spec, raw_mesh(spec));
+                                                                      "case.toml"));
+  const run::RunWork work = run::run_work(spec, raw_mesh(spec));
   EXPECT_EQ(work.heat_nodes, 9 + 25);
   EXPECT_EQ(work.mechanics_nodes, 9);
   EXPECT_FALSE(work.solid);
@@ -61,4 +61,4 @@ initial_temperature = "20 degC"
 }
 
 }  // namespace
-}  // namespace solidus::model
+}  // namespace solidus::setup

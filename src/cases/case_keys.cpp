@@ -1,0 +1,124 @@
+/// The sections of a case file in the order of the manual; each room of keys declares its own.
+#include "cases/case_keys.hpp"
+
+namespace solidus::cases {
+
+/// Keys of [analysis]: which fields are solved for, in how many dimensions, and gravity.
+Section<AnalysisSpec> analysis_keys() {
+  Section<AnalysisSpec> s("analysis", "What is computed.");
+  s.choice("kind", &AnalysisSpec::kind,
+           {{"plane_strain", AnalysisKind::plane_strain, "x, y in the plane, one metre thick"},
+            {"axisymmetric", AnalysisKind::axisymmetric, "x is the radius, y the axis of revolution"},
+            {"solid", AnalysisKind::solid, "three-dimensional"}})
+      .doc("What the coordinates of the mesh mean.");
+  s.choice("physics", &AnalysisSpec::physics,
+           {{"heat", Physics::heat, "temperature only"},
+            {"mechanics", Physics::mechanics, "displacement only, at the initial temperature"},
+            {"thermomechanical", Physics::thermomechanical, "both, coupled"}})
+      .initially("thermomechanical")
+      .doc("The fields that are solved for.");
+  s.quantity("gravity", &AnalysisSpec::gravity, "m/s2")
+      .initially("0 m/s2")
+      .at_least(0)
+      .doc("Magnitude of gravity.");
+  s.key("gravity_direction", &AnalysisSpec::gravity_direction)
+      .initially(Value::list())
+      .doc("Direction of gravity, of any length; empty: down the last axis (-y, in a solid -z).");
+  s.place(&AnalysisSpec::where);
+  return s;
+}
+
+/// Keys of [[body]]: what it is made of and starts from, its role, what physics it takes part in, and up to
+/// which stage it is there.
+Section<BodySpec> body_keys() {
+  Section<BodySpec> s("body", "A body: a named group of the mesh, its material and initial temperature.");
+  s.key("name", &BodySpec::name).doc("A name of your choice; messages and results use it.");
+  s.key("group", &BodySpec::group)
+      .doc("Group of the mesh that holds its elements; without it the group called `name`.");
+  s.key("material", &BodySpec::material)
+      .doc("Name in the material library (`solidus materials`), or a material file (relative to this file).");
+  s.function("initial_temperature", &BodySpec::initial_temperature, "K")
+      .anywhere(Key::Place::position)
+      .positive()
+      .doc("At the start; the body is free of thermal strain there.");
+  s.choice("role", &BodySpec::role,
+           {{"automatic", std::nullopt, "a casting where the material can melt, else what its name says"},
+            {"casting", Role::casting, "what is poured"},
+            {"riser", Role::riser, "metal that feeds the casting"},
+            {"gating", Role::gating, "sprue, runners and gates: poured with the casting and cut off"},
+            {"mould", Role::mould, "what is broken off or shaken out"},
+            {"core", Role::core, "a mould inside the casting"},
+            {"chill", Role::chill, "a piece that draws heat, whatever it is made of"},
+            {"sleeve", Role::sleeve, "keeps a riser warm"},
+            {"die", Role::die, "a mould that is used again"},
+            {"insulation", Role::insulation, "a layer or board that holds heat back"}})
+      .initially("automatic")
+      .doc(
+          "What the body is to the foundry. Solid fraction, criteria and summary are those of castings and "
+          "risers.");
+  s.choice("physics", &BodySpec::physics,
+           {{"automatic", BodySpec::ActivePhysics::automatic,
+             "heat where the body is no casting and its material has no elastic properties, else all"},
+            {"all", BodySpec::ActivePhysics::all, "those of the analysis"},
+            {"heat", BodySpec::ActivePhysics::heat,
+             "in a thermomechanical analysis it conducts heat and stands still"}})
+      .initially("automatic")
+      .doc(
+          "What the body takes part in. One that only conducts heat (a sand mould) costs no mechanics: nodes "
+          "that it shares with others move with them, and in contact it is a rigid wall.");
+  s.key("stages", &BodySpec::stages)
+      .or_one()
+      .initially(Value::list())
+      .doc(
+          "The stages up to which the body is there, from the first one on; empty: all. It does not come "
+          "back.");
+  s.quantity("initial_velocity", &BodySpec::initial_velocity, "m/s")
+      .initially(Value::list())
+      .doc(
+          "One component a direction, with [dynamics] only; empty: at rest. Prescribed displacements go "
+          "first.");
+  s.place(&BodySpec::where);
+  return s;
+}
+
+/// All sections of a case, in the order of the reference. The declaration is made once, and is what parsing,
+/// checks, the schema and the manual are derived from.
+const Section<CaseSpec>& case_keys() {
+  static const Section<CaseSpec> declaration = [] {
+    Section<CaseSpec> s("", "A case of Solidus.");
+    s.key("title", &CaseSpec::title).doc("What the case is about, one line.");
+    s.key("include", &CaseSpec::include)
+        .or_one()
+        .initially(Value::list())
+        .doc(
+            "The case file, or files, that this one starts from: each is laid over those before it, what "
+            "stands here over them all.");
+    s.section("analysis", &CaseSpec::analysis, analysis_keys());
+    s.section("mesh", &CaseSpec::mesh, mesh_keys());
+    s.section("time", &CaseSpec::time, time_keys());
+    s.sections("stage", &CaseSpec::stages, stage_keys());
+    s.sections("cycle", &CaseSpec::cycles, cycle_keys());
+    s.sections("body", &CaseSpec::bodies, body_keys());
+    s.sections("thermal_condition", &CaseSpec::thermal_conditions, thermal_condition_keys());
+    s.sections("mechanical_condition", &CaseSpec::mechanical_conditions, mechanical_condition_keys());
+    s.sections("contact", &CaseSpec::contacts, contact_keys());
+    s.sections("interface", &CaseSpec::interfaces, body_interface_keys());
+    s.sections("rigid_surface", &CaseSpec::rigid_surfaces, rigid_surface_keys());
+    s.section("heat", &CaseSpec::heat, heat_keys());
+    s.section("mechanics", &CaseSpec::mechanics, mechanics_keys());
+    s.section("dynamics", &CaseSpec::dynamics, dynamics_keys());
+    s.section("coupling", &CaseSpec::coupling, coupling_keys());
+    s.sections("probe", &CaseSpec::probes, probe_keys());
+    s.sections("profile", &CaseSpec::profiles, profile_keys());
+    s.section("criteria", &CaseSpec::criteria, criteria_keys());
+    s.section("feeding", &CaseSpec::feeding, feeding_keys());
+    s.section("gas", &CaseSpec::gas, gas_keys());
+    s.section("output", &CaseSpec::output, output_keys());
+    s.section("vary", &CaseSpec::vary, vary_keys());
+    s.section("spread", &CaseSpec::spread, spread_keys_of_case());
+    return s;
+  }();
+  return declaration;
+}
+
+}  // namespace solidus::cases

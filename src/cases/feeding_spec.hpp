@@ -1,0 +1,27 @@
+/// [feeding] and [gas] of a case.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "input/document.hpp"
+
+namespace solidus::cases {
+
+/// Feeding with heat alone (criteria/feeding.hpp).
+struct FeedingSpec {
+  bool follow = true;
+  std::vector<std::string> vented, covered;  ///< groups of the mesh
+  std::optional<double> mould_rigidity;      ///< absent: that of the moulds' cards
+  SourceLocation where;
+};
+
+/// Gas in the melt (criteria/gas_pores.hpp).
+struct GasSpec {
+  bool follow = true;
+  std::optional<double> content;  ///< of all melts with gas on their card [m³/kg]; absent: that of the cards
+  double ambient_pressure = 0;    ///< [Pa]
+};
+
+}  // namespace solidus::cases
