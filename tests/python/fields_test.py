@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 NAMES = [row["name"] for row in json.loads((ROOT / "python/solidus_plots/fields.json").read_text(encoding="utf-8"))["fields"]]
 # Where the same words stand for something else than a field.
 OTHERS = {
-    "case/": "keys of a case", "material/": "keys and columns of material cards", "input/": "arguments of tables",
+    "cases/": "keys of a case", "material/": "keys and columns of material cards", "input/": "arguments of tables",
     "point/": "columns of the tables of a material point", "python/": "members of Python's dictionaries",
     "results/tables/step_columns.cpp": "columns of history.csv", "results/tables/pool_table.cpp": "columns of pools.csv",
     "results/checkpoint/checkpoint": "arrays of a checkpoint", "results/answers/answers_json.cpp": "members of summary.json",
