@@ -1,4 +1,4 @@
-/// Large sliding: nanoseconds per slave point for finding all partners anew after a step, with and without
+/// Large sliding: nanoseconds per slave point for finding all partners again after a step, with and without
 /// averaged normals, how that grows with the number of points, and for the rates of a point.
 ///
 ///   OMP_NUM_THREADS=1 ./contact_bench

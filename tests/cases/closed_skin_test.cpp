@@ -1,4 +1,4 @@
-// A melt that nobody gives a viscosity, poured into a mould: it stays on its wall as long as it is not
+// A melt that no one gives a viscosity, poured into a mould: it stays on its wall as long as it is not
 // coherent, carries rho g h and conducts its heat away, in the plane and in space, over a range and with an
 // eutectic.
 #include <gtest/gtest.h>

@@ -159,7 +159,7 @@ coefficient = 0.2
 TEST(ChilledMelt, GetsNoHotterWhereItRubsOnItsMould) {
   const auto run = k_here.run("chilled", k_chilled);
   ASSERT_TRUE(run.finished) << run.reason;
-  // Poured at 1550 °C; 1736 °C before. Limits of conduction are found anew five times a step, which leaves
+  // Poured at 1550 °C; 1736 °C before. Limits of conduction are found again five times a step, which leaves
   // 1.04 K of a chill of 1350 K (1.04 K without structural heat too, 0.07 K by the splits); the run says so.
   EXPECT_LT(*std::ranges::max_element(run.history.at("T_max[degC]")), 1551.2);
 }

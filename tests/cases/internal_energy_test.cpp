@@ -153,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {}}),
     [](const auto& of) { return of.param.name; });
 
-// The energy at fixed strain is evaluated anew where a modulus bends: no function of the fields.
+// The energy at fixed strain is evaluated again where a modulus bends: no function of the fields.
 TEST(InternalEnergy, HasNoColumnAtConstantStrainWhereAModulusFollowsTheTemperature) {
   const CaseFolder folder("internal_energy_none");
   folder.write("steel.toml",

@@ -1,5 +1,5 @@
 /// kill -9 at random moments, also while a checkpoint or a table is written: what is left must go on, and its
-/// results must be those of a run that nobody disturbed, byte for byte.
+/// results must be those of a run that no one disturbed, byte for byte.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <spawn.h>
@@ -114,7 +114,7 @@ class Kill : public ::testing::Test {
     if (restart) arguments.emplace_back("--restart");
     return {arguments, root() / (folder + ".log")};
   }
-  /// The run that nobody disturbs; returns how long it took.
+  /// The run that no one disturbs; returns how long it took.
   Seconds run_whole() const {
     const auto begin = std::chrono::steady_clock::now();
     EXPECT_EQ(start("whole", false).wait(), 0) << text(root() / "whole.log");
@@ -134,7 +134,7 @@ class Kill : public ::testing::Test {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }
-  /// Goes on from what is there, or begins anew where there is no checkpoint yet.
+  /// Goes on from what is there, or begins again where there is no checkpoint yet.
   void finish(const std::string& folder) const {
     const bool restart = has_checkpoint(folder);
     const int code = start(folder, restart).wait();
@@ -227,7 +227,7 @@ TEST_F(Kill, BetweenTheRenamesOfACheckpointGoesOnFromTheOneBefore) {
   expect_as_whole("between");
 }
 
-// A run that begins anew in a used folder and dies at once must not leave checkpoints of the old one.
+// A run that begins again in a used folder and dies at once must not leave checkpoints of the old one.
 TEST_F(Kill, OfARunThatBeginsAnewLeavesNoCheckpointOfTheOldOne) {
   const Seconds length = run_whole();
   fs::copy(root() / "whole", root() / "again", fs::copy_options::recursive);

@@ -65,7 +65,7 @@ TEST_F(ForeignReader, ThatIsMissingOrCannotBeStartedIsNamed) {
 }
 
 // The restriction by the system is what holds, whatever a script says (SECURITY.md): it is there while a mesh
-// is handed back, for a script that is not trusted. A pipe that nobody empties keeps the reader alive.
+// is handed back, for a script that is not trusted. A pipe that no one empties keeps the reader alive.
 TEST_F(ForeignReader, IsRestrictedByTheSystemUnlessTheScriptIsTrusted) {
   write("part.geo", std::string(k_square) + "Mesh.MeshSizeMax = 0.2;\n");
   script("exec 5< <(exec '" SOLIDUS_BINARY_DIR

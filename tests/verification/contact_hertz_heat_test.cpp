@@ -196,7 +196,7 @@ TEST(HertzHeat, ThroughAConductanceThatGrowsWithPressureIsThatOfTheForce) {
   }
 }
 
-// Whether points at the edge of the contact are open or closed is decided in every step anew.
+// Whether points at the edge of the contact are open or closed is decided in every step again.
 TEST(HertzHeat, StandsStillWhenTheBodiesHaveWarmed) {
   auto out = verification::table("contact_hertz_heat_in_time", "law,spread[steady],off[steady]");
   const std::string heat =

@@ -139,7 +139,7 @@ Errors errors(const CaseRun& run) {
 }
 
 // Once errors of a layer whose steps and elements were halved grew with order −0.5, since a step was taken as
-// converged when it was small beside all that the layer carries.
+// converged when it was small against all that the layer carries.
 TEST(CouplingDefaults, ACoupledLayerNearsItsSeriesWhenStepsAndElementsAreHalved) {
   auto out = verification::table("coupling_defaults_layer", "quads,T[rise],u[largest],pressure[beta rise]");
   const CaseFolder folder("coupling_defaults_layer");

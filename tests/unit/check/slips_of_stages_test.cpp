@@ -50,7 +50,7 @@ TEST_F(StagesTest, AFreeSkinThatIsHeldIsNamed) {
 }
 
 TEST_F(StagesTest, AMeltThatIsOpenBelowIsNamed) {
-  // Held from the sides, as by friction, so that nothing is said of its falling.
+  // Held from the sides, as by friction, so that there is no message of its falling.
   const std::string sides = deforming() + R"(
 [[mechanical_condition]]
 name = "wall"

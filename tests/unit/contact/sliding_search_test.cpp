@@ -187,7 +187,7 @@ TEST(SlidingKinematics, AsksForANewGraphOnlyWhenNodesMeetThatAreNotInIt) {
   const mesh::Mesh mesh = test::distribute_blocks(test::raw_blocks(blocks, mesh::Shape::quad4));
   for (bool smoothing : {false, true}) {
     const Sliding sliding(mesh, smoothing);
-    // Each process asks for its own rows: matrices are made anew when one does (linear::graph_outdated).
+    // Each process asks for its own rows: matrices are made again when one does (linear::graph_outdated).
     const auto outdated = [&] { return parallel::any_process(sliding->graph_outdated()); };
     EXPECT_TRUE(outdated());
     Cliques cliques;

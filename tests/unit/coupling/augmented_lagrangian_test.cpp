@@ -166,7 +166,7 @@ TEST(AugmentedLagrangian, EndsAfterSixtyTurnsWhereShorterStepsHaveFailedAndSaysS
   EXPECT_GT(run.pair.left_penetration(), 0);
   ASSERT_EQ(logging::warnings().size(), 1);
   EXPECT_THAT(logging::warnings()[0], ::testing::HasSubstr("end at their last equilibrium"));
-  // A further pass of the step does not raise them again, and the next step begins anew.
+  // A further pass of the step does not raise them again, and the next step begins again.
   const std::vector<contact::ContactState> now{run.pair.state()};
   coupling::begin_contacts(run.phases, run.state.contacts, blocks.old, blocks.pass, {}, now, true);
   run.pair.update(blocks.next.displacement);
@@ -236,7 +236,7 @@ TEST(AugmentedLagrangian, LeavesNoPenetrationWhereThePenaltyDoes) {
 }
 
 // A scheme that takes one Newton iteration in every pass: multipliers that grew from iterates out of
-// equilibrium, or that began anew in every pass, would go round.
+// equilibrium, or that began again in every pass, would go round.
 TEST(AugmentedLagrangian, SettlesInPassesOfOneIterationAsInPassesToEquilibrium) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
   mechanics::MechanicalConditions c = test::symmetric_supports(2);

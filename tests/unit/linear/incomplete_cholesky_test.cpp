@@ -98,7 +98,7 @@ TEST(IncompleteCholesky, IsSymmetricAndPositive) {
   EXPECT_NEAR(product(s, to_r), product(r, to_s), 1e-5 * std::sqrt(product(r, to_r) * product(s, to_s)));
 }
 
-/// A matrix with positive entries beside its diagonal that is positive definite by little, as capacities of
+/// A matrix with positive entries off its diagonal that is positive definite by little, as capacities of
 /// quadratic elements at their integration points are: the sum of squares of differences of neighbours'
 /// means. Pivots of its factors without fill are negative without a shift of the diagonal.
 TEST(IncompleteCholesky, OfAMatrixWithPositiveEntriesBesideTheDiagonalStaysPositive) {

@@ -28,7 +28,7 @@ TEST(ForcesAtWork, AreThoseThatAPassIsGivenWhateverIsSolvedInBetween) {
     const mechanics::MechanicalReport before = phase->solve(
         start, first, {.time = 1, .dt = 1, .temperature = body.temperature, .returns_at_work = true});
     const auto at_its_end = phase->solve(first, other, {.time = 2, .dt = 1, .temperature = body.temperature});
-    EXPECT_TRUE(at_its_end.at_work.stress.empty());  // nobody has asked for them
+    EXPECT_TRUE(at_its_end.at_work.stress.empty());  // no one has asked for them
     phase->solve(start, other, body.temperature, 7, 7);
     const mechanics::MechanicalReport after = phase->solve(
         first, second, {.time = 2, .dt = 1, .temperature = body.temperature, .at_work = &before.at_work});

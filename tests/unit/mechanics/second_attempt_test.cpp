@@ -89,7 +89,7 @@ TEST_F(LiftedBlock, ComesDownInShortStepsWhereWholeOnesGoFarIntoTheOtherBody) {
   const double weight = 7800 * 10 * 1.0;
   EXPECT_NEAR(springs.pushes(state_.displacement), weight, 1e-8 * weight) << "forces know no held tangent";
 
-  // The first attempt is lost with its first step; the second one sets out anew.
+  // The first attempt is lost with its first step; the second one sets out again.
   const auto again = std::find(springs.places.begin() + 1, springs.places.end(), k_lift);
   ASSERT_NE(again, springs.places.end());
   const double longest = 0.01 * std::sqrt(2.0);

@@ -1,4 +1,4 @@
-// Skins of triangles that are made anew: shells that are united, new triangles, a wrap around skins that
+// Skins of triangles that are made again: shells that are united, new triangles, a wrap around skins that
 // cross themselves.
 #include "mesh/cgal/remeshed_skin.hpp"
 

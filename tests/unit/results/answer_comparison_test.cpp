@@ -70,7 +70,7 @@ TEST(Answers, OfACriterionWithAThresholdTellTheShareThatIsBeyond) {
                               "276.6 at (0, 0, 0) m"));
 }
 
-// A runner is poured as the part is, and nobody asks whether it is sound.
+// A runner is poured as the part is, and no one asks whether it is sound.
 TEST(Soundness, IsToldBodyByBodyAndOfThePartsAlone) {
   Answers a;
   a.castings.push_back({.cast = {0, "part", false, false}, .solid_fraction = 1, .mass = 2});

@@ -148,7 +148,7 @@ TEST_F(Block, MeanAndIntegralOfAFieldOfElementsWeighByVolume) {
   EXPECT_NEAR(value_of(AnalysisKind::axisymmetric, asked(Statistic::mean, "m")), 26. / 12, 2e-3);
 }
 
-// Not held in between: the next row computes it anew, and sees what has changed.
+// Not held in between: the next row computes it again, and sees what has changed.
 TEST_F(Block, ComputedFieldIsComputedOnceARow) {
   const auto in_cells = [](const char* name, Statistic statistic) {
     return GroupProbe{{{name, "1"}, "number", 0, {}}, "block", statistic};

@@ -212,7 +212,7 @@ TEST_F(Vtu, OfASurfaceHoldsItsFacesAndNodalFieldsOnly) {
   lines.n_counted = 1;
   surface.faces = {lines};
   auto gap = count_up(6, 1e-5);
-  gap[0] = std::numeric_limits<double>::quiet_NaN();  // not on the surface: nobody computed it
+  gap[0] = std::numeric_limits<double>::quiet_NaN();  // not on the surface: no one computed it
   const auto pressure = count_up(3);
   FieldSet fields;
   fields.add({"gap", "m", 1, mesh::FieldPlace::node, gap});
