@@ -11,7 +11,7 @@ namespace solidus::mesh {
 namespace {
 
 /// So few points are looked at one by one.
-constexpr std::size_t k_few = 8;
+constexpr std::size_t k_points_of_leaf = 8;
 
 double squared_distance(const Point& a, const Point& b) {
   const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
@@ -48,7 +48,7 @@ std::size_t NearestPoint::split(std::size_t begin, std::size_t end) {
     }
   const std::size_t number = parts_.size();
   parts_.push_back(part);
-  if (end - begin <= k_few) return number;
+  if (end - begin <= k_points_of_leaf) return number;
   // The median across the longest side halves the points.
   std::size_t across = 0;
   for (std::size_t d = 1; d < 3; ++d)

@@ -8,7 +8,7 @@
 namespace solidus::linear {
 namespace {
 
-constexpr double k_far = 1e-9;  ///< a goal that lies far below
+constexpr double k_distant_goal = 1e-9;  ///< a goal that lies far below
 
 TEST(Forcing, AsksForExactSolvesWhereItIsOff) {
   Forcing forcing(false, 0.1);
@@ -18,10 +18,10 @@ TEST(Forcing, AsksForExactSolvesWhereItIsOff) {
 
 TEST(Forcing, BeginsWithTwoDigitsAndFollowsTheFallOfTheResidual) {
   Forcing forcing(true, 0.1);
-  EXPECT_DOUBLE_EQ(forcing.next(5.0, k_far), 1e-2);
+  EXPECT_DOUBLE_EQ(forcing.next(5.0, k_distant_goal), 1e-2);
   // Choice 2 of Eisenstat and Walker with γ = 0.9 and the golden ratio.
-  EXPECT_NEAR(forcing.next(0.05, k_far), 0.9 * std::pow(1e-2, 1.6180339887), 1e-10);
-  EXPECT_NEAR(forcing.next(0.005, k_far), 0.9 * std::pow(1e-1, 1.6180339887), 1e-10);
+  EXPECT_NEAR(forcing.next(0.05, k_distant_goal), 0.9 * std::pow(1e-2, 1.6180339887), 1e-10);
+  EXPECT_NEAR(forcing.next(0.005, k_distant_goal), 0.9 * std::pow(1e-1, 1.6180339887), 1e-10);
 }
 
 TEST(Forcing, TurnsLinearConvergenceIntoOneOfOrderOnePointSix) {
@@ -39,8 +39,8 @@ TEST(Forcing, TurnsLinearConvergenceIntoOneOfOrderOnePointSix) {
 
 TEST(Forcing, GainsADigitAtLeastWhereTheResidualHasRisen) {
   Forcing forcing(true, 0.1);
-  forcing.next(1.0, k_far);
-  EXPECT_EQ(forcing.next(30.0, k_far), 0.1);
+  forcing.next(1.0, k_distant_goal);
+  EXPECT_EQ(forcing.next(30.0, k_distant_goal), 0.1);
 }
 
 TEST(Forcing, KeepsToItsLoosestTerm) {

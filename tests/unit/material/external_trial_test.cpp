@@ -19,16 +19,16 @@ using ::testing::IsEmpty;
 
 using Note = std::function<void(const std::string& part)>;
 
-constexpr double k_enough = 60;  // [s]
+constexpr double k_time_limit = 60;  // [s]
 
 TEST(Trial, WorkThatEndsHasNoFaultAndChangesNothingHere) {
   int n = 0;
-  EXPECT_THAT(fault_of([&n](const Note&) { n = 1; }, k_enough), IsEmpty());
+  EXPECT_THAT(fault_of([&n](const Note&) { n = 1; }, k_time_limit), IsEmpty());
   EXPECT_EQ(n, 0);
 }
 
 TEST(Trial, AnExceptionIsForTheProgram) {
-  EXPECT_THAT(fault_of([](const Note&) { throw std::runtime_error("no"); }, k_enough), IsEmpty());
+  EXPECT_THAT(fault_of([](const Note&) { throw std::runtime_error("no"); }, k_time_limit), IsEmpty());
 }
 
 TEST(Trial, ACrashIsNamedWithThePartInWhichItCame) {
@@ -38,7 +38,7 @@ TEST(Trial, ACrashIsNamedWithThePartInWhichItCame) {
                     note("reading 'temperature'");
                     std::raise(SIGSEGV);
                   },
-                  k_enough),
+                  k_time_limit),
               AllOf(HasSubstr("crashed (signal 11"), HasSubstr("while reading 'temperature'")));
 }
 
@@ -48,7 +48,7 @@ TEST(Trial, AnEndOfTheProcessIsAFault) {
                     note("loading");
                     std::exit(0);
                   },
-                  k_enough),
+                  k_time_limit),
               HasSubstr("it ended the process while loading"));
 }
 
