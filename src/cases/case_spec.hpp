@@ -170,9 +170,9 @@ struct TimeSpec {
   double growth = 0, cut = 0;
   int easy_iterations = 0;
   coupling::ErrorControl error_control = coupling::ErrorControl::predictor;
-  std::optional<double> temperature_error, displacement_error;      ///< local, of a step [K], [m]
-  std::optional<double> stress_error;                               ///< local, share of the stress [1]
-  std::optional<double> solid_fraction_change, setup::skin_change;  ///< in a step [1]
+  std::optional<double> temperature_error, displacement_error;  ///< local, of a step [K], [m]
+  std::optional<double> stress_error;                           ///< local, share of the stress [1]
+  std::optional<double> solid_fraction_change, skin_change;     ///< in a step [1]
   SourceLocation where;
 };
 
