@@ -6,6 +6,17 @@
 
 namespace solidus::coupling {
 
+namespace {
+
+/// What a record keeps of the flows of a step: its stages, without the flows themselves.
+StepEffort::Fields kept(heat::StageFlows flows) {
+  flows.first.clear();
+  flows.last.clear();
+  return {std::move(flows), {}};
+}
+
+}  // namespace
+
 MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double time, double dt,
                                        const TooLong& too_long) {
   // Doubling measures the error by two half steps; it is also used while the rates that a predictor
@@ -16,7 +27,7 @@ MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double ti
   // Without control of the error the step is taken as it is.
   if (control_ == ErrorControl::none) {
     Taken taken{scheme_.advance(old, trial, time, dt), {}};
-    taken.effort->fields = {};
+    taken.effort->fields = kept(std::move(taken.effort->fields.flows));
     return taken;
   }
   // With the predictor, heat is judged as soon as it has been conducted: a step that is too long for its
@@ -32,7 +43,7 @@ MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double ti
               {.temperature = conducted.value_or(0), .skin = skin}};
   if (!taken.effort) return taken;
   // The step went through, so its deformation is judged too, against what the rates before it predict.
-  const heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
+  heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
   taken.error.displacement = estimate_->displacement_predictor(old, trial, dt, rates_);
   taken.error.stress = estimate_->stress_predictor(old, trial, dt, rates_);
   taken.error.opening = estimate_->skin_opening(old, trial);
@@ -44,6 +55,7 @@ MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double ti
   // The rates of this step predict the next one; they become those of the state when the step is committed.
   next_rates_ = estimate_->rates_of(old, trial, dt, flows);
   next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);
+  taken.effort->fields = kept(std::move(flows));
   return taken;
 }
 
@@ -67,7 +79,7 @@ MeasuredStep::Taken MeasuredStep::told(const State& old, State& trial, double ti
   }
   // Then the step itself. Later steps are compared with what the rates of the one before predict.
   Taken taken{scheme_.advance(old, trial, time, dt), {}};
-  const heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
+  heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
   if (!first) {
     taken.error.temperature = estimate_->temperature_predictor(old, trial, dt, rates_, flows);
     taken.error.displacement = estimate_->displacement_predictor(old, trial, dt, rates_);
@@ -81,6 +93,7 @@ MeasuredStep::Taken MeasuredStep::told(const State& old, State& trial, double ti
   // The rates and changes of this step are kept until it is accepted.
   next_rates_ = estimate_->rates_of(old, trial, dt, flows);
   next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);
+  taken.effort->fields = kept(std::move(flows));
   return taken;
 }
 

@@ -112,7 +112,8 @@ struct StepEffort {
   double solid_fraction = 1;                        ///< of the bodies that can melt, by volume
   double min_temperature = 0, max_temperature = 0;  ///< [K]
   double internal_energy = 0;  ///< of the state, where it has one (internal_energy.hpp) [J]
-  /// Fields that belong to the solution besides the state. The run takes them out: a record has none.
+  /// Fields that belong to the solution besides the state. The run takes them out: a record has none but what
+  /// the two stages of a step have left for who asked for it (heat::ThermalPhase::keep_stages).
   struct Fields {
     /// Flows of heat of the last thermal pass in which something flowed, for the estimate of the step's error
     /// (error_estimate.hpp); known where nodes hold the heat.

@@ -169,6 +169,8 @@ class ThermalPhase {
   /// the iteration fails; the place is the node of the largest residual. The same where a temperature is not
   /// above 0 K; the place is the coldest node.
   ThermalReport solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass);
+  /// Whether reports hold the state between the two stages of a step (StageFlows), from here on.
+  void keep_stages(bool on) { keeps_stages_ = on; }
   /// HeatOptions::stepping.
   ThermalStepping stepping() const { return options_.stepping.value_or(ThermalStepping::backward_euler); }
   /// The flow into the nodes at the end of a step, from its known flows, [local node], ghosts up to date [W]:
@@ -232,6 +234,7 @@ class ThermalPhase {
 
  private:
   friend class ThermalIteration;
+  friend class StepSensitivity;
   /// Makes the matrix again where a contribution asks for it; then true. Collective.
   bool follow_graph();
   /// Throws StepRejected like require() unless `newton_steps` limits the iteration.
@@ -303,6 +306,7 @@ class ThermalPhase {
   std::unique_ptr<TruncatedNewton> truncated_newton_;
   std::unique_ptr<TemperatureSystem> temperature_system_;
   std::unique_ptr<HeatSpread> spread_;
+  bool keeps_stages_ = false;
 };
 
 }  // namespace solidus::heat

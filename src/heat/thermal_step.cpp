@@ -144,6 +144,10 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   stage_flows.second_order = second_order;
   stage_flows.share = k_sdirk_share;
   stage_flows.last_share = stage.dt / pass.dt;
+  if (flows && keeps_stages_) {
+    stage_flows.middle_temperature = std::move(middle.temperature);
+    stage_flows.middle_enthalpy = std::move(middle.enthalpy);
+  }
   // Sums of both stages are the step's.
   add_stage(report, stage.carried, last);
   report.flows = std::move(stage_flows);

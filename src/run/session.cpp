@@ -19,6 +19,7 @@
 #include "run/diagnose.hpp"
 #include "run/recording.hpp"
 #include "run/restart.hpp"
+#include "run/sensitivities.hpp"
 #include "run/session.hpp"
 #include "run/transient.hpp"
 #include "setup/fingerprint.hpp"
@@ -74,6 +75,7 @@ struct Session::Parts {
   std::optional<results::RunFolder> folder;
   std::optional<results::Recorder> recorder;
   std::optional<results::Checkpoint> from;
+  std::optional<Sensitivities> sensitivities;
   std::optional<Transient> transient;
   std::optional<coupling::State> steady;  ///< the state that a steady case has reached
   coupling::StepRecord steady_record;
@@ -173,7 +175,11 @@ Session::Session(setup::Case given, RunOptions options) : parts_(std::make_uniqu
   r.summary.seconds.emplace_back("mesh", made_in + loaded - start);
   r.summary.seconds.emplace_back("set_up", processes::wall_time() - loaded);
   parts_->recorder.emplace(*parts_->folder, a.mesh, a.phases, std::move(r));
+  if (!parts_->options.neighbours.empty())
+    parts_->sensitivities.emplace(c, a, std::exchange(parts_->options.neighbours, {}),
+                                  parts_->folder->sensitivities());
   if (!c.spec.time.steady) parts_->transient.emplace(c.spec, o, a, &*parts_->recorder);
+  if (parts_->sensitivities) parts_->transient->simulation().add(*parts_->sensitivities);
 }
 
 Session::~Session() = default;

@@ -15,13 +15,13 @@
 #include "check/coupling_estimate.hpp"
 #include "check/uncertain_parameters.hpp"
 #include "results/summary.hpp"
+#include "run/neighbours.hpp"
 #include "setup/case_file.hpp"
 
-namespace solidus::setup {}
-
 namespace solidus::setup {
+struct Assembly;
 struct MadeMesh;
-}
+}  // namespace solidus::setup
 
 namespace solidus::run {
 
@@ -37,6 +37,8 @@ struct RunOptions {
   /// The mesh where the first process has it already (setup/made_mesh.hpp), which is moved from; null: the
   /// case's mesh is read or made.
   std::shared_ptr<setup::MadeMesh> mesh = {};
+  /// Parameters with respect to which temperatures of probes are differentiated (run/sensitivities.hpp).
+  std::vector<Neighbour> neighbours = {};
 };
 
 struct RunResult {

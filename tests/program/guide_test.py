@@ -16,6 +16,7 @@ import unittest
 from fragments import fits
 from pages import blocks, commands, is_pattern
 from program import SOURCES, ProgramTest, solidus
+from solidus_plots.calibrate_file import read_calibration
 from solidus_plots.plots_file import read_spec
 from solidus_plots.study_file import read_study
 
@@ -115,6 +116,8 @@ class Guide(ProgramTest):
                         self.assertEqual(read_spec(self.write("plots.toml", block.text))[1], [])
                     elif page.name == "study.md":
                         read_study(self.write("study.toml", block.text))
+                    elif page.name == "calibrate.md":
+                        read_calibration(self.write("calibrate.toml", block.text))
                     elif set(fragment) <= {"part", "variant"}:  # sections of a case under names of their own
                         for pieces in fragment.values():
                             for piece in pieces.values():

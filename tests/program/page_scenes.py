@@ -19,6 +19,7 @@ CRANKSHAFT = ["solidus run bracket -o results/crankshaft/default"]
 SCENES = {
     "README.md": Scene({"part.step": "tests/parts/flange.step"}, words={"FOLDER": "."}),
     "assistants.md": Scene(words={"FOLDER": "."}),
+    "calibrate.md": Scene({"thermocouples": "examples/thermocouples"}),
     "case_file.md": Scene({"part.step": "tests/parts/flange.step"},
                           {"case.toml": 'title = "A steel block', "variants.toml": "[part.finer]"},
                           lines=["mkdir block && cp case.toml variants.toml block"],

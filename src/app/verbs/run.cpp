@@ -39,6 +39,7 @@ struct RunArguments : CaseArguments {
   bool watch = false;            ///< serve the report while the run goes on
   bool report = false;           ///< write the report at the end
   std::optional<int> processes;  ///< absent: as many as pay
+  std::string sensitivities;     ///< file of the parameters of derivatives; empty: none
   bool sure = false;             ///< compare with runs beside it for the errors of the answers
 };
 
@@ -57,6 +58,13 @@ std::string shown_path(const fs::path& folder) {
   return here.empty() || *here.begin() == ".." ? folder.lexically_normal().string() : here.string();
 }
 
+/// The same case with further assignments.
+CaseArguments with(const RunArguments& arguments, const std::vector<std::string>& overrides) {
+  CaseArguments beside = arguments;
+  beside.set.insert(beside.set.end(), overrides.begin(), overrides.end());
+  return beside;
+}
+
 /// Runs the case, and what --sure asks for beside it.
 run::RunResult run_all(const RunArguments& arguments, const setup::Case& c, run::RunOptions options) {
   std::optional<results::Summary> summary;
@@ -72,9 +80,7 @@ run::RunResult run_all(const RunArguments& arguments, const setup::Case& c, run:
   }
   // The runs beside it differ in some keys alone; all else is as given on the command line.
   const auto load = [&](const std::vector<std::string>& overrides) {
-    CaseArguments beside = arguments;
-    beside.set.insert(beside.set.end(), overrides.begin(), overrides.end());
-    return load_case(beside);
+    return load_case(with(arguments, overrides));
   };
   // Their errors of the answers are printed below the summary.
   const run::ErrorRuns made =
@@ -105,6 +111,13 @@ ExitCode run_case(const RunArguments& arguments) {
   RunStart start = start_run(arguments.processes, c, options);
   if (start.code) return *start.code;
   options.mesh = std::move(start.mesh);
+  if (!arguments.sensitivities.empty()) {
+    if (arguments.restart)
+      throw InputError({}, "derivatives begin at the start of a run", "--sensitivities without --restart");
+    options.neighbours = run::read_neighbours(arguments.sensitivities, [&](const auto& overrides) {
+      return load_case(with(arguments, overrides));
+    });
+  }
   linear::interrupt_when(stop_asked);
   std::optional<Watch> watch;
   if (arguments.watch && rank == 0) {
@@ -157,6 +170,13 @@ class Run final : public Verb {
         "Write report.html, a page for the browser, into the folder of the results at the end");
     command().add_flag("--watch", a.watch,
                        "Show the report while the run goes on, at an address of this machine alone");
+    // Derivatives, and the runs beside it for errors.
+    command()
+        .add_option(
+            "--sensitivities", a.sensitivities,
+            "Write sensitivities.csv: derivatives of probed temperatures with respect to the parameters of "
+            "this file (heat alone, steps of a given size)")
+        ->type_name("FILE");
     command().add_flag("--sure", a.sure,
                        "Run it twice more, with longer steps and with larger elements, for the errors of the "
                        "answers; half to one and a half times its time again");

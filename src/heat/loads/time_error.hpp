@@ -26,6 +26,9 @@ struct StageFlows {
   /// Into the nodes by conduction, surfaces, sources and contributions that do not store, [owned node] [W];
   /// `first` is empty where there is one stage.
   std::vector<double> first, last;
+  /// The state at the end of the first of two stages, [local node]: temperatures [K] and heats [J]. Empty
+  /// unless the phase was asked for it (ThermalPhase::keep_stages).
+  std::vector<double> middle_temperature = {}, middle_enthalpy = {};
 
   bool known() const { return dt > 0; }
 };

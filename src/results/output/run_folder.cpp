@@ -21,8 +21,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view k_marker = "# Written by Solidus: the case as it was run, all defaults filled in.";
-constexpr std::array<const char*, 8> k_files = {"history.csv", "steps.csv",    "pools.csv",  "feeding.csv",
-                                                "shots.csv",   "summary.json", "fields.pvd", "fields.vtkhdf"};
+constexpr std::array<const char*, 9> k_files = {"history.csv", "steps.csv",     "pools.csv",
+                                                "feeding.csv", "shots.csv",     "summary.json",
+                                                "fields.pvd",  "fields.vtkhdf", "sensitivities.csv"};
 
 bool written_by_us(const fs::path& case_file) {
   std::ifstream file(case_file);

@@ -24,6 +24,7 @@ bool is_finished(const std::filesystem::path& folder);
 /// fields.pvd    the fields over time   fields/    the field files   checkpoint/  to go on from
 /// pools.csv     pools of melt, where something can freeze
 /// feeding.csv   where the metal that shrinks took its volume from, with heat alone
+/// sensitivities.csv  derivatives of probes, of a run with --sensitivities
 /// report.html   the page that `solidus report` wrote; a new run takes it away
 /// ```
 class RunFolder {
@@ -46,6 +47,7 @@ class RunFolder {
   std::filesystem::path pools() const { return root_ / "pools.csv"; }
   std::filesystem::path feeding() const { return root_ / "feeding.csv"; }
   std::filesystem::path shots() const { return root_ / "shots.csv"; }
+  std::filesystem::path sensitivities() const { return root_ / "sensitivities.csv"; }
   std::filesystem::path summary() const { return root_ / "summary.json"; }
   std::filesystem::path collection() const { return root_ / "fields.pvd"; }
   std::filesystem::path fields() const { return root_ / "fields"; }

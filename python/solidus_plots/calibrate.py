@@ -1,0 +1,184 @@
+"""Finds what of a case is unknown from measurements: python3 -m solidus_plots.calibrate CASE MEASURED.csv, as `solidus
+calibrate` does.
+
+calibrate.toml beside the case says what is unknown. docs/guide/calibrate.md describes the file and what comes out,
+docs/theory/calibration.md the equations.
+"""
+
+import argparse
+import json
+from pathlib import Path
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+from solidus_plots import calibrate_plots, calibrate_result, style
+from solidus_plots.calibrate_file import read_calibration
+from solidus_plots.calibrate_fit import Search, fit
+from solidus_plots.calibrate_model import Model, probes_of, resolved_case, why_differences
+from solidus_plots.calibrate_readings import read_readings
+from solidus_plots.calibrate_statistics import evaluate
+from solidus_plots.history import Table
+from solidus_plots.many_runs import INTERRUPTED, jobs_from, program
+from solidus_plots.verb import sentence
+from solidus_plots.vtu import ResultError
+
+SAME_WEIGHTS = 0.1  # change of the residuals' spread, over itself, with which priors keep their weight
+REWEIGHTED = 3  # times at most
+
+
+def resolve(case, words):
+    """The case with its defaults. Throws ResultError as the program does."""
+    asked = subprocess.run([program(), "resolve", case, *words, "--log", "warn"], capture_output=True, text=True,
+                           stdin=subprocess.DEVNULL)
+    if asked.returncode != 0:
+        raise ResultError(asked.stderr.strip().removeprefix("solidus: "))
+    return asked.stdout
+
+
+def words_of(options, calibration):
+    words = [word for assignment in [*options.set, *calibration.set] for word in ("--set", assignment)]
+    return words + ["--heat-only"] * options.heat_only
+
+
+def end_of(case):
+    """Of the run [s]."""
+    number, _, unit = str(case["time"]["end"]).partition(" ")
+    return float(number) * {"s": 1.0, "min": 60.0, "h": 3600.0, "": 1.0}[unit]
+
+
+def place_probes(calibration, case):
+    """Tells unknown places of probes where the case has them."""
+    probes = {probe["name"]: probe for probe in case.get("probe", [])}
+    for unknown in calibration.unknowns:
+        if unknown.kind != "place":
+            continue
+        if "point" not in probes.get(unknown.probe, {}):
+            raise ResultError(f"{calibration.path}: [[unknown]] '{unknown.name}': the case has no probe '{unknown.probe}' at a "
+                              f"point; it has {', '.join(probes)}")
+        unknown.place = probes[unknown.probe]["point"]
+        if len(unknown.direction) != len(unknown.place):
+            raise ResultError(f"{calibration.path}: [[unknown]] '{unknown.name}': 'direction' has {len(unknown.place)} numbers")
+
+
+def check_names(calibration, readings):
+    names = {r.name for r in readings}
+    for unknown in calibration.unknowns:
+        for name in unknown.observations:
+            if name not in names:
+                raise ResultError(f"{calibration.path}: [[unknown]] '{unknown.name}': there is no observation '{name}'; there "
+                                  f"are {', '.join(sorted(names))}")
+
+
+def check_amount(calibration, readings):
+    """Throws ResultError for too few readings, and for units that cannot be weighed against each other."""
+    parameters = calibration.parameters()
+    count = sum(len(r.values) for r in readings)
+    known = sum(p.prior is not None for p in parameters)
+    if count + known <= len(parameters):
+        raise ResultError(f"{calibration.path}: {count} readings and {known} priors do not tell {len(parameters)} unknowns: "
+                          "more readings than unknowns are needed")
+    units = {Table.unit(r.header) for r in readings}
+    if len(units) > 1 and any(r.noise is None for r in readings):
+        raise ResultError(f"{calibration.path}: observations in {', '.join(sorted(units))} are weighed by their noise: every "
+                          "[[observation]] needs 'noise'")
+
+
+def search_and_fit(model, readings, calibration, say):
+    """The fit; where noise is not stated and there are priors, with the noise that the residuals have."""
+    measured = np.concatenate([r.values for r in readings])
+    stated = all(r.noise is not None for r in readings)
+    sigma = np.concatenate([np.full(len(r.values), r.noise or 1.0) for r in readings])
+    search = Search(model, measured, sigma, calibration.runs, say)
+    found = fit(search, calibration.loss, calibration.loss_scale)
+    priors = any(p.prior is not None for p in calibration.parameters())
+    for _ in range(REWEIGHTED if priors and not stated else 0):
+        scale = evaluate(found, calibration.parameters(), readings, calibration.confidence).scale
+        if abs(scale - 1) <= SAME_WEIGHTS or scale == 0:
+            break
+        search.sigma = search.sigma * scale
+        found = fit(search, calibration.loss, calibration.loss_scale, start=search.scaled(found.theta))
+    return found
+
+
+def calibrate(options, say):
+    """Throws ResultError."""
+    file = options.unknowns or (Path(options.case) if Path(options.case).is_dir() else Path(options.case.partition(":")[0]).parent
+                                ) / "calibrate.toml"
+    calibration = read_calibration(file)
+    words, jobs = words_of(options, calibration), jobs_from(options.jobs)
+    case = resolved_case(resolve(options.case, words))
+    headers = probes_of(case)
+    readings = read_readings(calibration, options.measured, headers, end_of(case), say)
+    place_probes(calibration, case)
+    check_names(calibration, readings)
+    check_amount(calibration, readings)
+    reason = why_differences(case, readings)
+    if reason and calibration.derivatives == "forward":
+        raise ResultError(f"{calibration.path}: derivatives = \"forward\": {reason}")
+    forward = not reason and calibration.derivatives != "differences"
+    count = sum(len(r.values) for r in readings)
+    say(f"{len(calibration.parameters())} unknowns, {count} readings of {len(readings)} observations; derivatives by "
+        + ("forward differentiation" if forward else f"differences of runs, {jobs} at a time" + (f": {reason}" if reason else "")))
+    name = Path(case_folder(options.case)).name
+    folder = options.output or options.results_root / "results" / name / "calibrate"
+    folder.mkdir(parents=True, exist_ok=True)
+    model = Model(options.case, words, calibration, readings, folder / "runs", jobs, forward)
+    start = time.monotonic()
+    found = search_and_fit(model, readings, calibration, say)
+    statistics = evaluate(found, calibration.parameters(), readings, calibration.confidence)
+    cost = {"runs": model.runs, "seconds": round(time.monotonic() - start, 3),
+            "derivatives": "forward" if forward else "differences"}
+    write(calibration, options, model, readings, found, statistics, cost, folder)
+    say("")
+    say(calibrate_result.text(statistics, found, calibration.confidence))
+    if not found.converged or found.message:
+        say(f"  {'the search has not ended' if not found.converged else 'the search has ended'}: {found.message}")
+    say(f"{model.runs} runs, {cost['seconds']:.0f} s; results in {folder}")
+
+
+def case_folder(case):
+    path = Path(case.partition(":")[0]).resolve()
+    return path if path.is_dir() else path.parent
+
+
+def write(calibration, options, model, readings, found, statistics, cost, folder):
+    document = calibrate_result.document(calibration, options.measured, statistics, found, cost)
+    (folder / "calibrate.json").write_text(json.dumps(document, indent=2, ensure_ascii=False) + "\n")
+    calibrate_result.write_residuals(folder / "residuals.csv", readings, found)
+    fitted = resolve(options.case, model.words_of(found.theta))
+    (folder / "fitted.toml").write_text(fitted)
+    card = calibrate_result.interface_card(resolved_case(fitted), calibration, options.measured, statistics)
+    if card is not None:
+        (folder / "interface.toml").write_text(card)
+    style.setup()
+    calibrate_plots.draw_residuals(readings, found, folder)
+    calibrate_plots.draw_tables(calibration, statistics, folder)
+
+
+def main(given=None):
+    parser = argparse.ArgumentParser(prog="solidus calibrate", description=__doc__.splitlines()[0])
+    parser.add_argument("case", metavar="CASE")
+    parser.add_argument("measured", type=Path, metavar="MEASURED")
+    parser.add_argument("--unknowns", type=Path)
+    parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("--heat-only", action="store_true")
+    parser.add_argument("--output", type=Path)
+    parser.add_argument("--results-root", type=Path, default=Path("."))
+    parser.add_argument("--jobs", default="")
+    options = parser.parse_args(given)
+    try:
+        calibrate(options, lambda text: print(text, flush=True))
+    except (ResultError, OSError) as error:
+        print(f"solidus calibrate: {sentence(error)}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("solidus calibrate: stopped", file=sys.stderr)
+        return INTERRUPTED
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

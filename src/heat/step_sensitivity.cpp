@@ -1,0 +1,273 @@
+#include "heat/step_sensitivity.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "heat/iteration/heat_solver.hpp"
+#include "heat/iteration/heat_system.hpp"
+#include "heat/loads/stage_loads.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
+#include "material/time_integration.hpp"
+#include "parallel/parallel.hpp"
+#include "system/errors.hpp"
+#include "system/profile.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+using material::k_sdirk_carried;
+using material::k_sdirk_share;
+
+constexpr double k_plateau_stiffness =
+    1e13;                         ///< times the diagonal: δv = 0 to rounding, without a change of structure
+constexpr int k_directions = 60;  ///< of the iteration for what the symmetric matrix lacks
+constexpr double k_accuracy = 1e-9;               ///< of a derivative, in the residual of its linear system
+constexpr std::size_t k_most_factorised = 20000;  ///< nodes, whose factors stay small in three dimensions too
+constexpr int k_corrections = 8;  ///< by residuals, where the tangent of a contribution is not exact
+constexpr double k_second_order =
+    2e-6;                            ///< residual over that before the first one, which is of second order
+constexpr double k_no_better = 0.5;  ///< residual over that before from which on no correction helps
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) sum += a[i] * b[i];
+  return parallel::global_sum(sum);
+}
+
+void add(double factor, std::span<const double> x, std::span<double> y) {
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] += factor * x[i];
+}
+
+}  // namespace
+
+StepSensitivity::StepSensitivity(ThermalPhase& phase, bool exact) : phase_(phase), exact_(exact) {
+  if (!phase.nodal() || phase.consistent_ || phase.printed_)
+    throw InputError({}, "derivatives are known where nodes hold the heat",
+                     "heat.integration = \"closed\" and heat.sensible = \"enthalpy\"");
+}
+
+void StepSensitivity::advance(const ThermalState& old, const StageFlows& flows, const ThermalState& now,
+                              std::span<NeighbourPhase> neighbours) {
+  assert(flows.known());
+  const profile::Part part("sensitivities");
+  std::vector<Neighbour> moved;
+  for (const NeighbourPhase& n : neighbours) moved.push_back({n.phase, &n.state, n.state});
+  phase_.solver_->begin(true);
+  if (flows.share == 1) {
+    advance_stage({flows.dt, 0, LoadWindow::backward_euler(flows.time - flows.dt, flows.time)}, old, old, now,
+                  moved);
+  } else {
+    // The stages as solve_two_stages() has taken them: the second extrapolates, or is backward Euler over the
+    // rest.
+    const ThermalState middle{flows.middle_temperature, flows.middle_enthalpy};
+    assert(!middle.temperature.empty());
+    advance_stage({k_sdirk_share * flows.dt, 0, first_loads(flows.time, flows.dt)}, old, old, middle, moved);
+    advance_stage({flows.last_share * flows.dt, flows.second_order ? k_sdirk_carried : 1.0,
+                   last_loads(flows.time, flows.dt, flows.second_order)},
+                  old, middle, now, moved);
+  }
+  for (std::size_t i = 0; i < moved.size(); ++i) neighbours[i].state = std::move(moved[i].before);
+  phase_.solver_->release();
+}
+
+/// Conditions, and limits of conduction, of a stage: those of the run's temperatures for all phases.
+void StepSensitivity::begin(ThermalPhase& phase, const Stage& stage, const ThermalState& old,
+                            const ThermalState& before, const ThermalState& now) {
+  phase.system_->exchange(true);
+  phase.system_->set_window(stage.loads);
+  phase.limit_conduction(before, old);
+  phase.system_->find_limits(now.temperature);
+}
+
+/// f += F of a stage that ends in `end`.
+void StepSensitivity::add_residual(ThermalPhase& phase, const Stage& stage, const ThermalState& old,
+                                   const ThermalState& before, const ThermalState& end,
+                                   std::vector<double>& f) {
+  std::vector<double> r(f.size());
+  phase.system_->residual(end.temperature, r);
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    const double from = old.enthalpy[i] + stage.carried * (before.enthalpy[i] - old.enthalpy[i]);
+    f[i] += r[i] + (end.enthalpy[i] - from) / stage.dt;
+  }
+}
+
+void StepSensitivity::advance_stage(const Stage& stage, const ThermalState& old, const ThermalState& before,
+                                    const ThermalState& now, std::span<Neighbour> neighbours) {
+  begin(phase_, stage, old, before, now);
+  const std::size_t n = at(phase_.mesh_.n_owned_nodes);
+  // What the run's own iteration has left of F is not the neighbours' to remove.
+  std::vector<double> left(n);
+  add_residual(phase_, stage, old, before, now, left);
+  linearise(stage, now);
+  factorised_ = factorise();
+  bool first = true;
+  for (Neighbour& neighbour : neighbours) {
+    begin(*neighbour.phase, stage, old, before, now);
+    ThermalState end = guess(*neighbour.phase, now);
+    double before_it = HUGE_VAL, at_first = 0;
+    // Where tangents are not exact, what they have left of the residual is taken up until it is of second
+    // order in the change.
+    for (int k = 0; k < k_corrections; ++k) {
+      std::vector<double> f(n), step(end.temperature.size());
+      add_residual(*neighbour.phase, stage, *neighbour.old, neighbour.before, end, f);
+      for (std::size_t i = 0; i < n; ++i) f[i] = phase_.system_->fixed()[i] ? 0.0 : f[i] - left[i];
+      const double size = std::sqrt(dot(f, f));
+      if (k == 0) at_first = size;
+      if (k > 0 && (size <= k_second_order * at_first || size >= k_no_better * before_it)) break;
+      before_it = size;
+      solve(f, step, std::exchange(first, false));
+      follow(stage, f, step, end);
+      if (exact_) break;
+    }
+    neighbour.before = std::move(end);
+  }
+}
+
+/// The neighbour at the heats of the run, with temperatures that its own curves have there.
+ThermalState StepSensitivity::guess(const ThermalPhase& phase, const ThermalState& now) const {
+  ThermalState end = now;
+  for (Index i = 0; i < phase.mesh_.n_owned_nodes; ++i)
+    end.temperature[at(i)] += phase.storage_->temperature(i, now.enthalpy[at(i)]) -
+                              phase_.storage_->temperature(i, now.enthalpy[at(i)]);
+  phase.ghosts_.update(end.temperature, 1);
+  phase.system_->prescribe(end.temperature);
+  for (Index i = 0; i < phase.mesh_.n_owned_nodes; ++i)
+    if (phase.system_->fixed()[at(i)])
+      end.enthalpy[at(i)] = std::clamp(now.enthalpy[at(i)], phase.storage_->lower(i, end.temperature[at(i)]),
+                                       phase.storage_->upper(i, end.temperature[at(i)]));
+  return end;
+}
+
+/// K in the matrix of the run's phase, rows of δv = 0 held.
+void StepSensitivity::linearise(const Stage& stage, const ThermalState& now) {
+  HeatSystem& system = *phase_.system_;
+  const NodalEnthalpy& storage = *phase_.storage_;
+  const NodalPotential& potential = system.potential();
+  const std::size_t n = at(phase_.mesh_.n_owned_nodes);
+  slope_.assign(now.temperature.size(), 1.0);
+  if (!potential.identity()) {
+    for (std::size_t i = 0; i < n; ++i)
+      slope_[i] = potential.slope(static_cast<Index>(i), now.temperature[i]);
+    phase_.ghosts_.update(slope_, 1);
+  }
+  system.assemble_symmetric(now.temperature, slope_);
+  to_heat_.assign(n, 0.0);
+  held_.assign(n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto node = static_cast<Index>(i);
+    double& diagonal = *system.matrix().diagonal_block(node);
+    to_heat_[i] = storage.slope(node, now.enthalpy[i]) * slope_[i];
+    held_[i] = to_heat_[i] == 0.0 || system.fixed()[i] ? 1 : 0;
+    const double rate =
+        to_heat_[i] == 0.0 ? storage.capacity(node, now.temperature[i]) / slope_[i] : 1.0 / to_heat_[i];
+    if (to_heat_[i] == 0.0)
+      diagonal = k_plateau_stiffness * (std::abs(diagonal) + rate / stage.dt);
+    else
+      diagonal += rate / stage.dt;
+  }
+}
+
+/// K δv, zero in rows that are held.
+void StepSensitivity::multiply(std::vector<double>& step, std::vector<double>& product) const {
+  phase_.ghosts_.update(step, 1);
+  phase_.system_->matrix().multiply(step, product);
+  for (const HeatSystem::Entry& e : phase_.system_->unsymmetric_part())
+    product[at(e.row)] += e.value * step[at(e.column)];
+  for (std::size_t i = 0; i < held_.size(); ++i)
+    if (held_[i]) product[i] = 0;
+}
+
+/// Factors of K with what the symmetric matrix lacks, where one process has all nodes and few enough of them:
+/// each neighbour then costs a forward and a backward substitution.
+bool StepSensitivity::factorise() {
+  const bool small = held_.size() == slope_.size() && held_.size() <= k_most_factorised;
+  if (!small || parallel::global_sum(1.0) > 1) return false;
+  std::vector<linear::SparseFactors::Entry> further;
+  for (const HeatSystem::Entry& e : phase_.system_->unsymmetric_part())
+    further.push_back({e.row, e.column, e.value});
+  return factors_.factorise(phase_.system_->matrix(), further, held_);
+}
+
+/// K δv = −f.
+/// @param first  the matrix has not been solved with yet
+void StepSensitivity::solve(std::span<const double> f, std::vector<double>& step, bool first) {
+  if (!factorised_) return iterate(f, step, first);
+  std::vector<double> b(held_.size());
+  for (std::size_t i = 0; i < b.size(); ++i) b[i] = held_[i] ? 0.0 : -f[i];
+  factors_.solve(b, std::span(step).first(b.size()));
+  phase_.ghosts_.update(step, 1);
+}
+
+/// K δv = −f by generalised conjugate residuals (Eisenstat, Elman and Schultz 1983) with the symmetric matrix
+/// for preconditioner: the first direction is the solution where nothing is unsymmetric.
+/// @param first  the matrix has not been solved with yet
+void StepSensitivity::iterate(std::span<const double> f, std::vector<double>& step, bool first) {
+  HeatSystem& system = *phase_.system_;
+  const std::size_t n = held_.size();
+  std::vector<double> left(n);
+  for (std::size_t i = 0; i < n; ++i) left[i] = held_[i] ? 0.0 : -f[i];
+  const double target = k_accuracy * std::sqrt(dot(left, left));
+  if (target == 0 && !first) return;
+  struct Direction {
+    std::vector<double> step, product;  ///< the products are orthonormal
+  };
+  std::vector<Direction> directions;
+  for (int k = 0; k < k_directions; ++k) {
+    Direction d{std::vector<double>(step.size()), std::vector<double>(n)};
+    const std::span<double> owned = std::span(d.step).first(n);
+    // The iteration for the unsymmetric part corrects what the linear solver leaves.
+    const linear::LinearReport report = std::exchange(first, false)
+                                            ? phase_.solver_->solve(system.matrix(), left, owned)
+                                            : phase_.solver_->solve_again(left, owned, 0);
+    if (!report.converged)
+      throw StepRejected("sensitivities: the linear system: " + report.reason, {}, Failure::heat);
+    for (std::size_t i = 0; i < n; ++i)
+      if (held_[i]) d.step[i] = 0;
+    multiply(d.step, d.product);
+    for (const Direction& before : directions) {
+      const double along = dot(before.product, d.product);
+      add(-along, before.step, d.step);
+      add(-along, before.product, d.product);
+    }
+    const double length = std::sqrt(dot(d.product, d.product));
+    if (!(length > 0)) break;
+    for (auto* v : {&d.step, &d.product})
+      for (double& value : *v) value /= length;
+    const double share = dot(left, d.product);
+    add(share, d.step, step);
+    add(-share, d.product, left);
+    if (std::sqrt(dot(left, left)) <= target) break;
+    directions.push_back(std::move(d));
+  }
+  phase_.ghosts_.update(step, 1);
+}
+
+/// Moves the end of the stage by δv.
+void StepSensitivity::follow(const Stage& stage, std::span<const double> f, std::vector<double>& step,
+                             ThermalState& end) const {
+  const HeatSystem& system = *phase_.system_;
+  std::vector<double> product(held_.size());
+  phase_.system_->matrix().multiply(step, product);
+  for (const HeatSystem::Entry& e : system.unsymmetric_part())
+    product[at(e.row)] += e.value * step[at(e.column)];
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    if (system.fixed()[i]) continue;
+    if (held_[i]) {
+      end.enthalpy[i] -= stage.dt * (f[i] + product[i]);
+    } else {
+      end.enthalpy[i] += step[i] / to_heat_[i];
+      end.temperature[i] += step[i] / slope_[i];
+    }
+  }
+  phase_.ghosts_.update(end.enthalpy, 1);
+  phase_.ghosts_.update(end.temperature, 1);
+}
+
+}  // namespace solidus::heat

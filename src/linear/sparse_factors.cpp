@@ -1,0 +1,89 @@
+#include "linear/sparse_factors.hpp"
+
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cassert>
+#include <vector>
+
+namespace solidus::linear {
+
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+/// Both halves of the pattern of a matrix, with zeros.
+Matrix pattern_of(const BlockMatrix& a) {
+  const std::span<const std::int64_t> start = a.row_start();
+  const std::span<const Index> columns = a.columns();
+  const auto n = static_cast<int>(start.size()) - 1;
+  std::vector<Eigen::Triplet<double, int>> entries;
+  for (int row = 0; row < n; ++row)
+    for (std::int64_t s = start[static_cast<std::size_t>(row)]; s < start[static_cast<std::size_t>(row) + 1];
+         ++s) {
+      const auto column = static_cast<int>(columns[static_cast<std::size_t>(s)]);
+      entries.emplace_back(row, column, 0.0);
+      entries.emplace_back(column, row, 0.0);
+    }
+  Matrix matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace
+
+struct SparseFactors::Implementation {
+  Matrix matrix;
+  Eigen::SparseLU<Matrix, Eigen::COLAMDOrdering<int>> factors;
+  std::vector<std::int64_t> row_start;  ///< of the pattern
+  std::vector<Index> columns;
+};
+
+SparseFactors::SparseFactors() : implementation_(std::make_unique<Implementation>()) {}
+
+SparseFactors::~SparseFactors() = default;
+
+bool SparseFactors::factorise(const BlockMatrix& a, std::span<const Entry> further,
+                              std::span<const char> held) {
+  Implementation& m = *implementation_;
+  const std::span<const std::int64_t> start = a.row_start();
+  const std::span<const Index> columns = a.columns();
+  const bool same = std::ranges::equal(start, m.row_start) && std::ranges::equal(columns, m.columns);
+  if (!same) {
+    m.matrix = pattern_of(a);
+    m.row_start.assign(start.begin(), start.end());
+    m.columns.assign(columns.begin(), columns.end());
+    m.factors.analyzePattern(m.matrix);
+  }
+  // Values are written anew; rows and columns that are held keep nothing but a one on the diagonal.
+  std::fill_n(m.matrix.valuePtr(), m.matrix.nonZeros(), 0.0);
+  const auto n = static_cast<Index>(start.size()) - 1;
+  assert(held.size() == static_cast<std::size_t>(n));
+  const auto free = [&](Index node) { return held[static_cast<std::size_t>(node)] == 0; };
+  const auto add = [&](Index row, Index column, double value) {
+    if (free(row) && free(column))
+      m.matrix.coeffRef(static_cast<int>(row), static_cast<int>(column)) += value;
+  };
+  const bool half = a.storage() == BlockMatrix::Storage::upper;
+  const double* const values = a.block(0);
+  for (Index row = 0; row < n; ++row) {
+    if (!free(row)) m.matrix.coeffRef(static_cast<int>(row), static_cast<int>(row)) = 1;
+    for (std::int64_t s = start[static_cast<std::size_t>(row)]; s < start[static_cast<std::size_t>(row) + 1];
+         ++s) {
+      const Index column = columns[static_cast<std::size_t>(s)];
+      add(row, column, values[s]);
+      if (half && column != row) add(column, row, values[s]);
+    }
+  }
+  for (const Entry& e : further) add(e.row, e.column, e.value);
+  m.factors.factorize(m.matrix);
+  return m.factors.info() == Eigen::Success;
+}
+
+void SparseFactors::solve(std::span<const double> b, std::span<double> x) const {
+  const auto n = static_cast<Eigen::Index>(b.size());
+  Eigen::Map<Eigen::VectorXd>(x.data(), n) =
+      implementation_->factors.solve(Eigen::Map<const Eigen::VectorXd>(b.data(), n));
+}
+
+}  // namespace solidus::linear

@@ -1,0 +1,135 @@
+#include "run/sensitivities.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "cases/case_materials.hpp"
+#include "results/fields/state_fields.hpp"
+#include "results/tables/probes.hpp"
+#include "setup/mesh_input.hpp"
+#include "setup/run_input.hpp"
+#include "system/errors.hpp"
+#include "system/processes.hpp"
+
+namespace solidus::run {
+
+namespace {
+
+constexpr const char* k_temperature = "temperature";
+
+/// The probes of a case that sample temperatures, at points and over groups.
+std::vector<results::Probe> temperature_probes(const cases::CaseSpec& spec) {
+  std::vector<results::Probe> probes;
+  for (const results::Probe& probe : setup::probes(spec)) {
+    const auto* point = std::get_if<results::PointProbe>(&probe);
+    const auto* group = std::get_if<results::GroupProbe>(&probe);
+    if ((point != nullptr && point->field == k_temperature) ||
+        (group != nullptr && group->field == k_temperature))
+      probes.push_back(probe);
+  }
+  return probes;
+}
+
+void check_case(const cases::CaseSpec& spec) {
+  const SourceLocation& where = spec.time.where;
+  if (spec.time.steady || spec.time.adaptive)
+    throw InputError(where, "derivatives are known of runs with steps of a given size",
+                     "time.steady = false, time.adaptive = false");
+  if (!spec.stages.empty())
+    throw InputError(where, "derivatives are not known across stages", "a case without [[stage]]");
+  if (processes::count() > 1)
+    throw InputError(where, "derivatives are computed on one process", "solidus without mpirun");
+}
+
+bool same_mesh(const mesh::Mesh& a, const mesh::Mesh& b) {
+  return a.x == b.x && a.bodies.size() == b.bodies.size() && a.blocks.size() == b.blocks.size();
+}
+
+}  // namespace
+
+struct Sensitivities::Reader {
+  results::StateFields fields;
+  results::Probes probes;
+
+  Reader(const cases::CaseSpec& spec, const setup::Assembly& a)
+      : fields(a.mesh, a.phases, spec.analysis.kind),
+        probes(a.mesh, spec.analysis.kind, temperature_probes(spec), fields.bodies()) {}
+  std::vector<double> values(const coupling::State& state) {
+    fields.update(state);
+    return probes.values(fields.bodies());
+  }
+};
+
+struct Sensitivities::Built {
+  std::string name;
+  double change;
+  setup::Case c;
+  setup::Assembly a;
+  coupling::State state;  ///< as its probes read it
+  std::unique_ptr<Reader> reader;
+
+  explicit Built(Neighbour neighbour)
+      : name(std::move(neighbour.name)), change(neighbour.change), c(std::move(neighbour.c)) {
+    a.materials = cases::load_materials(c.spec);
+    a.mesh = setup::load_mesh(c.spec);
+    setup::build(c.spec, a);
+    state = std::move(a.initial);
+    reader = std::make_unique<Reader>(c.spec, a);
+  }
+};
+
+Sensitivities::Sensitivities(const setup::Case& base, const setup::Assembly& a,
+                             std::vector<Neighbour> neighbours, const std::filesystem::path& file) {
+  check_case(base.spec);
+  reader_ = std::make_unique<Reader>(base.spec, a);
+  const std::vector<results::CsvColumn>& probed = reader_->probes.columns();
+  if (probed.empty())
+    throw InputError({base.file.string(), 0, 0}, "no probe samples the temperature, of which derivatives are",
+                     "[[probe]] with field = \"temperature\"");
+  std::vector<coupling::HeatSensitivity::Neighbour> followed;
+  std::vector<results::CsvColumn> columns{{"time", "s"}};
+  for (Neighbour& neighbour : neighbours) {
+    built_.push_back(std::make_unique<Built>(std::move(neighbour)));
+    const Built& n = *built_.back();
+    if (!same_mesh(a.mesh, n.a.mesh) || n.reader->probes.columns().size() != probed.size())
+      throw InputError({base.file.string(), 0, 0},
+                       fmt::format("the parameter '{}' changes the mesh or the probes", n.name),
+                       "data, conditions and places of probes");
+    followed.push_back({&n.a.phases, n.state.heat});
+    for (const results::CsvColumn& column : probed)
+      columns.push_back({column.header() + " by " + n.name, ""});
+  }
+  heat_.emplace(a.phases, std::move(followed));
+  if (processes::rank() == 0) table_.emplace(file, std::move(columns));
+}
+
+Sensitivities::~Sensitivities() = default;
+
+void Sensitivities::begin(const coupling::State& state) {
+  heat_->begin(state);
+  add_row(state);
+}
+
+void Sensitivities::step(const coupling::StepRecord& record, const coupling::State& state) {
+  heat_->step(record, state);
+  add_row(state);
+}
+
+/// One column a parameter and probe: the difference of the neighbour's value from the run's, over the change.
+void Sensitivities::add_row(const coupling::State& state) {
+  const std::vector<double> here = reader_->values(state);
+  std::vector<double> row{state.time};
+  for (std::size_t i = 0; i < built_.size(); ++i) {
+    Built& n = *built_[i];
+    n.state.heat = heat_->neighbours()[i].state;
+    const std::vector<double> there = n.reader->values(n.state);
+    for (std::size_t k = 0; k < here.size(); ++k) row.push_back((there[k] - here[k]) / n.change);
+  }
+  if (table_) table_->add(row);
+}
+
+}  // namespace solidus::run
