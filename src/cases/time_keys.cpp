@@ -52,8 +52,9 @@ Section<TimeSpec> time_keys() {
   s.quantity("displacement_error", &TimeSpec::displacement_error, "m")
       .positive()
       .doc(
-          "The same of the displacement of what is coherent: melt that flows costs no step. Without it 3e-4 "
-          "of the section, volume over cooling surface, of the body that deforms where it is least.");
+          "The same of the displacement of what is coherent: melt that flows costs no step. Where something "
+          "melts it is that of the worst node. Without it 3e-4 of the section, volume over cooling surface, "
+          "of the body that deforms where it is least.");
   s.key("stress_error", &TimeSpec::stress_error)
       .range(1e-6, 1)
       .doc(

@@ -193,6 +193,17 @@ TEST(StepLimits, TheLastMeltFreezesInStepsOfAHundredthOfItsTime) {
   EXPECT_EQ(longest_before_solid(0.1, 0), HUGE_VAL);  // what begins as mush has no rate yet
 }
 
+TEST(StepLimits, TheHeatOfACastingThatDeformsIsPlannedATenthShort) {
+  // Its repetition costs no mechanics.
+  StepMeasure measure = iterations(3);
+  solidus::coupling::StepLimits limits;
+  limits.control = ErrorControl::predictor;
+  measure.temperature_error = limits.temperature;
+  EXPECT_DOUBLE_EQ(strictest(limits, measure).factor, 0.8);
+  limits.last_melt = true;
+  EXPECT_DOUBLE_EQ(strictest(limits, measure).factor, 0.9);
+}
+
 TEST(StepLimits, ADisplacementThatIsNotIntegratedInTimeMayMissMoreBeforeItsStepIsRepeated) {
   StepMeasure measure = iterations(3);
   solidus::coupling::StepLimits limits;
