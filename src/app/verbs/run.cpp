@@ -108,7 +108,10 @@ ExitCode run_case(const RunArguments& arguments) {
   options.restart = arguments.restart;
   options.profile = arguments.profile;
   options.stop_asked = stop_asked;
-  RunStart start = start_run(arguments.processes, c, options);
+  // Derivatives are taken on one process.
+  const std::optional<int> processes =
+      arguments.processes || arguments.sensitivities.empty() ? arguments.processes : std::optional(1);
+  RunStart start = start_run(processes, c, options);
   if (start.code) return *start.code;
   options.mesh = std::move(start.mesh);
   if (!arguments.sensitivities.empty()) {
