@@ -99,7 +99,7 @@ Translations::Translations(const cases::CaseSpec& spec, const setup::Assembly& a
     if (moves_[b] == 0) hold(static_cast<int>(b), Eigen::MatrixXd::Identity(n_, n_));
   add_supports(spec, a, stage);
   supports_ = fixed_;
-  setup::add_contacts(spec, a, m, stage);
+  add_contacts(spec, a, m, stage);
   // Shared nodes tie all directions of two bodies that are both there.
   for (std::size_t b = 0; b < m.bodies.size(); ++b)
     for (std::size_t other = 0; other < b; ++other)
