@@ -122,6 +122,9 @@ def calibrate(options, say):
     count = sum(len(r.values) for r in readings)
     say(f"{len(calibration.parameters())} unknowns, {count} readings of {len(readings)} observations; derivatives by "
         + ("forward differentiation" if forward else f"differences of runs, {jobs} at a time" + (f": {reason}" if reason else "")))
+    if case.get("time", {}).get("adaptive"):
+        say("steps that follow their errors make runs jump against each other where the unknowns move: --set "
+            "time.adaptive=false, with a time.step that is short enough")
     name = Path(case_folder(options.case)).name
     folder = options.output or options.results_root / "results" / name / "calibrate"
     folder.mkdir(parents=True, exist_ok=True)

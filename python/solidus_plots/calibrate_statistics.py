@@ -91,6 +91,14 @@ def named(direction, names):
     return {names[i]: float(sign * direction[i]) for i in order if abs(direction[i]) >= MUCH}
 
 
+def untold(names):
+    """Why unknowns cannot be found."""
+    if len(names) == 1:
+        return f"no reading depends on '{names[0]}': leave it out, give a prior, or measure elsewhere"
+    return ("the readings depend on " + " and ".join(f"'{name}'" for name in names) + " through one combination of them: they "
+            "cannot be told apart; leave one out, give a prior, or measure something else")
+
+
 def neighbours(residuals):
     """Correlation of residuals with those next to them."""
     about = residuals - residuals.mean()
@@ -114,10 +122,7 @@ def evaluate(fit, parameters, readings, confidence):
     for deviation, direction in found:
         share = named(direction, names)
         if np.isinf(deviation) and not any(priors[names.index(name)] > 0 for name in share):
-            raise ResultError("the readings do not depend on " + " and ".join(f"'{name}'" for name in share) +
-                              " but through one combination of them, or not at all: " if len(share) > 1 else
-                              f"no reading depends on '{next(iter(share))}': "
-                              "leave one out, give a prior, or measure elsewhere")
+            raise ResultError(untold(list(share)))
     information = weighted.T @ weighted / spread ** 2 + np.diag(priors)
     root = np.sqrt(np.diag(information))
     covariance = np.linalg.inv(information / np.outer(root, root)) / np.outer(root, root)

@@ -170,5 +170,94 @@ class Sensitivities(ProgramTest):
         self.assertIn("parameters.toml:1:", result.stderr)
 
 
+TRUE = np.array([600, 680, 800, 1000, 1350, 1800, 2300, 2700, 0.28])  # of examples/thermocouples/truth.toml
+TWO = """
+[[observation]]
+column = "T_centre"
+probe = "T_centre"
+[[observation]]
+column = "T_wall"
+probe = "T_wall"
+[[unknown]]
+name = "emissivity"
+key = "thermal_condition.top.emissivity"
+start = 0.6
+upper = 1
+[[unknown]]
+name = "film"
+key = "%s"
+start = 1.3
+"""
+
+
+class Fits(ProgramTest):
+    def measure(self, run, probes, *words):
+        """What a run has computed, as a table of a logger with all its digits."""
+        self.done("run", run, "-o", "truth", *words)
+        table = columns(self.folder / "truth/history.csv")
+        header = {name.partition("[")[0]: name for name in table}
+        rows = zip(*(table[name] for name in ("time[s]", *(header[probe] for probe in probes))))
+        self.write("measured.csv", "\n".join(["time[s]," + ",".join(header[probe] for probe in probes),
+                                              *(",".join(map(repr, map(float, row))) for row in rows)]))
+
+    def found(self, folder="out"):
+        return json.loads((self.folder / folder / "calibrate.json").read_text())
+
+    def test_eight_points_of_a_conductance_and_an_emissivity_are_found_in_fifteen_runs(self):
+        example = SOURCES / "examples/thermocouples"
+        said = self.done("calibrate", str(example), str(example / "logger.csv"), "-o", "out")
+        found = self.found()
+        values = np.array([u["value"] for u in found["unknowns"]])
+        off = np.abs(np.log(values / TRUE))
+        self.assertTrue(np.all((off < 0.02) | (off < 2.5 * np.array([u["deviation"] for u in found["unknowns"]]))), values)
+        self.assertLessEqual(found["runs"], 15)
+        self.assertEqual(found["derivatives"], "forward")
+        self.assertIn("column 'TC5' is not used: it says 22.1 from line 5 to 190: a dead channel", said)
+        self.assertRegex(said, r"h at 380 degC +13[0-9]{2} +1[0-9]{3} +1[0-9]{3}  W/m2/K")
+        for observation in found["observations"]:
+            self.assertAlmostEqual(observation["rms"], 0.5, delta=0.1)
+        self.assertIn("The case is in order.", self.done("check", "out/fitted.toml"))
+        self.assertIn("by_name_alone = true", (self.folder / "out/interface.toml").read_text())
+        self.assertTrue((self.folder / "out/calibrate.png").stat().st_size > 10000)
+        # Without noise nothing is left but what the search and the derivatives leave.
+        self.write("calibrate.toml", (example / "calibrate.toml").read_text().replace("begin = 5.0 ", "begin = 0.0 ").replace(
+            "noise = 0.5", "").replace('"TC1"', '"T_centre"').replace('"TC2"', '"T_casting"').replace('"TC3"', '"T_wall"')
+            .replace('"TC4"', '"T_mould"'))
+        self.measure(str(example / "truth.toml"), ("T_centre", "T_casting", "T_wall", "T_mould"))
+        self.done("calibrate", str(example), "measured.csv", "--unknowns", "calibrate.toml", "-o", "exact")
+        found = self.found("exact")
+        np.testing.assert_allclose([u["value"] for u in found["unknowns"]], TRUE, rtol=1e-5)
+        self.assertLessEqual(found["runs"], 15)
+
+    def test_differences_of_runs_serve_where_there_are_no_derivatives(self):
+        self.write("metal.toml", METAL)
+        self.write("case.toml", CASE + """[[probe]]
+name = "solid"
+kind = "mean"
+field = "solid_fraction"
+group = "part"
+unit = "1"
+""")
+        self.write("calibrate.toml", "[[observation]]\ncolumn = \"solid\"\nprobe = \"solid\"\nunit = \"1\"\nnoise = 1e-3\n"
+                   + (TWO % "vary.thermal_condition.outside.coefficient").replace("probe = \"T_", "noise = 0.1\nprobe = \"T_"))
+        self.measure("case.toml", ("T_centre", "T_wall", "solid"))
+        said = self.done("calibrate", "case.toml", "measured.csv", "-o", "out", "-j", "2")
+        self.assertIn("derivatives by differences of runs, 2 at a time: 'solid' is no temperature", said)
+        np.testing.assert_allclose([u["value"] for u in self.found()["unknowns"]], [0.4, 1.0], rtol=1e-3)
+        self.assertLessEqual(self.found()["runs"], 15)
+
+    def test_unknowns_that_cannot_be_told_apart_are_refused_with_their_names(self):
+        self.write("metal.toml", METAL)
+        self.write("case.toml", CASE)
+        self.write("calibrate.toml", TWO % "vary.thermal_condition.top.coefficient")
+        self.measure("case.toml", ("T_centre", "T_wall"))
+        result = solidus("calibrate", "case.toml", "measured.csv", "-o", "out", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("the readings depend on 'film' and 'emissivity' through one combination of them", result.stderr)
+        result = solidus("calibrate", "case.toml", "measured.csv", "--set", "time.end=20 s", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("measured.csv:13: 22 s of the logger is 22 s of the case, which ends at 20 s", result.stderr)
+
+
 if __name__ == "__main__":
     unittest.main()
