@@ -49,6 +49,19 @@ def end_of(case):
     return float(number) * {"s": 1.0, "min": 60.0, "h": 3600.0, "": 1.0}[unit]
 
 
+def find_materials(calibration, case):
+    """Tells unknown properties of cards which material the case has there."""
+    bodies = {body["name"]: body for body in case.get("body", [])}
+    for unknown in calibration.unknowns:
+        if unknown.kind != "card":
+            continue
+        name = unknown.key.removeprefix("body.").removesuffix(".material")
+        if unknown.key != f"body.{name}.material" or name not in bodies:
+            raise ResultError(f"{calibration.path}: [[unknown]] '{unknown.name}': 'key' is body.NAME.material with one of the "
+                              f"bodies {', '.join(bodies)}, not '{unknown.key}'")
+        unknown.material = bodies[name]["material"]
+
+
 def place_probes(calibration, case):
     """Tells unknown places of probes where the case has them."""
     probes = {probe["name"]: probe for probe in case.get("probe", [])}
@@ -113,6 +126,7 @@ def calibrate(options, say):
     headers = probes_of(case)
     readings = read_readings(calibration, options.measured, headers, end_of(case), say)
     place_probes(calibration, case)
+    find_materials(calibration, case)
     check_names(calibration, readings)
     check_amount(calibration, readings)
     reason = why_differences(case, readings)

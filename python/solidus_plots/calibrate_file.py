@@ -9,12 +9,12 @@ import numpy as np
 from solidus_plots.vtu import ResultError
 
 LOSSES = ("linear", "huber", "soft_l1", "cauchy")
-KINDS = ("key", "lag", "place", "clock")
+KINDS = ("key", "card", "lag", "place", "clock")
 KEYS = {"title", "set", "confidence", "loss", "loss_scale", "runs", "derivatives", "logger", "observation", "unknown"}
 LOGGER_KEYS = {"time", "time_unit", "begin", "each", "value", "travel", "until"}
 OBSERVATION_KEYS = {"column", "probe", "unit", "noise", "lag", "from", "until", "every", "value"}
 UNKNOWN_KEYS = {"name", "kind", "key", "also", "unit", "start", "lower", "upper", "prior", "deviation", "scale", "of", "at",
-                "argument_unit", "observations", "probe", "direction"}
+                "argument_unit", "observations", "probe", "direction", "property"}
 
 
 @dataclass
@@ -50,6 +50,8 @@ class Unknown:
     probe: str = ""
     direction: list = field(default_factory=list)
     place: list = field(default_factory=list)  # where the case has the probe, texts with units
+    of_card: str = ""  # property of the material that `key` names
+    material: str = ""  # that the case has there
 
     @property
     def unit(self):
@@ -130,12 +132,12 @@ class _Reader:
         where, kind = f"[[unknown]] '{name}'", table.get("kind", "key")
         if kind not in KINDS:
             self.fail(f"{where}: 'kind' is one of {', '.join(KINDS)}, not {kind!r}")
-        needs = {"key": ("key", "start"), "place": ("probe", "direction"), "lag": ("start",), "clock": ()}[kind]
+        needs = {"key": ("key", "start"), "card": ("key", "property", "start"), "place": ("probe", "direction"), "lag": ("start",), "clock": ()}[kind]
         for key in needs:
             if key not in table:
                 self.fail(f"{where} needs '{key}'")
         at = table.get("at", [])
-        if ("of" in table) != (len(at) > 0) or at and kind != "key":
+        if ("of" in table) != (len(at) > 0) or at and kind not in ("key", "card"):
             self.fail(f"{where}: the points of a table have 'of' (temperature, time, gap, pressure), 'at' and 'argument_unit'")
         if at and not (all(map(_number, at)) and all(a < b for a, b in zip(at, at[1:]))):
             self.fail(f"{where}: 'at' is a list of numbers that rise")
@@ -147,13 +149,14 @@ class _Reader:
         also = table.get("also", [])
         return Unknown(name, kind, parameters, table.get("key", ""), [also] if isinstance(also, str) else also,
                        table.get("of", ""), table.get("argument_unit", ""), [float(a) for a in at],
-                       table.get("observations", []), table.get("probe", ""), direction)
+                       table.get("observations", []), table.get("probe", ""), direction,
+                       of_card=table.get("property", ""))
 
     def parameters(self, table, name, where, kind, at):
         count = max(len(at), 1)
         unit = table.get("unit", {"lag": "s", "clock": "s", "place": "mm"}.get(kind, ""))
         start = self.numbers(table.get("start", 0.0), count, where, "start")
-        positive = all(value > 0 for value in start) and kind in ("key", "lag") and "degC" not in unit
+        positive = all(value > 0 for value in start) and kind in ("key", "card", "lag") and "degC" not in unit
         scale = table.get("scale", "logarithmic" if positive else "linear")
         if scale not in ("linear", "logarithmic") or scale == "logarithmic" and not positive:
             self.fail(f"{where}: 'scale' is \"linear\", or \"logarithmic\" of values above zero")

@@ -1,6 +1,7 @@
 """A case as a function of its unknowns: assignments for `solidus run`, predictions of readings and their derivatives."""
 
 from dataclasses import dataclass
+import hashlib
 import json
 import tomllib
 
@@ -12,6 +13,7 @@ from solidus_plots.vtu import ResultError
 
 FORWARD_CHANGE = 1e-6  # of a parameter, over its size, in forward differentiation
 DIFFERENCE = 1e-2  # the same in differences of runs, whose steps may follow their errors
+IN_RUNS = ("key", "card", "place")  # unknowns that a run depends on; the others act on its curves
 LENGTHS = {"m": 1e3, "cm": 10.0, "mm": 1.0, "um": 1e-3, "µm": 1e-3, "": 1e3}  # in mm
 
 
@@ -41,6 +43,20 @@ def assignments(unknown, values):
     points = ", ".join(f"[{at!r}, {value!r}]" for at, value in zip(unknown.at, values))
     return [f'{unknown.key}={{ of = "{unknown.of}", argument_unit = "{unknown.argument_unit}", '
             f'unit = "{unknown.unit or 1}", points = [{points}] }}', *first]
+
+
+def card_text(unknowns_with_values):
+    """A card that is like the one of the case but for the properties that are unknown."""
+    lines = [f"like = {json.dumps(unknowns_with_values[0][0].material)}"]
+    for unknown, values in unknowns_with_values:
+        lines.append(f"[{unknown.of_card}]")
+        if unknown.at:
+            points = ", ".join(f"[{at!r}, {float(value)!r}]" for at, value in zip(unknown.at, values))
+            lines += [f'argument_unit = "{unknown.argument_unit}"', f'unit = "{unknown.unit or 1}"', f"points = [{points}]"]
+        else:
+            lines.append(f'value = "{number_text(float(values[0]), unknown.unit)}"')
+        lines.append('source = "solidus calibrate"')
+    return "\n".join(lines) + "\n"
 
 
 def unit_vector(direction):
@@ -93,10 +109,21 @@ class Model:
 
     def words_of(self, theta):
         words = list(self.words)
-        for unknown, values, _ in self._split(theta):
-            for assignment in assignments(unknown, values):
+        for unknown, _, _ in self._split(theta):
+            for assignment in self._assignments(unknown, theta):
                 words += ["--set", assignment]
         return words
+
+    def _assignments(self, unknown, theta):
+        """What `--set` gets for an unknown at this point. Cards are written into the folder of the fit."""
+        if unknown.kind != "card":
+            return assignments(unknown, next(values for other, values, _ in self._split(theta) if other is unknown))
+        text = card_text([(other, values) for other, values, _ in self._split(theta)
+                          if other.kind == "card" and other.key == unknown.key])
+        card = (self.folder.parent / "cards" / f"{hashlib.sha256(text.encode()).hexdigest()[:16]}.toml").resolve()
+        card.parent.mkdir(parents=True, exist_ok=True)
+        card.write_text(text)
+        return [f"{unknown.key}={json.dumps(str(card))}"]
 
     def change_of(self, number, theta):
         """By how much a parameter is moved for its derivative."""
@@ -108,21 +135,20 @@ class Model:
         return change if theta[number] + change <= parameter.high else -change
 
     def in_runs(self):
-        """Numbers of the parameters that a run depends on; the others act on its curves."""
-        return [at + i for unknown, _, at in self._split(np.zeros(len(self.parameters))) if unknown.kind in ("key", "place")
+        """Numbers of the parameters that a run depends on."""
+        return [at + i for unknown, _, at in self._split(np.zeros(len(self.parameters))) if unknown.kind in IN_RUNS
                 for i in range(len(unknown.parameters))]
 
     def _list_of_parameters(self, theta, file):
         lines = []
         for unknown, values, at in self._split(theta):
-            if unknown.kind not in ("key", "place"):
+            if unknown.kind not in IN_RUNS:
                 continue
-            for i in range(len(values)):
-                moved = np.array(values)
-                change = self.change_of(at + i, theta)
-                moved[i] += change
-                lines += ["[[parameter]]", f"name = {json.dumps(str(at + i))}", f"change = {moved[i] - values[i]!r}",
-                          f"set = {json.dumps(assignments(unknown, moved), ensure_ascii=False)}"]
+            for i in range(at, at + len(values)):
+                moved = theta.copy()
+                moved[i] += self.change_of(i, theta)
+                lines += ["[[parameter]]", f"name = {json.dumps(str(i))}", f"change = {float(moved[i] - theta[i])!r}",
+                          f"set = {json.dumps(self._assignments(unknown, moved), ensure_ascii=False)}"]
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text("\n".join(lines) + "\n")
 

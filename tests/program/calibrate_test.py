@@ -2,11 +2,16 @@
 
 import csv
 import json
+import sys
 import unittest
 
 import numpy as np
 
 from program import SOURCES, ProgramTest, solidus
+
+sys.path.insert(0, str(SOURCES / "python"))
+
+from solidus_plots.calibrate_model import lagged  # noqa: E402
 
 METAL = """
 title = "A metal that freezes over a range and at one temperature"
@@ -228,6 +233,44 @@ class Fits(ProgramTest):
         found = self.found("exact")
         np.testing.assert_allclose([u["value"] for u in found["unknowns"]], TRUE, rtol=1e-5)
         self.assertLessEqual(found["runs"], 15)
+
+    def test_points_of_a_card_a_place_a_lag_and_the_clock_are_found_together(self):
+        self.write("metal.toml", METAL.replace("points = [[0, 120], [500, 160], [700, 80]]", "points = [[500, 160], [700, 80]]"))
+        self.write("case.toml", CASE)
+        self.done("run", "case.toml", "-o", "truth", "--set", 'probe.T_wall.point=["23.4 mm", "20 mm"]')
+        table, lag, clock = columns(self.folder / "truth/history.csv"), 1.5, 0.7
+        time = np.arange(1.0, 39.0, 0.5)
+        curves = [np.interp(time + clock, table["time[s]"], lagged(table["time[s]"], table[f"{probe}[degC]"], lag))
+                  for probe in ("T_centre", "T_wall")]
+        self.write("measured.csv", "\n".join(["time[s],T_centre[degC],T_wall[degC]", *(",".join(map(repr, map(float, row)))
+                                                                                      for row in zip(time, *curves))]))
+        self.write("calibrate.toml", """
+[[unknown]]
+name = "k"
+kind = "card"
+key = "body.part.material"
+property = "conductivity"
+of = "temperature"
+argument_unit = "degC"
+at = [500, 700]
+unit = "W/m/K"
+start = [130, 100]
+[[unknown]]
+name = "place"
+kind = "place"
+probe = "T_wall"
+direction = [1, 0]
+[[unknown]]
+name = "lag"
+kind = "lag"
+start = 0.5
+[[unknown]]
+name = "clock"
+kind = "clock"
+""")
+        self.done("calibrate", "case.toml", "measured.csv", "-o", "out")
+        np.testing.assert_allclose([u["value"] for u in self.found()["unknowns"]], [160, 80, 0.4, lag, clock], rtol=1e-4)
+        self.assertIn("The case is in order.", self.done("check", "out/fitted.toml"))
 
     def test_differences_of_runs_serve_where_there_are_no_derivatives(self):
         self.write("metal.toml", METAL)
