@@ -40,7 +40,8 @@ def is_section(schema: Schema) -> bool:
 
 
 def is_list_of_sections(schema: Schema) -> bool:
-    return schema.get("type") == "array" and is_section(schema.get("items", {}))
+    return any(choice.get("type") == "array" and is_section(choice.get("items", {}))
+               for choice in (schema, *schema.get("anyOf", ())))
 
 
 def child(schema: Schema, key: str, where: str) -> Schema:

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/feeder_spec.hpp"
 #include "cases/feeding_spec.hpp"
 #include "cases/friction_spec.hpp"
 #include "cases/variation.hpp"
@@ -108,14 +109,6 @@ struct MeshCoatSpec {
   SourceLocation where;
 };
 
-/// A cylindrical riser on top of a casting (mesh/making/casting_geometry.hpp). All in metres.
-struct RiserBlockSpec {
-  std::string name;
-  std::vector<double> foot;  ///< centre of its foot
-  double diameter = 0, height = 0;
-  SourceLocation where;
-};
-
 /// The half of the geometry that is kept.
 struct SymmetrySpec {
   std::string axis;  ///< "x", "y" or "z", normal to the plane
@@ -146,7 +139,8 @@ struct MeshSpec {
   int way = 0;  ///< of meshing solids and skins: the only one that is tried, from one; 0: one after the other
   std::optional<MouldBlockSpec> mould;
   std::vector<MeshCoatSpec> coats;  ///< from the metal outward
-  std::optional<RiserBlockSpec> riser;
+  std::vector<RiserBlockSpec> risers;
+  std::vector<ChillBlockSpec> chills;
   std::optional<SymmetrySpec> symmetry;
   /// Run a .geo script without checks. This is never a key of a case file: the user who runs a case decides
   /// whether to trust its scripts, not its author.

@@ -1,5 +1,6 @@
 /// Keys of [mesh]: files, built-in shapes, groups, sizes, mould and layers.
 #include "cases/case_keys.hpp"
+#include "cases/feeder_keys.hpp"
 
 namespace solidus::cases {
 
@@ -194,19 +195,6 @@ Section<MeshCoatSpec> coat_keys() {
   return s;
 }
 
-/// Keys of a riser that is put onto a casting.
-Section<RiserBlockSpec> riser_keys() {
-  using R = RiserBlockSpec;
-  Section<R> s("riser",
-               "An upright cylinder of metal on the geometry: what of it lies outside of the parts.");
-  s.key("name", &R::name).initially("riser").doc("Its name, as a group of the mesh.");
-  s.quantity("foot", &R::foot, "m").doc("Centre of its foot, three coordinates; it may lie inside a part.");
-  s.quantity("diameter", &R::diameter, "m").positive().doc("Its diameter.");
-  s.quantity("height", &R::height, "m").positive().doc("Its height above the foot, along z.");
-  s.place(&R::where);
-  return s;
-}
-
 /// Keys of a plane of symmetry at which a geometry is cut.
 Section<SymmetrySpec> symmetry_keys() {
   using S = SymmetrySpec;
@@ -295,7 +283,8 @@ Section<MeshSpec> mesh_keys() {
   s.sections("size", &MeshSpec::sizes, size_keys());
   s.section("mould", &MeshSpec::mould, mould_keys());
   s.sections("coat", &MeshSpec::coats, coat_keys());
-  s.section("riser", &MeshSpec::riser, riser_keys());
+  s.sections("riser", &MeshSpec::risers, riser_keys()).or_one();
+  s.sections("chill", &MeshSpec::chills, chill_keys());
   s.section("symmetry", &MeshSpec::symmetry, symmetry_keys());
   s.section("cylinder_in_mould", &MeshSpec::cylinder_in_mould, cylinder_in_mould_keys())
       .when("shape", {"cylinder_in_mould"});

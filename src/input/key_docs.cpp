@@ -72,7 +72,7 @@ std::string type_text(const Key& key) {
       case Key::Kind::section:
         return "section";
       case Key::Kind::sections:
-        return "sections";
+        return key.single ? "section or sections" : "sections";
       case Key::Kind::named_sections:
         return "named sections";
     }
@@ -230,8 +230,11 @@ std::string schema_of_value(const Key& key, int depth) {
     }
     case Key::Kind::section:
       return schema_of_section(*key.section, depth + 1);
-    case Key::Kind::sections:
-      return "\"type\": \"array\", \"items\": {" + schema_of_section(*key.section, depth + 1) + "}";
+    case Key::Kind::sections: {
+      const std::string one = schema_of_section(*key.section, depth + 1);
+      const std::string all = "\"type\": \"array\", \"items\": {" + one + "}";
+      return key.single ? "\"anyOf\": [{" + one + "}, {" + all + "}]" : all;
+    }
     case Key::Kind::named_sections:
       return "\"type\": \"object\", \"additionalProperties\": {" +
              schema_of_section(*key.section, depth + 1) + "}";

@@ -375,10 +375,10 @@ Value completed_key(const Value& value, const Key& key, const std::string& path)
   const std::string inner = inner_path(path, key.name, repeated);
   if (key.kind == Key::Kind::section) return key.section->completed(value, inner);
   if (key.kind == Key::Kind::sections) {
-    if (!value.is_list())
+    Value result = key.single && value.is_table() ? Value::list({value}) : value;
+    if (!result.is_list())
       throw InputError(value.where, fmt::format("'{}' is {}", key.name, value.describe()),
                        fmt::format("any number of sections, each headed {}", inner));
-    Value result = value;
     for (Value& item : result.items()) item = key.section->completed(item, inner);
     return result;
   }

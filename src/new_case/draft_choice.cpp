@@ -8,6 +8,7 @@
 
 #include "cases/roles.hpp"
 #include "input/keys.hpp"
+#include "new_case/feeders_file.hpp"
 #include "new_case/riser_choice.hpp"
 #include "new_case/rounding.hpp"
 
@@ -39,22 +40,20 @@ class Choice {
     // The thickest place decides how long freezing takes; a riser may be thicker still.
     thickest_ = 2 * (part_.spheres.empty() ? part_.thickness_at(0.9) / 2 : part_.spheres.front().radius);
     if (!options_.symmetry.empty()) choose_symmetry();
-    if (options_.riser) {
-      if (part_.has_riser())
-        throw InputError({"--riser"}, "the geometry has a riser already", "no --riser auto");
-      draft_.riser = choose_riser(part_, std::abs(alloy_.solidification()->volume_change), draft_.symmetry);
-      thickest_ = std::max(thickest_, draft_.riser->diameter);
-    }
+    if (options_.riser || !options_.feeders.empty()) choose_feeders();
     choose_bodies();
     if (!part_.has_mould) choose_mould();
     // Hot spots become probes. They are folded to the half that is computed, and rounded so that the text is
     // short.
-    for (const mesh::InscribedSphere& sphere : part_.spheres) draft_.hot_spots.push_back(sphere);
+    constexpr std::size_t k_probes = 3;
+    for (std::size_t i = 0; i < std::min(k_probes, part_.spheres.size()); ++i)
+      draft_.hot_spots.push_back(part_.spheres[i]);
     for (mesh::InscribedSphere& sphere : draft_.hot_spots) {
       fold(sphere.centre);
       for (double& x : sphere.centre) x = to_micrometre(x);
     }
-    if (draft_.riser) fold(draft_.riser->foot, 0);
+    if (options_.riser)
+      for (DraftRiser& riser : draft_.risers) fold(riser.foot, 0);
     // Films, times and steps are first values that the estimate of freezing replaces.
     draft_.film = process_.film;
     draft_.film_source = process_.film_source;
@@ -137,12 +136,16 @@ class Choice {
       draft.role = body.role;
       describe(draft_, process_, draft);
     }
-    if (draft_.riser) {
-      DraftBody& riser = draft_.bodies.emplace_back();
-      riser.name = riser.group = draft_.riser->name;
-      riser.role = cases::Role::riser;
-      describe(draft_, process_, riser);
-    }
+    const auto add = [&](const std::string& name, cases::Role role) {
+      DraftBody& body = draft_.bodies.emplace_back();
+      body.name = body.group = name;
+      body.role = role;
+      describe(draft_, process_, body);
+    };
+    for (const DraftRiser& riser : draft_.risers) add(riser.name, cases::Role::riser);
+    for (const DraftRiser& riser : draft_.risers)
+      if (riser.sleeve > 0) add(riser.name + "_sleeve", cases::Role::sleeve);
+    for (const DraftChill& chill : draft_.chills) add(chill.name, cases::Role::chill);
   }
 
   void choose_mould() {
@@ -157,7 +160,7 @@ class Choice {
         of_wall(shell > 0 ? k_room_of_shell * shell : std::max(least, process_.walls * thickest_));
     mould.walls.fill(wall);
     if (draft_.symmetry) mould.walls[2 * static_cast<std::size_t>(draft_.symmetry->axis) + 1] = 0;
-    if (draft_.riser || ends_in_a_riser()) mould.walls[5] = 0;  // open at the top
+    if (riser_on_top() || ends_in_a_riser()) mould.walls[5] = 0;  // open at the top
     DraftBody& body = draft_.bodies.emplace_back();
     body.name = body.group = process_.mould == cases::Role::die ? "die" : "mould";
     mould.name = body.name;
@@ -178,6 +181,39 @@ class Choice {
     draft_.mould->name = "block";
     body.name = body.group = draft_.shell->name;
     draft_.mould_size = two_digits(thickness / k_elements_through);
+  }
+
+  /// Chosen here, or given in a file.
+  void choose_feeders() {
+    if (part_.has_riser()) throw InputError({"--riser"}, "the geometry has a riser already", "no --riser");
+    if (options_.riser) {
+      RiserChoice choice = choose_risers(part_, std::abs(alloy_.solidification()->volume_change),
+                                         feeding_distance(alloy_), draft_.symmetry);
+      draft_.risers = std::move(choice.risers);
+      draft_.riser_notes = std::move(choice.notes);
+      end_at_one_height();
+    } else {
+      Feeders given = read_feeders(options_.feeders);
+      draft_.risers = std::move(given.risers);
+      draft_.chills = std::move(given.chills);
+    }
+    for (const DraftRiser& riser : draft_.risers) thickest_ = std::max(thickest_, riser.diameter);
+  }
+
+  /// Lets the risers end where the highest does, so that all are open, but for those that would become half
+  /// as high again, which are closed.
+  void end_at_one_height() {
+    constexpr double k_longer = 1.5;
+    double top = -1e300;
+    for (const DraftRiser& riser : draft_.risers) top = std::max(top, riser.foot[2] + riser.height);
+    for (DraftRiser& riser : draft_.risers)
+      if (top - riser.foot[2] < k_longer * riser.height) riser.height = top - riser.foot[2];
+  }
+
+  /// Whether a riser that was put onto the parts reaches above all of them.
+  bool riser_on_top() const {
+    return std::ranges::any_of(
+        draft_.risers, [&](const DraftRiser& riser) { return riser.foot[2] + riser.height > part_.high[2]; });
   }
 
   /// Whether a riser or the gating of the file is what reaches highest of all metal: a pouring cup is open;

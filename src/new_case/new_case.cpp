@@ -10,6 +10,8 @@
 #include "new_case/casting_processes.hpp"
 #include "new_case/draft_choice.hpp"
 #include "new_case/draft_refinement.hpp"
+#include "new_case/feeder_solids.hpp"
+#include "new_case/feeders_file.hpp"
 #include "new_case/new_case_report.hpp"
 #include "new_case/part_measures.hpp"
 #include "system/processes.hpp"
@@ -34,9 +36,10 @@ material::Material alloy_of(const NewCaseOptions& options, const CastingProcess&
   if (!options.symmetry.empty() && options.symmetry != "x" && options.symmetry != "y" &&
       options.symmetry != "z")
     throw InputError({"--symmetry"}, fmt::format("'{}' is no axis", options.symmetry), "x, y or z");
-  if (options.riser && options.symmetry == "z")
+  if ((options.riser || !options.feeders.empty()) && options.symmetry == "z")
     throw InputError({"--symmetry"}, "with a riser on top nothing is symmetric in z",
-                     "x or y, or no --riser auto");
+                     "x or y, or no --riser");
+  if (!options.feeders.empty()) read_feeders(options.feeders);
   if (options.shots > 0 && process.mould != cases::Role::die)
     throw InputError({"--shots"},
                      fmt::format("the mould of the process '{}' is lost with its casting", process.name),
@@ -65,6 +68,7 @@ NewCaseReport make_new_case(const NewCaseOptions& options) {
   write_draft(draft);
   const DraftEstimate estimate =
       refine_draft(draft, process, alloy, options.fineness, part.time_of_direct_ways);
+  write_feeder_solids(draft, draft.folder / "risers.step");
   return {draft.folder / "case.toml", report_text(draft, part, estimate, options)};
 }
 

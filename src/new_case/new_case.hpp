@@ -15,7 +15,8 @@ struct NewCaseOptions {
   std::string process = "sand";    ///< sand, shell, gravity_die, high_pressure
   std::string alloy;               ///< a material of the library, or a file
   std::string unit;                ///< of the file; empty: what the file says, else mm
-  bool riser = false;              ///< a riser on the thickest place
+  bool riser = false;              ///< risers on the thick places
+  std::filesystem::path feeders;   ///< a file of risers and chills; empty: none
   std::string symmetry;            ///< "x", "y", "z": half of the part; empty: all of it
   std::vector<std::string> as;     ///< "NAME=role" of bodies of the file
   std::filesystem::path folder;    ///< for the case; empty: the file's name, here

@@ -74,15 +74,16 @@ std::string unknown_bodies_text(const Draft& draft, const std::vector<std::strin
       unknown, last);
 }
 
-/// Distance of the riser from the plane of symmetry [m]; none where one of them is not there.
-std::optional<double> riser_beside_plane(const Draft& draft) {
-  if (!draft.riser || !draft.symmetry) return {};
-  return draft.symmetry->at - draft.riser->foot[static_cast<std::size_t>(draft.symmetry->axis)];
+/// Distance of a riser from the plane of symmetry [m]; none where there is no plane.
+std::optional<double> beside_plane(const Draft& draft, const DraftRiser& riser) {
+  if (!draft.symmetry) return {};
+  return draft.symmetry->at - riser.foot[static_cast<std::size_t>(draft.symmetry->axis)];
 }
 
-/// A note where half of the part has a riser beside the plane: the whole part then has two. Empty where not.
+/// A note where half of the part has its first riser beside the plane: the whole part then has two such.
+/// Empty where not.
 std::string twin_riser_text(const Draft& draft) {
-  const double beside = riser_beside_plane(draft).value_or(0);
+  const double beside = draft.risers.empty() ? 0 : beside_plane(draft, draft.risers.front()).value_or(0);
   if (beside == 0) return "";
   return fmt::format(
       "\n  note        the part is thickest {:.3g} mm beside the plane of symmetry: there is a riser on each "
@@ -90,15 +91,39 @@ std::string twin_riser_text(const Draft& draft) {
       1e3 * beside);
 }
 
-/// A note where the riser stands on a handle or a bridge above the thickest place, which freezes first. Empty
-/// where metal leads straight up.
+/// A note for each riser that stands on a handle or a bridge above the thickest place, which freezes first.
+/// Empty where metal leads straight up.
 std::string hollow_text(const Draft& draft) {
-  if (!draft.riser || !draft.riser->hollow) return "";
-  return fmt::format(
-      "\n  note        the riser stands on metal above the thickest place, with {:.3g} mm of mould between "
-      "them: it feeds that place only until the metal beside has frozen; turn the part, or place a riser by "
-      "hand",
-      1e3 * *draft.riser->hollow);
+  std::string text;
+  for (const DraftRiser& riser : draft.risers)
+    if (riser.hollow)
+      text += fmt::format(
+          "\n  note        '{}' stands on metal above the thickest place, with {:.3g} mm of mould between "
+          "them: it feeds that place only until the metal beside has frozen; turn the part, or place a riser "
+          "by hand",
+          riser.name, 1e3 * *riser.hollow);
+  for (const std::string& note : draft.riser_notes) text += "\n  note        " + note;
+  return text;
+}
+
+/// The risers with the places that they were chosen for, and the chills.
+std::string feeders_text(const Draft& draft) {
+  std::string text;
+  for (const DraftRiser& riser : draft.risers) {
+    text += fmt::format("\n  {:<10}  {:.3g} mm wide, {:.3g} mm high", riser.name, 1e3 * riser.diameter,
+                        1e3 * riser.height);
+    if (riser.sleeve > 0) text += fmt::format(", in a sleeve of {:.3g} mm", 1e3 * riser.sleeve);
+    if (beside_plane(draft, riser) == 0.0) text += ", halved by the plane of symmetry on which it stands";
+    if (riser.hot_spot)
+      text += fmt::format(", for the place at ({:.4g}, {:.4g}, {:.4g}) mm with a modulus of {:.3g} mm",
+                          1e3 * (*riser.hot_spot)[0], 1e3 * (*riser.hot_spot)[1], 1e3 * (*riser.hot_spot)[2],
+                          1e3 * riser.modulus);
+  }
+  for (const DraftChill& chill : draft.chills)
+    text += fmt::format(
+        "\n  {:<10}  {:.3g} x {:.3g} x {:.3g} mm", chill.name, 1e3 * (chill.highest[0] - chill.lowest[0]),
+        1e3 * (chill.highest[1] - chill.lowest[1]), 1e3 * (chill.highest[2] - chill.lowest[2]));
+  return text;
 }
 
 /// A note where no way of meshing gave sound elements; empty where one did.
@@ -166,11 +191,7 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
   for (const mesh::InscribedSphere& s : draft.hot_spots)
     out += fmt::format("\n  hot spot    a sphere of {:.3g} mm at ({:.4g}, {:.4g}, {:.4g}) mm", 2e3 * s.radius,
                        1e3 * s.centre[0], 1e3 * s.centre[1], 1e3 * s.centre[2]);
-  if (draft.riser)
-    out += fmt::format(
-        "\n  riser       {:.3g} mm wide, {:.3g} mm high{}", 1e3 * draft.riser->diameter,
-        1e3 * draft.riser->height,
-        riser_beside_plane(draft) == 0.0 ? ", halved by the plane of symmetry on which it stands" : "");
+  out += feeders_text(draft);
   if (draft.symmetry)
     out += fmt::format("\n  symmetry    the half below {} = {:.4g} mm is computed",
                        "xyz"[draft.symmetry->axis], 1e3 * draft.symmetry->at);

@@ -29,6 +29,24 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
+std::string place_text(const mesh::Point& x) {
+  return fmt::format("[{}, {}, {}]", mm(x[0]), mm(x[1]), mm(x[2]));
+}
+
+std::string riser_text(const DraftRiser& r) {
+  std::string t = "[[mesh.riser]]";
+  if (r.modulus > 0 && r.hot_spot)
+    t += fmt::format("   # for the hot spot at ({:.4g}, {:.4g}, {:.4g}) mm, of a modulus of {:.3g} mm",
+                     1e3 * (*r.hot_spot)[0], 1e3 * (*r.hot_spot)[1], 1e3 * (*r.hot_spot)[2], 1e3 * r.modulus);
+  t += fmt::format("\nname = {}\nfoot = {}\ndiameter = {}\nheight = {}\n", quoted(r.name), place_text(r.foot),
+                   mm(r.diameter), mm(r.height));
+  if (r.neck_diameter > 0) t += fmt::format("neck_diameter = {}\n", mm(r.neck_diameter));
+  if (r.neck_height > 0) t += fmt::format("neck_height = {}\n", mm(r.neck_height));
+  if (r.neck_to) t += fmt::format("neck_to = {}\n", place_text(*r.neck_to));
+  if (r.sleeve > 0) t += fmt::format("sleeve = {}\n", mm(r.sleeve));
+  return t + "\n";
+}
+
 std::string mesh_text(const Draft& d) {
   // Behind layers of sand elements that grow fast would take up too much heat.
   constexpr double k_growth_of_sand = 0.2, k_growth = 0.6;
@@ -44,11 +62,14 @@ std::string mesh_text(const Draft& d) {
        "time.\n";
   // Sizes for what is poured, and how elements grow in what surrounds it.
   for (const DraftBody& b : d.bodies) {
-    if (cases::is_poured(b.role))
+    if (cases::is_poured(b.role)) {
+      // A riser that is put onto the part has four elements across, or its freezing is that of the mesh.
+      const auto riser = std::ranges::find(d.risers, b.group, &DraftRiser::name);
+      const double most = riser == d.risers.end() ? d.size : two_digits(riser->diameter / 4);
       t += fmt::format(
           "[[mesh.size]]\nbody = {}\nsize = {}\nsmallest = {}\nacross = 2    # through a wall\n\n",
-          quoted(b.group), mm(d.size), mm(d.smallest));
-    else
+          quoted(b.group), mm(std::min(d.size, most)), mm(std::min(d.smallest, most)));
+    } else
       t += fmt::format(
           "[[mesh.size]]\nbody = {}\nsize = {}\nacross = 0\ngrowth = {}  # away from the metal\n\n",
           quoted(d.shell && b.group == d.shell->name ? d.mould->name : b.group), mm(d.mould_size),
@@ -70,12 +91,11 @@ std::string mesh_text(const Draft& d) {
         "[[mesh.coat]]   # more of them from the metal outward: a face coat of another ceramic, a back-up\n"
         "name = {}\nthickness = {}\n\n",
         quoted(d.shell->name), mm(d.shell->thickness));
-  if (d.riser)
+  for (const DraftRiser& riser : d.risers) t += riser_text(riser);
+  for (const DraftChill& chill : d.chills)
     t += fmt::format(
-        "[mesh.riser]   # 1.2 times the modulus of the thickest place, on top of it\nname = {}\n"
-        "foot = [{}, {}, {}]\ndiameter = {}\nheight = {}\n\n",
-        quoted(d.riser->name), mm(d.riser->foot[0]), mm(d.riser->foot[1]), mm(d.riser->foot[2]),
-        mm(d.riser->diameter), mm(d.riser->height));
+        "[[mesh.chill]]   # what of this box is not metal\nname = {}\nlowest = {}\nhighest = {}\n\n",
+        quoted(chill.name), place_text(chill.lowest), place_text(chill.highest));
   if (d.symmetry)
     t += fmt::format("[mesh.symmetry]   # the half below this plane\naxis = \"{}\"\nat = {}\n\n",
                      "xyz"[d.symmetry->axis], mm(d.symmetry->at));

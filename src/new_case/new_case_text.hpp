@@ -42,13 +42,26 @@ struct DraftShots {
   double cycle() const { return pour + solidify + open + eject + spray + close; }
 };
 
+/// A riser ([[mesh.riser]]); lengths in m.
 struct DraftRiser {
   std::string name = "riser";
   mesh::Point foot{};
-  double diameter = 0, height = 0;  ///< [m]
+  double diameter = 0, height = 0;
+  double neck_diameter = 0;                  ///< 0: no neck
+  double neck_height = 0;                    ///< above the foot, where the sleeve begins, too
+  std::optional<mesh::Point> neck_to = {};   ///< of a riser beside the part
+  double sleeve = 0;                         ///< thickness; 0: none
+  std::optional<mesh::Point> hot_spot = {};  ///< that it was chosen for
+  double modulus = 0;                        ///< of the hot spot
   /// Thickness of the mould between the thickest place and the metal above it, on which the riser stands
   /// [m]; none where metal leads straight up.
   std::optional<double> hollow = {};
+};
+
+/// A chill ([[mesh.chill]]), between two corners [m].
+struct DraftChill {
+  std::string name;
+  mesh::Point lowest{}, highest{};
 };
 
 /// Layers of thin elements of a body on one of its surfaces.
@@ -76,7 +89,9 @@ struct Draft {
   std::vector<DraftBody> bodies;
   std::optional<DraftMould> mould;
   std::optional<DraftShell> shell;
-  std::optional<DraftRiser> riser;
+  std::vector<DraftRiser> risers;
+  std::vector<DraftChill> chills;
+  std::vector<std::string> riser_notes;  ///< on places that no riser feeds
   std::optional<DraftSymmetry> symmetry;
   std::vector<DraftLayers> layers;
   std::vector<std::string> films, symmetric;  ///< bodies with skins in air, in the plane of symmetry

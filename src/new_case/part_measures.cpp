@@ -18,7 +18,7 @@ namespace {
 /// Riser and symmetry cut solids, and triangles cannot be cut.
 void refuse_cuts(const NewCaseOptions& options, bool solids) {
   const char* allowed = "a STEP, BREP or IGES file";
-  if (!solids && options.riser)
+  if (!solids && (options.riser || !options.feeders.empty()))
     throw InputError({"--riser"}, "a riser can be joined to solids of a CAD program only", allowed);
   if (!solids && !options.symmetry.empty())
     throw InputError({"--symmetry"}, "only solids of a CAD program can be cut", allowed);
@@ -70,7 +70,8 @@ PartMeasures measure_part(const NewCaseOptions& options) {
     }
   std::sort(m.thickness.begin(), m.thickness.end());
   if (m.thickness.empty()) m.thickness = {std::cbrt(m.volume)};
-  m.spheres = mesh::inscribed_spheres(m.mesh, m.metal, 3);
+  constexpr std::size_t k_spheres = 12;
+  m.spheres = mesh::inscribed_spheres(m.mesh, m.metal, k_spheres);
   return m;
 }
 

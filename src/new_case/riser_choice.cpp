@@ -1,151 +1,275 @@
 #include "new_case/riser_choice.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
-#include "new_case/rounding.hpp"
+#include "mesh/making/metal_grid.hpp"
+#include "new_case/riser_standing.hpp"
 
 namespace solidus::new_case {
 
 namespace {
 
-constexpr double k_nearly = 0.8;  ///< radius of a place that is nearly the thickest, of that of the thickest
-constexpr double k_slender_riser = 1.5;  ///< height of a riser, of its diameter
+using mesh::InscribedSphere;
 
-/// Thickness of what is no metal above a place, up to the first metal above that, as sand under a handle
-/// [m]; none where it is thinner than a tenth of the place.
-std::optional<double> hollow_above(const mesh::ViewFromAbove& view, const mesh::InscribedSphere& place) {
-  constexpr double k_thin = 0.1;  // of the diameter of the place
-  const double exit = view.first_exit(place.centre);
-  const double entry = view.first_exit({place.centre[0], place.centre[1], exit + 1e-6 * place.radius});
-  if (!(entry - exit > k_thin * 2 * place.radius)) return {};
-  return entry - exit;
+constexpr double k_nearly = 0.8;  ///< radius of a place that is nearly the thickest, of that of the thickest
+constexpr double k_open = 0.8;    ///< least depth of a way that feeds a place, of the depth of that place
+constexpr std::size_t k_cubes = 60000, k_most_risers = 12;
+
+/// Thick places that metal nearly as thick as they are connects.
+struct Group {
+  std::vector<InscribedSphere> places;  ///< the thickest first
+  std::vector<double> widest;           ///< [cube] from the first of them
+};
+
+class Choice {
+ public:
+  Choice(const PartMeasures& part, double shrinkage, const std::optional<FeedingDistance>& distance,
+         const std::optional<DraftSymmetry>& symmetry)
+      : part_(part),
+        shrinkage_(shrinkage),
+        distance_(distance),
+        symmetry_(symmetry),
+        view_(part.mesh, part.metal),
+        grid_(part.mesh, part.metal, k_cubes) {}
+
+  RiserChoice choose() {
+    for (const Group& group : groups()) put_on(group);
+    if (distance_) put_where_too_far();
+    give_metal();
+    if (choice_.risers.size() > 1)
+      for (std::size_t i = 0; i < choice_.risers.size(); ++i)
+        choice_.risers[i].name = fmt::format("riser_{}", i + 1);
+    return std::move(choice_);
+  }
+
+ private:
+  double modulus_of(const InscribedSphere& place) const;
+  std::vector<Group> groups() const;
+  const InscribedSphere* place_to_feed(const std::vector<InscribedSphere>& places, double thickest) const;
+  void put_on(const Group& group);
+  void put_where_too_far();
+  void give_metal();
+  /// Puts a riser on a place where it is clear of the others; else notes the place.
+  void put(const InscribedSphere& place, double modulus, int fixed);
+  DraftRiser riser_on(const InscribedSphere& place, double diameter, int fixed) const;
+  /// Places from which the risers feed, with the mirror images of those beside the plane behind them.
+  std::vector<mesh::WayStart> feet() const;
+
+  const PartMeasures& part_;
+  double shrinkage_;
+  const std::optional<FeedingDistance>& distance_;
+  const std::optional<DraftSymmetry>& symmetry_;
+  mesh::ViewFromAbove view_;
+  mesh::MetalGrid grid_;
+  RiserChoice choice_;
+  std::vector<std::pair<InscribedSphere, int>> stands_on_;  ///< [riser] the place, the fixed coordinate
+};
+
+/// Area of triangles within a ball, by points spread over each [m²].
+double area_in(const std::vector<std::array<mesh::Point, 3>>& triangles, const mesh::Point& centre,
+               double radius) {
+  const auto distance = [](const mesh::Point& a, const mesh::Point& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  };
+  double sum = 0;
+  for (const auto& t : triangles) {
+    const mesh::Point middle = {(t[0][0] + t[1][0] + t[2][0]) / 3, (t[0][1] + t[1][1] + t[2][1]) / 3,
+                                (t[0][2] + t[1][2] + t[2][2]) / 3};
+    double far = 0;
+    for (const mesh::Point& corner : t) far = std::max(far, distance(corner, middle));
+    if (distance(middle, centre) > radius + far) continue;
+    mesh::Point u{}, v{};
+    for (std::size_t i = 0; i < 3; ++i) u[i] = t[1][i] - t[0][i], v[i] = t[2][i] - t[0][i];
+    const double area =
+        0.5 * std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+    // The triangle is divided into n² of its shape, each of which counts by its middle.
+    const int n = std::clamp(static_cast<int>(std::ceil(5 * far / radius)), 1, 40);
+    int inside = 0;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < 2 * (n - i) - 1; ++j) {
+        const double down = j % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
+        const double a = (i + down) / n, b = (j / 2 + down) / n;
+        inside += distance({t[0][0] + a * u[0] + b * v[0], t[0][1] + a * u[1] + b * v[1],
+                            t[0][2] + a * u[2] + b * v[2]},
+                           centre) < radius
+                      ? 1
+                      : 0;
+      }
+    sum += area * inside / (n * n);
+  }
+  return sum;
+}
+
+double Choice::modulus_of(const InscribedSphere& place) const {
+  const double radius = 2 * place.radius, area = area_in(view_.faces(), place.centre, radius);
+  if (!(area > 0)) return place.radius;
+  return std::clamp(grid_.volume_in(place.centre, radius) / area, place.radius / 3, place.radius);
+}
+
+std::vector<Group> Choice::groups() const {
+  std::vector<Group> groups;
+  for (InscribedSphere place : part_.spheres) {
+    // Of a half, what lies beyond the plane is the image of what lies before it.
+    if (symmetry_) {
+      double& x = place.centre[static_cast<std::size_t>(symmetry_->axis)];
+      x = std::min(x, 2 * symmetry_->at - x);
+    }
+    const std::size_t cube = grid_.cube_at(place.centre);
+    const auto open = [&](const Group& group) { return group.widest[cube] >= k_open * grid_.depth(cube); };
+    if (const auto found = std::ranges::find_if(groups, open); found != groups.end())
+      found->places.push_back(place);
+    else
+      groups.push_back({{place}, grid_.widest_ways(cube)});
+  }
+  return groups;
 }
 
 /// Chooses, of the places that are nearly as thick as the thickest of all, the one with the least metal above
 /// its centre, and one with a hollow above it only where there is no other; null where there is none.
-const mesh::InscribedSphere* place_to_feed(const PartMeasures& part, const mesh::ViewFromAbove& view,
-                                           const std::vector<mesh::InscribedSphere>& places) {
-  const mesh::InscribedSphere* best = nullptr;
+const InscribedSphere* Choice::place_to_feed(const std::vector<InscribedSphere>& places,
+                                             double thickest) const {
+  const InscribedSphere* best = nullptr;
   std::pair<bool, double> least{true, 1e300};
-  for (const mesh::InscribedSphere& s : places) {
-    if (s.radius < k_nearly * part.spheres.front().radius) continue;
-    const std::pair<bool, double> above{hollow_above(view, s).has_value(), view.top(s.centre) - s.centre[2]};
+  for (const InscribedSphere& s : places) {
+    if (s.radius < k_nearly * thickest) continue;
+    const std::pair<bool, double> above{hollow_above(view_, s).has_value(),
+                                        view_.top(s.centre) - s.centre[2]};
     if (above < least) least = above, best = &s;
   }
   return best;
 }
 
-/// Diameter of a cylinder [m].
-/// @param radius  of the sphere at the place that it feeds [m]
-/// @param metal   volume that it feeds [m³]
-double diameter_for(const PartMeasures& part, double radius, double metal, double shrinkage) {
-  constexpr double k_safety = 1.2;
-  // An upright cylinder that is 1.5 diameters high and cooled at side and top has V/A = 0.214 D.
-  constexpr double k_modulus = 0.375 / 1.75;
-  const double by_modulus = k_safety * std::max(part.volume / part.area, radius / 3) / k_modulus;
-  // It may give 14 % of its volume (Wlodawer's figure for open cylinders), and feeds itself as well.
-  constexpr double k_yield = 0.14;
-  const double needed = shrinkage * metal / std::max(k_yield - shrinkage, 0.02);
-  const double by_metal = std::cbrt(needed / (0.25 * std::numbers::pi * k_slender_riser));
-  return rounded_up(std::max(by_modulus, by_metal), 1e-3);
-}
-
-/// How badly a cylinder stands, zero where all of its foot stands on a plane and no metal rises beside it.
-/// @param centre  of the foot
-double misfit(const mesh::ViewFromAbove& view, const mesh::Point& centre, double diameter) {
-  constexpr double k_level = 0.05;     // of the diameter: heights that do not count
-  constexpr double k_distance = 1.15;  // of the radius, within which metal that rises is in the way
-  constexpr double k_raised = 10;      // metal in the way is so much worse than a foot that hangs over
-  constexpr int k_directions = 24;
-  double hanging = 0, raised = 0;
-  for (const double share : {0.4, 0.8, k_distance})
-    for (int i = 0; i < k_directions; ++i) {
-      const double angle = 2 * std::numbers::pi * i / k_directions, r = 0.5 * diameter * share;
-      const mesh::Point below = {centre[0] + r * std::cos(angle), centre[1] + r * std::sin(angle), -1e3};
-      const double step = (view.top(below) - centre[2]) / diameter;
-      if (step > k_level) ++raised;
-      if (share < 1 && step < -k_level) ++hanging;
-    }
-  return (k_raised * raised + hanging) / k_directions;
-}
-
-/// Where it stands best so near the place that it covers it: metal beside it, a wall or a boss, would become
-/// one with it. It may hang over an edge for that.
-/// @param fixed  coordinate that has to stay as it is; none: -1
-mesh::Point standing_place(const mesh::ViewFromAbove& view, const mesh::Point& place, double diameter,
-                           int fixed) {
-  constexpr double k_shift = 0.05;  // of the diameter: steps in which it is moved
-  constexpr int k_shifts = 8, k_directions = 16;
-  constexpr double k_near = 0.5;  // a foot that is moved by its diameter is worth a misfit of so much
-  mesh::Point best = place;
-  double least = misfit(view, place, diameter);
-  for (int k = 1; k <= k_shifts && least > 0; ++k)
-    for (int i = 0; i < k_directions; ++i) {
-      const double angle = 2 * std::numbers::pi * i / k_directions;
-      mesh::Point moved = place;
-      if (fixed != 0) moved[0] += k * k_shift * diameter * std::cos(angle);
-      if (fixed != 1) moved[1] += k * k_shift * diameter * std::sin(angle);
-      const double all = misfit(view, moved, diameter) + k_near * k * k_shift;
-      if (all < least) least = all, best = moved;
-    }
-  return best;
-}
-
-/// The lowest metal under a foot that is no deeper below its centre than a quarter of its diameter: a foot
-/// that stood above a recess would leave a sheet of sand in it that no pattern has.
-double lowest_under(const mesh::ViewFromAbove& view, const mesh::Point& centre, double diameter) {
-  constexpr double k_deepest = 0.25;  // of the diameter: what lies deeper is beside the place
-  constexpr int k_directions = 24;
-  double lowest = centre[2];
-  for (const double share : {0.25, 0.5, 0.75, 1.0})
-    for (int i = 0; i < k_directions; ++i) {
-      const double angle = 2 * std::numbers::pi * i / k_directions, r = 0.5 * diameter * share;
-      const double top = view.top({centre[0] + r * std::cos(angle), centre[1] + r * std::sin(angle), -1e3});
-      if (top > centre[2] - k_deepest * diameter) lowest = std::min(lowest, top);
-    }
-  return lowest;
-}
-
-/// @param fixed  see standing_place()
-DraftRiser cylinder_on(const mesh::ViewFromAbove& view, const mesh::Point& place, double diameter,
-                       int fixed) {
-  DraftRiser riser;
-  riser.diameter = diameter;
-  const mesh::Point centre = standing_place(view, {place[0], place[1], view.top(place)}, diameter, fixed);
-  const double sunk = centre[2] - lowest_under(view, centre, diameter) + 0.05 * diameter;
-  riser.foot = {centre[0], centre[1], centre[2] - sunk};
-  riser.height = rounded_up(k_slender_riser * diameter, 1e-3) + sunk;
+DraftRiser Choice::riser_on(const InscribedSphere& place, double diameter, int fixed) const {
+  DraftRiser riser = cylinder_on(view_, place.centre, diameter, fixed);
+  riser.hollow = hollow_above(view_, place);
+  riser.hot_spot = place.centre;
   return riser;
+}
+
+void Choice::put(const InscribedSphere& place, double modulus, int fixed) {
+  constexpr double k_clear = 0.55;  // of the sum of the diameters
+  DraftRiser riser = riser_on(place, riser_diameter(modulus, 0, shrinkage_), fixed);
+  riser.modulus = modulus;
+  for (const DraftRiser& other : choice_.risers)
+    if (std::hypot(riser.foot[0] - other.foot[0], riser.foot[1] - other.foot[1]) <
+        k_clear * (riser.diameter + other.diameter)) {
+      choice_.notes.push_back(fmt::format(
+          "the thick place at ({:.4g}, {:.4g}, {:.4g}) mm is cut off from the others and would have its "
+          "riser "
+          "where one stands already: see whether that feeds it, else a chill or a riser at its side will",
+          1e3 * place.centre[0], 1e3 * place.centre[1], 1e3 * place.centre[2]));
+      return;
+    }
+  choice_.risers.push_back(riser);
+  stands_on_.emplace_back(place, fixed);
+}
+
+void Choice::put_on(const Group& group) {
+  if (choice_.risers.size() == k_most_risers) return;
+  double modulus = 0;
+  for (const InscribedSphere& place : group.places) modulus = std::max(modulus, modulus_of(place));
+  const double thickest = group.places.front().radius;
+  const InscribedSphere& there = *place_to_feed(group.places, thickest);
+  if (!symmetry_) return put(there, modulus, -1);
+  // With a plane of symmetry a riser stands on the plane where a place of the group there is nearly as thick,
+  // or where it would touch its image beside the plane.
+  constexpr std::size_t k_most = 8;
+  const auto axis = static_cast<std::size_t>(symmetry_->axis);
+  std::vector<InscribedSphere> on_plane = mesh::inscribed_spheres(
+      part_.mesh, part_.metal, k_most, mesh::HalfSpace{symmetry_->axis, symmetry_->at});
+  std::erase_if(on_plane, [&](const InscribedSphere& s) {
+    const std::size_t cube = grid_.cube_at(s.centre);
+    return group.widest[cube] < k_open * grid_.depth(cube);
+  });
+  if (const InscribedSphere* place = place_to_feed(on_plane, thickest))
+    return put(*place, modulus, symmetry_->axis);
+  const DraftRiser beside = riser_on(there, riser_diameter(modulus, 0, shrinkage_), symmetry_->axis);
+  if (on_plane.empty() || symmetry_->at - beside.foot[axis] > 0.5 * beside.diameter)
+    return put(there, modulus, symmetry_->axis);
+  put(on_plane.front(), modulus, symmetry_->axis);
+}
+
+std::vector<mesh::WayStart> Choice::feet() const {
+  std::vector<mesh::WayStart> starts;
+  for (const DraftRiser& r : choice_.risers) starts.push_back({r.foot, 0.5 * r.diameter, 0.25 * r.diameter});
+  if (!symmetry_) return starts;
+  for (const DraftRiser& r : choice_.risers) {
+    mesh::WayStart image{r.foot, 0.5 * r.diameter, 0.25 * r.diameter};
+    double& x = image.centre[static_cast<std::size_t>(symmetry_->axis)];
+    x = 2 * symmetry_->at - x;
+    starts.push_back(image);
+  }
+  return starts;
+}
+
+void Choice::put_where_too_far() {
+  // Each turn serves the place that is furthest beyond its feeding distance, by a riser as far from it as
+  // feeds it and as near to the others as that allows.
+  while (choice_.risers.size() < k_most_risers) {
+    const mesh::WaysInMetal ways = grid_.shortest_ways(feet());
+    std::size_t worst = 0;
+    double most = 0, limit = 0;
+    for (std::size_t c = 0; c < grid_.size(); ++c) {
+      const double depth = grid_.depth(c);
+      // What is much thinner than the thick places is solid before it asks for metal from far away.
+      if (ways.from[c] < 0 || depth < 0.5 * part_.spheres.front().radius || !grid_.on_ridge(c)) continue;
+      // No rule allows less than twice the thickness, so nearer places need no look.
+      if (ways.length[c] - 4 * depth < most) continue;
+      const double modulus = modulus_of({grid_.centre(c), depth});
+      const double feeds =
+          distance_->along(2 * depth, modulus > 0.75 * depth, !grid_.between_places(c, ways));
+      if (ways.length[c] - feeds > most) most = ways.length[c] - feeds, worst = c, limit = feeds;
+    }
+    if (!(most > grid_.edge())) return;
+    const mesh::WaysInMetal back = grid_.shortest_ways({{grid_.centre(worst), 0, 0}});
+    std::size_t best = worst;
+    for (std::size_t c = 0; c < grid_.size(); ++c)
+      if (back.from[c] >= 0 && back.length[c] < limit && grid_.depth(c) > 0.8 * grid_.depth(worst) &&
+          grid_.on_ridge(c) && ways.length[c] < ways.length[best])
+        best = c;
+    const std::size_t before = choice_.risers.size();
+    const InscribedSphere place{grid_.centre(best), grid_.depth(best)};
+    put(place, modulus_of(place), symmetry_ ? symmetry_->axis : -1);
+    if (choice_.risers.size() == before) return;
+  }
+}
+
+void Choice::give_metal() {
+  // Metal belongs to the riser from which the way to it is the shortest; of one on the plane of symmetry also
+  // what its image, which is itself, feeds.
+  const std::size_t n = choice_.risers.size();
+  const mesh::WaysInMetal ways = grid_.shortest_ways(feet());
+  std::vector<double> metal(n, 0);
+  std::size_t counted = 0;
+  for (std::size_t c = 0; c < grid_.size(); ++c) {
+    if (ways.from[c] < 0) continue;
+    ++counted;
+    const auto from = static_cast<std::size_t>(ways.from[c]);
+    if (from < n) ++metal[from];
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    DraftRiser& riser = choice_.risers[i];
+    // The start of a riser on the plane is found before its image, and has both halves.
+    const double share = counted > 0 ? metal[i] / static_cast<double>(counted) : 1.0 / static_cast<double>(n);
+    const double diameter = riser_diameter(riser.modulus, share * part_.volume, shrinkage_);
+    if (diameter <= riser.diameter) continue;
+    const DraftRiser wider = riser_on(stands_on_[i].first, diameter, stands_on_[i].second);
+    const double modulus = riser.modulus;
+    riser = wider;
+    riser.modulus = modulus;
+  }
 }
 
 }  // namespace
 
-DraftRiser choose_riser(const PartMeasures& part, double shrinkage,
-                        const std::optional<DraftSymmetry>& symmetry) {
-  const mesh::ViewFromAbove view(part.mesh, part.metal);
-  const int fixed = symmetry ? symmetry->axis : -1;
-  const auto standing_on = [&](const mesh::InscribedSphere& place, double share) {
-    DraftRiser riser = cylinder_on(view, place.centre,
-                                   diameter_for(part, place.radius, share * part.volume, shrinkage), fixed);
-    riser.hollow = hollow_above(view, place);
-    return riser;
-  };
-  // On the thickest place that can be fed from above. With a plane of symmetry a riser stands on the plane or
-  // takes half of the volume at its own side.
-  const mesh::InscribedSphere* thickest = place_to_feed(part, view, part.spheres);
-  if (!symmetry) return standing_on(*thickest, 1);
-  constexpr std::size_t k_most = 8;
-  const std::vector<mesh::InscribedSphere> there =
-      mesh::inscribed_spheres(part.mesh, part.metal, k_most, mesh::HalfSpace{symmetry->axis, symmetry->at});
-  if (const mesh::InscribedSphere* on_plane = place_to_feed(part, view, there))
-    return standing_on(*on_plane, 1);
-  const DraftRiser beside = standing_on(*thickest, 0.5);
-  const double distance = std::abs(beside.foot[static_cast<std::size_t>(symmetry->axis)] - symmetry->at);
-  if (there.empty() || distance > 0.5 * beside.diameter) return beside;
-  return standing_on(there.front(), 1);
+RiserChoice choose_risers(const PartMeasures& part, double shrinkage,
+                          const std::optional<FeedingDistance>& distance,
+                          const std::optional<DraftSymmetry>& symmetry) {
+  return Choice(part, shrinkage, distance, symmetry).choose();
 }
 
 }  // namespace solidus::new_case

@@ -72,6 +72,11 @@ mesh::GeometryChoice geometry_choice(const cases::MeshSpec& m) {
   return choice;
 }
 
+/// Three coordinates that have been checked.
+mesh::Point point_of(const std::vector<double>& x) {
+  return {x[0], x[1], x[2]};
+}
+
 mesh::CastingGeometry casting_geometry(const cases::MeshSpec& m) {
   // A size without a smallest one may shrink to a quarter where the part is thin.
   mesh::CastingGeometry geometry;
@@ -90,10 +95,15 @@ mesh::CastingGeometry casting_geometry(const cases::MeshSpec& m) {
     for (std::size_t i = 0; i < 6; ++i)
       mould.walls[i] = m.mould->walls.size() == 6 ? m.mould->walls[i] : m.mould->walls[0];
   }
-  if (m.riser) {
-    const std::vector<double>& foot = m.riser->foot;
-    geometry.riser = {m.riser->name, {foot[0], foot[1], foot[2]}, m.riser->diameter, m.riser->height};
+  for (const cases::RiserBlockSpec& r : m.risers) {
+    mesh::RiserCylinder& riser = geometry.risers.emplace_back();
+    riser = {r.name,       point_of(r.foot), r.diameter, r.height, r.neck_diameter.value_or(r.diameter),
+             r.neck_height};
+    if (!r.neck_to.empty()) riser.neck_to = point_of(r.neck_to);
+    riser.sleeve = r.sleeve;
   }
+  for (const cases::ChillBlockSpec& c : m.chills)
+    geometry.chills.push_back({c.name, point_of(c.lowest), point_of(c.highest)});
   if (m.symmetry) geometry.symmetry = {m.symmetry->axis[0] - 'x', m.symmetry->at};
   if (m.way > 0) geometry.only_way = m.way - 1;
   return geometry;
@@ -159,7 +169,7 @@ mesh::RawMesh make_raw_mesh(cases::CaseSpec& spec, std::vector<FoundInterface>& 
       source.constants[constant.name] = constant.value;
     source.geometry = geometry_choice(m);
     source.trust_script = m.trust_script;
-    result = m.sizes.empty() && !m.mould && !m.riser && !m.symmetry
+    result = m.sizes.empty() && !m.mould && m.risers.empty() && m.chills.empty() && !m.symmetry
                  ? mesh::read_mesh(source)
                  : mesh::mesh_casting(source, casting_geometry(m));
     add_coats(m, name, result);

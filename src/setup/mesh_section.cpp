@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/feeder_keys.hpp"
 #include "input/units.hpp"
 #include "setup/section_names.hpp"
 #include "system/errors.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 /// Whether mould, riser, symmetry or sizes by walls are made of a geometry.
 bool of_casting(const cases::MeshSpec& m) {
-  return !m.sizes.empty() || m.mould || m.riser || m.symmetry;
+  return !m.sizes.empty() || m.mould || !m.risers.empty() || !m.chills.empty() || m.symmetry;
 }
 
 /// A slip in a size must not fill the memory.
@@ -99,12 +100,11 @@ void check_casting(const cases::MeshSpec& m) {
                      "[[mesh.size]] for each body, or no 'way'");
   if (of_casting(m) && (m.element_size || m.conforming))
     throw InputError(m.where,
-                     fmt::format("'{}' beside [[mesh.size]], [mesh.mould], [mesh.riser] or [mesh.symmetry], "
-                                 "which make sizes and shared faces themselves",
+                     fmt::format("'{}' beside sizes, mould, risers, chills or symmetry of [mesh], which make "
+                                 "sizes and shared faces themselves",
                                  m.element_size ? "element_size" : "conforming"),
                      "[[mesh.size]] for each body");
-  if (m.riser && m.riser->foot.size() != 3)
-    throw InputError(m.riser->where, fmt::format("'foot' has {} coordinates", m.riser->foot.size()), "three");
+  cases::check_feeders(m.risers, m.chills);
 }
 
 void check_groups_of(const cases::MeshSpec& m) {
@@ -136,8 +136,8 @@ void check_keys_of_shape(const cases::MeshSpec& m, bool solid) {
                      "built-in shape");
   if (of_casting(m))
     throw InputError(m.where,
-                     "[[mesh.size]], [mesh.mould], [mesh.riser] and [mesh.symmetry] are for files that hold "
-                     "a geometry, and the mesh is a built-in shape");
+                     "[[mesh.size]], [mesh.mould], [[mesh.riser]], [[mesh.chill]] and [mesh.symmetry] need a "
+                     "file with a geometry, and the mesh is a built-in shape");
   if (!m.constants.empty())
     throw InputError(m.where, "[[mesh.constant]] is for .geo scripts, and the mesh is a built-in shape");
   const bool element_3d = m.element.starts_with("tet") || m.element.starts_with("hex");

@@ -165,7 +165,7 @@ TEST(NewCase, OfAHollowPartHasAMouldACoreARiserAndRunsBothWays) {
   }
   EXPECT_NEAR(metal, (96e-6 - 8e-6) / 2, 1e-10);
   // It stands on the plane of symmetry. Its foot is sunk into the part by 0.05 diameters.
-  const auto cylinder = *solidus::setup::load_case(report.file, {}, Physics::heat).spec.mesh.riser;
+  const auto cylinder = solidus::setup::load_case(report.file, {}, Physics::heat).spec.mesh.risers.at(0);
   EXPECT_EQ(cylinder.foot[1], 0.02);
   const double half = std::numbers::pi / 8 * cylinder.diameter * cylinder.diameter * cylinder.height;
   EXPECT_GT(riser, 0.85 * half);
@@ -208,7 +208,7 @@ TEST(NewCase, WhereAPartIsThickestBesideThePlaneOfSymmetryEachHalfHasARiser) {
   EXPECT_NEAR(std::stod(report.text.substr(found + before.size())), 60, 0.5);
   EXPECT_THAT(report.text, HasSubstr(" mm beside the plane of symmetry: there is a riser on each half"));
   const solidus::setup::Case c = solidus::setup::load_case(report.file, {}, solidus::cases::Physics::heat);
-  const solidus::cases::RiserBlockSpec& riser = *c.spec.mesh.riser;
+  const solidus::cases::RiserBlockSpec& riser = c.spec.mesh.risers.at(0);
   EXPECT_NEAR(riser.foot[1], -0.06, 1e-3);
   EXPECT_GT(std::abs(riser.foot[1]), 0.5 * riser.diameter);
 }

@@ -52,9 +52,11 @@ ExitCode new_case(const NewArguments& arguments) {
   options.shots = arguments.shots;
   options.shell = shell_of(arguments);
   // Options that only some values make sense of are checked before the geometry is read.
-  if (!arguments.riser.empty() && arguments.riser != "auto")
-    throw InputError({"--riser"}, fmt::format("'{}' is no riser", arguments.riser), "--riser auto");
   options.riser = arguments.riser == "auto";
+  if (!arguments.riser.empty() && !options.riser) options.feeders = arguments.riser;
+  if (std::error_code error; !options.feeders.empty() && !std::filesystem::exists(options.feeders, error))
+    throw InputError({"--riser"}, fmt::format("'{}' is no riser, and no file", arguments.riser),
+                     "--riser auto, or a file of [[riser]] and [[chill]]");
   if (!(options.fineness >= 0.3 && options.fineness <= 5))
     throw InputError({"--fineness"}, fmt::format("{:g} is out of range", options.fineness), "0.3 to 5");
   // All else is chosen by the rules of the process.
@@ -84,7 +86,8 @@ class New final : public Verb {
         .add_option("--coats", a.coats, "With --process shell: its thickness as dipped coats of 1.1 mm each")
         ->check(CLI::Range(1, 40))
         ->type_name("N");
-    command().add_option("--riser", a.riser, "auto: put a riser on the thickest place");
+    command().add_option("--riser", a.riser,
+                         "auto: put risers on the thick places; or a file of [[riser]] and [[chill]]");
     command().add_option("--symmetry", a.symmetry, "x, y or z: keep half of the part, below its middle");
     command()
         .add_option("--as", a.as, "What a body of the file is, NAME=ROLE, for example --as Box_2=chill")

@@ -1,4 +1,4 @@
-// Makes the bodies of a casting, its riser and its mould out of a geometry (mesh/gmsh/casting_parts.hpp).
+// Makes the bodies of a casting, its risers and its mould out of a geometry (mesh/gmsh/casting_parts.hpp).
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -7,6 +7,7 @@
 
 #include "mesh/gmsh/casting_parts.hpp"
 #include "mesh/gmsh/closed_solids.hpp"
+#include "mesh/gmsh/feeder_solids.hpp"
 #include "mesh/gmsh/geometry_groups.hpp"
 #include "system/errors.hpp"
 
@@ -162,23 +163,20 @@ class PartMaker {
     std::erase_if(parts_, [](const BodyVolumes& part) { return part.volumes.empty(); });
   }
 
-  /// Cuts all bodies, riser and mould with each other, so that they share the faces in which they touch.
+  /// Cuts all bodies, what is added to them and the mould with each other, so that they share the faces in
+  /// which they touch.
   void fragment() {
     gmsh::vectorpair objects, tools, out;
     std::vector<gmsh::vectorpair> map;
     std::vector<std::size_t> part_of;  // of each object
-    // Parts come first in the list, so that they keep what overlaps with riser and mould.
+    // Parts come first in the list, so that they keep what overlaps with what is added.
     for (std::size_t p = 0; p < parts_.size(); ++p)
       for (const auto& volume : parts_[p].volumes) objects.push_back(volume), part_of.push_back(p);
-    // Riser and block are made in the unit of the geometry.
-    int riser = -1, block = -1;
-    if (geometry_.riser) {
-      const RiserCylinder& r = *geometry_.riser;
-      riser = occ::addCylinder(r.foot[0] / unit_, r.foot[1] / unit_, r.foot[2] / unit_, 0, 0,
-                               r.height / unit_, r.diameter / unit_ / 2);
-      if (geometry_.symmetry) riser = half_of(riser);
-      tools.emplace_back(3, riser);
-    }
+    // Risers, chills and the block are made in the unit of the geometry.
+    const std::vector<AddedBody> added =
+        add_feeders(geometry_, unit_, [&](int volume) { return kept_half(volume); });
+    for (const auto& [name, volume] : added) tools.emplace_back(3, volume);
+    int block = -1;
     if (geometry_.mould) {
       block = add_block();
       tools.emplace_back(3, block);
@@ -206,15 +204,17 @@ class PartMaker {
       gmsh::vectorpair& all = parts_[part_of[i]].volumes;
       all.insert(all.end(), pieces.begin(), pieces.end());
     }
+    const std::size_t n_parts = parts_.size();
     std::size_t next = part_of.size();
-    if (riser >= 0) parts_.push_back({geometry_.riser->name, take(next++)});
+    for (const AddedBody& one : added) parts_.push_back({one.name, take(next++)});
     if (block >= 0) sort_mould(take(next));
     // A body without a piece lies within another one.
-    for (const BodyVolumes& part : parts_)
-      if (part.volumes.empty())
-        refuse("nothing is left of the body '" + part.name + "' beside the others: they overlap",
-               riser >= 0 && part.name == geometry_.riser->name
-                   ? "foot and height of [mesh.riser] above the parts; is the unit of the file right?"
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (parts_[p].volumes.empty())
+        refuse("nothing is left of the body '" + parts_[p].name + "' beside the others: they overlap",
+               p >= n_parts && p < n_parts + added.size()
+                   ? "the place of [[mesh.riser]] or [[mesh.chill]] outside of the parts; is the unit of the "
+                     "file right?"
                    : "bodies that touch and do not overlap");
   }
 
@@ -246,20 +246,24 @@ class PartMaker {
     return sum;
   }
 
-  int half_of(int volume) {
+  /// What of a volume lies in the half that is kept; all of it without symmetry.
+  int kept_half(int volume) {
+    if (!geometry_.symmetry) return volume;
     const auto axis = static_cast<std::size_t>(geometry_.symmetry->axis);
+    occ::synchronize();
     Extent box = extent_of({{3, volume}});
     for (std::size_t i = 0; i < 3; ++i) {
       const double margin = box.high[i] - box.low[i];
       box.low[i] -= margin, box.high[i] += margin;
     }
     box.high[axis] = geometry_.symmetry->at / unit_;
+    if (!(box.high[axis] > box.low[axis])) refuse("a riser or chill lies beyond the plane of symmetry");
     const int tool = occ::addBox(box.low[0], box.low[1], box.low[2], box.high[0] - box.low[0],
                                  box.high[1] - box.low[1], box.high[2] - box.low[2]);
     gmsh::vectorpair kept;
     std::vector<gmsh::vectorpair> map;
     occ::intersect({{3, volume}}, {{3, tool}}, kept, map);
-    if (kept.empty()) refuse("the riser lies beyond the plane of symmetry");
+    if (kept.empty()) refuse("a riser or chill lies beyond the plane of symmetry");
     return kept.front().second;
   }
 

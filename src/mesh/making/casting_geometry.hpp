@@ -1,5 +1,5 @@
-/// Makes a mesh of parts and mould from the geometry of parts: a block of mould around them, a riser on them,
-/// half of them; sizes that follow the thickness of walls. Rank 0 only.
+/// Makes a mesh of parts and mould from the geometry of parts: a block of mould around them, risers on them,
+/// chills, half of them; sizes that follow the thickness of walls. Rank 0 only.
 ///
 /// Bodies that touch share the faces between them, and so their nodes (the model splits them where there is
 /// an interface). What is mould within closed cavities of the parts is a core.
@@ -28,10 +28,23 @@ struct MouldBlock {
   std::array<double, 6> walls{};  ///< x lowest, x highest, y …, z … beyond the box around the parts [m]
 };
 
+/// A riser that stands along z, with a neck at its foot or to its side and with a sleeve. All in metres.
 struct RiserCylinder {
+  std::string name;                 ///< of the groups; that of the sleeve is NAME_sleeve
+  Point foot{};                     ///< centre of its foot
+  double diameter = 0, height = 0;  ///< the height with the neck
+  /// The neck is so wide up to so high above the foot; as wide as the riser: none.
+  double neck_diameter = 0, neck_height = 0;
+  /// A point in the part to which a neck leads from the axis of the riser, at the point's height as far as
+  /// the riser goes; then there is none at the foot.
+  std::optional<Point> neck_to = {};
+  double sleeve = 0;  ///< thickness of the sleeve around what is above the neck; 0: none
+};
+
+/// A box of which what lies outside of the parts is a chill.
+struct ChillBlock {
   std::string name;
-  Point foot{};                     ///< centre of its foot [m]; it stands along z
-  double diameter = 0, height = 0;  ///< [m]
+  Point low{}, high{};  ///< [m]
 };
 
 /// Half-space that is cut off: everything above `at` along an axis.
@@ -43,7 +56,8 @@ struct HalfSpace {
 struct CastingGeometry {
   std::vector<BodySize> sizes;  ///< bodies without one take that of the first
   std::optional<MouldBlock> mould;
-  std::optional<RiserCylinder> riser;
+  std::vector<RiserCylinder> risers;
+  std::vector<ChillBlock> chills;
   std::optional<HalfSpace> symmetry;
   /// Number of the way (meshing_ways.hpp), from zero: mesh_casting() tries them one after the other.
   int attempt = 0;

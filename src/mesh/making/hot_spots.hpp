@@ -45,11 +45,11 @@ class ViewFromAbove {
   /// The height at which a vertical line from a point in the bodies leaves them first [m]; below top() where
   /// a hollow lies above the point, the point's own where it meets no face above it.
   double first_exit(const Point& point) const;
-
- private:
   /// Heights at which a vertical line through a point meets the skin, in no order.
   std::vector<double> crossings(const Point& point) const;
+  const std::vector<std::array<Point, 3>>& faces() const { return faces_; }
 
+ private:
   std::vector<std::array<Point, 3>> faces_;  ///< triangles of their common skin
 };
 

@@ -164,6 +164,45 @@ MeshSource take_source(const TakeBytes& take) {
   return source;
 }
 
+namespace {
+
+void put_feeders(const CastingGeometry& casting, const PutBytes& put) {
+  put_number(casting.risers.size(), put);
+  for (const RiserCylinder& r : casting.risers) {
+    put_text(r.name, put);
+    put_number(r.foot, put);
+    put_number(std::array{r.diameter, r.height, r.neck_diameter, r.neck_height, r.sleeve}, put);
+    put_number(r.neck_to.has_value(), put);
+    if (r.neck_to) put_number(*r.neck_to, put);
+  }
+  put_number(casting.chills.size(), put);
+  for (const ChillBlock& chill : casting.chills) {
+    put_text(chill.name, put);
+    put_number(chill.low, put);
+    put_number(chill.high, put);
+  }
+}
+
+void take_feeders(const TakeBytes& take, CastingGeometry& casting) {
+  for (auto n = take_number<std::size_t>(take); n > 0; --n) {
+    RiserCylinder& riser = casting.risers.emplace_back();
+    riser.name = take_text(take);
+    riser.foot = take_number<Point>(take);
+    const auto sizes = take_number<std::array<double, 5>>(take);
+    riser.diameter = sizes[0], riser.height = sizes[1];
+    riser.neck_diameter = sizes[2], riser.neck_height = sizes[3], riser.sleeve = sizes[4];
+    if (take_number<bool>(take)) riser.neck_to = take_number<Point>(take);
+  }
+  for (auto n = take_number<std::size_t>(take); n > 0; --n) {
+    ChillBlock& chill = casting.chills.emplace_back();
+    chill.name = take_text(take);
+    chill.low = take_number<Point>(take);
+    chill.high = take_number<Point>(take);
+  }
+}
+
+}  // namespace
+
 void put_casting(const CastingGeometry& casting, const PutBytes& put) {
   put_number(casting.sizes.size(), put);
   for (const BodySize& s : casting.sizes) {
@@ -176,12 +215,7 @@ void put_casting(const CastingGeometry& casting, const PutBytes& put) {
     put_text(casting.mould->core, put);
     put_number(casting.mould->walls, put);
   }
-  put_number(casting.riser.has_value(), put);
-  if (casting.riser) {
-    put_text(casting.riser->name, put);
-    put_number(casting.riser->foot, put);
-    put_number(std::array{casting.riser->diameter, casting.riser->height}, put);
-  }
+  put_feeders(casting, put);
   put_number(casting.symmetry.has_value(), put);
   if (casting.symmetry) put_number(*casting.symmetry, put);
   put_number(casting.attempt, put);
@@ -201,13 +235,7 @@ CastingGeometry take_casting(const TakeBytes& take) {
     mould.core = take_text(take);
     mould.walls = take_number<std::array<double, 6>>(take);
   }
-  if (take_number<bool>(take)) {
-    RiserCylinder& riser = casting.riser.emplace();
-    riser.name = take_text(take);
-    riser.foot = take_number<Point>(take);
-    const auto sizes = take_number<std::array<double, 2>>(take);
-    riser.diameter = sizes[0], riser.height = sizes[1];
-  }
+  take_feeders(take, casting);
   if (take_number<bool>(take)) casting.symmetry = take_number<HalfSpace>(take);
   casting.attempt = take_number<int>(take);
   return casting;

@@ -57,9 +57,9 @@ TEST(NewCaseReport, OfASoundDraftSaysWhatWasMeasuredAndNotesNothing) {
 
 TEST(NewCaseReport, NotesARiserThatStandsOnAHandle) {
   Report report;
-  report.draft.riser = DraftRiser{.diameter = 0.1, .height = 0.15, .hollow = 0.062};
+  report.draft.risers = {DraftRiser{.diameter = 0.1, .height = 0.15, .hollow = 0.062}};
   EXPECT_THAT(report.text(), HasSubstr("above the thickest place, with 62 mm of mould between them"));
-  report.draft.riser->hollow.reset();
+  report.draft.risers[0].hollow.reset();
   EXPECT_THAT(report.text(), Not(HasSubstr("note")));
 }
 
@@ -107,10 +107,10 @@ TEST(NewCaseReport, NotesBodiesThatArePouredForWantOfAName) {
 
 TEST(NewCaseReport, NotesARiserBesideThePlaneOfSymmetry) {
   Report report;
-  report.draft.riser = DraftRiser{.foot = {0.02, 0.01, 0.04}, .diameter = 0.04, .height = 0.06};
+  report.draft.risers = {DraftRiser{.foot = {0.02, 0.01, 0.04}, .diameter = 0.04, .height = 0.06}};
   report.draft.symmetry = DraftSymmetry{1, 0.03};
   EXPECT_THAT(report.text(), HasSubstr("the part is thickest 20 mm beside the plane of symmetry"));
-  report.draft.riser->foot[1] = 0.03;
+  report.draft.risers[0].foot[1] = 0.03;
   EXPECT_THAT(report.text(), HasSubstr("halved by the plane of symmetry on which it stands"));
   EXPECT_THAT(report.text(), Not(HasSubstr("note")));
 }

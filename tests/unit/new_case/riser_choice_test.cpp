@@ -35,11 +35,16 @@ class Blocks {
   }
   DraftRiser riser(const std::vector<mesh::InscribedSphere>& thickest, double volume,
                    const DraftSymmetry* plane = nullptr) {
+    return risers(thickest, volume, {}, plane).risers.front();
+  }
+  RiserChoice risers(const std::vector<mesh::InscribedSphere>& thickest, double volume,
+                     const std::optional<FeedingDistance>& distance = {},
+                     const DraftSymmetry* plane = nullptr) {
     part_.mesh = mesh_;
     part_.volume = volume;
     part_.area = volume / 3e-3;
     part_.spheres = thickest;
-    return choose_riser(part_, 0.04, plane ? std::optional(*plane) : std::nullopt);
+    return choose_risers(part_, 0.04, distance, plane ? std::optional(*plane) : std::nullopt);
   }
 
  private:
@@ -99,6 +104,79 @@ TEST(RiserChoice, PrefersAPlaceFromWhichMetalLeadsStraightUp) {
   const DraftRiser riser = two.riser({{{0.05, 0.05, 0.05}, 0.05}, {{0.145, 0.045, 0.045}, 0.045}}, 1e-3);
   EXPECT_FALSE(riser.hollow);
   EXPECT_GT(riser.foot[0], 0.1);
+}
+
+// As on the L of two blocks that the modulus of the whole part fed with a riser that froze before it.
+TEST(RiserChoice, HasTheModulusOfThePlaceThatItFeedsAndNotOfTheWholePart) {
+  Blocks part;
+  part.add("block", {0, 0, 0}, {0.06, 0.06, 0.06});
+  part.add("sheet", {0.06, 0, 0}, {0.3, 0.06, 0.006});
+  const DraftRiser riser = part.riser({{0.03, 0.03, 0.03}, 0.03}, 3e-4);
+  // Of a cube V/A is a sixth of its edge, a little more where the sheet takes its skin.
+  EXPECT_NEAR(riser.modulus, 0.01, 0.0008);
+  EXPECT_GE(riser.diameter, 1.2 * riser.modulus / (0.375 / 1.75));
+}
+
+TEST(RiserChoice, OfAPlateIsThatOfItsHalfThickness) {
+  Blocks plate;
+  plate.add("plate", {0, 0, 0}, {0.2, 0.2, 0.014});
+  EXPECT_NEAR(plate.riser({{0.1, 0.1, 0.007}, 0.007}, 1e-4).modulus, 0.007, 1e-4);
+}
+
+TEST(RiserChoice, EveryThickPlaceThatIsCutOffHasOne) {
+  Blocks bells;
+  bells.add("left", {0, 0, 0}, {0.06, 0.06, 0.06});
+  bells.add("bar", {0.06, 0.02, 0.02}, {0.1, 0.02, 0.02});
+  bells.add("right", {0.16, 0, 0}, {0.05, 0.06, 0.06});
+  const std::vector<mesh::InscribedSphere> places = {{{0.03, 0.03, 0.03}, 0.03},
+                                                     {{0.185, 0.03, 0.03}, 0.025}};
+  const RiserChoice choice = bells.risers(places, 4e-4);
+  ASSERT_EQ(choice.risers.size(), 2U);
+  EXPECT_EQ(choice.risers[0].name, "riser_1");
+  EXPECT_NEAR(choice.risers[0].foot[0], 0.03, 0.005);
+  EXPECT_NEAR(choice.risers[1].foot[0], 0.185, 0.005);
+  EXPECT_LT(choice.risers[1].diameter, choice.risers[0].diameter);
+}
+
+TEST(RiserChoice, PlacesThatThickMetalConnectsShareOne) {
+  Blocks bar;
+  bar.add("bar", {0, 0, 0}, {0.3, 0.06, 0.06});
+  const std::vector<mesh::InscribedSphere> places = {{{0.06, 0.03, 0.03}, 0.03}, {{0.24, 0.03, 0.03}, 0.03}};
+  EXPECT_EQ(bar.risers(places, 1e-3).risers.size(), 1U);
+}
+
+// Bishop and Pellini: 4.5 thicknesses of a plate from the edge of the riser to an end.
+TEST(RiserChoice, SteelPlatesThatAreLongerThanOneRiserFeedsHaveMore) {
+  Blocks plate;
+  plate.add("plate", {0, 0, 0}, {1.0, 0.12, 0.03});
+  const std::vector<mesh::InscribedSphere> middle = {{{0.5, 0.06, 0.015}, 0.015}};
+  EXPECT_EQ(plate.risers(middle, 3.6e-3).risers.size(), 1U);
+  const RiserChoice fed = plate.risers(middle, 3.6e-3, FeedingDistance());
+  EXPECT_GE(fed.risers.size(), 3U);
+  for (const double end : {0.0, 1.0}) {
+    double nearest = 1;
+    for (const DraftRiser& r : fed.risers)
+      nearest = std::min(nearest, std::abs(r.foot[0] - end) - 0.5 * r.diameter);
+    EXPECT_LT(nearest, 4.5 * 0.03 + 0.01);
+  }
+}
+
+TEST(FeedingDistance, IsThatOfThePlatesAndBarsThatWerePoured) {
+  EXPECT_DOUBLE_EQ(FeedingDistance().along(0.0254, true, true), 4.5 * 0.0254);
+  EXPECT_DOUBLE_EQ(FeedingDistance().along(0.0254, true, false), 2 * 0.0254);
+  EXPECT_DOUBLE_EQ(FeedingDistance().along(4 * 0.0254, false, true), 12 * 0.0254);  // 6 sqrt(4 in)
+}
+
+// As on a sheave, whose hub has a bore: a riser beside the bore hangs over the blade that begins there.
+TEST(RiserChoice, StandsOnTheMiddleOfABossWithABore) {
+  Blocks boss;
+  boss.add("west", {0, 0, 0}, {0.02, 0.06, 0.06});
+  boss.add("east", {0.04, 0, 0}, {0.02, 0.06, 0.06});
+  boss.add("south", {0.02, 0, 0}, {0.02, 0.02, 0.06});
+  boss.add("north", {0.02, 0.04, 0}, {0.02, 0.02, 0.06});
+  const DraftRiser riser = boss.riser({{0.01, 0.03, 0.03}, 0.01}, 2e-4);
+  EXPECT_NEAR(riser.foot[0], 0.03, 0.003);
+  EXPECT_NEAR(riser.foot[1], 0.03, 0.003);
 }
 
 }  // namespace

@@ -1,0 +1,64 @@
+#include "mesh/gmsh/feeder_solids.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace solidus::mesh {
+
+namespace {
+
+namespace occ = gmsh::model::occ;
+
+/// Solids that overlap or touch, as one.
+int united(int first, int second) {
+  gmsh::vectorpair out;
+  std::vector<gmsh::vectorpair> map;
+  occ::fuse({{3, first}}, {{3, second}}, out, map);
+  return out.front().second;
+}
+
+/// An upright cylinder between two heights [m].
+int upright(const Point& centre, double low, double high, double diameter, double unit) {
+  return occ::addCylinder(centre[0] / unit, centre[1] / unit, low / unit, 0, 0, (high - low) / unit,
+                          diameter / unit / 2);
+}
+
+/// A neck from the axis of a riser to a point of the part, level as far as the point is not below or above
+/// the riser.
+int neck_to_the_side(const RiserCylinder& r, double unit) {
+  const Point& to = *r.neck_to;
+  const double half = std::min(0.5 * r.neck_diameter, 0.5 * r.height);
+  const double z = std::clamp(to[2], r.foot[2] + half, r.foot[2] + r.height - half);
+  return occ::addCylinder(r.foot[0] / unit, r.foot[1] / unit, z / unit, (to[0] - r.foot[0]) / unit,
+                          (to[1] - r.foot[1]) / unit, (to[2] - z) / unit, r.neck_diameter / unit / 2);
+}
+
+int riser_solid(const RiserCylinder& r, double unit) {
+  const double foot = r.foot[2], top = foot + r.height, wide = foot + r.neck_height;
+  if (r.neck_to) return united(upright(r.foot, foot, top, r.diameter, unit), neck_to_the_side(r, unit));
+  if (!(r.neck_height > 0) || !(r.neck_diameter < r.diameter))
+    return upright(r.foot, foot, top, r.diameter, unit);
+  return united(upright(r.foot, foot, wide, r.neck_diameter, unit),
+                upright(r.foot, wide, top, r.diameter, unit));
+}
+
+}  // namespace
+
+std::vector<AddedBody> add_feeders(const CastingGeometry& geometry, double unit,
+                                   const std::function<int(int)>& kept) {
+  std::vector<AddedBody> added;
+  for (const RiserCylinder& r : geometry.risers) added.push_back({r.name, kept(riser_solid(r, unit))});
+  // The riser keeps the inside of its sleeve.
+  for (const RiserCylinder& r : geometry.risers)
+    if (r.sleeve > 0)
+      added.push_back(
+          {r.name + "_sleeve", kept(upright(r.foot, r.foot[2] + r.neck_height, r.foot[2] + r.height,
+                                            r.diameter + 2 * r.sleeve, unit))});
+  for (const ChillBlock& c : geometry.chills)
+    added.push_back({c.name, kept(occ::addBox(c.low[0] / unit, c.low[1] / unit, c.low[2] / unit,
+                                              (c.high[0] - c.low[0]) / unit, (c.high[1] - c.low[1]) / unit,
+                                              (c.high[2] - c.low[2]) / unit))});
+  return added;
+}
+
+}  // namespace solidus::mesh
