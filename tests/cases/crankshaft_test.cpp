@@ -116,7 +116,7 @@ TEST(Crankshaft, IsAsSymmetricAsItsMesh) {
     double squares = 0;
     for (std::size_t i = 0; i < t.size(); ++i) {
       const double apart = c.at(one)[i] - c.at(other)[i];
-      EXPECT_NEAR(apart, 0, 14) << one << " at " << t[i] << " s";
+      EXPECT_NEAR(apart, 0, 13) << one << " at " << t[i] << " s";
       squares += apart * apart;
     }
     EXPECT_LT(std::sqrt(squares / static_cast<double>(t.size())), 4.5) << one;

@@ -216,6 +216,10 @@ TEST(StepLimits, ADisplacementThatIsNotIntegratedInTimeMayMissMoreBeforeItsStepI
   limits.inertia = false;
   measure.displacement_error = 4 * limits.displacement;
   EXPECT_TRUE(strictest(limits, measure).exceeded);
+  limits.last_melt = true;  // of a casting it is that of the worst node
+  EXPECT_FALSE(strictest(limits, measure).exceeded);
+  measure.displacement_error = 13 * limits.displacement;
+  EXPECT_TRUE(strictest(limits, measure).exceeded);
 }
 
 TEST(StepControl, OutputTimesAreMetExactly) {
