@@ -15,6 +15,7 @@
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "app/case_arguments.hpp"
 #include "app/launched.hpp"
@@ -106,10 +107,8 @@ std::string line(int n, int cores, std::string_view why = {}) {
                      why.empty() ? "" : ": ", why);
 }
 
-/// The mesh of the case, behind what is found wrong sooner.
-std::shared_ptr<setup::MadeMesh> mesh_of(const setup::Case& c, const run::RunOptions& options) {
-  run::check_restart(c.spec, options);
-  cases::load_materials(c.spec);
+/// The mesh of the case.
+std::shared_ptr<setup::MadeMesh> mesh_of(const setup::Case& c) {
   const profile::Part part("reading and meshing");
   return std::make_shared<setup::MadeMesh>(setup::make_mesh(c.spec));
 }
@@ -125,7 +124,10 @@ RunStart run_as_asked(int n, int cores, const setup::Case& c, const run::RunOpti
   if (mpirun.empty())
     throw InputError({}, what + ", and mpirun, which starts them, is missing",
                      "the package openmpi-bin of Debian, or --processes 1");
-  LaunchOutcome outcome = run_on_processes(n, mpirun, mesh_of(c, options), line(n, cores, "as asked"));
+  // What is wrong with the folder or a material is found before the mesh is made, as on one process.
+  run::check_restart(c.spec, options);
+  cases::load_materials(c.spec);
+  LaunchOutcome outcome = run_on_processes(n, mpirun, mesh_of(c), line(n, cores, "as asked"));
   if (!outcome.code)
     throw InputError({}, fmt::format("{}, and '{}' does not start them: {}", what, mpirun, outcome.failure),
                      "`solidus doctor` says what this machine lacks; --processes 1 needs no mpirun");
@@ -166,8 +168,11 @@ RunStart start_run(std::optional<int> asked, const setup::Case& c, const run::Ru
   }
   // The load is watched while the mesh is read or made, which takes as long for large meshes.
   const FreeCores free_cores;
-  RunStart start{{}, mesh_of(c, options)};
-  const int paying = run::processes_that_pay(run::run_work(c.spec, start.mesh->mesh), cores);
+  run::check_restart(c.spec, options);
+  const std::vector<material::Material> materials = cases::load_materials(c.spec);
+  RunStart start{{}, mesh_of(c)};
+  const run::RunWork work = run::run_work(c.spec, materials, start.mesh->mesh);
+  const int paying = run::processes_that_pay(work, cores);
   const int n = paying == 1 ? 1 : std::min(paying, free_cores.count());
   if (n == 1 || stop_asked()) {
     print(line(1, cores, paying == 1 ? "the case is small" : "other programs use the rest"));

@@ -13,8 +13,8 @@ namespace solidus::run {
 
 namespace {
 
-// Measured by bench/processes.py model on one process and on two (docs/decisions/0077-all-cores.md). What a
-// casting costs that is mush, yields or touches a mould is more: more processes than said here would pay.
+// Measured by bench/processes.py model on one process and on two, and on the castings of cases/
+// (docs/decisions/0077-all-cores.md).
 
 /// What a phase costs.
 struct Cost {
@@ -25,13 +25,19 @@ struct Cost {
 };
 constexpr Cost k_heat{3.5e-6, 1.2, 0.1, 4e-3};
 constexpr Cost k_mechanics_solid{12e-6, 1.1, 0.08, 10e-3};
-constexpr Cost k_mechanics_plane{11e-6, 1.1, 0.08, 60e-3};  // of factors, divided among processes
+/// Metal that melts, yields and touches its mould takes eight times as long.
+constexpr Cost k_poured_solid{95e-6, 1.1, 0.08, 10e-3};
+constexpr Cost k_mechanics_plane{11e-6, 1.1, 0.08, 60e-3};
+/// Up to so many nodes of metal every process factorises all of it (linear/factorisation.cpp), and the serial
+/// part is this.
+constexpr double k_whole_factors = 10000, k_serial_of_whole_factors = 0.27;
 /// To start several processes and to divide the mesh among them takes as long as this [s].
 constexpr double k_start = 0.8;
-/// An adaptive run takes at least as many steps as this, even where its first one would reach the end.
-constexpr double k_adaptive_steps = 30;
+/// An adaptive run takes at least as many steps as this, and of each stage as many as that, even where its
+/// first step would reach the end.
+constexpr double k_adaptive_steps = 80, k_adaptive_steps_of_stage = 20;
 /// The most that a further number of processes may leave of the time of fewer, or it is not taken.
-constexpr double k_gain_of_two = 0.85, k_gain_of_more = 0.97;
+constexpr double k_gain_of_two = 0.9, k_gain_of_more = 0.97;
 
 /// Number of different nodes of some groups.
 double count_nodes(const std::vector<const cases::BodySpec*>& bodies, const mesh::RawMesh& mesh) {
@@ -47,37 +53,44 @@ double count_nodes(const std::vector<const cases::BodySpec*>& bodies, const mesh
   return static_cast<double>(std::count(there.begin(), there.end(), 1));
 }
 
-double steps_of(std::optional<double> duration, std::optional<double> step, bool adaptive) {
+/// @param adaptive  as many steps as an adaptive run takes of this; absent: steps are equal
+double steps_of(std::optional<double> duration, std::optional<double> step, std::optional<double> adaptive) {
   if (!duration || !step || !(*step > 0)) return 1;
   const double equal = std::max(*duration / *step, 1.0);
-  return adaptive ? std::min(equal, k_adaptive_steps) : equal;
+  return adaptive ? std::min(equal, *adaptive) : equal;
 }
 
 double expected_steps(const cases::CaseSpec& spec) {
   if (spec.time.steady) return 1;
+  const auto if_adaptive = [&](double steps) {
+    return spec.time.adaptive ? std::optional(steps) : std::nullopt;
+  };
   const std::vector<cases::StageRun> stages = cases::stage_runs(spec);
-  if (stages.empty()) return steps_of(spec.time.end, spec.time.step, spec.time.adaptive);
+  if (stages.empty()) return steps_of(spec.time.end, spec.time.step, if_adaptive(k_adaptive_steps));
   double steps = 0;
   for (const cases::StageRun& run : stages)
-    steps +=
-        steps_of(run.end - run.start, run.stage->step ? run.stage->step : spec.time.step, spec.time.adaptive);
+    steps += steps_of(run.end - run.start, run.stage->step ? run.stage->step : spec.time.step,
+                      if_adaptive(k_adaptive_steps_of_stage));
   return steps;
 }
 
 }  // namespace
 
-RunWork run_work(const cases::CaseSpec& spec, const mesh::RawMesh& mesh) {
-  std::vector<const cases::BodySpec*> warm, moving;
-  const bool mechanics = spec.has_mechanics(), heat = spec.has_heat();
-  for (const cases::BodySpec& body : spec.bodies) {
-    if (heat) warm.push_back(&body);
-    if (mechanics && !cases::only_conducts(body)) moving.push_back(&body);
+RunWork run_work(const cases::CaseSpec& spec, const std::vector<material::Material>& materials,
+                 const mesh::RawMesh& mesh) {
+  std::vector<const cases::BodySpec*> warm, moving, poured;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const cases::BodySpec& body = spec.bodies[b];
+    if (spec.has_heat()) warm.push_back(&body);
+    if (!spec.has_mechanics() || cases::only_conducts(body)) continue;
+    moving.push_back(&body);
+    if (b < materials.size() && cases::is_poured(cases::role_of(body, materials[b]))) poured.push_back(&body);
   }
-  return {count_nodes(warm, mesh), count_nodes(moving, mesh), spec.dimension() == 3, expected_steps(spec)};
+  return {count_nodes(warm, mesh), count_nodes(moving, mesh), count_nodes(poured, mesh),
+          spec.dimension() == 3, expected_steps(spec)};
 }
 
 double expected_seconds(const RunWork& work, int processes) {
-  const Cost& mechanics = work.solid ? k_mechanics_solid : k_mechanics_plane;
   const double doublings = std::log2(static_cast<double>(processes));
   const auto of_phase = [&](const Cost& cost, double nodes) {
     if (!(nodes > 0)) return 0.0;
@@ -85,8 +98,12 @@ double expected_seconds(const RunWork& work, int processes) {
     return processes == 1 ? alone
                           : alone * (cost.serial + cost.growth / processes) + cost.messages * doublings;
   };
-  return (processes == 1 ? 0 : k_start) +
-         work.steps * (of_phase(k_heat, work.heat_nodes) + of_phase(mechanics, work.mechanics_nodes));
+  Cost poured = work.solid ? k_poured_solid : k_mechanics_plane;
+  if (work.poured_nodes < k_whole_factors) poured.serial = k_serial_of_whole_factors;
+  const double step =
+      of_phase(k_heat, work.heat_nodes) + of_phase(poured, work.poured_nodes) +
+      of_phase(work.solid ? k_mechanics_solid : k_mechanics_plane, work.mechanics_nodes - work.poured_nodes);
+  return (processes == 1 ? 0 : k_start) + work.steps * step;
 }
 
 int processes_that_pay(const RunWork& work, int cores) {

@@ -2,20 +2,27 @@
 /// in process_count.cpp.
 #pragma once
 
+#include <vector>
+
 #include "cases/case_spec.hpp"
+#include "material/material.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::run {
 
 /// What a run has to do.
 struct RunWork {
-  double heat_nodes = 0, mechanics_nodes = 0;  ///< of the mesh that have a temperature, a displacement
-  bool solid = false;                          ///< in three dimensions
-  double steps = 1;                            ///< as many as the run takes at least, or is likely to take
+  double heat_nodes = 0;       ///< of the mesh that have a temperature
+  double mechanics_nodes = 0;  ///< that have a displacement
+  double poured_nodes = 0;     ///< of these, that melt, flow and yield
+  bool solid = false;          ///< in three dimensions
+  double steps = 1;            ///< as many as the run takes at least, or is likely to take
 };
 
 /// Counts the nodes of the bodies that take part.
-RunWork run_work(const cases::CaseSpec& spec, const mesh::RawMesh& mesh);
+/// @param materials  of the bodies, in their order
+RunWork run_work(const cases::CaseSpec& spec, const std::vector<material::Material>& materials,
+                 const mesh::RawMesh& mesh);
 
 /// The wall clock that a run is expected to take on free cores [s].
 double expected_seconds(const RunWork& work, int processes);

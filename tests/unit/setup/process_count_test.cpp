@@ -10,7 +10,7 @@ namespace solidus::setup {
 namespace {
 
 TEST(ProcessCount, SmallCasesStayOnOneProcessAndLargeOnesTakeMore) {
-  const run::RunWork small{500, 500, false, 100}, large{227000, 227000, true, 50};
+  const run::RunWork small{500, 500, 500, false, 100}, large{227000, 227000, 0, true, 50};
   EXPECT_EQ(run::processes_that_pay(small, 64), 1);
   EXPECT_EQ(run::processes_that_pay(large, 1), 1);
   EXPECT_EQ(run::processes_that_pay(large, 2), 2);
@@ -21,10 +21,13 @@ TEST(ProcessCount, SmallCasesStayOnOneProcessAndLargeOnesTakeMore) {
 }
 
 TEST(ProcessCount, FewNodesOrFewStepsPayForNoFurtherProcess) {
-  EXPECT_EQ(run::processes_that_pay({20000, 0, true, 40}, 2), 1) << "a step of heat is short";
-  EXPECT_EQ(run::processes_that_pay({20000, 20000, true, 40}, 2), 2);
-  EXPECT_EQ(run::processes_that_pay({20000, 20000, true, 1}, 2), 1) << "as long as starting them";
-  EXPECT_EQ(run::processes_that_pay({10000, 10000, false, 400}, 2), 1) << "factors in a plane are small";
+  EXPECT_EQ(run::processes_that_pay({20000, 0, 0, true, 40}, 2), 1) << "a step of heat is short";
+  EXPECT_EQ(run::processes_that_pay({20000, 20000, 0, true, 40}, 2), 2);
+  EXPECT_EQ(run::processes_that_pay({20000, 20000, 0, true, 1}, 2), 1) << "as long as starting them";
+  EXPECT_EQ(run::processes_that_pay({10000, 10000, 10000, false, 400}, 2), 1)
+      << "factors in a plane are small";
+  EXPECT_EQ(run::processes_that_pay({22000, 4200, 4200, true, 80}, 2), 2)
+      << "metal that melts and yields costs more";
 }
 
 TEST(ProcessCount, BodiesThatOnlyConductCountForHeatAlone) {
@@ -53,9 +56,10 @@ physics = "heat"
 initial_temperature = "20 degC"
 )",
                                                                       "case.toml"));
-  const run::RunWork work = run::run_work(spec, raw_mesh(spec));
+  const run::RunWork work = run::run_work(spec, {}, raw_mesh(spec));
   EXPECT_EQ(work.heat_nodes, 9 + 25);
   EXPECT_EQ(work.mechanics_nodes, 9);
+  EXPECT_EQ(work.poured_nodes, 0);
   EXPECT_FALSE(work.solid);
   EXPECT_EQ(work.steps, 10);
 }
