@@ -21,11 +21,13 @@ from solidus_plots.calibrate_model import Model, probes_of, resolved_case, why_d
 from solidus_plots.calibrate_readings import read_readings
 from solidus_plots.calibrate_statistics import evaluate
 from solidus_plots.history import Table
+from solidus_plots.logger_table import SECONDS
 from solidus_plots.many_runs import INTERRUPTED, jobs_from, program
 from solidus_plots.verb import sentence
 from solidus_plots.vtu import ResultError
 
 SAME_WEIGHTS = 0.1  # change of the residuals' spread, over itself, with which priors keep their weight
+RUNS, FURTHER_RUNS = 15, 4  # at most; and for each unknown where derivatives are differences
 REWEIGHTED = 3  # times at most
 
 
@@ -45,8 +47,10 @@ def words_of(options, calibration):
 
 def end_of(case):
     """Of the run [s]."""
-    number, _, unit = str(case["time"]["end"]).partition(" ")
-    return float(number) * {"s": 1.0, "min": 60.0, "h": 3600.0, "": 1.0}[unit]
+    number, _, unit = str(case["time"].get("end", "")).partition(" ")
+    if unit.strip() not in SECONDS:
+        raise ResultError(f"the case ends at '{case['time'].get('end')}': say time.end in one of {', '.join(SECONDS)}")
+    return float(number) * SECONDS[unit.strip()]
 
 
 def find_materials(calibration, case):
@@ -139,6 +143,8 @@ def calibrate(options, say):
     if case.get("time", {}).get("adaptive"):
         say("steps that follow their errors make runs jump against each other where the unknowns move: --set "
             "time.adaptive=false, with a time.step that is short enough")
+    if calibration.runs is None:
+        calibration.runs = RUNS if forward else RUNS + FURTHER_RUNS * len(calibration.parameters())
     name = Path(case_folder(options.case)).name
     folder = options.output or options.results_root / "results" / name / "calibrate"
     folder.mkdir(parents=True, exist_ok=True)

@@ -81,7 +81,7 @@ class Calibration:
     confidence: float
     loss: str
     loss_scale: float
-    runs: int
+    runs: int | None  # at most; None: by how derivatives are found
     derivatives: str
     logger: dict
 
@@ -217,10 +217,10 @@ def read_calibration(path):
         if names.count(name) > 1:
             reader.fail(f"two unknowns are called '{name}'")
     observations = [reader.observation(entry) for entry in table.get("observation", [])]
-    confidence, runs = table.get("confidence", 0.9), table.get("runs", 15)
+    confidence, runs = table.get("confidence", 0.9), table.get("runs")
     if not (_number(confidence) and 0.5 <= confidence < 1):
         reader.fail("'confidence' is a share from 0.5 to less than 1")
-    if not isinstance(runs, int) or runs < 2:
+    if runs is not None and (not isinstance(runs, int) or runs < 2):
         reader.fail("'runs' is a whole number, two at least")
     loss, derivatives = table.get("loss", "linear"), table.get("derivatives", "auto")
     if loss not in LOSSES:

@@ -105,17 +105,20 @@ def _toml(value):
 
 
 def _section(case, kind, name):
+    """The section of a list by its name, or by its number from one."""
     sections = case.get(kind, [])
+    if name.isdigit() and 0 < int(name) <= len(sections):
+        return sections[int(name) - 1]
     return next((s for s in sections if s.get("name") == name), None)
 
 
 def interface_card(case, calibration, measured, statistics):
     """The card of the contact whose heat was fitted; None where none was."""
-    of_heat = [u for u in calibration.unknowns if u.kind == "key" and u.key.split(".")[0] == "contact" and ".heat." in u.key]
+    of_heat = [u for u in calibration.unknowns if u.key.split(".")[0] in ("contact", "interface") and ".heat." in u.key]
     if not of_heat:
         return None
-    name = of_heat[0].key.split(".")[1]
-    contact = _section(case, "contact", name)
+    kind, name = of_heat[0].key.split(".")[:2]
+    contact = _section(case, kind, name)
     if contact is None:
         return None
     labels = {p.name for u in of_heat for p in u.parameters}
