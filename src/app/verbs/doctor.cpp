@@ -185,11 +185,11 @@ Finding try_python() {
                      k_patience);
   // matplotlib tells before it what it warns of, as of a home that cannot be written.
   if (outcome.code == 0) return {"pictures", Kind::works, outcome.said.substr(outcome.said.rfind('\n') + 1)};
-  return {
-      "pictures", Kind::optional_missing,
-      fmt::format("plot, compare, study and uncertain need '{}' with numpy and matplotlib ({}); run, new and "
-                  "report work without; Debian: python3-matplotlib; SOLIDUS_PYTHON=PROGRAM names another",
-                  python, reason(outcome))};
+  return {"pictures", Kind::optional_missing,
+          fmt::format("plot, compare, study, uncertain and calibrate need '{}' with numpy and matplotlib "
+                      "({}); run, new and "
+                      "report work without; Debian: python3-matplotlib; SOLIDUS_PYTHON=PROGRAM names another",
+                      python, reason(outcome))};
 }
 
 std::string line(const Finding& finding, bool colours) {

@@ -49,7 +49,7 @@ std::string taplo_rules(const fs::path& folder) {
   rule("Variants of a case: variants.toml", {"variants.toml"}, {}, "variants");
   rule("Cases: everything else", {"*.toml"},
        {"materials/*.toml", "point/*.toml", "point.toml", "variants.toml", "plots.toml", "study.toml",
-        ".taplo.toml", "taplo.toml", "pyproject.toml"},
+        "calibrate.toml", ".taplo.toml", "taplo.toml", "pyproject.toml"},
        "case");
   return text;
 }
