@@ -13,12 +13,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from solidus_plots.vtu import ResultError
+
 LAMBDA = 0.1  # at the start
 GOOD, POOR = 0.75, 0.25  # share of the promise with which λ falls, rises
 LONGEST = 1.5  # step of a logarithm: a factor of 4.5
 SMALL_STEP = 1e-8  # of an unknown, over its size, with which the search ends
 SMALL_GAIN = 1e-4  # promise of a step, over the mean square of a residual: a hundredth of a standard deviation
 TRIES = 8  # steps in a row that do not lower F
+
+
+class RunFailed(ResultError):
+    """A run at a point of the search has not come to its end."""
 
 
 class OutOfRuns(Exception):
@@ -141,7 +147,14 @@ def fit(search, loss="linear", loss_scale=2.0, start=None):
                 # The last word is that of derivatives at the point itself.
                 jacobian, fresh = search.derivative(x), True
                 continue
-            rows_there = search.rows(target)
+            try:
+                rows_there = search.rows(target)
+            except RunFailed as failure:  # the physics of a far step may not go through: a shorter one is taken
+                search.say(f"  {failure}: a shorter step")
+                damping, failed = max(damping * 10, 1e-2), failed + 1
+                if failed >= TRIES:
+                    raise
+                continue
             there = sum_of(rows_there, target)
             kept = (value - there) / promise if promise > 0 else -1.0
             search.say(f"  run {search.model.runs}: mean square {2 * there / n:.4g}")

@@ -7,9 +7,9 @@ import tomllib
 
 import numpy as np
 
+from solidus_plots.calibrate_fit import RunFailed
 from solidus_plots.history import Table, read_table
 from solidus_plots.many_runs import Runner
-from solidus_plots.vtu import ResultError
 
 FORWARD_CHANGE = 1e-6  # of a parameter, over its size, in forward differentiation
 DIFFERENCE = 1e-2  # the same in differences of runs, whose steps may follow their errors
@@ -153,7 +153,7 @@ class Model:
         file.write_text("\n".join(lines) + "\n")
 
     def _run_all(self, wanted):
-        """Runs beside each other. Throws ResultError with the reason of the first that fails."""
+        """Runs beside each other. Throws RunFailed with the reason of the first that fails."""
         records = self.runner.run_all(wanted, self.jobs, lambda number, record: None)
         if records is None:
             raise KeyboardInterrupt
@@ -161,10 +161,10 @@ class Model:
             self.runs += 1
             self.seconds.append(record["seconds"])
             if record["code"] != 0:
-                raise ResultError(f"the run in {folder} failed: {record['reason']}")
+                raise RunFailed(f"the run in {folder} failed: {record['reason']}")
 
     def predict(self, theta, derivatives):
-        """Throws ResultError where a run fails."""
+        """Throws RunFailed where a run fails."""
         theta = np.array(theta, dtype=float)
         folder = self.folder / f"run_{self.runs + 1}"
         words = self.words_of(theta)

@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 
 from solidus_plots.calibrate_file import Parameter, read_calibration
-from solidus_plots.calibrate_fit import Search, fit
+from solidus_plots.calibrate_fit import RunFailed, Search, fit
 from solidus_plots.calibrate_model import Prediction, assignments, lagged
 from solidus_plots.calibrate_readings import Readings, read_readings
 from solidus_plots.calibrate_statistics import evaluate, quantile_of
@@ -192,6 +192,20 @@ class Fits(unittest.TestCase):
         np.testing.assert_allclose(found.theta, self.TRUE, rtol=1e-8)
         self.assertTrue(found.converged)
         self.assertLessEqual(found.runs, 10)
+
+    def test_a_point_at_which_a_run_fails_makes_the_step_shorter(self):
+        model = Lump([parameter("rate", 0.03, logarithmic=True, low=0.0), parameter("start", 600.0)])
+        measured, whole, refused = model.predict(self.TRUE, False).values, model.predict, []
+
+        def predict(theta, derivatives):
+            if abs(np.log(theta[0] / 0.03)) > 0.3 and not refused:
+                refused.append(theta)
+                raise RunFailed("the run in here failed")
+            return whole(theta, derivatives)
+        model.predict = predict
+        found = fit(Search(model, measured, np.ones(len(measured)), 60))
+        np.testing.assert_allclose(found.theta, self.TRUE, rtol=1e-6)
+        self.assertEqual(len(refused), 1)
 
     def test_updated_derivatives_find_it_too(self):
         found, _ = self.found(forward=False)
