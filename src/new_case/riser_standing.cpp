@@ -14,8 +14,9 @@ namespace {
 constexpr double k_slender_riser = 1.5;  ///< height of a riser, of its diameter
 
 /// The middle of the level ground around a place, as far as a cylinder may be moved: of a boss its axis, also
-/// where it has a bore there.
-mesh::Point middle_of_ground(const mesh::ViewFromAbove& view, const mesh::Point& place, double diameter) {
+/// where it has a bore there. Nothing where the ground goes on beyond what is looked at, as that of a plate.
+std::optional<mesh::Point> middle_of_ground(const mesh::ViewFromAbove& view, const mesh::Point& place,
+                                            double diameter) {
   constexpr double k_level = 0.05, k_reach = 1.2;  // of the diameter
   constexpr int k_half = 12;                       // cells on either side
   constexpr int k_wide = 2 * k_half + 1;
@@ -45,10 +46,9 @@ mesh::Point middle_of_ground(const mesh::ViewFromAbove& view, const mesh::Point&
       if (std::abs(view.top(at(next)) - place[2]) < k_level * diameter) ground.push_back(next);
     }
   }
-  // Ground that goes on beyond what is looked at, as a plate, has no middle here.
-  if (!ends) return place;
+  if (!ends) return {};
   const auto number = static_cast<double>(ground.size());
-  return {x / number, y / number, place[2]};
+  return mesh::Point{x / number, y / number, place[2]};
 }
 
 /// How badly a cylinder stands, zero where all of its foot stands on a plane and no metal rises beside it.
@@ -81,12 +81,11 @@ mesh::Point standing_place(const mesh::ViewFromAbove& view, const mesh::Point& p
   mesh::Point best = place;
   double least = misfit(view, place, diameter);
   // The middle of a boss is better than any other place that is no worse to stand on.
-  if (fixed < 0) {
-    const mesh::Point middle = middle_of_ground(view, place, diameter);
-    const double there = misfit(view, middle, diameter);
+  if (const std::optional<mesh::Point> middle = middle_of_ground(view, place, diameter);
+      middle && fixed < 0) {
     constexpr double k_covers = 0.45;  // of the diameter: it still stands over the place
-    const bool covers = std::hypot(middle[0] - place[0], middle[1] - place[1]) < k_covers * diameter;
-    if (covers && there <= least + k_near * k_shift) return middle;
+    const bool covers = std::hypot((*middle)[0] - place[0], (*middle)[1] - place[1]) < k_covers * diameter;
+    if (covers && misfit(view, *middle, diameter) <= least + k_near * k_shift) return *middle;
   }
   for (int k = 1; k <= k_shifts && least > 0; ++k)
     for (int i = 0; i < k_directions; ++i) {

@@ -56,8 +56,8 @@ TEST(RiserChoice, StandsOnTheThickestPlaceWhereNothingIsInItsWay) {
   Blocks plate;
   plate.add("plate", {0, 0, 0}, {0.2, 0.2, 0.014});
   const DraftRiser riser = plate.riser({{0.1, 0.11, 0.007}, 0.007}, 1e-4);
-  EXPECT_EQ(riser.foot[0], 0.1);
-  EXPECT_EQ(riser.foot[1], 0.11);
+  EXPECT_NEAR(riser.foot[0], 0.1, 1e-9);
+  EXPECT_NEAR(riser.foot[1], 0.11, 1e-9);
   EXPECT_NEAR(riser.foot[2], 0.014 - 0.05 * riser.diameter, 1e-12);
 }
 
