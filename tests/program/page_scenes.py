@@ -82,4 +82,6 @@ ELSEWHERE = {
     "solidus-env/bin/pip install --no-build-isolation .": "the same",
     "PYTHONPATH=python /usr/bin/python3": "opens an interpreter; its blocks are run by tests/program/python_simulations_test.py",
     "cmake --install build/release --component program --prefix ~/.local": "tests/program/install_test.py",
+    "solidus design part.step --alloy medium_carbon_steel --process sand": "tests/program/design_test.py, with fewer runs",
+    "solidus design bracket": "the same; that a case stands for its part: tests/python/design_test.py",
 }

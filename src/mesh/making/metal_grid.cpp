@@ -64,9 +64,10 @@ MetalGrid::MetalGrid(const RawMesh& mesh, const std::vector<std::string>& bodies
     }
   }
   edge_ = std::cbrt(volume / static_cast<double>(number));
-  // A layer of cells around the metal has none, so that every cube of it has a nearest cell outside.
+  // A layer of cells around the metal has none, so that every cube of it has a nearest cell outside; the
+  // first with metal begin at the lowest faces, where as many are counted too much as too little.
   for (std::size_t i = 0; i < 3; ++i) {
-    low_[i] -= 1.5 * edge_;
+    low_[i] -= edge_;
     n_[i] = static_cast<int>(std::ceil((high[i] - low_[i]) / edge_)) + 2;
   }
   fill(mesh, bodies);
