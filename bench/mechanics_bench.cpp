@@ -14,8 +14,8 @@
 #include "material/laws/perzyna.hpp"
 #include "material/outside/mfront_library.hpp"
 #include "material/outside/shared_object.hpp"
-#include "mechanics/block_kernel.hpp"
-#include "mechanics/law_block.hpp"
+#include "mechanics/elements/block_kernel.hpp"
+#include "mechanics/elements/law_block.hpp"
 
 namespace solidus {
 namespace {

@@ -1,6 +1,6 @@
 # The instances of the element kernels, one object per row of the list and analysis kind: what is in one row shares templates and is
 # compiled together. The shapes come from src/mesh/shape_table.hpp. To add a law to the kernels is a row here.
-#   name | header of src/mechanics that has the makers, several with a comma | makers and their laws
+#   name | header of src/mechanics/elements that has the makers, several with a comma | makers and their laws
 set(kernels
     "viscoelastic|law_kernels.hpp|law material::Viscoelastic"
     # The kernels of the simultaneous scheme derive from those of the viscoplastic law.
@@ -19,7 +19,7 @@ foreach(row ${kernels})
   foreach(kind plane_strain axisymmetric solid)
     set(text "// Made by cmake/element_kernels.cmake.\n")
     foreach(header ${headers})
-      string(APPEND text "#include \"mechanics/${header}\"\n")
+      string(APPEND text "#include \"mechanics/elements/${header}\"\n")
     endforeach()
     string(APPEND text "\nnamespace solidus::mechanics {\n\n")
     set(analysis "AnalysisKind::${kind}")

@@ -321,7 +321,7 @@ struct MechanicsSpec {
   linear::SolverKind solver = linear::SolverKind::automatic;
 };
 
-/// Inertia (mechanics/motion.hpp, setup/dynamics_input.hpp).
+/// Inertia (mechanics/loads/motion.hpp, setup/dynamics_input.hpp).
 struct DynamicsSpec {
   enum class Method { backward_euler, newmark, trapezoidal, generalised_alpha };
   mechanics::MassKind mass = mechanics::MassKind::consistent;

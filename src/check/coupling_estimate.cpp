@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "mechanics/structural_points.hpp"
+#include "mechanics/elements/structural_points.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 #include "setup/dynamics_input.hpp"

@@ -17,7 +17,7 @@
 #include "heat/loads/thermal_state.hpp"
 #include "linear/active_set.hpp"
 #include "material/material.hpp"
-#include "mechanics/body_fields.hpp"
+#include "mechanics/state/body_fields.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::heat {

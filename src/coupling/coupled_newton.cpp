@@ -7,8 +7,8 @@
 
 #include "coupling/contact_states.hpp"
 #include "coupling/coupled_saddle_solver.hpp"
-#include "mechanics/nodal_pressure.hpp"
-#include "mechanics/saddle_solver.hpp"
+#include "mechanics/solver/nodal_pressure.hpp"
+#include "mechanics/solver/saddle_solver.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"

@@ -6,7 +6,7 @@
 ///
 /// Where elements are mixed the nodal pressure p is a third unknown. The forces then have the deviator of the
 /// law and p, the structural heat depends on p as well, and p has its equation
-/// (mechanics/nodal_pressure.hpp):
+/// (mechanics/solver/nodal_pressure.hpp):
 ///
 ///   r_p(u, p, Θ) = ∫ N (div u − e_v(p, Θ)) dV − S p = 0                                          [m³]
 ///
@@ -34,7 +34,7 @@
 #include "heat/thermal_iteration.hpp"
 #include "linear/coupled_solver.hpp"
 #include "linear/forcing.hpp"
-#include "mechanics/coupled_kernel.hpp"
+#include "mechanics/elements/coupled_kernel.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::coupling {

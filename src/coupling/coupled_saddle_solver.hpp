@@ -7,9 +7,9 @@
 /// for an iteration of Newton's method in the simultaneous scheme. Few unknowns are factorised, LU by MUMPS.
 /// Many take flexible GMRES with a block triangular preconditioner: first the temperatures, GMRES with
 /// incomplete LU on K_ΘΘ to a hundredth, then displacement and pressure with what those have left, by the
-/// preconditioner of the splits (mechanics/saddle_preconditioner.hpp). What the displacement does to the heat
-/// is a share δ of what it started from (docs/theory/coupling.md) and is left to GMRES. Where that does not
-/// converge and a factorisation is possible, it takes over until forget(); tied unknowns are always
+/// preconditioner of the splits (mechanics/solver/saddle_preconditioner.hpp). What the displacement does to
+/// the heat is a share δ of what it started from (docs/theory/coupling.md) and is left to GMRES. Where that
+/// does not converge and a factorisation is possible, it takes over until forget(); tied unknowns are always
 /// factorised.
 ///
 /// The part of S that couples neighbours of neighbours, with orthogonal sub-scales, is applied and never
@@ -27,8 +27,8 @@
 #include "linear/hierarchy_age.hpp"
 #include "linear/krylov_solver.hpp"
 #include "linear/recycling_gmres.hpp"
-#include "mechanics/nodal_pressure.hpp"
-#include "mechanics/saddle_preconditioner.hpp"
+#include "mechanics/solver/nodal_pressure.hpp"
+#include "mechanics/solver/saddle_preconditioner.hpp"
 
 namespace solidus::coupling {
 

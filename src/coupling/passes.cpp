@@ -9,7 +9,7 @@
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/largest_difference.hpp"
-#include "mechanics/block_kernel.hpp"
+#include "mechanics/elements/block_kernel.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 #include "system/profile.hpp"

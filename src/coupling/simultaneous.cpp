@@ -15,7 +15,7 @@
 #include "coupling/stability_audit.hpp"
 #include "heat/loads/stage_loads.hpp"
 #include "material/time_integration.hpp"
-#include "mechanics/nodal_pressure.hpp"
+#include "mechanics/solver/nodal_pressure.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
 #include "system/processes.hpp"

@@ -7,7 +7,7 @@
 #include "criteria/criteria_state.hpp"
 #include "heat/loads/exothermic.hpp"
 #include "heat/loads/thermal_state.hpp"
-#include "mechanics/mechanical_state.hpp"
+#include "mechanics/state/mechanical_state.hpp"
 
 namespace solidus::coupling {
 

@@ -8,7 +8,7 @@
 
 #include "criteria/criteria_state.hpp"
 #include "heat/loads/thermal_state.hpp"
-#include "mechanics/mechanical_state.hpp"
+#include "mechanics/state/mechanical_state.hpp"
 #include "quantities/quantity.hpp"
 
 namespace solidus::criteria {

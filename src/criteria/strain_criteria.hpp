@@ -17,7 +17,8 @@
 ///
 /// Strains are measured by their deviators: thermal strain and the shrinkage of freezing are volumetric, so a
 /// body that shrinks freely has none. Metal that melts again forgets. The solid fraction is the mean over the
-/// element of that of its nodes at t_n, with which the law works too (mechanics/phase_fields.hpp, 4.81).
+/// element of that of its nodes at t_n, with which the law works too
+/// (mechanics/state/phase_fields.hpp, 4.81).
 ///
 /// Strain in the brittle range as a measure of hot tearing: W. S. Pellini, Strain theory of hot tearing,
 /// Foundry 80 (1952) 125–199. The range: Y. M. Won, T.-J. Yeo, D. J. Seol, K. H. Oh, A new criterion for

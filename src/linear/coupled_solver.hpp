@@ -31,7 +31,7 @@ class CoupledTangentSolver {
   virtual ~CoupledTangentSolver() = default;
   /// Solves A {u, Θ} = {force, heat} on owned degrees of freedom; right-hand sides are zero where prescribed
   /// and summed where tied. With pressures, `force` and `u` hold displacements and then pressures in the
-  /// monotone form (mechanics/nodal_pressure.hpp). Collective.
+  /// monotone form (mechanics/solver/nodal_pressure.hpp). Collective.
   /// @param weights  with which an iterative solver measures its residual; ignored by a direct one
   /// @param forcing  as LinearSolver::solve()
   virtual LinearReport solve(CoupledMatrix& a, std::span<const double> force, std::span<const double> heat,

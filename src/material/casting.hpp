@@ -26,7 +26,8 @@ struct Casting {
   double rigidity = 1;
 
   /// Tension of metal below coherency at which pores open in it, counted from the atmosphere [Pa]
-  /// (mechanics/pores.hpp): next to none, for cast metal holds films of oxide and gas that open at once.
+  /// (mechanics/elements/pores.hpp): next to none, for cast metal holds films of oxide and gas that open at
+  /// once.
   double pore_tension = 100;
 
   /// Coarsening of secondary arms: λ₂ = c (t_f/1 s)ⁿ, t_f the local solidification time (W. Kurz,

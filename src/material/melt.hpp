@@ -11,7 +11,7 @@
 /// σ_s  [Pa] what the shell bears: its yield stress at the solidus, or without plasticity G times
 ///      k_shell_strain
 /// k    [Pa] the bulk modulus at the liquidus
-/// M    [m] the section, volume over the surface through which the body cools (mechanics/section.hpp)
+/// M    [m] the section, volume over the surface through which the body cools (mechanics/loads/section.hpp)
 /// a    [m²/s] the thermal diffusivity at the liquidus
 ///
 /// M²/a is the time in which heat crosses the section; no casting freezes faster, and most take ten to five

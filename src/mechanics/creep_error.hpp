@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "mechanics/mechanical_phase.hpp"
-#include "mechanics/mechanical_state.hpp"
+#include "mechanics/state/mechanical_state.hpp"
 
 namespace solidus::mechanics {
 

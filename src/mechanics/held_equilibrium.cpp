@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "mechanics/mechanical_phase.hpp"
-#include "mechanics/saddle_solver.hpp"
+#include "mechanics/solver/saddle_solver.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::mechanics {

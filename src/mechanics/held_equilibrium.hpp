@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "linear/newton.hpp"
-#include "mechanics/mechanical_state.hpp"
+#include "mechanics/state/mechanical_state.hpp"
 
 namespace solidus::mechanics {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "mechanics/block_kernel.hpp"
+#include "mechanics/elements/block_kernel.hpp"
 #include "mechanics/equilibrium_rejected.hpp"
-#include "mechanics/loads.hpp"
+#include "mechanics/loads/loads.hpp"
 #include "mechanics/mechanical_phase.hpp"
 #include "system/processes.hpp"
 

@@ -8,13 +8,13 @@
 
 #include "linear/block_multigrid.hpp"
 #include "material/external_law.hpp"
-#include "mechanics/absent_block.hpp"
-#include "mechanics/block_kernel.hpp"
-#include "mechanics/loads.hpp"
-#include "mechanics/melt_stiffness.hpp"
-#include "mechanics/nodal_pressure.hpp"
-#include "mechanics/saddle_solver.hpp"
-#include "mechanics/stress_history.hpp"
+#include "mechanics/elements/absent_block.hpp"
+#include "mechanics/elements/block_kernel.hpp"
+#include "mechanics/loads/loads.hpp"
+#include "mechanics/loads/melt_stiffness.hpp"
+#include "mechanics/solver/nodal_pressure.hpp"
+#include "mechanics/solver/saddle_solver.hpp"
+#include "mechanics/state/stress_history.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mechanics {

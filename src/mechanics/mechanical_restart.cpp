@@ -1,7 +1,7 @@
 /// The part of mechanics in the thermal phase of a split, at a fixed configuration: the deformation that it
 /// holds, and the return mapping at the temperatures of the end of the step (4.45, 4.49, 4.54).
 
-#include "mechanics/block_kernel.hpp"
+#include "mechanics/elements/block_kernel.hpp"
 #include "mechanics/mechanical_phase.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"

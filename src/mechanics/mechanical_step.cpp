@@ -5,13 +5,13 @@
 #include <cmath>
 #include <limits>
 
-#include "mechanics/block_kernel.hpp"
+#include "mechanics/elements/block_kernel.hpp"
 #include "mechanics/held_equilibrium.hpp"
-#include "mechanics/loads.hpp"
+#include "mechanics/loads/loads.hpp"
 #include "mechanics/mechanical_phase.hpp"
-#include "mechanics/nodal_pressure.hpp"
-#include "mechanics/saddle_solver.hpp"
-#include "mechanics/stress_history.hpp"
+#include "mechanics/solver/nodal_pressure.hpp"
+#include "mechanics/solver/saddle_solver.hpp"
+#include "mechanics/state/stress_history.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 #include "system/profile.hpp"

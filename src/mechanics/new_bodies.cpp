@@ -2,7 +2,7 @@
 /// get the solid fraction with which they were poured.
 #include "mechanics/new_bodies.hpp"
 
-#include "mechanics/block_kernel.hpp"
+#include "mechanics/elements/block_kernel.hpp"
 #include "mesh/block_geometry.hpp"
 
 namespace solidus::mechanics {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "mechanics/block_kernel.hpp"
+#include "mechanics/elements/block_kernel.hpp"
+#include "mechanics/elements/structural_points.hpp"
 #include "mechanics/new_bodies.hpp"
-#include "mechanics/structural_points.hpp"
 
 namespace solidus::mechanics {
 

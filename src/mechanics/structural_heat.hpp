@@ -34,23 +34,14 @@
 
 #include "linear/contribution.hpp"
 #include "linear/lane_slots.hpp"
-#include "mechanics/mechanical_phase.hpp"
+#include "mechanics/state/pass.hpp"
+#include "mechanics/state/structural_change.hpp"
+#include "mechanics/state/structural_lead.hpp"
 #include "numbers/simd.hpp"
 
 namespace solidus::mechanics {
 
-enum class StructuralForm { entropy, energy, literal, temperature };
-
-/// Changes of the structural energy [J] and of the structural entropy [J/K].
-struct StructuralChange {
-  double energy = 0, entropy = 0;
-  /// Sum of the magnitudes of what new phases and lines of tables have brought at fixed entropy and strain:
-  /// the work p Δe^pc of a phase change and ½ k (Δe^pc)² [J].
-  double transformed = 0;
-  /// Σ_e |Σ_i h_i/Θ_i − Σ_q h_q/Θ_q| with h = Θ ΔS of the points q of an element, spread over its nodes i:
-  /// the entropy that heat of deformation gains or loses on its way to nodes of another temperature [J/K].
-  double spread = 0;
-};
+class MechanicalPhase;
 
 /// Adds to the thermal residual in watts (heat stored is positive). The tangent is that of the capacity of
 /// the body beside which it stands: lumped to the diagonal where nodes store the heat, so that the thermal

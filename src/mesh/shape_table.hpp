@@ -1,6 +1,6 @@
 /// The reference shapes as a table: one row each, of all that the program knows of a shape. Node counts,
 /// faces, basis functions, quadrature, the numbers and orders of other programs and the instances of the
-/// mechanical kernels (mechanics/element_kernels.hpp) follow from the row.
+/// mechanical kernels (mechanics/elements/element_kernels.hpp) follow from the row.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ struct ShapeRow {
                          ///< outside
   Edges edges;           ///< that carry the nodes behind the vertices
   int stiffness_degree;  ///< that the quadrature of stiffness is exact to
-  bool mixed;            ///< has a kernel with pressures at its nodes (mechanics/mixed_kernel.hpp)
+  bool mixed;            ///< has a kernel with pressures at its nodes (mechanics/elements/mixed_kernel.hpp)
   int gmsh, vtk;         ///< numbers of the type
   Places vtk_nodes;      ///< VTK's node i is ours [i]; empty: the same order
   Places abaqus_nodes;   ///< our node a is theirs [a]; empty: the same order

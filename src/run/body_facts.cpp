@@ -9,7 +9,7 @@
 #include <string>
 
 #include "coupling/contact_states.hpp"
-#include "mechanics/block_kernel.hpp"
+#include "mechanics/elements/block_kernel.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/mechanics_input.hpp"
 #include "system/processes.hpp"

@@ -37,7 +37,8 @@ void check_exportable(const cases::CaseSpec& spec) {
                      "a quasi-static case");
 }
 
-/// Number of the volumetric modes of B-bar in a shape (mechanics/law_block.hpp); simplices have none.
+/// Number of the volumetric modes of B-bar in a shape (mechanics/elements/law_block.hpp); simplices have
+/// none.
 int volumetric_modes(mesh::Shape shape) {
   switch (shape) {
     case mesh::Shape::quad4:

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cases/case_spec.hpp"
-#include "mechanics/inertial_forces.hpp"
+#include "mechanics/loads/inertial_forces.hpp"
 
 namespace solidus::setup {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "linear/active_set.hpp"
-#include "mechanics/section.hpp"
+#include "mechanics/loads/section.hpp"
 #include "setup/body_input.hpp"
 #include "setup/dynamics_input.hpp"
 

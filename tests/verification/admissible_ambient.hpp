@@ -8,7 +8,7 @@
 
 #include "contact/points/parameters.hpp"
 #include "heat/loads/thermal_conditions.hpp"
-#include "mechanics/mechanical_conditions.hpp"
+#include "mechanics/loads/mechanical_conditions.hpp"
 
 namespace solidus::verification {
 

@@ -125,7 +125,7 @@ TEST(NewtonWithPlasticity, ConvergesAtSecondOrderInEveryElementAndHardening) {
 
 /// A soft block whose corner is 600 K hotter than the rest, held at its bottom: in one step from rest free
 /// thermal strains of up to 50 yield strains, as at the solidus of an alloy. Directions of flow as
-/// unknowns (mechanics/flow_directions.hpp) keep the number of iterations small.
+/// unknowns (mechanics/elements/flow_directions.hpp) keep the number of iterations small.
 TEST(NewtonWithPlasticity, TakesFewIterationsForManyYieldStrains) {
   material::Material m = verification::plastic_material(1.5e10, 0.3, 3e6, 1.5e-5);
   m.flow->isotropic = material::IsotropicHardening::linear;

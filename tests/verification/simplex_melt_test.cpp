@@ -8,8 +8,8 @@
 
 #include "material/melt.hpp"
 #include "material/permeability.hpp"
-#include "mechanics/block_kernel.hpp"
-#include "mechanics/pores.hpp"
+#include "mechanics/elements/block_kernel.hpp"
+#include "mechanics/elements/pores.hpp"
 #include "simplex_bodies.hpp"
 
 namespace solidus {

@@ -5,7 +5,7 @@
 
 #include "cases/roles.hpp"
 #include "check/finding_family.hpp"
-#include "mechanics/simplices.hpp"
+#include "mechanics/elements/simplices.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/cast_bodies.hpp"
 

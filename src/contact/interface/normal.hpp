@@ -14,8 +14,8 @@
 ///
 ///   p_1 = [t_N − (1 − s) p_0]/s,
 ///
-/// s = 1/2 for the trapezoidal rule (mechanics/motion.hpp). p_1 may alternate about t_N; displacements and
-/// velocities do not feel that, they depend on t_N alone.
+/// s = 1/2 for the trapezoidal rule (mechanics/loads/motion.hpp). p_1 may alternate about t_N; displacements
+/// and velocities do not feel that, they depend on t_N alone.
 ///
 /// Wet contact. Between a melt and its wall there is no air: the atmosphere p_a that stands on the melt's
 /// free surface and outside of the wall holds it there. Pressures are counted from p_a, so a wet interface

@@ -44,7 +44,7 @@ struct ValueAt {
   std::optional<ErrorBand> error = {};
 };
 
-/// Shrinkage pores in mixed elements (mechanics/pores.hpp).
+/// Shrinkage pores in mixed elements (mechanics/elements/pores.hpp).
 struct Pores {
   double volume = 0;                    ///< of all [m³], in two dimensions per depth or radian
   double share = 0;                     ///< of the volume of what is looked at

@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "mechanics/padding.hpp"
+#include "mechanics/elements/padding.hpp"
 #include "parallel/parallel.hpp"
 #include "results/checkpoint/checkpoint_contacts.hpp"
 #include "results/checkpoint/checkpoint_criteria.hpp"

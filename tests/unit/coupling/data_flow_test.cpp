@@ -7,7 +7,7 @@
 #include "../mechanics/plastic_material.hpp"
 #include "answers.hpp"
 #include "heat/thermal_phase.hpp"
-#include "mechanics/block_kernel.hpp"
+#include "mechanics/elements/block_kernel.hpp"
 #include "rubbing_interface.hpp"
 
 namespace solidus {

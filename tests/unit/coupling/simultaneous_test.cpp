@@ -10,7 +10,7 @@
 
 #include "../mechanics/plastic_material.hpp"
 #include "coupled_tangent.hpp"
-#include "mechanics/nodal_pressure.hpp"
+#include "mechanics/solver/nodal_pressure.hpp"
 #include "system/processes.hpp"
 
 namespace solidus {

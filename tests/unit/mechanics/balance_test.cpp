@@ -1,4 +1,4 @@
-#include "mechanics/balance.hpp"
+#include "mechanics/solver/balance.hpp"
 
 #include <gtest/gtest.h>
 

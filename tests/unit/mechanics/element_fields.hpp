@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "mechanics/mechanical_state.hpp"
+#include "mechanics/state/mechanical_state.hpp"
 
 namespace solidus::test {
 

@@ -1,5 +1,5 @@
 /// The directions of plastic flow that Newton's method finds beside the displacement.
-#include "mechanics/flow_directions.hpp"
+#include "mechanics/elements/flow_directions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// The mass matrix against integrals of polynomials over the body.
-#include "mechanics/inertia.hpp"
+#include "mechanics/loads/inertia.hpp"
 
 #include <gtest/gtest.h>
 

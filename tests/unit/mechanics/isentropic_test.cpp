@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "material/derivatives/isentropic.hpp"
-#include "mechanics/block_kernel.hpp"
+#include "mechanics/elements/block_kernel.hpp"
 #include "plastic_material.hpp"
 
 namespace solidus {

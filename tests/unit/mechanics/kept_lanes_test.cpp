@@ -1,7 +1,7 @@
 // Stored part of a point's history: the members of the law's state that the material can change.
 #include <gtest/gtest.h>
 
-#include "mechanics/law_parts.hpp"
+#include "mechanics/elements/law_parts.hpp"
 #include "plastic_material.hpp"
 
 namespace solidus::test {

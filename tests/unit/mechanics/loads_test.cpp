@@ -1,5 +1,5 @@
 /// Supports that the program finds by itself.
-#include "mechanics/loads.hpp"
+#include "mechanics/loads/loads.hpp"
 
 #include <gtest/gtest.h>
 

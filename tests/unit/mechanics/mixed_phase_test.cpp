@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "mechanics/simplices.hpp"
+#include "mechanics/elements/simplices.hpp"
 #include "plastic_material.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"

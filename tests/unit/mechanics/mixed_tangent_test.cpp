@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "mechanics/balance.hpp"
-#include "mechanics/saddle_solver.hpp"
+#include "mechanics/solver/balance.hpp"
+#include "mechanics/solver/saddle_solver.hpp"
 #include "plastic_material.hpp"
 
 namespace solidus {

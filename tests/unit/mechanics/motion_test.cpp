@@ -1,5 +1,5 @@
 /// The integrators on one degree of freedom, without any mesh.
-#include "mechanics/motion.hpp"
+#include "mechanics/loads/motion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // is theirs and a history that is read back element by element is the whole history.
 #include <gtest/gtest.h>
 
-#include "mechanics/padding.hpp"
-#include "mechanics/simplices.hpp"
+#include "mechanics/elements/padding.hpp"
+#include "mechanics/elements/simplices.hpp"
 #include "plastic_material.hpp"
 
 namespace solidus {

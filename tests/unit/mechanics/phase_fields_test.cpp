@@ -1,11 +1,11 @@
 /// Phase fractions of the mechanical phase.
-#include "mechanics/phase_fields.hpp"
+#include "mechanics/state/phase_fields.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "body.hpp"
-#include "mechanics/structural_points.hpp"
+#include "mechanics/elements/structural_points.hpp"
 
 namespace solidus {
 namespace {

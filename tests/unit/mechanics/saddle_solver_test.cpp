@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "../../late_messages.hpp"
-#include "mechanics/saddle_solver.hpp"
+#include "mechanics/solver/saddle_solver.hpp"
 #include "plastic_material.hpp"
 
 namespace solidus {

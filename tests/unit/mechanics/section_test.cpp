@@ -1,5 +1,5 @@
 /// Volume over cooling surface of bodies: the same for a piece between planes of symmetry and the whole.
-#include "mechanics/section.hpp"
+#include "mechanics/loads/section.hpp"
 
 #include <gtest/gtest.h>
 

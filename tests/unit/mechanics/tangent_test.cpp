@@ -3,7 +3,7 @@
 
 #include "body.hpp"
 #include "lattice.hpp"
-#include "mechanics/law_block.hpp"
+#include "mechanics/elements/law_block.hpp"
 #include "plastic_material.hpp"
 
 namespace solidus {
