@@ -19,27 +19,9 @@ void add_stage_keys(Section<C>& s) {
       .doc("What tables of time count from.");
 }
 
-}  // namespace
-
-/// Keys of [[thermal_condition]]. `kind` decides which of the others may be given: each names the kinds that
-/// it belongs to.
-Section<ThermalConditionSpec> thermal_condition_keys() {
+/// Declares the heat of a surface: a temperature, a flux, a film, radiation.
+void surface_heat_keys(Section<ThermalConditionSpec>& s) {
   using C = ThermalConditionSpec;
-  Section<C> s("thermal_condition",
-               "Heat at the boundary or in the volume. Where nothing is said, a surface is insulated.");
-  s.key("name", &C::name).doc("A name of your choice; a variant refers to it.");
-  s.key("group", &C::group)
-      .doc("Surface group of the mesh; for kind = \"source\" and \"exothermic\" a body.");
-  s.choice("kind", &C::kind,
-           {{"temperature", C::Kind::temperature, "prescribed temperature"},
-            {"flux", C::Kind::flux, "prescribed heat flux"},
-            {"film", C::Kind::film, "h (ambient - T)"},
-            {"radiation", C::Kind::radiation, "grey body: emissivity x Stefan-Boltzmann (ambient^4 - T^4)"},
-            {"source", C::Kind::source, "heat released in the volume of a body"},
-            {"exothermic", C::Kind::exothermic,
-             "heat that a body releases once, place after place, when it has become hot enough: a sleeve or "
-             "a topping that burns"}})
-      .doc("What acts there.");
   s.function("temperature", &C::temperature, "K")
       .of({Argument::time})
       .anywhere()
@@ -69,6 +51,11 @@ Section<ThermalConditionSpec> thermal_condition_keys() {
       .positive()
       .when("kind", {"film", "radiation"})
       .doc("Temperature of the surroundings.");
+}
+
+/// Declares the heat that a body releases in its volume, at all times or once.
+void volume_heat_keys(Section<ThermalConditionSpec>& s) {
+  using C = ThermalConditionSpec;
   s.function("power", &C::power, "W/m3")
       .of({Argument::time})
       .anywhere()
@@ -86,6 +73,31 @@ Section<ThermalConditionSpec> thermal_condition_keys() {
       .positive()
       .when("kind", {"exothermic"})
       .doc("How long a place burns; its heat comes evenly.");
+}
+
+}  // namespace
+
+/// Keys of [[thermal_condition]]. `kind` decides which of the others may be given: each names the kinds that
+/// it belongs to.
+Section<ThermalConditionSpec> thermal_condition_keys() {
+  using C = ThermalConditionSpec;
+  Section<C> s("thermal_condition",
+               "Heat at the boundary or in the volume. Where nothing is said, a surface is insulated.");
+  s.key("name", &C::name).doc("A name of your choice; a variant refers to it.");
+  s.key("group", &C::group)
+      .doc("Surface group of the mesh; for kind = \"source\" and \"exothermic\" a body.");
+  s.choice("kind", &C::kind,
+           {{"temperature", C::Kind::temperature, "prescribed temperature"},
+            {"flux", C::Kind::flux, "prescribed heat flux"},
+            {"film", C::Kind::film, "h (ambient - T)"},
+            {"radiation", C::Kind::radiation, "grey body: emissivity x Stefan-Boltzmann (ambient^4 - T^4)"},
+            {"source", C::Kind::source, "heat released in the volume of a body"},
+            {"exothermic", C::Kind::exothermic,
+             "heat that a body releases once, place after place, when it has become hot enough: a sleeve or "
+             "a topping that burns"}})
+      .doc("What acts there.");
+  surface_heat_keys(s);
+  volume_heat_keys(s);
   s.function("factor", &C::factor, "1")
       .of({Argument::time})
       .anywhere()

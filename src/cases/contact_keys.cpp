@@ -105,36 +105,11 @@ Section<BodyInterfaceSpec> body_interface_keys() {
   return s;
 }
 
-/// Keys of [[contact]]: both surfaces, how partners are found, how pressure follows from penetration, where
-/// it is integrated, gaps at the start, melt on its wall, and the sections of heat, friction and wear.
-Section<ContactSpec> contact_keys() {
+namespace {
+
+/// Declares how pressure follows from penetration.
+void pressure_keys(Section<ContactSpec>& s) {
   using C = ContactSpec;
-  using contact::IntegrationRule;
-  Section<C> s("contact", "Two surfaces that may touch, slide and part: unilateral contact.");
-  s.key("name", &C::name).doc("A name of your choice.");
-  s.key("slave", &C::slave)
-      .initially("")
-      .doc("Surface group that is integrated over: the finer or softer one.");
-  s.key("master", &C::master)
-      .initially("")
-      .doc("Surface group that it is projected on, or a [[rigid_surface]].");
-  s.key("surfaces", &C::surfaces)
-      .initially(Value::list())
-      .doc(
-          "Both groups instead of `slave` and `master`: the one with the smaller faces becomes the slave, of "
-          "two alike the softer one.");
-  using contact::Formulation;
-  s.choice("formulation", &C::formulation,
-           {{"small_sliding", Formulation::small_sliding,
-             "partners found once, where the bodies are at the start: for surfaces that move little along "
-             "each other"},
-            {"large_sliding", Formulation::large_sliding, "closest points where the bodies are"}})
-      .initially("small_sliding")
-      .doc("Who touches whom.");
-  s.key("smoothing", &C::smoothing)
-      .initially(false)
-      .when("formulation", {"large_sliding"})
-      .doc("Averaged normals of the master: no jumps of the force from face to face.");
   using Normal = C::Normal;
   s.choice(
        "normal", &C::normal,
@@ -175,6 +150,12 @@ Section<ContactSpec> contact_keys() {
       .doc(
           "Share of the penalty that the matrix, not the forces, always holds: for bodies that lose their "
           "support.");
+}
+
+/// Declares where contact is integrated.
+void integration_keys(Section<ContactSpec>& s) {
+  using C = ContactSpec;
+  using contact::IntegrationRule;
   s.choice(
        "integration", &C::integration,
        {{"automatic", IntegrationRule::automatic, "segments with small sliding, Gauss points with large"},
@@ -193,6 +174,11 @@ Section<ContactSpec> contact_keys() {
       .initially(4)
       .range(1, 5)
       .doc("Polynomial degree that integration = \"gauss\" integrates exactly.");
+}
+
+/// Declares how far partners are looked for, which gaps there are at the start, and melt on its wall.
+void first_gap_keys(Section<ContactSpec>& s) {
+  using C = ContactSpec;
   s.quantity("search_distance", &C::search_distance, "m")
       .positive()
       .doc("How far partners are looked for; without it a tenth of the slave's extent.");
@@ -216,6 +202,42 @@ Section<ContactSpec> contact_keys() {
       .doc(
           "The pressure with which liquid metal is held on the wall, where `wet`: less where gas passes the "
           "wall.");
+}
+
+}  // namespace
+
+/// Keys of [[contact]]: both surfaces, how partners are found, how pressure follows from penetration, where
+/// it is integrated, gaps at the start, melt on its wall, and the sections of heat, friction and wear.
+Section<ContactSpec> contact_keys() {
+  using C = ContactSpec;
+  Section<C> s("contact", "Two surfaces that may touch, slide and part: unilateral contact.");
+  s.key("name", &C::name).doc("A name of your choice.");
+  s.key("slave", &C::slave)
+      .initially("")
+      .doc("Surface group that is integrated over: the finer or softer one.");
+  s.key("master", &C::master)
+      .initially("")
+      .doc("Surface group that it is projected on, or a [[rigid_surface]].");
+  s.key("surfaces", &C::surfaces)
+      .initially(Value::list())
+      .doc(
+          "Both groups instead of `slave` and `master`: the one with the smaller faces becomes the slave, of "
+          "two alike the softer one.");
+  using contact::Formulation;
+  s.choice("formulation", &C::formulation,
+           {{"small_sliding", Formulation::small_sliding,
+             "partners found once, where the bodies are at the start: for surfaces that move little along "
+             "each other"},
+            {"large_sliding", Formulation::large_sliding, "closest points where the bodies are"}})
+      .initially("small_sliding")
+      .doc("Who touches whom.");
+  s.key("smoothing", &C::smoothing)
+      .initially(false)
+      .when("formulation", {"large_sliding"})
+      .doc("Averaged normals of the master: no jumps of the force from face to face.");
+  pressure_keys(s);
+  integration_keys(s);
+  first_gap_keys(s);
   s.section("heat", &C::heat, contact_heat_keys());
   s.section("friction", &C::friction, friction_keys());
   s.section("wear", &C::wear, wear_keys());

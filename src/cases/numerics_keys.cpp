@@ -77,9 +77,10 @@ Section<heat::HeatOptions> heat_keys() {
   return s;
 }
 
-/// Keys of [mechanics]: integration of the law, elements and their stabilisation, tolerances and solver.
-Section<MechanicsSpec> mechanics_keys() {
-  Section<MechanicsSpec> s("mechanics", "Numerics of the mechanical phase.");
+namespace {
+
+/// Declares Newton's iteration and how far its linear systems are solved.
+void equilibrium_keys(Section<MechanicsSpec>& s) {
   s.key("tolerance", &MechanicsSpec::tolerance)
       .initially(1e-5)
       .range(1e-14, 0.1)
@@ -112,6 +113,10 @@ Section<MechanicsSpec> mechanics_keys() {
       .doc(
           "Residual of a linear system over its right-hand side below which no iterative solver goes. Also "
           "of a scheme that solves both fields at once.");
+}
+
+/// Declares the elements and their stabilisation.
+void formulation_keys(Section<MechanicsSpec>& s) {
   s.key("b_bar", &MechanicsSpec::b_bar)
       .initially(true)
       .doc(
@@ -133,6 +138,15 @@ Section<MechanicsSpec> mechanics_keys() {
             {"algebraic", Stabilisation::algebraic, "algebraic sub-grid scales, without inertia"}})
       .initially("automatic")
       .doc("Of the pressure of mixed triangles and tetrahedra (Codina 2000).");
+}
+
+}  // namespace
+
+/// Keys of [mechanics]: integration of the law, elements and their stabilisation, tolerances and solver.
+Section<MechanicsSpec> mechanics_keys() {
+  Section<MechanicsSpec> s("mechanics", "Numerics of the mechanical phase.");
+  equilibrium_keys(s);
+  formulation_keys(s);
   using mechanics::TimeIntegration;
   s.choice(
        "integration", &MechanicsSpec::integration,

@@ -3,36 +3,11 @@
 
 namespace solidus::cases {
 
-/// Keys of [time]: the end, the first step, and how adaptive steps are chosen.
-Section<TimeSpec> time_keys() {
+namespace {
+
+/// Declares how adaptive steps measure their error, and how much of it a run may have.
+void error_control_keys(Section<TimeSpec>& s) {
   using coupling::ErrorControl;
-  Section<TimeSpec> s("time", "The time that is simulated and the size of its steps.");
-  s.key("steady", &TimeSpec::steady)
-      .initially(false)
-      .doc(
-          "Solve for the final equilibrium at once, without time: the temperatures at which nothing warms or "
-          "cools any more and, in mechanics, the deformation that goes with them and with the gaps, from the "
-          "unstressed bodies of the start. Conditions are those of t = 0; [coupling] says nothing here.");
-  s.quantity("end", &TimeSpec::end, "s")
-      .positive()
-      .doc("The run goes from zero to this time; required unless steady or in stages, which make the end.");
-  s.choice("until", &TimeSpec::until,
-           {{"end", TimeSpec::Until::end, "the run goes on to `end`"},
-            {"solid", TimeSpec::Until::solid,
-             "it ends with the first step after which everything that can melt is solid, at `end` at the "
-             "latest"}})
-      .initially("end")
-      .doc("What ends the run; without stages.");
-  s.quantity("step", &TimeSpec::step, "s")
-      .positive()
-      .doc(
-          "The step asked for, where steps are adaptive the first one; required unless steady or given by "
-          "every stage.");
-  s.key("adaptive", &TimeSpec::adaptive)
-      .initially(false)
-      .doc(
-          "Let steps follow their local error, the change of solid fraction and the effort of the "
-          "iteration.");
   s.choice("error_control", &TimeSpec::error_control,
            {{"predictor", ErrorControl::predictor,
              "the heat flows and displacements of a step against those of the one before; costs little"},
@@ -70,6 +45,10 @@ Section<TimeSpec> time_keys() {
           "Share of a skin in contact that may become coherent in an adaptive step, where bodies deform. "
           "Without it 0.04, and where `displacement_error` is given that times the root of its ratio to the "
           "default, from 0.001 to 0.5.");
+}
+
+/// Declares how small and how large adaptive steps become.
+void step_size_keys(Section<TimeSpec>& s) {
   s.quantity("min_step", &TimeSpec::min_step, "s")
       .positive()
       .doc(
@@ -93,6 +72,41 @@ Section<TimeSpec> time_keys() {
           "Adaptive steps grow by `growth` where no phase took more Newton iterations than this, the less "
           "the more there were, and not at all from three times as many on; beyond four times as many they "
           "shrink, not below `step`.");
+}
+
+}  // namespace
+
+/// Keys of [time]: the end, the first step, and how adaptive steps are chosen.
+Section<TimeSpec> time_keys() {
+  Section<TimeSpec> s("time", "The time that is simulated and the size of its steps.");
+  s.key("steady", &TimeSpec::steady)
+      .initially(false)
+      .doc(
+          "Solve for the final equilibrium at once, without time: the temperatures at which nothing warms or "
+          "cools any more and, in mechanics, the deformation that goes with them and with the gaps, from the "
+          "unstressed bodies of the start. Conditions are those of t = 0; [coupling] says nothing here.");
+  s.quantity("end", &TimeSpec::end, "s")
+      .positive()
+      .doc("The run goes from zero to this time; required unless steady or in stages, which make the end.");
+  s.choice("until", &TimeSpec::until,
+           {{"end", TimeSpec::Until::end, "the run goes on to `end`"},
+            {"solid", TimeSpec::Until::solid,
+             "it ends with the first step after which everything that can melt is solid, at `end` at the "
+             "latest"}})
+      .initially("end")
+      .doc("What ends the run; without stages.");
+  s.quantity("step", &TimeSpec::step, "s")
+      .positive()
+      .doc(
+          "The step asked for, where steps are adaptive the first one; required unless steady or given by "
+          "every stage.");
+  s.key("adaptive", &TimeSpec::adaptive)
+      .initially(false)
+      .doc(
+          "Let steps follow their local error, the change of solid fraction and the effort of the "
+          "iteration.");
+  error_control_keys(s);
+  step_size_keys(s);
   s.place(&TimeSpec::where);
   return s;
 }

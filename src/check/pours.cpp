@@ -68,27 +68,22 @@ std::optional<FreezingProblem> around_place(const Surroundings& in, const Estima
                                             const PlaceInMetal& place, double least) {
   const Pour& pour = estimated.pour;
   std::vector<SkinPlace> places;
-  // The shape of the place: metal in the ball and the skins that reach into it.
   for (const CooledSkin& skin : estimated.skins) places.push_back({skin.surface, skin.other});
   const LocalShape shape = measure_around(in.a.mesh, in.spec.analysis.kind, pour.body, place, places);
   // A part of a surface may have no partner, and two films may act on one surface.
   const auto area_of = [&](std::size_t s) {
     return shape.all[s] > 0 ? shape.area[s] * estimated.skins[s].area / shape.all[s] : 0.0;
   };
-  // The cooled area there and of the whole, by which overlapping films are scaled alike.
   double area = 0, whole = 0;
   for (std::size_t s = 0; s < estimated.skins.size(); ++s)
     if (estimated.skins[s].cooling >= least) area += area_of(s), whole += estimated.skins[s].area;
   if (!(area > 0) || !(shape.volume > 0)) return std::nullopt;
   area *= pour.cooled_area / whole;
-  // A problem like that of the whole casting, with the modulus of the place.
   FreezingProblem problem;
   problem.metal = estimated.problem.metal;
   problem.start = estimated.problem.start;
   problem.modulus = shape.volume / area;
   problem.depth = pour.depth;
-  // Skins by their share of the place's area: films directly, moulds in layers by how much of them
-  // is there.
   for (std::size_t s = 0; s < estimated.skins.size(); ++s) {
     const CooledSkin& skin = estimated.skins[s];
     const double share = area_of(s) / area;
@@ -114,23 +109,18 @@ void by_thickest_place(const Surroundings& in, const std::vector<mesh::Point>& p
                        EstimatedPour& estimated) {
   Pour& pour = estimated.pour;
   if (!(pour.depth > 0) || !pour.freezing.time) return;
-  // From the diffusivity at the solidus follows how far the place reaches in a given time.
   const material::Material& metal = *estimated.problem.metal;
   const double solidus = metal.solidification()->fraction.solidus();
   const double diffusivity =
       metal.conductivity.value(solidus) / (metal.density * metal.specific_heat.value(solidus));
-  // The time of the whole is the first guess of the time here.
   const double whole = *pour.freezing.time;
   const double spread = pour.freezing.mould_reach;
   double last = 0;
   for (const mesh::Point& place : places) {
-    // The near surroundings tell how round the place is.
     const auto nearby = around_place(in, estimated, {place, pour.depth, k_near * pour.depth, spread}, least);
     double time = whole;
     FreezingEstimate there;
     double modulus = 0;
-    // Two rounds, since the reach depends on the time that the estimate gives: their geometric mean
-    // damps it.
     for (int round = 0; round < 2; ++round) {
       const double reach = k_reach * std::sqrt(diffusivity * time);
       auto problem = around_place(in, estimated, {place, pour.depth, pour.depth + reach, spread}, least);
@@ -142,13 +132,33 @@ void by_thickest_place(const Surroundings& in, const std::vector<mesh::Point>& p
       modulus = problem->modulus;
       there = std::move(found);
     }
-    // The place that is solid last is the one that decides.
     if (!there.time || *there.time <= last) continue;
     last = *there.time;
     pour.local_modulus = modulus;
     estimated.of_thickest = last / whole;
     pour.freezing = std::move(there);
   }
+}
+
+/// The parts of the skin of a body, without those at metal that comes in molten, unless this is solid by now.
+/// @param earlier  as estimate_alone() has them
+std::vector<CooledSkin> skins_without_melt(const cases::CaseSpec& spec, const setup::Assembly& a,
+                                           std::span<const EstimatedPour> earlier, std::size_t body,
+                                           const Surroundings& around) {
+  std::vector<CooledSkin> skins = skins_of(body, around);
+  const auto solid_by_now = [&](std::size_t other) {
+    return std::ranges::any_of(earlier, [&](const EstimatedPour& one) {
+      return one.pour.body == other && one.pour.freezing.time &&
+             time_of_pour(spec, a, other) + *one.pour.freezing.time <= time_of_pour(spec, a, body);
+    });
+  };
+  std::erase_if(skins, [&](const CooledSkin& s) {
+    return s.other && comes_in_molten(a, *s.other) && !solid_by_now(*s.other);
+  });
+  for (CooledSkin& skin : skins)
+    if (skin.other && comes_in_molten(a, *skin.other))
+      skin.low = skin.high = a.materials[*skin.other].solidification()->fraction.solidus();
+  return skins;
 }
 
 /// Finds the parts of the skin that count as cooled, and the problem in one dimension, without the metal that
@@ -160,23 +170,8 @@ void estimate_alone(const cases::CaseSpec& spec, const setup::Assembly& a, const
   Pour& pour = estimated.pour;
   const std::size_t body = pour.body;
   const double start = a.start[body].high, end = spec.time.end.value_or(0);
-  // Skins in the stage of the pour, without those toward metal that is still liquid.
   const Surroundings around{spec, stage_of_pour(spec, a, body), a, m};
-  std::vector<CooledSkin> skins = skins_of(body, around);
-  const auto solid_by_now = [&](std::size_t other) {
-    return std::ranges::any_of(earlier, [&](const EstimatedPour& one) {
-      return one.pour.body == other && one.pour.freezing.time &&
-             time_of_pour(spec, a, other) + *one.pour.freezing.time <= time_of_pour(spec, a, body);
-    });
-  };
-  std::erase_if(skins, [&](const CooledSkin& s) {
-    return s.other && comes_in_molten(a, *s.other) && !solid_by_now(*s.other);
-  });
-  // Metal that was poured earlier and is solid by now takes heat from its solidus on.
-  for (CooledSkin& skin : skins)
-    if (skin.other && comes_in_molten(a, *skin.other))
-      skin.low = skin.high = a.materials[*skin.other].solidification()->fraction.solidus();
-  // What each part of the skin takes at the start and on the mean decides whether it counts.
+  std::vector<CooledSkin> skins = skins_without_melt(spec, a, earlier, body, around);
   double most = 0;
   for (CooledSkin& skin : skins) most = std::max(most, skin.cooling = cooling_of(skin, start, end));
   if (!(most > 0)) {
@@ -186,8 +181,6 @@ void estimate_alone(const cases::CaseSpec& spec, const setup::Assembly& a, const
   // Skin that loses less than a hundredth of the heat of the rest does not count in V/A.
   constexpr double k_least_share_of_cooling = 0.03;
   std::vector<mesh::Point> cloud;
-  // Nodes of the skin mark elements that span the wall, and its points are what depth is measured
-  // from.
   std::vector<char> on_skin(a.mesh.x.size(), 0);
   std::vector<double> facing(m.bodies.size(), 0.0);  // area toward each other body
   for (const CooledSkin& skin : skins) {
@@ -207,18 +200,15 @@ void estimate_alone(const cases::CaseSpec& spec, const setup::Assembly& a, const
   pour.spanned = share_between(a.mesh, spec.analysis.kind, static_cast<int>(body), on_skin);
   const Deepest deepest = deepest_below(a.mesh, body, cloud);
   pour.depth = deepest.depth;
-  // The problem of the casting as a whole, of which the modulus is the thickness.
   FreezingProblem& problem = estimated.problem;
   problem.metal = &a.materials[body];
   problem.start = start;
   problem.modulus = m.bodies[body].volume / pour.cooled_area;
   problem.depth = pour.depth;
-  // The coldest mould gives the drop by which the conductance is formed; without one the air does.
   double coldest = start;
   for (const CooledSkin& skin : skins) {
     const double share = skin.area / pour.cooled_area;
     if (skin.other) {
-      // A mould that several skins of one casting face is shared among them by area.
       const double part = skin.area / facing[*skin.other];
       coldest = std::min(coldest, skin.low);
       add_mould(around, skin, share, part, pour.cooled_area, m.bodies[body].volume, problem);
@@ -230,7 +220,6 @@ void estimate_alone(const cases::CaseSpec& spec, const setup::Assembly& a, const
   const double drop = against_mould ? start - coldest : std::max(1.0, start - k_zero_celsius - 20);
   pour.conductance /= pour.cooled_area * drop;
   estimated.skins = std::move(skins);
-  // The whole first, then its thickest place, which may take longer.
   pour.freezing = estimate_freezing(problem);
   by_thickest_place(around, deepest.places, k_least_share_of_cooling * most, estimated);
   pour.alone_time = pour.freezing.time;
@@ -279,7 +268,6 @@ void exchange_heat(const CaseMeasures& m, const setup::Assembly& a, std::vector<
 }  // namespace
 
 std::vector<Pour> pours(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m) {
-  // Only bodies that come in above their solidus.
   std::vector<EstimatedPour> all;
   std::vector<std::size_t> bodies;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
@@ -302,8 +290,6 @@ std::vector<Pour> pours(const cases::CaseSpec& spec, const setup::Assembly& a, c
       estimate_alone(spec, a, m, all, estimated);
     all.push_back(std::move(estimated));
   }
-  // The list is by body again, which the callers expect, and pours that touch each other exchange
-  // heat last.
   std::ranges::sort(all, {}, [](const EstimatedPour& one) { return one.pour.body; });
   exchange_heat(m, a, all);
   std::vector<Pour> list;

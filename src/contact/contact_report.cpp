@@ -87,6 +87,31 @@ double stored_energy(const ContactView& pair) {
   return s.energy + parallel::global_sum(interface_energy_here(pair));
 }
 
+namespace {
+
+/// Gives the sums their names, in the order in which sums() has added them.
+ContactSums named(const std::array<double, 20>& s) {
+  ContactSums sums;
+  sums.points = std::llround(s[0]);
+  sums.energy = s[1];
+  sums.work = s[2];
+  sums.dissipation = s[3];
+  sums.closed_points = std::llround(s[4]);
+  sums.sticking_points = std::llround(s[5]);
+  sums.closed_area = s[6];
+  sums.force = s[7];
+  sums.friction = s[8];
+  sums.resultant = {s[9], s[10], s[11]};
+  sums.moment = {s[12], s[13], s[14]};
+  sums.heat = s[15];
+  sums.heat_to_slave = s[16];
+  sums.heat_to_master = s[17];
+  sums.wet_area = s[18];
+  return sums;
+}
+
+}  // namespace
+
 ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
   // Sums over all counted points of the pair: numbers of points by status, area, forces and moments on the
   // master, work and dissipation, and heat. All of them go through one array, so that one message adds them
@@ -139,23 +164,7 @@ ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
     s[17] = heat.total[1];
   }
   processes::sum(s);
-  // The sums get their names here, in the order in which they were added.
-  ContactSums sums;
-  sums.points = std::llround(s[0]);
-  sums.energy = s[1];
-  sums.work = s[2];
-  sums.dissipation = s[3];
-  sums.closed_points = std::llround(s[4]);
-  sums.sticking_points = std::llround(s[5]);
-  sums.closed_area = s[6];
-  sums.force = s[7];
-  sums.friction = s[8];
-  sums.resultant = {s[9], s[10], s[11]};
-  sums.moment = {s[12], s[13], s[14]};
-  sums.heat = s[15];
-  sums.heat_to_slave = s[16];
-  sums.heat_to_master = s[17];
-  sums.wet_area = s[18];
+  ContactSums sums = named(s);
   if (s[19] > 0) measure_left(pair, kinematics, sums);
   return sums;
 }

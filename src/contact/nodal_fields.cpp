@@ -41,12 +41,17 @@ class NodalAverage {
   std::vector<std::array<double, n_values>> sum_;
 };
 
-}  // namespace
+/// Means around the owned nodes, and the area of each that has a partner.
+struct NodalMeans {
+  explicit NodalMeans(std::size_t n_nodes) : met(n_nodes), kept(n_nodes), paired_area(n_nodes, 0.0) {}
+  NodalAverage<k_met> met;
+  NodalAverage<k_kept> kept;
+  std::vector<double> paired_area;
+};
 
-ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double> temperature) {
-  // Fields at the nodes of the surface are weighted means over the points that a node has a share in: of what
-  // a point meets (gap, pressure, heat, traction) over the part with a partner, of what it keeps (slip, wear,
-  // temperature) over all of its area.
+/// Means over the points that a node has a share in: of what a point meets (gap, pressure, heat, traction)
+/// over the part with a partner, of what it keeps (slip, wear, temperature) over all of its area.
+NodalMeans nodal_means_of(const ContactView& pair, std::span<const double> temperature) {
   const ContactKinematics& kinematics =
       pair.geometry.at(pair.end.time, pair.end.displacement, ContactKinematics::Points::own);
   const std::vector<ContactPointState>& points = pair.end.state.points;
@@ -57,9 +62,7 @@ ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double>
                                                                : std::vector<double>(points.size(), 0.0);
   std::vector<InterfaceHeatFlux> heat(points.size());
   if (pair.heat != nullptr && !temperature.empty()) heat = pair.heat->term().surface_heat(temperature);
-  NodalAverage<k_met> met(n);
-  std::vector<double> paired_area(n, 0.0);
-  NodalAverage<k_kept> kept(n);
+  NodalMeans means(n);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactPointState& state = points[static_cast<std::size_t>(p)];
     const ContactKinematics::Particle particle = kinematics.particle(p);
@@ -68,9 +71,9 @@ ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double>
       const double mu =
           friction ? friction->coefficient().value(state.internal_variable, state.temperature).value : 0.0;
       for (std::size_t b = 0; b < particle.nodes.size(); ++b)
-        kept.add(particle.nodes[b], particle.area * particle.share[b],
-                 {state.slip, state.internal_variable, mu, state.dissipation, state.wear_depth,
-                  state.temperature});
+        means.kept.add(particle.nodes[b], particle.area * particle.share[b],
+                       {state.slip, state.internal_variable, mu, state.dissipation, state.wear_depth,
+                        state.temperature});
     }
     const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
     if (!motion.partnered) continue;
@@ -79,29 +82,49 @@ ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double>
     // What is met is given to the nodes of both sides. Heat is told apart by side; tractions act the same on
     // both.
     const auto meet = [&](Index node, double share, std::size_t side) {
-      if (const auto i = static_cast<std::size_t>(node); i < n) paired_area[i] += motion.weight * share;
-      met.add(node, motion.weight * share * share,
-              {-state.penetration, state.pressure, conductance[static_cast<std::size_t>(p)], q.total[side],
-               q.by_friction[side], static_cast<double>(state.status), traction[0], traction[1], traction[2],
-               state.sunk});
+      if (const auto i = static_cast<std::size_t>(node); i < n) means.paired_area[i] += motion.weight * share;
+      means.met.add(node, motion.weight * share * share,
+                    {-state.penetration, state.pressure, conductance[static_cast<std::size_t>(p)],
+                     q.total[side], q.by_friction[side], static_cast<double>(state.status), traction[0],
+                     traction[1], traction[2], state.sunk});
     };
     for (std::size_t b = 0; b < particle.nodes.size(); ++b) meet(particle.nodes[b], particle.share[b], 0);
     for (auto b = static_cast<std::size_t>(motion.n_slave); b < motion.nodes.size(); ++b)
       meet(motion.nodes[b], -motion.share[b], 1);
   }
+  return means;
+}
+
+/// Wear of the master is kept by nodes of its own and goes into the same fields.
+void add_wear_of_master(const ContactView& pair, ContactNodalFields& fields) {
+  for (const MasterWear::Depth& worn : pair.history.depths(pair.end.state)) {
+    const auto place = std::lower_bound(fields.nodes.begin(), fields.nodes.end(), worn.node);
+    if (place == fields.nodes.end() || *place != worn.node) continue;
+    const auto k = static_cast<std::size_t>(place - fields.nodes.begin());
+    fields.wear_depth[k] = worn.depth;
+    fields.dissipation[k] = worn.dissipation;
+  }
+}
+
+}  // namespace
+
+ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double> temperature) {
+  const std::optional<FrictionLaw>& friction = pair.law.friction;
+  const bool keeps = friction || pair.has_temperature();
+  const NodalMeans means = nodal_means_of(pair, temperature);
   // The means are put into the fields in the order of the surface's nodes.
   ContactNodalFields fields;
   fields.nodes = pair.geometry.surface_nodes();
   for (const Index node : fields.nodes) {
-    const auto m = met.at(node);
+    const auto m = means.met.at(node);
     fields.opening.push_back(m[0]);
     fields.overlap.push_back(m[9] - m[0]);
     fields.pressure.push_back(m[1]);
     fields.conductance.push_back(m[2]);
-    fields.paired_area.push_back(paired_area[static_cast<std::size_t>(node)]);
+    fields.paired_area.push_back(means.paired_area[static_cast<std::size_t>(node)]);
     fields.heat_flux.push_back(m[3]);
     fields.frictional_heat_flux.push_back(m[4]);
-    const auto k = kept.at(node);
+    const auto k = means.kept.at(node);
     if (keeps) fields.temperature.push_back(k[5]);
     if (!friction) continue;
     fields.status.push_back(m[5]);
@@ -112,15 +135,7 @@ ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double>
     fields.dissipation.push_back(k[3]);
     fields.wear_depth.push_back(k[4]);
   }
-  if (!friction) return fields;
-  // Wear of the master is kept by nodes of its own and goes into the same field.
-  for (const MasterWear::Depth& worn : pair.history.depths(pair.end.state)) {
-    const auto place = std::lower_bound(fields.nodes.begin(), fields.nodes.end(), worn.node);
-    if (place == fields.nodes.end() || *place != worn.node) continue;
-    const auto k = static_cast<std::size_t>(place - fields.nodes.begin());
-    fields.wear_depth[k] = worn.depth;
-    fields.dissipation[k] = worn.dissipation;
-  }
+  if (friction) add_wear_of_master(pair, fields);
   return fields;
 }
 

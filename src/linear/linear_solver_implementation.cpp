@@ -1,5 +1,3 @@
-/// The objects of PETSc behind the face: which method, which preconditioner, which of our own parts replace
-/// PETSc's.
 #include "linear/linear_solver_implementation.hpp"
 
 #include <algorithm>
@@ -75,7 +73,6 @@ void make_gamg_reproducible() {
 /// Rigid-body modes for PETSc's own multigrid.
 petsc::NullSpaceHandle petsc_rigid_body_modes(const mesh::Mesh& mesh, int components) {
   petsc::make_scalar_products_reproducible();
-  // PETSc builds the modes from a vector of coordinates, block by block.
   petsc::VecHandle coordinates;
   petsc::check(VecCreate(PETSC_COMM_WORLD, coordinates.out()), "VecCreate");
   petsc::check(VecSetBlockSize(coordinates, components), "VecSetBlockSize");
@@ -126,8 +123,6 @@ bool LinearSolver::Implementation::gradients_of_blocks() const {
 
 LinearReport LinearSolver::Implementation::solve_by_gradients(std::span<const double> right,
                                                               std::span<double> solution, double forcing) {
-  // Our own conjugate gradients with an incomplete factor, both in single memory; PETSc is not
-  // needed.
   check_interruption();
   const double start = processes::wall_time();
   if (stale) {
@@ -159,7 +154,6 @@ void LinearSolver::Implementation::create_shell(BlockMatrix& a) {
   petsc::check(MatCreateShell(PETSC_COMM_WORLD, n, n, PETSC_DETERMINE, PETSC_DETERMINE, this, shell.out()),
                "MatCreateShell");
   petsc::check(MatSetBlockSize(shell, a.block_size()), "MatSetBlockSize");
-  // PETSc calls back into our product with its vectors.
   const auto product = [](Mat of, Vec in, Vec out) -> PetscErrorCode {
     Implementation* my = nullptr;
     petsc::check(MatShellGetContext(of, static_cast<void*>(&my)), "MatShellGetContext");
@@ -187,26 +181,8 @@ void LinearSolver::Implementation::attach_modes(Mat a) const {
   petsc::check(MatSetNearNullSpace(of_modes, near_null_space), "MatSetNearNullSpace");
 }
 
-void LinearSolver::Implementation::create(Mat a) {
-  petsc::make_scalar_products_reproducible();
-  PetscInt components = 0, n_unknowns = 0;
-  petsc::check(MatGetBlockSize(a, &components), "MatGetBlockSize");
-  // An automatic choice depends on the number of unknowns and on the dimension.
-  kind = automatic_kind(options, mesh, static_cast<int>(components), a == shell);
-  petsc::check(KSPCreate(PETSC_COMM_WORLD, ksp.out()), "KSPCreate");
-  petsc::check(KSPSetOptionsPrefix(ksp, options.prefix.c_str()), "KSPSetOptionsPrefix");
-  petsc::check(KSPSetErrorIfNotConverged(ksp, PETSC_FALSE), "KSPSetErrorIfNotConverged");
-  petsc::check(
-      KSPSetTolerances(ksp, options.relative_tolerance, PETSC_DEFAULT, PETSC_DEFAULT, options.max_iterations),
-      "KSPSetTolerances");
-  // Iterations stop by the true residual, and can be interrupted.
-  if (kind != SolverKind::direct) {
-    petsc::check(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED), "KSPSetNormType");
-    watch_for_interruption(ksp);
-  }
-  PC pc = nullptr;
-  petsc::check(KSPGetPC(ksp, &pc), "KSPGetPC");
-  // Symmetric matrices have conjugate gradients; others need restarted GMRES.
+void LinearSolver::Implementation::set_method(Mat a, PC pc) {
+  PetscInt n_unknowns = 0;
   const KSPType krylov = options.symmetric ? KSPCG : KSPGMRES;
   // The solver within a block of Jacobi's preconditioner does not exist before its set-up, but its options
   // do.
@@ -254,15 +230,32 @@ void LinearSolver::Implementation::create(Mat a) {
       reuse_hierarchy = true;
       break;
   }
-  // On the right, the preconditioner leaves the true residual as the one that is measured.
+}
+
+void LinearSolver::Implementation::create(Mat a) {
+  petsc::make_scalar_products_reproducible();
+  PetscInt components = 0;
+  petsc::check(MatGetBlockSize(a, &components), "MatGetBlockSize");
+  kind = automatic_kind(options, mesh, static_cast<int>(components), a == shell);
+  petsc::check(KSPCreate(PETSC_COMM_WORLD, ksp.out()), "KSPCreate");
+  petsc::check(KSPSetOptionsPrefix(ksp, options.prefix.c_str()), "KSPSetOptionsPrefix");
+  petsc::check(KSPSetErrorIfNotConverged(ksp, PETSC_FALSE), "KSPSetErrorIfNotConverged");
+  petsc::check(
+      KSPSetTolerances(ksp, options.relative_tolerance, PETSC_DEFAULT, PETSC_DEFAULT, options.max_iterations),
+      "KSPSetTolerances");
+  if (kind != SolverKind::direct) {
+    petsc::check(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED), "KSPSetNormType");
+    watch_for_interruption(ksp);
+  }
+  PC pc = nullptr;
+  petsc::check(KSPGetPC(ksp, &pc), "KSPGetPC");
+  set_method(a, pc);
   if (!options.symmetric && kind != SolverKind::direct)
     petsc::check(KSPSetPCSide(ksp, PC_RIGHT), "KSPSetPCSide");
-  // With our multigrid a solve that takes long is given up early, since a new hierarchy is cheaper.
   if (multigrid && kind == SolverKind::multigrid)
     petsc::check(KSPSetTolerances(ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT,
                                   std::min(k_patience, options.max_iterations)),
                  "KSPSetTolerances");
-  // The user's options of PETSc come last and win.
   petsc::check(KSPSetFromOptions(ksp), "KSPSetFromOptions");
   petsc::check(KSPGetTolerances(ksp, &tightest, nullptr, nullptr, nullptr), "KSPGetTolerances");
   create_vectors(a);

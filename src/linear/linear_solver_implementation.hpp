@@ -127,6 +127,8 @@ struct LinearSolver::Implementation {
   void create_shell(BlockMatrix& a);
   void multiply(Vec in, Vec out);
   void create(Mat a);
+  /// Krylov method and preconditioner of `kind`.
+  void set_method(Mat a, PC pc);
   void create_multigrid(PC pc);
   bool splits_blocks() const;
   void create_split(Mat a, PC pc);

@@ -80,12 +80,13 @@ Spread share(double relative) {
   return {.relative = relative, .factor = {}, .shift = {}, .source = {}, .estimate = true, .where = {}};
 }
 
-std::vector<VariedProperty> all_properties() {
-  // One row a property: key, words, the factor and the spread that vary it, the usual spread where a card
-  // says nothing, whether a material has it, and what a factor does to the material.
+// One row a property: key, words, the factor and the spread that vary it, the usual spread where a card says
+// nothing, whether a material has it, and what a factor does to the material.
+
+/// Adds what heat and phase changes work with.
+void add_thermal_properties(std::vector<VariedProperty>& rows) {
   using F = MaterialFactors;
   using S = MaterialSpreads;
-  std::vector<VariedProperty> rows;
   rows.push_back({"density", "density", "Of the density.", &F::density, &S::density, false, share(0.03),
                   always, [](Material& m, double f) { m.density *= f; }});
   rows.push_back({"conductivity", "conductivity", "Of the whole table of the conductivity.", &F::conductivity,
@@ -112,6 +113,12 @@ std::vector<VariedProperty> all_properties() {
                   [](Material& m, double f) {
                     for (PhaseChange& change : m.phase_changes) change.volume_change *= f;
                   }});
+}
+
+/// Adds what deformation works with.
+void add_mechanical_properties(std::vector<VariedProperty>& rows) {
+  using F = MaterialFactors;
+  using S = MaterialSpreads;
   rows.push_back({"young_modulus", "Young's modulus", "Of the whole table of Young's modulus.",
                   &F::young_modulus, &S::young_modulus, false, share(0.10), deforms,
                   [](Material& m, double f) { m.young_modulus = m.young_modulus.scaled(f); }});
@@ -137,6 +144,12 @@ std::vector<VariedProperty> all_properties() {
                     Table& viscosity = m.flow->rate[Perzyna::viscosity];
                     viscosity = viscosity.scaled(f);
                   }});
+}
+
+/// Adds what criteria work with.
+void add_casting_properties(std::vector<VariedProperty>& rows) {
+  using F = MaterialFactors;
+  using S = MaterialSpreads;
   rows.push_back({"arm_spacing", "arm spacing", "Of the arm spacing after one second.", &F::arm_spacing,
                   &S::arm_spacing, false, share(0.30),
                   [](const Material& m) { return m.casting.arm_spacing.has_value(); },
@@ -145,6 +158,13 @@ std::vector<VariedProperty> all_properties() {
                   &F::melt_viscosity, &S::melt_viscosity, false, share(0.20),
                   [](const Material& m) { return m.casting.melt_viscosity.has_value(); },
                   [](Material& m, double f) { *m.casting.melt_viscosity *= f; }});
+}
+
+std::vector<VariedProperty> all_properties() {
+  std::vector<VariedProperty> rows;
+  add_thermal_properties(rows);
+  add_mechanical_properties(rows);
+  add_casting_properties(rows);
   return rows;
 }
 

@@ -1,5 +1,3 @@
-/// The state of a checkpoint is brought into equilibrium without contact and written with its stresses and
-/// loads.
 #include "run/structural_export.hpp"
 
 #include <fmt/format.h>
@@ -84,7 +82,6 @@ std::vector<std::vector<std::array<double, 6>>> point_stress(const mesh::Mesh& m
                                                              int n_modes) {
   const mesh::Rule rule = mesh::stiffness_rule(block.shape);
   const mesh::BlockGeometry geometry(mesh, block, kind, rule);
-  // The volumetric modes of the shape: constant, and linear in each reference coordinate.
   std::vector<PointValues> modes;
   for (int k = 0; k < n_modes; ++k) {
     modes.emplace_back();
@@ -95,7 +92,6 @@ std::vector<std::vector<std::array<double, 6>>> point_stress(const mesh::Mesh& m
   for (std::size_t e = 0; e < stress.size(); ++e) {
     const std::size_t batch = e / k_lanes;
     const int lane = static_cast<int>(e % k_lanes);
-    // Stress and pressure at all points of the element, with their weights.
     PointValues weight, pressure;
     for (std::size_t q = 0; q < rule.size(); ++q) {
       std::array<double, 6>& s = stress[e].emplace_back();
@@ -116,7 +112,6 @@ std::vector<std::vector<std::array<double, 6>>> point_stress(const mesh::Mesh& m
 /// other nodal forces than the stress at their one point. Around them the loads are what that stress
 /// balances, ∫ Bᵀ σ dV.
 void balance_triangles(results::StructuralDeck& deck) {
-  // Nodal forces of the stress at all points, of every element around the axis;
   std::vector<char> around(deck.mesh.x.size(), 0);
   std::vector<double> force(deck.force.size(), 0.0);
   for (std::size_t b = 0; b < deck.mesh.blocks.size(); ++b) {
@@ -125,7 +120,6 @@ void balance_triangles(results::StructuralDeck& deck) {
     const mesh::BlockGeometry geometry(deck.mesh, block, deck.kind, mesh::stiffness_rule(block.shape));
     const auto n = static_cast<std::size_t>(geometry.n_nodes);
     for (Index e = 0; e < block.size(); ++e) {
-      // only nodes of triangles take over what that gives.
       const Index batch = e / k_lanes;
       const int lane = static_cast<int>(e % k_lanes);
       for (int q = 0; q < geometry.n_points; ++q) {
@@ -175,7 +169,6 @@ ExportReport export_history(const cases::CaseSpec& spec, const setup::Assembly& 
     throw InputError(spec.analysis.where,
                      "a temperature history is of one stage: bodies come and go in stages",
                      "the end of the run, without --temperature-history");
-  // A deck without stress: the other program computes it from the temperatures.
   const linear::ActiveSet& active = a.mechanics->active();
   results::StructuralDeck deck{
       .title = spec.title.empty() ? "Solidus" : spec.title,
@@ -201,6 +194,49 @@ ExportReport export_history(const cases::CaseSpec& spec, const setup::Assembly& 
   return report;
 }
 
+/// Solves mechanics once more at the temperatures of a state, in a step so short that nothing flows.
+/// @param state  loses what a two-step method has of the step before
+/// @param still  becomes the state in equilibrium
+mechanics::MechanicalReport brought_into_balance(setup::Assembly& a, coupling::State& state,
+                                                 const std::vector<double>& temperature,
+                                                 coupling::State& still) {
+  state.mechanics.dt_before = 0;  // by backward Euler
+  const double dt = k_short * std::max(state.time, 1e-3);
+  coupling::restore_contacts(a.phases, state);
+  still = state;
+  coupling::StepEffort effort;
+  const std::vector<double> share = coupling::plateau_share(a.phases, state.heat);
+  return coupling::mechanical_pass(a.phases, state, still,
+                                   {.time = state.time,
+                                    .dt = dt,
+                                    .temperature = temperature,
+                                    .plateau_share = share,
+                                    .iterate_temperature = temperature,
+                                    .stores_stress = true},
+                                   effort);
+}
+
+/// Gives a deck the stresses of all points and the plastic strains of all elements of active bodies. Returns
+/// how many elements have stresses.
+std::size_t add_stresses(const cases::CaseSpec& spec, const setup::Assembly& a, const coupling::State& still,
+                         results::StructuralDeck& deck) {
+  std::size_t n_elements = 0;
+  const std::vector<double> plastic_strain =
+      mechanics::element_field(a.mesh, still.mechanics, mechanics::ElementField::equivalent_plastic_strain);
+  auto of_block = plastic_strain.begin();
+  for (std::size_t b = 0; b < a.mesh.blocks.size(); ++b) {
+    const mesh::ElementBlock& block = a.mesh.blocks[b];
+    deck.stress.emplace_back();
+    deck.plastic_strain.emplace_back(of_block, of_block + block.size());
+    of_block += block.size();
+    if (!a.mechanics->active().body(block.body)) continue;
+    const int n_modes = spec.mechanics.b_bar ? volumetric_modes(block.shape) : 0;
+    deck.stress[b] = point_stress(a.mesh, block, spec.analysis.kind, still.mechanics.stress[b], n_modes);
+    n_elements += deck.stress[b].size();
+  }
+  return n_elements;
+}
+
 }  // namespace
 
 ExportReport export_state(const setup::Case& c, const ExportOptions& options) {
@@ -213,36 +249,20 @@ ExportReport export_state(const setup::Case& c, const ExportOptions& options) {
   a.mesh = setup::load_mesh(spec);
   setup::require_sound_mesh(spec);
   setup::build(spec, a);
-  // The history of temperatures needs no equilibrium.
   if (options.temperature_history) return export_history(spec, a, options);
   // The checkpoint has to be that of this case and mesh.
   results::Checkpoint from =
       results::CheckpointFolder(options.folder)
           .read(a.mesh, setup::fingerprint(spec, a.mesh, a.materials, a.initial.heat.temperature), a.initial);
   const coupling::StageStart& stage = from.continuation.stage;
-  // The stage of the checkpoint decides which bodies and conditions are there.
   cases::check_stage_of_checkpoint(spec, stage, from.state.time);
   if (stage.number > 0)
     setup::apply(spec, static_cast<std::size_t>(stage.number - 1), stage.displacement, nullptr, a);
 
-  // A step so short that nothing flows, from the state as it is.
   coupling::State& state = from.state;
-  state.mechanics.dt_before = 0;  // by backward Euler
   const std::vector<double>& temperature = a.heat ? state.heat.temperature : a.phases.temperature;
-  const double dt = k_short * std::max(state.time, 1e-3);
-  coupling::restore_contacts(a.phases, state);
-  coupling::State still = state;
-  coupling::StepEffort effort;
-  const std::vector<double> share = coupling::plateau_share(a.phases, state.heat);
-  const mechanics::MechanicalReport solved = coupling::mechanical_pass(a.phases, state, still,
-                                                                       {.time = state.time,
-                                                                        .dt = dt,
-                                                                        .temperature = temperature,
-                                                                        .plateau_share = share,
-                                                                        .iterate_temperature = temperature,
-                                                                        .stores_stress = true},
-                                                                       effort);
-
+  coupling::State still;
+  const mechanics::MechanicalReport solved = brought_into_balance(a, state, temperature, still);
   // How far nodes moved is told: it says how well the stored state was in balance.
   ExportReport report{state.time, 0, 0, 0, 0};
   for (std::size_t i = 0; i < state.mechanics.displacement.size(); ++i)
@@ -267,22 +287,8 @@ ExportReport export_state(const setup::Case& c, const ExportOptions& options) {
   for (const cases::BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
   deck.supports = results::missing_supports(a.mesh, active, spec.analysis.kind, deck.fixed, deck.constraints);
   report.supports = deck.supports.size();
-  // The other program may start from the deformed or from the drawn shape.
   if (options.deformed) deck.displacement = still.mechanics.displacement;
-  const std::vector<double> plastic_strain =
-      mechanics::element_field(a.mesh, still.mechanics, mechanics::ElementField::equivalent_plastic_strain);
-  // Element fields lie block after block.
-  auto of_block = plastic_strain.begin();
-  for (std::size_t b = 0; b < a.mesh.blocks.size(); ++b) {
-    const mesh::ElementBlock& block = a.mesh.blocks[b];
-    deck.stress.emplace_back();
-    deck.plastic_strain.emplace_back(of_block, of_block + block.size());
-    of_block += block.size();
-    if (!active.body(block.body)) continue;
-    const int n_modes = spec.mechanics.b_bar ? volumetric_modes(block.shape) : 0;
-    deck.stress[b] = point_stress(a.mesh, block, spec.analysis.kind, still.mechanics.stress[b], n_modes);
-    report.elements += deck.stress[b].size();
-  }
+  report.elements = add_stresses(spec, a, still, deck);
   if (spec.analysis.kind == AnalysisKind::axisymmetric) balance_triangles(deck);
   results::write_file(options.file, options.deck(deck));
   return report;

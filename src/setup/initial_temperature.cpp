@@ -59,6 +59,35 @@ InitialTemperatures::InitialTemperatures(const cases::CaseSpec& spec,
   }
 }
 
+namespace {
+
+/// Tells how well a field of another run fits a body.
+void tell_of_mapping(const std::string& name, const PlaceSpec& place, const MappedEnthalpy& mapped) {
+  constexpr double k_largest_share_outside = 0.05;
+  // What lies outside of the other mesh, or has another volume, is told, since it may be the file of
+  // another part or unit.
+  if (mapped.outside > k_largest_share_outside)
+    logging::warn(
+        "body '{}': {:.0f} % of it lies outside of the grid of '{}', up to {:.3g} m away, and starts with "
+        "the temperature of the nearest place; is the file of a mesh at another place, or in another unit "
+        "(length_unit)?",
+        name, 100 * mapped.outside, place.file, mapped.farthest);
+  if (!mapped.kept)
+    logging::warn(
+        "body '{}': '{}' has a volume of {:.4g} m3, the body {:.4g} m3: its enthalpy is interpolated, not "
+        "kept",
+        name, place.file, mapped.source_volume, mapped.volume);
+  else
+    logging::info(
+        "body '{}': temperatures of '{}' with its enthalpy per volume; the volumes agree to {:.1e}, to "
+        "keep "
+        "the enthalpy {:.1e} of the way to the {} was gone",
+        name, place.file, std::abs(mapped.volume / mapped.source_volume - 1), std::abs(mapped.share),
+        mapped.share < 0 ? "coldest" : "hottest");
+}
+
+}  // namespace
+
 InitialTemperatures::Body InitialTemperatures::evaluated(const PlaceSpec& place, const mesh::Mesh& mesh,
                                                          int number, AnalysisKind kind,
                                                          const material::Material& material,
@@ -76,27 +105,7 @@ InitialTemperatures::Body InitialTemperatures::evaluated(const PlaceSpec& place,
     for (std::size_t k = 0; k < nodes.size(); ++k)
       if (nodes[k] < mesh.n_owned_nodes) weights[k] = all[static_cast<std::size_t>(nodes[k])];
     MappedEnthalpy mapped = map_enthalpy(place, kind, curve, mesh, nodes, weights);
-    constexpr double k_largest_share_outside = 0.05;
-    // What lies outside of the other mesh, or has another volume, is told, since it may be the file of
-    // another part or unit.
-    if (mapped.outside > k_largest_share_outside)
-      logging::warn(
-          "body '{}': {:.0f} % of it lies outside of the grid of '{}', up to {:.3g} m away, and starts with "
-          "the temperature of the nearest place; is the file of a mesh at another place, or in another unit "
-          "(length_unit)?",
-          name, 100 * mapped.outside, place.file, mapped.farthest);
-    if (!mapped.kept)
-      logging::warn(
-          "body '{}': '{}' has a volume of {:.4g} m3, the body {:.4g} m3: its enthalpy is interpolated, not "
-          "kept",
-          name, place.file, mapped.source_volume, mapped.volume);
-    else
-      logging::info(
-          "body '{}': temperatures of '{}' with its enthalpy per volume; the volumes agree to {:.1e}, to "
-          "keep "
-          "the enthalpy {:.1e} of the way to the {} was gone",
-          name, place.file, std::abs(mapped.volume / mapped.source_volume - 1), std::abs(mapped.share),
-          mapped.share < 0 ? "coldest" : "hottest");
+    tell_of_mapping(name, place, mapped);
     enthalpies = std::move(mapped.values);
     for (std::size_t k = 0; k < nodes.size(); ++k) temperatures[k] = curve.temperature(enthalpies[k]);
   } else {

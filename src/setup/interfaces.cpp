@@ -1,5 +1,3 @@
-/// Pairs of bodies that touch get the law of the library that fits best, unless a contact of the case names
-/// them already.
 #include "setup/interfaces.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +43,6 @@ std::vector<cases::Role> roles_of(const cases::CaseSpec& spec) {
 /// The bodies whose skins a contact of the user joins.
 std::set<BodyPair> pairs_with_contacts(const cases::CaseSpec& spec, const mesh::RawMesh& mesh) {
   std::set<BodyPair> pairs;
-  // Nodes of every body, in which those of a surface are looked for.
   std::vector<std::set<Index>> nodes(spec.bodies.size());
   if (spec.contacts.empty()) return pairs;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
@@ -55,14 +52,12 @@ std::set<BodyPair> pairs_with_contacts(const cases::CaseSpec& spec, const mesh::
     std::array<std::set<int>, 2> of_side;
     for (std::size_t s = 0; s < 2; ++s) {
       const auto group = mesh.groups.find(contact.sides()[s]);
-      // A surface may be missing on this mesh, which another check tells.
       if (group == mesh.groups.end()) continue;
       for (std::size_t b = 0; b < nodes.size(); ++b)
         for (const mesh::RawBlock& block : group->second.blocks)
           if (!block.nodes.empty() && nodes[b].contains(block.nodes.front()))
             of_side[s].insert(static_cast<int>(b));
     }
-    // Every body of one side with every one of the other.
     for (const int a : of_side[0])
       for (const int b : of_side[1])
         if (a != b) pairs.insert({std::min(a, b), std::max(a, b)});
@@ -76,7 +71,6 @@ std::vector<std::pair<BodyPair, std::size_t>> wanted_pairs(const cases::CaseSpec
                                                            const std::vector<cases::Role>& roles,
                                                            const std::vector<mesh::SplitNodes>& shared) {
   std::vector<std::pair<BodyPair, std::size_t>> wanted;
-  // Pairs with a contact of their own are taken, then those that sections name, then all others.
   std::set<BodyPair> taken = pairs_with_contacts(spec, mesh);
   for (std::size_t i = 0; i < spec.interfaces.size(); ++i)
     if (!spec.interfaces[i].all()) {
@@ -88,7 +82,6 @@ std::vector<std::pair<BodyPair, std::size_t>> wanted_pairs(const cases::CaseSpec
   // Metal that was drawn as several bodies is one where they share nodes.
   for (const mesh::SplitNodes& s : shared)
     if (metal(s.bodies.first) && metal(s.bodies.second)) taken.insert(s.bodies);
-  // Sections for all get every pair that no one has taken yet.
   const auto n = static_cast<int>(spec.bodies.size());
   for (std::size_t i = 0; i < spec.interfaces.size(); ++i) {
     if (!spec.interfaces[i].all()) continue;
@@ -136,12 +129,27 @@ std::string law_of(const cases::CaseSpec& spec, const cases::BodyInterfaceSpec& 
   return card->name;
 }
 
+/// Throws InputError for a section of two bodies no faces of which face each other.
+void refuse_sections_without_faces(const cases::CaseSpec& spec, const std::vector<FoundInterface>& found) {
+  for (std::size_t i = 0; i < spec.interfaces.size(); ++i) {
+    const cases::BodyInterfaceSpec& section = spec.interfaces[i];
+    if (std::any_of(found.begin(), found.end(), [&](const FoundInterface& f) { return f.section == i; }))
+      continue;
+    if (!section.all())
+      throw InputError(section.where,
+                       fmt::format("no face of '{}' faces one of '{}'", section.bodies[0], section.bodies[1]),
+                       "bodies that touch, or a larger 'distance'");
+    // Pairs may all have a section or a contact of their own, as casting and die of `solidus new` have.
+    if (found.empty() && spec.contacts.empty())
+      logging::warn("{}: no two bodies face each other", section.where.text());
+  }
+}
+
 }  // namespace
 
 std::vector<FoundInterface> find_interfaces(const cases::CaseSpec& spec, mesh::RawMesh& mesh,
                                             const std::string& source) {
   if (spec.interfaces.empty()) return {};
-  // Groups and names of all bodies, in their order.
   std::vector<std::string> groups, names;
   for (const cases::BodySpec& body : spec.bodies) {
     groups.push_back(body.mesh_group());
@@ -152,12 +160,10 @@ std::vector<FoundInterface> find_interfaces(const cases::CaseSpec& spec, mesh::R
   const auto wanted = wanted_pairs(spec, mesh, roles, shared);
   std::set<BodyPair> apart;
   std::vector<mesh::FacingWish> wishes;
-  // Each wanted pair with the distance that it may bridge.
   for (const auto& [pair, section] : wanted) {
     apart.insert(pair);
     wishes.push_back({pair, spec.interfaces[section].distance.value_or(0)});
   }
-  // Shared nodes of a wanted pair become two each, or no gap could open.
   std::vector<std::string> split;
   for (const mesh::SplitNodes& s : shared)
     if (apart.contains(s.bodies))
@@ -167,7 +173,6 @@ std::vector<FoundInterface> find_interfaces(const cases::CaseSpec& spec, mesh::R
     mesh::split_nodes(mesh, groups, apart);
     logging::info("bodies that shared nodes have their own now: {}", fmt::join(split, ", "));
   }
-  // Faces on a plane of symmetry face nothing, as the body goes on behind it.
   std::optional<mesh::HalfSpace> cut;
   if (spec.mesh.symmetry) cut = {spec.mesh.symmetry->axis[0] - 'x', spec.mesh.symmetry->at};
   const std::vector<mesh::Facing> facings = mesh::find_facing(mesh, groups, names, wishes, cut, source);
@@ -178,7 +183,6 @@ std::vector<FoundInterface> find_interfaces(const cases::CaseSpec& spec, mesh::R
   };
   std::vector<FoundInterface> found;
   for (const mesh::Facing& f : facings) {
-    // The section of the pair gives the contact its law.
     std::size_t section = 0;
     for (const auto& [pair, number] : wanted)
       if (pair == f.bodies) section = number;
@@ -192,25 +196,12 @@ std::vector<FoundInterface> find_interfaces(const cases::CaseSpec& spec, mesh::R
         size(f.covered_a), size(f.area_a), size(f.covered_b), size(f.area_b), gap_in_mm(f.mean_gap),
         gap_in_mm(f.largest_gap), 1e3 * f.distance);
   }
-  // Free skins are named in the log, since films belong on them.
   std::vector<std::string> free;
   for (const std::string& body : names)
     if (const double area = mesh::area_of(mesh, body + "_free"); area > 0)
       free.push_back(fmt::format("{0} {1} ({0}_free)", body, size(area)));
   if (!free.empty()) logging::info("skins that face no other body: {}", fmt::join(free, ", "));
-  // A section that found nothing is an error if it names its bodies.
-  for (std::size_t i = 0; i < spec.interfaces.size(); ++i) {
-    const cases::BodyInterfaceSpec& section = spec.interfaces[i];
-    if (std::any_of(found.begin(), found.end(), [&](const FoundInterface& f) { return f.section == i; }))
-      continue;
-    if (!section.all())
-      throw InputError(section.where,
-                       fmt::format("no face of '{}' faces one of '{}'", section.bodies[0], section.bodies[1]),
-                       "bodies that touch, or a larger 'distance'");
-    // Pairs may all have a section or a contact of their own, as casting and die of `solidus new` have.
-    if (found.empty() && spec.contacts.empty())
-      logging::warn("{}: no two bodies face each other", section.where.text());
-  }
+  refuse_sections_without_faces(spec, found);
   return found;
 }
 
@@ -223,7 +214,6 @@ void add_contacts(const std::vector<FoundInterface>& found, cases::CaseSpec& spe
     cases::ContactSpec contact;
     const std::string pair = spec.bodies[static_cast<std::size_t>(f.a)].name + "_" +
                              spec.bodies[static_cast<std::size_t>(f.b)].name;
-    // The name of the section is given to its contact where it makes just one.
     contact.name = section.name.empty() || section.all() ? pair : section.name;
     contact.surfaces = {f.surface_a, f.surface_b};
     contact.stabilisation = usual.stabilisation;
@@ -249,7 +239,6 @@ void add_rule_groups(const cases::CaseSpec& spec, mesh::RawMesh& mesh, const std
   const auto point = [](const std::vector<double>& x) { return mesh::Point{x[0], x[1], x[2]}; };
   // A rule finds faces by owner, angle, direction and place; what is not given bounds nothing.
   for (const cases::MeshGroupSpec& g : spec.mesh.groups) {
-    // What names numbers, a label or a box is a group of the geometry, and is there already.
     if (!g.by_rule()) continue;
     mesh::FaceRule rule;
     rule.name = g.name;

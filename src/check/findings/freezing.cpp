@@ -77,9 +77,36 @@ void nothing_to_wait_for(const cases::CaseSpec& spec, const setup::Assembly& a,
        "until = \"end\", or a body that starts above its solidus; is the initial temperature in its unit?"});
 }
 
+/// Steps against the time in which a body freezes, from too long to too many.
+void length_of_steps(const cases::CaseSpec& spec, const setup::Assembly& a, const std::string& name,
+                     double time, Findings& findings) {
+  if (const double step = fixed_step(spec, a); k_fine * step > time && step < 0.99 * *spec.time.end)
+    findings.push_back(
+        {false, spec.time.where,
+         fmt::format("steps of {}, but '{}' freezes within some {}", duration(step), name, duration(time)),
+         "twenty steps and more while it freezes; time.adaptive chooses them"});
+  if (const double first = spec.time.adaptive && a.stages.empty() ? spec.time.step.value_or(0) : 0;
+      k_fine * first > time)
+    findings.push_back({false, spec.time.where,
+                        fmt::format("the first step is {}, but '{}' freezes within some {}", duration(first),
+                                    name, duration(time)),
+                        "time.step of a thousandth to a hundredth of that; is its unit right?"});
+  if (const double least = spec.time.adaptive ? spec.time.min_step.value_or(0) : 0;
+      k_least_steps * least > time)
+    findings.push_back({false, spec.time.where,
+                        fmt::format("steps of {} at least, but '{}' freezes within some {}", duration(least),
+                                    name, duration(time)),
+                        "a smaller time.min_step, or none"});
+  if (const double step = spec.time.adaptive ? spec.time.max_step.value_or(0) : fixed_step(spec, a);
+      step > 0 && time > k_many * step && a.stages.empty())
+    findings.push_back(
+        {false, spec.time.where,
+         fmt::format("steps of {:g} s: '{}' freezes in some {:.0f} of them", step, name, time / step),
+         "some hundred steps while it freezes; time.adaptive chooses them"});
+}
+
 void length_of_run(const cases::CaseSpec& spec, const setup::Assembly& a, const Pour& pour,
                    Findings& findings) {
-  // A steady run is told at once, since nothing else here makes sense for it.
   const std::string& name = spec.bodies[pour.body].name;
   if (spec.time.steady) {
     findings.push_back({false, spec.time.where,
@@ -96,7 +123,6 @@ void length_of_run(const cases::CaseSpec& spec, const setup::Assembly& a, const 
     return;
   }
   if (!pour.no_estimate.empty() || spec.time.steady) return;
-  // The estimate says where the temperature would come to rest: above the solidus it never freezes.
   if (!pour.freezing.time) {
     findings.push_back(
         {false, spec.bodies[pour.body].where,
@@ -109,8 +135,7 @@ void length_of_run(const cases::CaseSpec& spec, const setup::Assembly& a, const 
   }
   // An estimate is good to a factor of two.
   const double time = *pour.freezing.time;
-  // The run, or the stay of the casting in it, against the estimate; then the steps against it, from too long
-  // to too many.
+  // The run, or the stay of the casting in it, against the estimate; then the steps against it.
   if (*spec.time.end < k_early * time)
     findings.push_back({false, spec.time.where,
                         fmt::format("the run ends after {}, but '{}' takes some {} to freeze",
@@ -125,32 +150,7 @@ void length_of_run(const cases::CaseSpec& spec, const setup::Assembly& a, const 
                 : fmt::format("the run ends {} after the pour of '{}', but it takes some {} to freeze",
                               duration(there), name, duration(time)),
          leaves ? "longer stages before it leaves" : "longer stages after its pour"});
-  // Fixed steps first: a handful of them while the metal freezes cannot follow it.
-  if (const double step = fixed_step(spec, a); k_fine * step > time && step < 0.99 * *spec.time.end)
-    findings.push_back(
-        {false, spec.time.where,
-         fmt::format("steps of {}, but '{}' freezes within some {}", duration(step), name, duration(time)),
-         "twenty steps and more while it freezes; time.adaptive chooses them"});
-  // Adaptive steps need a first one and a least one that are short enough to begin with.
-  if (const double first = spec.time.adaptive && a.stages.empty() ? spec.time.step.value_or(0) : 0;
-      k_fine * first > time)
-    findings.push_back({false, spec.time.where,
-                        fmt::format("the first step is {}, but '{}' freezes within some {}", duration(first),
-                                    name, duration(time)),
-                        "time.step of a thousandth to a hundredth of that; is its unit right?"});
-  if (const double least = spec.time.adaptive ? spec.time.min_step.value_or(0) : 0;
-      k_least_steps * least > time)
-    findings.push_back({false, spec.time.where,
-                        fmt::format("steps of {} at least, but '{}' freezes within some {}", duration(least),
-                                    name, duration(time)),
-                        "a smaller time.min_step, or none"});
-  // Many steps cost time alone, and are told where no stage asks for them.
-  if (const double step = spec.time.adaptive ? spec.time.max_step.value_or(0) : fixed_step(spec, a);
-      step > 0 && time > k_many * step && a.stages.empty())
-    findings.push_back(
-        {false, spec.time.where,
-         fmt::format("steps of {:g} s: '{}' freezes in some {:.0f} of them", step, name, time / step),
-         "some hundred steps while it freezes; time.adaptive chooses them"});
+  length_of_steps(spec, a, name, time, findings);
   if (time > k_most_days * k_day)
     findings.push_back({false, spec.mesh.where,
                         fmt::format("'{}' takes some {} to freeze", name, duration(time)),
@@ -172,8 +172,6 @@ void largest_step(const cases::CaseSpec& spec, Findings& findings) {
 void rounds_without_a_shot(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
                            Findings& findings) {
   for (const cases::CycleSpec& cycle : spec.cycles) {
-    // A stage belongs to the cycle if the cycle names it; the casting leaves where one of those
-    // stages has no such body.
     const auto is_of_it = [&](const cases::StageRun& stage) {
       return std::find(cycle.stages.begin(), cycle.stages.end(), stage.stage->name) != cycle.stages.end();
     };
@@ -201,7 +199,6 @@ void heating(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMe
   const double solidus = solidus_of(a, pour);
   for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
     const cases::ThermalConditionSpec& c = spec.thermal_conditions[i];
-    // The condition must lie on this body's own skin.
     if (m.surfaces[i].body != static_cast<int>(pour.body)) continue;
     // A temperature above the solidus that lasts, heat that flows in, and surroundings above the solidus.
     if (c.kind == Kind::temperature && is_number(c.temperature) && c.temperature.table.value(0) > solidus &&
@@ -213,7 +210,6 @@ void heating(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMe
                "does not freeze there",
                c.name, c.group, name, celsius(c.temperature.table.value(0)), celsius(solidus)),
            "a film or contact; the pouring temperature is initial_temperature"});
-    // Only constants are judged: tables may start hot and fall.
     if (c.kind == Kind::flux && is_number(c.flux) && c.flux.table.value(0) > 0)
       findings.push_back(
           {false, c.where,
@@ -235,7 +231,6 @@ void heating(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMe
 void cold_castings(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
                    Findings& findings) {
   if (m.pours.empty() || !spec.criteria.follow) return;
-  // Compared body by body; what is not poured by its role is meant to start cold.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::PhaseChange* freezing = a.materials[b].solidification();
     if (freezing == nullptr || a.start[b].high >= freezing->fraction.liquidus()) continue;
@@ -256,7 +251,6 @@ void cold_castings(const cases::CaseSpec& spec, const setup::Assembly& a, const 
              "what is poured together is poured at one temperature, 20 to 150 K above the liquidus"});
       continue;
     }
-    // A riser that starts solid is worse than a casting that does, as all feeding hangs on it.
     if (spec.bodies[b].role == cases::Role::riser) {
       findings.push_back({false, spec.bodies[b].where,
                           fmt::format("the riser '{}' starts solid at {:.0f} degC: it feeds nothing",
@@ -277,8 +271,6 @@ void cold_castings(const cases::CaseSpec& spec, const setup::Assembly& a, const 
 
 /// The temperature to which all bodies come that heat joins and nothing else cools or heats [K].
 double common_temperature(const setup::Assembly& a, const CaseMeasures& m) {
-  // The heat of all bodies at their start, as the mean of what the coldest and the hottest start
-  // give.
   std::vector<material::EnthalpyCurve> curves;
   double heat = 0, low = std::numeric_limits<double>::max(), high = 0;
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
@@ -288,8 +280,6 @@ double common_temperature(const setup::Assembly& a, const CaseMeasures& m) {
     high = std::max(high, a.start[b].high);
   }
   constexpr int k_halvings = 40;
-  // The common temperature holds the same heat in all: halved until the interval is far below a
-  // kelvin.
   for (int i = 0; i < k_halvings; ++i) {
     const double middle = (low + high) / 2;
     double there = 0;
@@ -339,7 +329,6 @@ void melts_side_by_side(const cases::CaseSpec& spec, const setup::Assembly& a, c
                      spec.bodies[static_cast<std::size_t>(contact.master_body)].name),
          "a riser shares the nodes of its casting: mesh.conforming, or one geometry"});
   }
-  // Each pair once, by the order of the bodies.
   for (const Pour& one : m.pours)
     for (const Pour& other : m.pours)
       if (other.body < one.body && m.bodies[one.body].shared_nodes[other.body] > 0 &&

@@ -134,6 +134,23 @@ void ContactHeat::reset() {
   term_.end_phase();
 }
 
+namespace {
+
+/// The work of a step that neither dissipation nor heat has taken, before states change.
+double hardening_of_step(const ContactGeometry& geometry, const ContactStep& step,
+                         const std::vector<ContactPointState>& now) {
+  double hardening = 0;
+  for (std::size_t p = 0; p < now.size(); ++p) {
+    const ContactPointState &from = step.from[p], &to = now[p];
+    if (const auto particle = geometry.kinematics().particle(static_cast<Index>(p));
+        particle.counted && from.temperature > 0)
+      hardening += particle.area * (to.work - from.work - to.dissipation + from.dissipation);
+  }
+  return hardening;
+}
+
+}  // namespace
+
 InterfaceSums ContactHeat::commit(std::span<const double> temperature, const ContactStep& step,
                                   std::vector<ContactPointState>& now) {
   // The interface stores heat and entropy of its own. What the step has changed of both is summed for the
@@ -142,16 +159,7 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
   if (!has_temperature()) return sums;
   const std::vector<double> found = term_.interface_temperatures(temperature);
   const InterfaceHeat heat = term_.interface_heat(temperature);
-  const auto hardening = [&](std::size_t p) {
-    const ContactPointState &from = step.from[p], &to = now[p];
-    return to.work - from.work - to.dissipation + from.dissipation;
-  };
-  // Hardening is the work of the step that neither dissipation nor heat has taken; it is counted before
-  // states change.
-  for (std::size_t p = 0; p < found.size(); ++p)
-    if (const auto particle = geometry_.kinematics().particle(static_cast<Index>(p));
-        particle.counted && step.from[p].temperature > 0)
-      sums.hardening += particle.area * hardening(p);
+  sums.hardening = hardening_of_step(geometry_, step, now);
   // The slip of the step becomes that of the state, and the heat of a predicted step is shown as a whole.
   take_slip(temperature, step, now);
   if (term_.stores() && !predicted_.empty()) show_whole_step();

@@ -1,5 +1,3 @@
-/// Pieces of `segments` are summed up around each vertex of the slave's faces in a first pass; in a second
-/// one each sum becomes a point.
 #include "contact/points/nodal_means.hpp"
 
 #include <algorithm>
@@ -38,14 +36,43 @@ std::array<double, k_max_face_nodes> vertex_functions(std::span<const double> sh
   return values;
 }
 
+/// Adds the point that stands for the means around a node of the slave.
+void add_point(const mesh::Mesh& mesh, Index node, const Mean& mean, ContactPoints& points) {
+  Pairing pairing;
+  pairing.slave_face = mean.face;
+  pairing.master_face = mean.partner;
+  pairing.n_slave = static_cast<int>(mean.share[0].size());
+  pairing.n_master = static_cast<int>(mean.share[1].size());
+  pairing.first_node = points.nodes.size();
+  pairing.first_point = points.n_points();
+  pairing.n_points = 1;
+  pairing.first_shape = points.shape.size();
+  pairing.counted = node < mesh.n_owned_nodes;
+  // Pressures of linear faces are those of the node; it comes first, and the results show them there.
+  pairing.n_shown = mean.linear ? 1 : pairing.n_slave;
+  const auto add = [&](Index of, double share) {
+    points.nodes.push_back(of);
+    points.shape.push_back(share / mean.weight);
+  };
+  add(node, mean.share[0].at(mesh.input_node[static_cast<std::size_t>(node)]).value);
+  for (const auto& [number, share] : mean.share[0])
+    if (share.node != node) add(share.node, share.value);
+  for (const auto& [number, share] : mean.share[1]) add(share.node, share.value);
+  points.number.push_back(mean.number);
+  points.weight.push_back(mean.weight);
+  points.normal.push_back(scale(1 / norm(mean.normal), mean.normal));
+  points.position.push_back(scale(1 / mean.weight, mean.position));
+  points.initial_penetration.push_back(mean.penetration / mean.weight);
+  points.facets.push_back({mean.facets.height / mean.weight, mean.facets.bound / mean.weight});
+  points.pairings.push_back(pairing);
+}
+
 }  // namespace
 
 ContactPoints means_around_nodes(const mesh::Mesh& mesh, const ContactSurface& slave,
                                  const ContactPoints& pieces) {
   std::map<Index, Mean> means;  // by node
   std::vector<Index> order;     // of their appearance, the same on all processes
-  // First pass: every piece adds to the means of the vertices of its slave face, weighted by the
-  // vertex functions.
   for (const Pairing& pairing : pieces.pairings) {
     const std::span<const Index> nodes = std::span(pieces.nodes).subspan(pairing.first_node);
     const auto n_slave = static_cast<std::size_t>(pairing.n_slave),
@@ -58,8 +85,6 @@ ContactPoints means_around_nodes(const mesh::Mesh& mesh, const ContactSurface& s
               .subspan(pairing.first_shape + static_cast<std::size_t>(p - pairing.first_point) * n_nodes,
                        n_nodes);
       const auto functions = vertex_functions(shape.first(n_slave), n_vertices);
-      // Quadratic faces share out by the functions of their vertices alone, which are never
-      // negative.
       for (std::size_t v = 0; v < static_cast<std::size_t>(n_vertices); ++v) {
         const double w = pieces.weight[i] * functions[v];
         if (!(w > 0)) continue;
@@ -80,8 +105,6 @@ ContactPoints means_around_nodes(const mesh::Mesh& mesh, const ContactSurface& s
         mean.normal = add_scaled(mean.normal, w, pieces.normal[i]);
         mean.position = add_scaled(mean.position, w, pieces.position[i]);
         mean.linear = mean.linear && mesh::order(slave.shape(pairing.slave_face)) == 1;
-        // Nodes of either side are collected by their numbers in the input, so that the order of
-        // sums does not depend on the partition.
         for (std::size_t b = 0; b < n_nodes; ++b) {
           Mean::Share& share =
               mean.share[b < n_slave ? 0 : 1][mesh.input_node[static_cast<std::size_t>(nodes[b])]];
@@ -92,44 +115,14 @@ ContactPoints means_around_nodes(const mesh::Mesh& mesh, const ContactSurface& s
     }
   }
 
-  // Second pass: each mean becomes a pairing of one point with the nodes that take part in it.
   ContactPoints points;
   points.slave_measure = pieces.slave_measure;
   points.paired_measure = pieces.paired_measure;
   for (const Index node : order) {
     const Mean& mean = means.at(node);
     const auto owned = [&](const auto& share) { return share.second.node < mesh.n_owned_nodes; };
-    // Those that touch no own node are other processes' business.
     if (!std::ranges::any_of(mean.share[0], owned) && !std::ranges::any_of(mean.share[1], owned)) continue;
-    Pairing pairing;
-    pairing.slave_face = mean.face;
-    pairing.master_face = mean.partner;
-    pairing.n_slave = static_cast<int>(mean.share[0].size());
-    pairing.n_master = static_cast<int>(mean.share[1].size());
-    pairing.first_node = points.nodes.size();
-    pairing.first_point = points.n_points();
-    pairing.n_points = 1;
-    pairing.first_shape = points.shape.size();
-    pairing.counted = node < mesh.n_owned_nodes;
-    // Pressures of linear faces are those of the node; it comes first, and the results show them there.
-    pairing.n_shown = mean.linear ? 1 : pairing.n_slave;
-    const auto add = [&](Index of, double share) {
-      points.nodes.push_back(of);
-      points.shape.push_back(share / mean.weight);
-    };
-    add(node, mean.share[0].at(mesh.input_node[static_cast<std::size_t>(node)]).value);
-    // The others follow in the order of their numbers; shares of the master have their minus
-    // already.
-    for (const auto& [number, share] : mean.share[0])
-      if (share.node != node) add(share.node, share.value);
-    for (const auto& [number, share] : mean.share[1]) add(share.node, share.value);
-    points.number.push_back(mean.number);
-    points.weight.push_back(mean.weight);
-    points.normal.push_back(scale(1 / norm(mean.normal), mean.normal));
-    points.position.push_back(scale(1 / mean.weight, mean.position));
-    points.initial_penetration.push_back(mean.penetration / mean.weight);
-    points.facets.push_back({mean.facets.height / mean.weight, mean.facets.bound / mean.weight});
-    points.pairings.push_back(pairing);
+    add_point(mesh, node, mean, points);
   }
   return points;
 }

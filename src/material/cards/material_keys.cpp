@@ -39,26 +39,8 @@ Section<PhaseChangeData> phase_change_keys() {
   return s;
 }
 
-Section<Casting> casting_keys() {
-  // The keys of [casting], in the order of the reference: strength of mush, hot tearing, moulds, arm spacing,
-  // and flow of melt.
-  Section<Casting> s("casting", "What the criteria of a casting need (docs/theory/criteria.md).");
-  s.key("coherency_fraction", &Casting::coherency_fraction)
-      .initially(0.75)
-      .range(0, 1)
-      .doc(
-          "Solid fraction from which the solid is a coherent network: strain before it is strain of the "
-          "melt, strain after it is strain of the casting, and from it to one the network takes part in the "
-          "contraction of its metal by a share that rises from zero to one.");
-  s.quantity("pore_tension", &Casting::pore_tension, "Pa")
-      .initially("100 Pa")
-      .positive()
-      .doc(
-          "Tension, counted from the pressure of the atmosphere, at which pores open in metal below the "
-          "coherency_fraction: a pool that nothing feeds shrinks into pores from then on (field "
-          "pore_fraction) and stays on its walls. Next to none by default, for films of oxide and gas open "
-          "at "
-          "once.");
+/// Declares the data of hot tearing.
+void tearing_keys(Section<Casting>& s) {
   s.key("brittle_range", &Casting::brittle_range)
       .initially(Value::list({0.90, 0.99}))
       .range(0, 1)
@@ -76,13 +58,10 @@ Section<Casting> casting_keys() {
       .initially(0.8638)
       .range(0, 2)
       .doc("n of the same law.");
-  s.key("rigidity", &Casting::rigidity)
-      .initially(1.0)
-      .range(0, 1)
-      .doc(
-          "Of a mould: the share of the expansion of graphite that it holds, so that it feeds the casting; "
-          "to "
-          "the rest its wall gives way. feeding.mould_rigidity of a case goes before it.");
+}
+
+/// Declares the arm spacing, and how melt flows through mush.
+void arms_and_melt_keys(Section<Casting>& s) {
   s.quantity("arm_spacing", &Casting::arm_spacing, "m")
       .positive()
       .doc(
@@ -107,6 +86,37 @@ Section<Casting> casting_keys() {
       .doc(
           "The drop of the melt's pressure at which pores form: in dimensionless_niyama, and in mush "
           "(pore_fraction).");
+}
+
+Section<Casting> casting_keys() {
+  // The keys of [casting], in the order of the reference: strength of mush, hot tearing, moulds, arm spacing,
+  // and flow of melt.
+  Section<Casting> s("casting", "What the criteria of a casting need (docs/theory/criteria.md).");
+  s.key("coherency_fraction", &Casting::coherency_fraction)
+      .initially(0.75)
+      .range(0, 1)
+      .doc(
+          "Solid fraction from which the solid is a coherent network: strain before it is strain of the "
+          "melt, strain after it is strain of the casting, and from it to one the network takes part in the "
+          "contraction of its metal by a share that rises from zero to one.");
+  s.quantity("pore_tension", &Casting::pore_tension, "Pa")
+      .initially("100 Pa")
+      .positive()
+      .doc(
+          "Tension, counted from the pressure of the atmosphere, at which pores open in metal below the "
+          "coherency_fraction: a pool that nothing feeds shrinks into pores from then on (field "
+          "pore_fraction) and stays on its walls. Next to none by default, for films of oxide and gas open "
+          "at "
+          "once.");
+  tearing_keys(s);
+  s.key("rigidity", &Casting::rigidity)
+      .initially(1.0)
+      .range(0, 1)
+      .doc(
+          "Of a mould: the share of the expansion of graphite that it holds, so that it feeds the casting; "
+          "to "
+          "the rest its wall gives way. feeding.mould_rigidity of a case goes before it.");
+  arms_and_melt_keys(s);
   s.key("source", &Casting::source).initially("").doc("Where the data come from.");
   return s;
 }
@@ -187,22 +197,8 @@ void liquid_keys(Section<MaterialData>& s) {
     }
 }
 
-Section<MaterialData> material_keys() {
-  // The keys of a card on its first level: names, thermal properties, elastic ones, and the sections.
-  Section<MaterialData> s(
-      "", "A material: every property with unit, source and the temperatures for which it holds.");
-  s.key("title", &MaterialData::title).initially("").doc("What it is, in one line.");
-  s.key("designations", &MaterialData::designations)
-      .initially(Value::list())
-      .doc(
-          "Names of standards and of the trade by which one may look for the material: who writes one of "
-          "them "
-          "in a case is told its name in the library.");
-  s.key("like", &MaterialData::like)
-      .initially("")
-      .doc(
-          "Another material (a name in the library, or a file): every key that is not given here is taken "
-          "from it, in [plasticity] too.");
+/// Declares density, conductivity and specific heat.
+void heat_keys(Section<MaterialData>& s) {
   const std::vector<Argument> temperature{Argument::temperature};
   s.function("density", &MaterialData::density, "kg/m3").positive().doc("Of the reference configuration.");
   s.function("conductivity", &MaterialData::conductivity, "W/m/K")
@@ -225,6 +221,11 @@ Section<MaterialData> material_keys() {
          "hot metal"}})
       .initially("constant_pressure")
       .doc("What specific_heat was measured at. Where only heat is computed it makes no difference.");
+}
+
+/// Declares elastic constants and thermal expansion.
+void elastic_keys(Section<MaterialData>& s) {
+  const std::vector<Argument> temperature{Argument::temperature};
   s.function("young_modulus", &MaterialData::young_modulus, "Pa")
       .positive()
       .of(temperature)
@@ -250,6 +251,27 @@ Section<MaterialData> material_keys() {
       .initially("20 degC")
       .positive()
       .doc("Where the length is taken as 1 in the measurement of the expansion.");
+}
+
+Section<MaterialData> material_keys() {
+  // The keys of a card on its first level: names, thermal properties, elastic ones, and the sections.
+  Section<MaterialData> s(
+      "", "A material: every property with unit, source and the temperatures for which it holds.");
+  s.key("title", &MaterialData::title).initially("").doc("What it is, in one line.");
+  s.key("designations", &MaterialData::designations)
+      .initially(Value::list())
+      .doc(
+          "Names of standards and of the trade by which one may look for the material: who writes one of "
+          "them "
+          "in a case is told its name in the library.");
+  s.key("like", &MaterialData::like)
+      .initially("")
+      .doc(
+          "Another material (a name in the library, or a file): every key that is not given here is taken "
+          "from it, in [plasticity] too.");
+  const std::vector<Argument> temperature{Argument::temperature};
+  heat_keys(s);
+  elastic_keys(s);
   s.function("twice_shear_viscosity", &MaterialData::twice_shear_viscosity, "Pa s")
       .positive()
       .of(temperature)

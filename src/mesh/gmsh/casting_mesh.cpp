@@ -74,9 +74,9 @@ class Mesher {
   }
 
  private:
-  void mesh_once() {
-    // Sizes come from the callback alone, so all other sources of sizes are switched off. One thread and
-    // fixed algorithms make the same mesh every time.
+  /// Sizes come from the callback alone, so all other sources of sizes are switched off. One thread and fixed
+  /// algorithms make the same mesh every time.
+  void set_options() const {
     using gmsh::option::setNumber;
     setNumber("Mesh.MeshSizeFromPoints", 0);
     setNumber("Mesh.MeshSizeFromCurvature", 0);
@@ -86,6 +86,23 @@ class Mesher {
     setNumber("Mesh.MaxNumThreads3D", 1);
     setNumber("Mesh.OptimizeThreshold", 0.45);
     if (source_.element_order == 2) setNumber("Mesh.SecondOrderIncomplete", 1);
+  }
+
+  /// A volume without elements is no success, though Gmsh may call it one.
+  void require_elements() const {
+    for (const BodyVolumes& part : parts_)
+      for (const auto& volume : part.volumes) {
+        std::vector<int> types;
+        std::vector<std::vector<std::size_t>> elements, nodes;
+        gmsh::model::mesh::getElements(types, elements, nodes, 3, volume.second);
+        if (types.empty())
+          refuse("Gmsh made no elements in the body '" + part.name + "'" + place_of_complaints(parts_));
+      }
+  }
+
+  void mesh_once() {
+    using gmsh::option::setNumber;
+    set_options();
     // The background size is coarse enough for the whole, and no coarser than what limits of surfaces allow.
     CastingSizes sizes(parts_, geometry_, way_.scale, source_.unit_in_metres, way_.details);
     const auto& limits = sizes.limits();
@@ -139,15 +156,7 @@ class Mesher {
       const bool has_it = place.find(complaint) != std::string::npos;
       refuse("Gmsh could not mesh the geometry" + (has_it ? "" : ": " + complaint) + place);
     }
-    // A volume without elements is no success, though Gmsh may call it one.
-    for (const BodyVolumes& part : parts_)
-      for (const auto& volume : part.volumes) {
-        std::vector<int> types;
-        std::vector<std::vector<std::size_t>> elements, nodes;
-        gmsh::model::mesh::getElements(types, elements, nodes, 3, volume.second);
-        if (types.empty())
-          refuse("Gmsh made no elements in the body '" + part.name + "'" + place_of_complaints(parts_));
-      }
+    require_elements();
   }
 
   [[noreturn]] void refuse(const std::string& what, const std::string& allowed = {}) const {

@@ -1,5 +1,3 @@
-/// Bodies that share nodes get nodes of their own along the face between them; faces that only face each
-/// other are paired with what lies opposite.
 #include "mesh/making/body_interfaces.hpp"
 
 #include <algorithm>
@@ -159,6 +157,33 @@ void split_nodes(RawMesh& mesh, const std::vector<std::string>& bodies, const st
   }
 }
 
+namespace {
+
+/// Adds to a side the faces of a skin that face what is searched.
+/// @param asked           which faces of the skin, by number
+/// @param faces_somebody  of all faces of the skin; set for those that are added
+void cover(const std::vector<SkinFace>& own, const std::vector<std::size_t>& asked, const SkinSearch& search,
+           Side& side, std::vector<char>& faces_somebody) {
+  for (const std::size_t f : asked) {
+    const std::vector<Point> points = sample_points(own[f]);
+    const double share = own[f].area / static_cast<double>(points.size());
+    double covered = 0;
+    for (const Point& p : points)
+      if (const auto partner = search.facing(p, own[f].normal)) {
+        covered += share;
+        side.gap += share * partner->distance;
+        side.largest = std::max(side.largest, partner->distance);
+      }
+    if (!(covered > 0)) continue;
+    side.faces.push_back(&own[f]);
+    side.area += own[f].area;
+    side.covered += covered;
+    faces_somebody[f] = 1;
+  }
+}
+
+}  // namespace
+
 std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& bodies,
                                 const std::vector<std::string>& names, const std::vector<FacingWish>& wishes,
                                 const std::optional<HalfSpace>& cut, const std::string& source) {
@@ -168,42 +193,23 @@ std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& b
     skins.push_back(skin_of(mesh, body));
     faces_somebody.emplace_back(skins.back().size(), 0);
   }
-  // Faces of two bodies in one place are partners from the start.
   const std::vector<std::vector<int>> partner_of = coincident(skins);
   std::vector<Facing> found;
   for (const FacingWish& wish : wishes) {
     const std::array<int, 2> pair = {wish.bodies.first, wish.bodies.second};
     constexpr double k_share_of_edge = 0.25;
-    // A quarter of an edge is what meshes of two bodies along one drawn face may be apart.
     const double edge = std::min(mean_edge(skins[at(pair[0])]), mean_edge(skins[at(pair[1])]));
     const double distance = wish.distance > 0 ? wish.distance : k_share_of_edge * edge;
     std::array<Side, 2> sides;
-    // From both sides, since faces of either body may be larger than the other's.
     for (std::size_t s = 0; s < 2; ++s) {
       const std::vector<SkinFace>& own = skins[at(pair[s])];
       std::vector<SkinFace> others;
       for (const std::size_t f : candidates(partner_of[at(pair[1 - s])], pair[s]))
         others.push_back(skins[at(pair[1 - s])][f]);
       const SkinSearch search(others, distance);
-      for (const std::size_t f : candidates(partner_of[at(pair[s])], pair[1 - s])) {
-        // A face is sampled at several points: a large one may face the other body in part only.
-        const std::vector<Point> points = sample_points(own[f]);
-        const double share = own[f].area / static_cast<double>(points.size());
-        double covered = 0;
-        for (const Point& p : points)
-          if (const auto partner = search.facing(p, own[f].normal)) {
-            covered += share;
-            sides[s].gap += share * partner->distance;
-            sides[s].largest = std::max(sides[s].largest, partner->distance);
-          }
-        if (!(covered > 0)) continue;
-        sides[s].faces.push_back(&own[f]);
-        sides[s].area += own[f].area;
-        sides[s].covered += covered;
-        faces_somebody[at(pair[s])][f] = 1;
-      }
+      cover(own, candidates(partner_of[at(pair[s])], pair[1 - s]), search, sides[s],
+            faces_somebody[at(pair[s])]);
     }
-    // A pair without faces on both sides does not touch.
     if (sides[0].faces.empty() || sides[1].faces.empty()) continue;
     Facing facing{wish.bodies, names[at(pair[0])] + "_to_" + names[at(pair[1])],
                   names[at(pair[1])] + "_to_" + names[at(pair[0])], distance};
@@ -217,7 +223,6 @@ std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& b
     add_surface(mesh, facing.surface_b, sides[1].faces, source);
     found.push_back(std::move(facing));
   }
-  // What faces no one is free skin, or lies in the plane of symmetry.
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     std::vector<const SkinFace*> free, symmetric;
     // A face that is one with another body's is no free skin: the joint of a casting and its riser, which

@@ -1,5 +1,3 @@
-/// Which elements, nodes and sets a process needs is found from the owners; a part is packed as plain
-/// numbers and unpacked by its receiver.
 #include "mesh/parts/subdomains.hpp"
 
 #include <algorithm>
@@ -41,8 +39,6 @@ Subdomains::Subdomains(const RawMesh& raw, const GlobalMesh& whole, const std::v
 std::vector<Subdomains::Elements> Subdomains::sort_out(const RawBlock& block, bool for_all) const {
   const int nn = node_count(block.shape), n_processes = whole_.n_processes();
   const auto n_elements = static_cast<Index>(block.nodes.size() / at(nn));
-  // Elements are sorted by their lowest node number: neighbours in memory are then neighbours in
-  // space.
   std::vector<std::pair<GlobalIndex, Index>> order(at(n_elements));
   for (Index e = 0; e < n_elements; ++e) {
     const Index* element = block.nodes.data() + at(e) * at(nn);
@@ -52,7 +48,6 @@ std::vector<Subdomains::Elements> Subdomains::sort_out(const RawBlock& block, bo
   }
   std::sort(order.begin(), order.end());
 
-  // Each process with a node of an element gets it; the owner of the lowest node counts it.
   std::vector<Elements> of_process(at(n_processes));
   std::vector<int> owners;
   for (const auto& [lowest, e] : order) {
@@ -96,7 +91,6 @@ std::vector<Index> Subdomains::nodes_of(int process) const {
         for (int a = 0; a < nn; ++a) is_here[at(element[a])] = 1;
       }
   };
-  // Nodes of elements and of faces, once each.
   for (std::size_t b = 0; b < volumes_.size(); ++b) visit(*whole_.blocks[b], volumes_[b]);
   for (std::size_t s = 0; s < faces_.size(); ++s)
     for (std::size_t b = 0; b < faces_[s].size(); ++b) visit(whole_.surfaces[s].blocks[b], faces_[s][b]);
@@ -126,6 +120,26 @@ std::size_t Subdomains::element_bytes(int process) const {
   return bytes;
 }
 
+void Subdomains::put_block(const RawBlock& block, int body, Elements& elements, Packer& p) const {
+  const std::size_t nn = at(node_count(block.shape));
+  const std::size_t n_elements = elements.counted.size() + elements.others.size();
+  p.put(std::vector<BlockHeader>{{block.shape, body, static_cast<Index>(elements.counted.size())}});
+  p.put_size(n_elements * nn);
+  std::vector<Index> local(nn);
+  for (const auto* list : {&elements.counted, &elements.others})
+    for (const Index e : *list) {
+      for (std::size_t a = 0; a < nn; ++a) local[a] = local_[at(block.nodes[at(e) * nn + a])];
+      p.put_values(local.data(), nn);
+    }
+  InputNumbers numbers;
+  numbers.reserve(n_elements);
+  for (const auto* list : {&elements.counted, &elements.others})
+    for (const Index e : *list)
+      numbers.push_back(block.input_element.empty() ? 0 : block.input_element[at(e)]);
+  numbers.pack(p);
+  elements = {};
+}
+
 std::vector<char> Subdomains::pack(int process) {
   // The part of a process is written into one buffer, in the order in which unpack_part() reads it: nodes,
   // bodies, blocks, surfaces, node sets. Numbers in it are local to the process.
@@ -143,7 +157,6 @@ std::vector<char> Subdomains::pack(int process) {
   Packer p;
   p.reserve(nodes.size() * (sizeof(Point) + 2 * sizeof(GlobalIndex)) + element_bytes(process) +
             sets_.size() * sizeof(Index) + k_for_names);
-  // The head: dimension, own and global nodes, and where the own numbers begin.
   const GlobalIndex first = whole_.first[at(process)], n_owned = whole_.first[at(process) + 1] - first;
   p.put(std::vector<GlobalIndex>{raw_.dimension, n_owned, whole_.first.back(), first});
   const auto put_of_nodes = [&](const auto& values) {
@@ -162,30 +175,9 @@ std::vector<char> Subdomains::pack(int process) {
   put_numbers_of_nodes(raw_.input_node);
   p.put_size(bodies_.size());
   for (const std::string& name : bodies_) p.put(name);
-  // Elements that this process counts come first in each block, others behind them.
-  const auto put_block = [&](const RawBlock& block, int body, Elements& elements) {
-    const std::size_t nn = at(node_count(block.shape));
-    const std::size_t n_elements = elements.counted.size() + elements.others.size();
-    p.put(std::vector<BlockHeader>{{block.shape, body, static_cast<Index>(elements.counted.size())}});
-    p.put_size(n_elements * nn);
-    std::vector<Index> local(nn);
-    for (const auto* list : {&elements.counted, &elements.others})
-      for (const Index e : *list) {
-        for (std::size_t a = 0; a < nn; ++a) local[a] = local_[at(block.nodes[at(e) * nn + a])];
-        p.put_values(local.data(), nn);
-      }
-    InputNumbers numbers;
-    numbers.reserve(n_elements);
-    for (const auto* list : {&elements.counted, &elements.others})
-      for (const Index e : *list)
-        numbers.push_back(block.input_element.empty() ? 0 : block.input_element[at(e)]);
-    numbers.pack(p);
-    elements = {};
-  };
-  // Blocks of bodies, then surfaces with their blocks, then sets of nodes.
   p.put_size(volumes_.size());
   for (std::size_t b = 0; b < volumes_.size(); ++b)
-    put_block(*whole_.blocks[b], whole_.body[b], volumes_[b][at(process)]);
+    put_block(*whole_.blocks[b], whole_.body[b], volumes_[b][at(process)], p);
   p.put_size(whole_.surfaces.size());
   for (std::size_t s = 0; s < whole_.surfaces.size(); ++s) {
     const NamedFaces& surface = whole_.surfaces[s];
@@ -193,7 +185,7 @@ std::vector<char> Subdomains::pack(int process) {
     p.put_size(surface.replicated ? 1 : 0);
     p.put_size(surface.blocks.size());
     for (std::size_t b = 0; b < surface.blocks.size(); ++b)
-      put_block(surface.blocks[b], surface.body[b], faces_[s][b][at(process)]);
+      put_block(surface.blocks[b], surface.body[b], faces_[s][b][at(process)], p);
   }
   p.put_size(whole_.node_sets.size());
   for (std::size_t s = 0; s < sets.size(); ++s) {
@@ -229,7 +221,6 @@ Mesh unpack_part(const std::vector<char>& buffer) {
     block.input_element = InputNumbers(u);
     return block;
   };
-  // Blocks of bodies.
   for (std::size_t n = u.size(); n > 0; --n) mesh.blocks.push_back(take_block());
   // Nodes of a surface are those of its faces, each once.
   for (std::size_t n = u.size(); n > 0; --n) {
@@ -241,7 +232,6 @@ Mesh unpack_part(const std::vector<char>& buffer) {
     std::sort(surface.nodes.begin(), surface.nodes.end());
     surface.nodes.erase(std::unique(surface.nodes.begin(), surface.nodes.end()), surface.nodes.end());
   }
-  // Sets of nodes, with local numbers.
   for (std::size_t n = u.size(); n > 0; --n) {
     const std::string name = u.string();
     mesh.node_sets[name] = u.vector<Index>();

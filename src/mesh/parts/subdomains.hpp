@@ -9,6 +9,8 @@
 
 namespace solidus::mesh {
 
+class Packer;
+
 /// Sorts elements, faces and sets by process in one go, so that the parts together cost what the mesh does
 /// and not a search through all of it for each.
 class Subdomains {
@@ -28,6 +30,8 @@ class Subdomains {
   std::vector<Elements> sort_out(const RawBlock& block, bool for_all) const;
   std::vector<Index> nodes_of(int process) const;
   std::size_t element_bytes(int process) const;
+  /// Packs the elements of a block that this process counts, others behind them, and forgets them.
+  void put_block(const RawBlock& block, int body, Elements& elements, Packer& p) const;
   void find_sets();
 
   const RawMesh& raw_;

@@ -1,15 +1,11 @@
-/// Parts of the state are written one after the other as tables by input numbers, and read back in the same
-/// order; what does not fit the case is refused by name.
 #include "results/checkpoint/checkpoint.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <system_error>
-#include <type_traits>
 #include <unordered_map>
 #include <utility>
 
@@ -17,6 +13,7 @@
 #include "parallel/parallel.hpp"
 #include "results/checkpoint/checkpoint_contacts.hpp"
 #include "results/checkpoint/checkpoint_criteria.hpp"
+#include "results/checkpoint/checkpoint_numbers.hpp"
 #include "results/checkpoint/checkpoint_tables.hpp"
 #include "results/output/output_error.hpp"
 #include "system/log.hpp"
@@ -40,63 +37,6 @@ constexpr AllowedValues k_times_of_ignition{0, std::numeric_limits<double>::infi
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
   return fmt::format("history/block_{}_{}", b, mesh::name(mesh.blocks[b].shape));
-}
-
-// Everything that is neither field nor text, in a fixed order: written and read by the same list.
-template <class C, class Visit>
-// Time and counters, control of the step, its limits, energies, audit, shots: the order is the
-// format.
-void each_number(C& c, const Visit& visit) {
-  auto& k = c.continuation;
-  auto& o = k.options;
-  auto& e = c.energy;
-  auto& l = c.stability;
-  const auto all = [&visit](auto&... n) { (visit(n), ...); };
-  all(c.state.time, k.steps, c.rejected, c.shortened, c.state.mechanics.dt_before, k.stage.number,
-      k.stage.time);
-  all(k.control.size, k.control.refused, k.control.refused_ratio, k.control.before_refusal,
-      k.control.failures, k.rates.changed);
-  all(o.step, o.adaptive, o.min_step, o.max_step, o.growth, o.cut, o.easy_iterations);
-  all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.stress, o.limits.solid_fraction,
-      o.limits.inertia, o.limits.skin, o.limits.opening, o.limits.last_melt);
-  all(e.stored_heat, e.structural, e.contact, e.kinetic, e.friction, e.frictional_heat, e.numerical, e.work,
-      e.heat_in, e.entropy_in, e.heat_exchanged, e.viscous_dissipation, e.plastic_dissipation, e.plastic_work,
-      e.inelastic_entropy, e.internal_at_start);
-  all(l.mechanical, l.thermal, l.entropy, l.frictional_entropy);
-  auto& s = k.shots;
-  all(c.state.shot, c.state.poured, s.shots, s.change, s.lowest, s.highest);
-  all(s.at_pour.mean, s.at_pour.lowest, s.at_pour.highest);
-  for (auto* heat : {&s.heat, &k.pending, &e.bodies})
-    all(heat->poured, heat->ejected, heat->corrected, heat->energy);
-}
-
-std::vector<double> numbers_of(const auto& c) {
-  std::vector<double> numbers;
-  each_number(c, [&](const auto& n) { numbers.push_back(static_cast<double>(n)); });
-  return numbers;
-}
-
-// Takes them from the file, which must hold as many. Counts are whole and fit; the temperatures of a die that
-// is not there are infinite.
-void set_numbers(TableReader& in, Checkpoint& c) {
-  const std::vector<double> numbers = in.numbers("numbers", numbers_of(c).size());
-  const coupling::DieTemperature& die = c.continuation.shots.at_pour;
-  std::size_t i = 0;
-  each_number(c, [&](auto& n) {
-    using Number = std::decay_t<decltype(n)>;
-    const double value = numbers[i];
-    const void* place = &n;
-    bool fits =
-        std::isfinite(value) || (!std::isnan(value) && (place == &die.lowest || place == &die.highest));
-    if constexpr (!std::is_same_v<Number, double>) {
-      const double most = std::is_same_v<Number, bool> ? 1 : std::numeric_limits<int>::max();
-      fits = value >= 0 && value <= most && value == std::floor(value);
-    }
-    if (!fits) in.refuse(fmt::format("its 'numbers' have {} in row {}", value, i));
-    n = static_cast<Number>(value);
-    ++i;
-  });
-  if (c.state.time < 0) in.refuse(fmt::format("its time is {} s", c.state.time));
 }
 
 // History of the elements this process counts, [element][point][component].
@@ -132,6 +72,22 @@ class Taken {
   std::size_t n_ = 0;
 };
 
+/// Visits the nodal fields of a state, const or not, with their names and the values that they may have.
+template <class State, class Visit>
+void for_each_nodal_field(State& state, const Visit& visit) {
+  visit("temperature", state.heat.temperature, k_temperatures);
+  visit("enthalpy", state.heat.enthalpy, AllowedValues{});
+  visit("lit", state.burning.lit, k_times_of_ignition);
+  visit("released", state.burning.released, AllowedValues{});
+  visit("displacement", state.mechanics.displacement, AllowedValues{});
+  visit("pressure", state.mechanics.pressure, AllowedValues{});
+  visit("mechanical_solid_fraction", state.mechanics.solid_fraction, AllowedValues{});
+  visit("velocity", state.mechanics.velocity, AllowedValues{});
+  visit("acceleration", state.mechanics.acceleration, AllowedValues{});
+  visit("net_force", state.mechanics.net_force, AllowedValues{});
+  visit("load", state.mechanics.load, AllowedValues{});
+}
+
 // Fills a nodal field from a table by the nodes' numbers. Every node this process holds gets its value.
 void take_nodes(TableReader& in, const std::string& name, const Places& places, std::vector<double>& field,
                 const AllowedValues& allowed = {}) {
@@ -149,7 +105,6 @@ void take_nodes(TableReader& in, const std::string& name, const Places& places, 
 
 void take_history(TableReader& in, const std::string& name, const std::string& values,
                   const mesh::ElementBlock& block, mechanics::BlockHistory& history) {
-  // Elements without history have no rows in the file.
   const auto per_element = static_cast<std::size_t>(history.n_points * history.n_components);
   if (per_element == 0) return;
   // Rows are found by the element's number, so that another division into processes can go on.
@@ -192,7 +147,6 @@ void take_shots(TableReader& in, const Places& nodes, const coupling::State& sta
   if (in.text("shots") != k_known) return;
   shots.start.resize(state.heat.temperature.size());
   take_nodes(in, "shot_start", nodes, shots.start, k_temperatures);
-  // A damaged number of iterates would ask for any amount of memory.
   constexpr unsigned long k_most = 1000;
   const std::string count = in.text("shot_iterates");
   const unsigned long n = std::strtoul(count.c_str(), nullptr, 10);
@@ -220,38 +174,8 @@ void compare(const fs::path& path, TableReader& in, const Fingerprint& fingerpri
   }
 }
 
-Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerprint& fingerprint,
-                     const coupling::State& layout) {
-  // Format and fingerprint first: a file of another version or another case is refused before
-  // anything is read of it.
-  TableReader in(path);
-  if (in.text("format") != k_format)
-    throw OutputError(path.string(), "is no checkpoint that this version of Solidus can read");
-  compare(path, in, fingerprint);
-  Checkpoint c;
-  // The state at the end has the layout of this mesh, into which the file's numbers go.
-  c.state = layout;
-  set_numbers(in, c);
-  c.continuation.control.reason = in.text("reason");
-  c.continuation.stage.name = in.text("stage");
-  // Nodal fields are found by the numbers of the nodes in the input.
-  const Places nodes = places_of(mesh.input_node);
-  take_nodes(in, "temperature", nodes, c.state.heat.temperature, k_temperatures);
-  take_nodes(in, "enthalpy", nodes, c.state.heat.enthalpy);
-  take_nodes(in, "lit", nodes, c.state.burning.lit, k_times_of_ignition);
-  take_nodes(in, "released", nodes, c.state.burning.released);
-  take_nodes(in, "displacement", nodes, c.state.mechanics.displacement);
-  take_nodes(in, "pressure", nodes, c.state.mechanics.pressure);
-  take_nodes(in, "mechanical_solid_fraction", nodes, c.state.mechanics.solid_fraction);
-  take_nodes(in, "velocity", nodes, c.state.mechanics.velocity);
-  take_nodes(in, "acceleration", nodes, c.state.mechanics.acceleration);
-  take_nodes(in, "net_force", nodes, c.state.mechanics.net_force);
-  take_nodes(in, "load", nodes, c.state.mechanics.load);
-  if (c.continuation.stage.number > 0) {
-    c.continuation.stage.displacement.resize(c.state.mechanics.displacement.size());
-    take_nodes(in, "stage_displacement", nodes, c.continuation.stage.displacement);
-  }
-  // Rates that adaptive steps and first guesses go on from, as far as the run had them.
+/// Rates that adaptive steps and first guesses go on from, as far as the run had them.
+void take_rates(TableReader& in, const mesh::Mesh& mesh, const Places& nodes, Checkpoint& c) {
   if (in.text("rates") == k_known) {
     coupling::Rates& rates = c.continuation.rates;
     const bool flows = in.text("flows") == k_known;
@@ -265,14 +189,37 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
       take_nodes(in, "coherency", nodes, rates.coherency);
     }
   }
-  // First guesses of the next step are part of the state, for the same bits.
   if (in.text("first_guess") == k_known) {
     c.state.displacement_rate.resize(c.state.mechanics.displacement.size());
     take_nodes(in, "rate_of_last_step", nodes, c.state.displacement_rate);
     c.state.pressure_rate.resize(c.state.mechanics.pressure.size());
     take_nodes(in, "pressure_rate_of_last_step", nodes, c.state.pressure_rate);
   }
-  // One mark for each contact, or none at all.
+}
+
+Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerprint& fingerprint,
+                     const coupling::State& layout) {
+  TableReader in(path);
+  if (in.text("format") != k_format)
+    throw OutputError(path.string(), "is no checkpoint that this version of Solidus can read");
+  compare(path, in, fingerprint);
+  Checkpoint c;
+  // The state at the end has the layout of this mesh, into which the file's numbers go.
+  c.state = layout;
+  set_numbers(in, c);
+  c.continuation.control.reason = in.text("reason");
+  c.continuation.stage.name = in.text("stage");
+  // Nodal fields are found by the numbers of the nodes in the input.
+  const Places nodes = places_of(mesh.input_node);
+  for_each_nodal_field(c.state,
+                       [&](const char* name, std::vector<double>& field, const AllowedValues& allowed) {
+                         take_nodes(in, name, nodes, field, allowed);
+                       });
+  if (c.continuation.stage.number > 0) {
+    c.continuation.stage.displacement.resize(c.state.mechanics.displacement.size());
+    take_nodes(in, "stage_displacement", nodes, c.continuation.stage.displacement);
+  }
+  take_rates(in, mesh, nodes, c);
   const std::string steady = in.text("steady_gaps");
   if (!steady.empty() && steady.size() != c.state.contacts.size())
     in.refuse(fmt::format("its 'steady_gaps' are of {} contacts, the case has {}", steady.size(),
@@ -303,6 +250,62 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   take_contacts(in, c.state.contacts);
   take_criteria(in, mesh, c.state.criteria);
   return c;
+}
+
+/// Writes the rows of a field of nodes that this process owns.
+void write_nodes(TableWriter& out, const mesh::Mesh& mesh, const std::string& name,
+                 const std::vector<double>& field) {
+  const std::size_t width = mesh.x.empty() ? 0 : field.size() / mesh.x.size();
+  out.rows<double>(name, static_cast<int>(width),
+                   std::span(field).first(static_cast<std::size_t>(mesh.n_owned_nodes) * width));
+}
+
+void write_rates(TableWriter& out, const mesh::Mesh& mesh, const coupling::Rates& rates) {
+  out.text("rates", rates.known() ? k_known : "unknown");
+  if (rates.known()) {
+    const bool flows = parallel::any_process(!rates.heat_flow.empty());
+    out.text("flows", flows ? k_known : "unknown");
+    write_nodes(out, mesh, flows ? "heat_flow" : "temperature_rate",
+                flows ? rates.heat_flow : rates.temperature);
+    write_nodes(out, mesh, "displacement_rate", rates.displacement);
+    const bool melts = parallel::any_process(!rates.coherency.empty());
+    out.text("rates_of_melt", melts ? k_known : "unknown");
+    if (melts) write_nodes(out, mesh, "coherency", rates.coherency);
+  }
+}
+
+/// The start of the present shot and the iterates of Anderson's method.
+void write_shots(TableWriter& out, const mesh::Mesh& mesh, const coupling::ShotHistory& shots) {
+  out.text("shots", parallel::any_process(!shots.start.empty()) ? k_known : "unknown");
+  out.text("shot_iterates", std::to_string(shots.iterates.size()));
+  write_nodes(out, mesh, "shot_start", shots.start);
+  for (std::size_t j = 0; j < shots.iterates.size(); ++j) {
+    write_nodes(out, mesh, shot_table(j, "change"), shots.iterates[j].change);
+    write_nodes(out, mesh, shot_table(j, "heat"), shots.iterates[j].heat);
+    write_nodes(out, mesh, shot_table(j, "displacement"), shots.iterates[j].displacement);
+  }
+}
+
+/// @param creep  of each block, whether it has rates of creep
+void write_histories(TableWriter& out, const mesh::Mesh& mesh, const mechanics::MechanicalState& state,
+                     const coupling::Rates& rates, const std::string& creep) {
+  for (std::size_t b = 0; b < state.history.size(); ++b) {
+    const mesh::ElementBlock& block = mesh.blocks[b];
+    const mechanics::BlockHistory& history = state.history[b];
+    const std::string name = block_name(mesh, b);
+    out.rows<std::int64_t>(name + "/element", 1,
+                           block.input_element.part(0, static_cast<std::size_t>(block.n_counted)));
+    const int width = history.n_points * history.n_components;
+    out.rows<double>(name + "/values", width, pack_history(block, history));
+    if (state.dt_before > 0) out.rows<double>(name + "/before", width, pack_history(block, state.before[b]));
+    if (b < creep.size() && creep[b] == k_creeps)
+      out.rows<double>(name + "/creep_rate", rates.creep[b].n_points * rates.creep[b].n_components,
+                       pack_history(block, rates.creep[b]));
+    if (!state.stress.empty()) {
+      const mechanics::BlockHistory& stress = state.stress[b];
+      out.rows<double>(name + "/stress", stress.n_points * stress.n_components, pack_history(block, stress));
+    }
+  }
 }
 
 }  // namespace
@@ -345,20 +348,10 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   const auto owned = static_cast<std::size_t>(mesh.n_owned_nodes);
   out.rows<std::int64_t>("node", 1, mesh.input_node.part(0, owned));
   const auto nodal = [&](const char* name, const std::vector<double>& field) {
-    const std::size_t width = mesh.x.empty() ? 0 : field.size() / mesh.x.size();
-    out.rows<double>(name, static_cast<int>(width), std::span(field).first(owned * width));
+    write_nodes(out, mesh, name, field);
   };
-  nodal("temperature", c.state.heat.temperature);
-  nodal("enthalpy", c.state.heat.enthalpy);
-  nodal("lit", c.state.burning.lit);
-  nodal("released", c.state.burning.released);
-  nodal("displacement", c.state.mechanics.displacement);
-  nodal("pressure", c.state.mechanics.pressure);
-  nodal("mechanical_solid_fraction", c.state.mechanics.solid_fraction);
-  nodal("velocity", c.state.mechanics.velocity);
-  nodal("acceleration", c.state.mechanics.acceleration);
-  nodal("net_force", c.state.mechanics.net_force);
-  nodal("load", c.state.mechanics.load);
+  for_each_nodal_field(c.state, [&](const char* name, const std::vector<double>& field,
+                                    const AllowedValues&) { nodal(name, field); });
   if (c.continuation.stage.number > 0) nodal("stage_displacement", c.continuation.stage.displacement);
   out.text("first_guess", parallel::any_process(!c.state.displacement_rate.empty()) ? k_known : "unknown");
   nodal("rate_of_last_step", c.state.displacement_rate);
@@ -369,49 +362,14 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   // Rates of the last step predict the next one. Whether a table exists is decided by all processes together,
   // since some may have no row of it.
   const coupling::Rates& rates = c.continuation.rates;
-  out.text("rates", rates.known() ? k_known : "unknown");
-  if (rates.known()) {
-    const bool flows = parallel::any_process(!rates.heat_flow.empty());
-    out.text("flows", flows ? k_known : "unknown");
-    nodal(flows ? "heat_flow" : "temperature_rate", flows ? rates.heat_flow : rates.temperature);
-    nodal("displacement_rate", rates.displacement);
-    const bool melts = parallel::any_process(!rates.coherency.empty());
-    out.text("rates_of_melt", melts ? k_known : "unknown");
-    if (melts) nodal("coherency", rates.coherency);
-  }
+  write_rates(out, mesh, rates);
   std::string creep;  // the same on every process, also on one without an element of a block
   for (const mechanics::BlockHistory& of_block : rates.creep)
     creep += parallel::any_process(!of_block.values.empty()) ? k_creeps : k_no_creep;
   out.text("rates_of_creep", creep);
-  // Shots keep the start of the present one and the iterates of Anderson's method.
-  const coupling::ShotHistory& shots = c.continuation.shots;
-  out.text("shots", parallel::any_process(!shots.start.empty()) ? k_known : "unknown");
-  out.text("shot_iterates", std::to_string(shots.iterates.size()));
-  nodal("shot_start", shots.start);
-  for (std::size_t j = 0; j < shots.iterates.size(); ++j) {
-    nodal(shot_table(j, "change").c_str(), shots.iterates[j].change);
-    nodal(shot_table(j, "heat").c_str(), shots.iterates[j].heat);
-    nodal(shot_table(j, "displacement").c_str(), shots.iterates[j].displacement);
-  }
+  write_shots(out, mesh, c.continuation.shots);
   // Histories of elements go block by block, for counted elements alone.
-  for (std::size_t b = 0; b < c.state.mechanics.history.size(); ++b) {
-    const mesh::ElementBlock& block = mesh.blocks[b];
-    const mechanics::BlockHistory& history = c.state.mechanics.history[b];
-    const std::string name = block_name(mesh, b);
-    out.rows<std::int64_t>(name + "/element", 1,
-                           block.input_element.part(0, static_cast<std::size_t>(block.n_counted)));
-    const int width = history.n_points * history.n_components;
-    out.rows<double>(name + "/values", width, pack_history(block, history));
-    if (c.state.mechanics.dt_before > 0)
-      out.rows<double>(name + "/before", width, pack_history(block, c.state.mechanics.before[b]));
-    if (b < creep.size() && creep[b] == k_creeps)
-      out.rows<double>(name + "/creep_rate", rates.creep[b].n_points * rates.creep[b].n_components,
-                       pack_history(block, rates.creep[b]));
-    if (!c.state.mechanics.stress.empty()) {
-      const mechanics::BlockHistory& stress = c.state.mechanics.stress[b];
-      out.rows<double>(name + "/stress", stress.n_points * stress.n_components, pack_history(block, stress));
-    }
-  }
+  write_histories(out, mesh, c.state.mechanics, rates, creep);
   write_contacts(out, c.state.contacts);
   write_criteria(out, mesh, c.state.criteria);
   // The renames are done by one process, after all have written.

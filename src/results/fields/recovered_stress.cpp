@@ -157,6 +157,22 @@ void StressRecovery::spread(Patch& patch) const {
   }
 }
 
+void StressRecovery::find_fit(const Patch& patch, std::span<const double> stress, double* fit) const {
+  fit[0] = patch.rank + 1;
+  std::copy(patch.centre.begin(), patch.centre.end(), fit + 1);
+  const double count = static_cast<double>(patch.cells.size());
+  for (std::size_t k = 0; k < k_components; ++k) {
+    double* const of = fit + 4 + 4 * k;
+    for (const std::size_t c : patch.cells) of[0] += stress[k_components * c + k] / count;
+    std::array<double, 3> moment{};
+    for (const std::size_t c : patch.cells)
+      for (std::size_t i = 0; i < 3; ++i)
+        moment[i] += (centroid_[c][i] - patch.centre[i]) * (stress[k_components * c + k] - of[0]);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) of[1 + i] += patch.inverse[3 * i + j] * moment[j];
+  }
+}
+
 std::vector<double> StressRecovery::at_nodes(std::span<const double> stress, int asked) const {
   // Each node gets the value of a linear fit to the stresses of the elements around it (superconvergent patch
   // recovery), body by body, because stress jumps from body to body.
@@ -165,25 +181,10 @@ std::vector<double> StressRecovery::at_nodes(std::span<const double> stress, int
   std::vector<double> result(k_components * n, 0.0), bodies(n, 0.0);
   for (std::size_t body = 0; body < mesh_.bodies.size(); ++body) {
     if (asked >= 0 && body != static_cast<std::size_t>(asked)) continue;
-    // The fit of a patch is its mean and its gradient about the centre of its elements; its rank says how
-    // many directions it could determine.
     std::vector<double> fits(k_fit * n, 0.0);
     for (const Patch& patch : patches_) {
       if (at(patch.body) != body) continue;
-      double* const fit = fits.data() + k_fit * at(patch.node);
-      fit[0] = patch.rank + 1;
-      std::copy(patch.centre.begin(), patch.centre.end(), fit + 1);
-      const double count = static_cast<double>(patch.cells.size());
-      for (std::size_t k = 0; k < k_components; ++k) {
-        double* const of = fit + 4 + 4 * k;
-        for (const std::size_t c : patch.cells) of[0] += stress[k_components * c + k] / count;
-        std::array<double, 3> moment{};
-        for (const std::size_t c : patch.cells)
-          for (std::size_t i = 0; i < 3; ++i)
-            moment[i] += (centroid_[c][i] - patch.centre[i]) * (stress[k_components * c + k] - of[0]);
-        for (std::size_t i = 0; i < 3; ++i)
-          for (std::size_t j = 0; j < 3; ++j) of[1 + i] += patch.inverse[3 * i + j] * moment[j];
-      }
+      find_fit(patch, stress, fits.data() + k_fit * at(patch.node));
     }
     // Ghosts get the fits of their owners, since a node may need that of a neighbour.
     ghosts_.update(fits, static_cast<int>(k_fit));

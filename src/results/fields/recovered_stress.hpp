@@ -42,6 +42,9 @@ class StressRecovery {
   };
   void measure_cells(AnalysisKind kind);
   void spread(Patch& patch) const;
+  /// Fits a linear stress to the elements of a patch: its mean and its gradient about their centre; the rank
+  /// says how many directions it could determine.
+  void find_fit(const Patch& patch, std::span<const double> stress, double* fit) const;
 
   const mesh::Mesh& mesh_;
   parallel::GhostExchange ghosts_;

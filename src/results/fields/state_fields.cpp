@@ -1,4 +1,3 @@
-/// Fields are registered once with their readers, and brought up to date for each state.
 #include "results/fields/state_fields.hpp"
 
 #include <algorithm>
@@ -116,16 +115,16 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
     add_elements();
     add_nodal_stress();
   }
-  // The fields up to here are those of the phases; contact shows them on its surfaces too.
   const std::size_t n_of_phases = values_.size();
   add_criteria();
   for (const auto& v : values_)
     bodies_.add(
         {v->name, v->unit, v->components, v->place, v->values, v->compute, {}, v->on_request, v->compute_of});
   // Nodal fields of the phases are shown on the contact surfaces too.
-  if (phases.contacts.empty()) return;
+  if (!phases.contacts.empty()) add_contact_fields(n_of_phases);
+}
 
-  // Fields of contact are in a set of their own, with those of the phases at nodes.
+void StateFields::add_contact_fields(std::size_t n_of_phases) {
   FieldSet contact;
   for (std::size_t i = 0; i < n_of_phases; ++i)
     if (const auto& v = values_[i]; v->place == mesh::FieldPlace::node && !v->compute)
@@ -145,22 +144,21 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
                  quantity.per_covered_area ? std::span<const double>(covered_) : std::span<const double>()});
   };
   for (const Quantity* quantity : k_contact) add_everywhere(*quantity);
-  // Heat, friction and stored heat bring further fields where the case has them.
-  if (with_heat(phases)) {
+  if (with_heat(phases_)) {
     add_everywhere(of_contact::k_contact_heat_flux);
-    if (with_friction(phases)) add_everywhere(of_contact::k_frictional_heat_flux);
+    if (with_friction(phases_)) add_everywhere(of_contact::k_frictional_heat_flux);
   }
-  if (with_friction(phases)) {
+  if (with_friction(phases_)) {
     add_everywhere(of_contact::k_friction_traction);
     for (const Quantity* quantity : k_remembered)
-      add_everywhere(*quantity,
-                     quantity == &of_contact::k_internal_variable ? internal_variable_unit(phases) : nullptr);
+      add_everywhere(*quantity, quantity == &of_contact::k_internal_variable ? internal_variable_unit(phases_)
+                                                                             : nullptr);
     add_everywhere(of_contact::k_contact_status);
   }
-  if (phases.heat != nullptr && (with_friction(phases) || interfaces_store(phases)))
+  if (phases_.heat != nullptr && (with_friction(phases_) || interfaces_store(phases_)))
     add_everywhere(of_contact::k_interface_temperature);
   // Each pair has its two surfaces, which are written as parts of their own.
-  for (const contact::ContactPair* pair : phases.contacts)
+  for (const contact::ContactPair* pair : phases_.contacts)
     for (const std::string& surface : {pair->spec().slave, pair->spec().master})
       if (surface == pair->spec().slave || !pair->spec().rigid_master) surfaces_[surface] = contact;
 }
@@ -175,7 +173,6 @@ void StateFields::find_side_areas(AnalysisKind kind) {
       sides[side].assign(mesh_.x.size(), 0.0);
       const auto surface = mesh_.surfaces.find(side == 0 ? pair->spec().slave : pair->spec().master);
       if (surface == mesh_.surfaces.end()) continue;  // a rigid one
-      // Areas by shape functions, as contact itself integrates.
       for (const mesh::ElementBlock& faces : surface->second.faces) {
         const mesh::FaceGeometry g(mesh_, faces, kind, mesh::gauss_rule(faces.shape, 4));
         const auto n = static_cast<std::size_t>(g.n_nodes), n_points = static_cast<std::size_t>(g.n_points);
@@ -241,7 +238,6 @@ void StateFields::add_nodal_stress() {
     if (!recovery_) recovery_ = std::make_unique<StressRecovery>(mesh_, kind_);
     return recovery_->at_nodes(mechanics::element_field(mesh_, shown_, ElementField::stress), body);
   };
-  // Each of them is made of the stress at the nodes, computed for all bodies or one.
   const auto add = [this](const Quantity& quantity,
                           const std::function<std::vector<double>(int body)>& compute) {
     Values& v = add_values(quantity);
@@ -290,7 +286,6 @@ void StateFields::update(const coupling::State& state) {
   const linear::ActiveSet* active = there.complete() ? nullptr : &there;
   bodies_.set_active(active);
   for (auto& [name, fields] : surfaces_) fields.set_active(active);
-  // Heat first, then mechanics, each with what its state keeps.
   if (phases_.heat != nullptr) {
     std::ranges::copy(state.heat.temperature, values_of(of_heat::k_temperature).begin());
     std::ranges::copy(phases_.heat->solid_fraction(state.heat), values_of(of_heat::k_solid_fraction).begin());
@@ -308,7 +303,6 @@ void StateFields::update(const coupling::State& state) {
 
 // A node of several pairs shows its closest partner; nodes away from the surfaces show zero.
 void StateFields::update_contacts(std::span<const double> temperature) {
-  // What no pair covers this time has to be zero.
   for (const auto& v : values_)
     if (v->of_contact) std::fill(v->values.begin(), v->values.end(), 0.0);
   std::vector<double>&gap = values_of(of_contact::k_gap),
@@ -320,7 +314,6 @@ void StateFields::update_contacts(std::span<const double> temperature) {
     const auto& [slave_area, master_area] = side_area_[number];
     const contact::ContactNodalFields fields = contact::nodal_fields(pair->view(), temperature);
     std::vector<char> closest(fields.nodes.size(), 0);
-    // The pair with the smallest opening at a node decides what is shown there.
     for (std::size_t k = 0; k < fields.nodes.size(); ++k) {
       const auto i = static_cast<std::size_t>(fields.nodes[k]);
       if (!std::isfinite(fields.opening[k]) || (seen[i] != 0 && gap[i] <= fields.opening[k])) continue;

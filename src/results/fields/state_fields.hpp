@@ -57,6 +57,9 @@ class StateFields {
   void add_heat_flux();
   void add_nodal_stress();
   void add_criteria();
+  /// The fields of contact, on bodies and on the surfaces of contacts.
+  /// @param n_of_phases  the first fields, whose nodal ones surfaces show too
+  void add_contact_fields(std::size_t n_of_phases);
   void update_contacts(std::span<const double> temperature);
   /// @param closest  of each node of the fields: it shows this pair
   void update_heat(const contact::ContactNodalFields& fields, std::span<const char> closest);

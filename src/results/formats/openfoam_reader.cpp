@@ -1,5 +1,3 @@
-/// Files of a mesh in polyhedra are scanned and checked; cells are cut into tetrahedra for the
-/// interpolation.
 #include "results/formats/openfoam_reader.hpp"
 
 #include <fmt/format.h>
@@ -63,7 +61,6 @@ class FoamFile {
   std::string_view token() {
     skip_blanks();
     if (at_ >= text_.size()) fail("the file ends too early");
-    // One character of punctuation, a text in quotes, or a word.
     const std::size_t first = at_;
     constexpr std::string_view k_single = "(){}[];";
     if (k_single.find(text_[at_]) != std::string_view::npos) {
@@ -268,14 +265,12 @@ FoamField read_values(FoamFile file, const PolyMesh& mesh) {
   // A field says its dimensions, then its values: one for all, or one for each cell or point.
   FoamField field;
   const std::string kind = file.header();
-  // Scalars alone: a temperature is one.
   if (kind != "volScalarField" && kind != "pointScalarField")
     file.fail("the field is a '" + kind + "'", "a volScalarField or a pointScalarField");
   field.of_points = kind == "pointScalarField";
   const std::size_t n = field.of_points ? mesh.points.size() : mesh.n_cells;
   while (true) {
     const std::string key(file.token());
-    // The powers of the base units tell what the field is.
     if (key == "dimensions") {
       std::array<double, 7> powers{};
       file.expect("[");
@@ -304,7 +299,6 @@ FoamField read_values(FoamFile file, const PolyMesh& mesh) {
       } else {
         file.fail(fmt::format("the field is '{}'", form), "uniform or nonuniform");
       }
-      // Infinite or undefined values would spread over the whole mesh.
       for (const double value : field.values)
         if (!std::isfinite(value)) file.fail("the field is not finite somewhere");
       return field;
@@ -321,17 +315,8 @@ FoamField read_values(FoamFile file, const PolyMesh& mesh) {
   }
 }
 
-}  // namespace
-
-ReadField read_openfoam(const fs::path& time, const std::string& name, double length,
-                        const SourceLocation& where) {
-  // The mesh belongs to the case; without it the folder is no time of one.
-  const fs::path folder = fs::weakly_canonical(time);
-  const fs::path poly_mesh = folder.parent_path() / "constant/polyMesh";
-  if (!fs::is_directory(poly_mesh))
-    throw InputError(where, fmt::format("'{}' is a folder, but no time of a case of OpenFOAM", time.string()),
-                     "a folder of a time, with constant/polyMesh beside it; or a .csv, .vtu or .pvtu file");
-  // A name that is not there is answered with those that are.
+/// Opens the file of a field. Throws InputError with the names of those that are there.
+FoamFile open_field(const fs::path& folder, const std::string& name, const SourceLocation& where) {
   std::optional<FoamFile> file = FoamFile::open(folder / name);
   if (!file) {
     std::vector<std::string> there;
@@ -341,33 +326,15 @@ ReadField read_openfoam(const fs::path& time, const std::string& name, double le
     throw InputError(where, fmt::format("the folder has no field '{}'", name),
                      there.empty() ? "" : one_of(there, name));
   }
-  const PolyMesh poly = read_mesh(poly_mesh, length, where);
-  const FoamField field = read_values(std::move(*file), poly);
+  return std::move(*file);
+}
 
-  // Each cell becomes tetrahedra between its centre and the triangles of its faces.
-  ReadField read;
-  read.unit = field.unit;
-  read.cell_volumes.assign(poly.n_cells, 0.0);
-  mesh::Mesh& mesh = read.mesh;
-  mesh.x = poly.points;
-  const std::vector<Point> centre = centres(poly);
-  mesh.x.insert(mesh.x.end(), centre.begin(), centre.end());
+/// Gives points and centres of cells their values: cells take part in their points' values by their volumes,
+/// and points in those of their cells alike.
+/// @param read  has the mesh and the volumes of cells
+void spread_to_points(const FoamField& field, const PolyMesh& poly, ReadField& read) {
+  const mesh::Mesh& mesh = read.mesh;
   const auto n_points = static_cast<Index>(poly.points.size());
-  mesh::ElementBlock block{.shape = mesh::Shape::tet4, .body = 0, .nodes = {}, .input_element = {}};
-  for_each_triangle(poly, [&](std::size_t cell, Index a, Index b, Index c) {
-    const auto corner = [&](Index node) -> const Point& {
-      return poly.points[static_cast<std::size_t>(node)];
-    };
-    read.cell_volumes[cell] += tetrahedron(centre[cell], corner(a), corner(b), corner(c));
-    block.nodes.insert(block.nodes.end(), {n_points + static_cast<Index>(cell), a, b, c});
-    block.input_element.push_back(static_cast<GlobalIndex>(cell) + 1);
-  });
-  // Cells of negative volume would weigh negatively in all that follows.
-  for (std::size_t cell = 0; cell < poly.n_cells; ++cell)
-    if (!(read.cell_volumes[cell] > 0))
-      throw InputError({poly_mesh.string()}, fmt::format("cell {} of the mesh has no positive volume", cell));
-
-  // Cells take part in their points' values by their volumes, and points in those of their cells alike.
   const std::vector<double>& given = field.values;
   std::vector<double> sum(mesh.x.size(), 0.0), weight(mesh.x.size(), 0.0);
   read.values.assign(mesh.x.size(), 0.0);
@@ -387,12 +354,48 @@ ReadField read_openfoam(const fs::path& time, const std::string& name, double le
     std::copy(given.begin(), given.end(), read.values.begin() + n_points);
     read.cell_values = given;
   }
-  // Weighted means, where something has a weight.
   for (std::size_t i = 0; i < mesh.x.size(); ++i)
     if (weight[i] > 0) read.values[i] = sum[i] / weight[i];
   if (field.of_points) read.cell_volumes.clear();  // values are of points: sums go by the tetrahedra
+}
 
-  // A mesh of one body that this process has alone.
+}  // namespace
+
+ReadField read_openfoam(const fs::path& time, const std::string& name, double length,
+                        const SourceLocation& where) {
+  const fs::path folder = fs::weakly_canonical(time);
+  const fs::path poly_mesh = folder.parent_path() / "constant/polyMesh";
+  if (!fs::is_directory(poly_mesh))
+    throw InputError(where, fmt::format("'{}' is a folder, but no time of a case of OpenFOAM", time.string()),
+                     "a folder of a time, with constant/polyMesh beside it; or a .csv, .vtu or .pvtu file");
+  FoamFile file = open_field(folder, name, where);
+  const PolyMesh poly = read_mesh(poly_mesh, length, where);
+  const FoamField field = read_values(std::move(file), poly);
+
+  // Each cell becomes tetrahedra between its centre and the triangles of its faces.
+  ReadField read;
+  read.unit = field.unit;
+  read.cell_volumes.assign(poly.n_cells, 0.0);
+  mesh::Mesh& mesh = read.mesh;
+  mesh.x = poly.points;
+  const std::vector<Point> centre = centres(poly);
+  mesh.x.insert(mesh.x.end(), centre.begin(), centre.end());
+  const auto n_points = static_cast<Index>(poly.points.size());
+  mesh::ElementBlock block{.shape = mesh::Shape::tet4, .body = 0, .nodes = {}, .input_element = {}};
+  for_each_triangle(poly, [&](std::size_t cell, Index a, Index b, Index c) {
+    const auto corner = [&](Index node) -> const Point& {
+      return poly.points[static_cast<std::size_t>(node)];
+    };
+    read.cell_volumes[cell] += tetrahedron(centre[cell], corner(a), corner(b), corner(c));
+    block.nodes.insert(block.nodes.end(), {n_points + static_cast<Index>(cell), a, b, c});
+    block.input_element.push_back(static_cast<GlobalIndex>(cell) + 1);
+  });
+  for (std::size_t cell = 0; cell < poly.n_cells; ++cell)
+    if (!(read.cell_volumes[cell] > 0))
+      throw InputError({poly_mesh.string()}, fmt::format("cell {} of the mesh has no positive volume", cell));
+
+  spread_to_points(field, poly, read);
+
   mesh.dimension = 3;
   mesh.n_owned_nodes = static_cast<Index>(mesh.x.size());
   mesh.n_global_nodes = mesh.n_owned_nodes;

@@ -167,6 +167,30 @@ void for_each_part(const FieldFile::Piece& piece, const mesh::CellTable& table, 
   }
 }
 
+/// What is read of a piece.
+struct PieceData {
+  std::vector<double> node, element, body, x;
+  mesh::CellTable cells;
+};
+
+/// Adds a body for each number that pieces have, in the order of these numbers. Returns where each one is.
+std::map<double, std::size_t> number_bodies(const std::vector<PieceData>& read, int dimension,
+                                            std::vector<BodyMesh>& bodies) {
+  std::map<double, std::size_t> index;
+  for (const PieceData& r : read)
+    for (const double number : r.body) index.try_emplace(number);
+  for (auto& [number, at] : index) {
+    at = bodies.size();
+    bodies.push_back({.number = static_cast<int>(number),
+                      .corners = dimension + 1,
+                      .input_node = {},
+                      .x = {},
+                      .cells = {},
+                      .triangles = {}});
+  }
+  return index;
+}
+
 }  // namespace
 
 std::vector<double> Bodies::numbers(const FieldFile::Piece& piece, const char* section, const char* name,
@@ -186,13 +210,9 @@ int Bodies::body_index(double number) const {
 Bodies::Bodies(const FieldFile& file) {
   // The first field file of a run gives the meshes of all moments. Its pieces, one a process, are read whole
   // first, because the dimension of the bodies has to be known.
-  struct Read {
-    std::vector<double> node, element, body, x;
-    mesh::CellTable cells;
-  };
-  std::vector<Read> read;
+  std::vector<PieceData> read;
   for (const FieldFile::Piece& piece : file.pieces()) {
-    Read& r = read.emplace_back();
+    PieceData& r = read.emplace_back();
     r.node = numbers(piece, "PointData", "node", piece.n_points);
     r.element = numbers(piece, "CellData", "element", piece.n_cells);
     r.body = numbers(piece, "CellData", "body", piece.n_cells);
@@ -205,25 +225,13 @@ Bodies::Bodies(const FieldFile& file) {
   if (dimension_ < 2)
     throw InputError({}, "the field files have no areas or volumes: there is nothing to show");
 
-  // Bodies are numbered in the order of their numbers in the file.
-  std::map<double, std::size_t> index;
-  for (const Read& r : read)
-    for (const double number : r.body) index.try_emplace(number);
-  for (auto& [number, at] : index) {
-    at = bodies_.size();
-    bodies_.push_back({.number = static_cast<int>(number),
-                       .corners = dimension_ + 1,
-                       .input_node = {},
-                       .x = {},
-                       .cells = {},
-                       .triangles = {}});
-  }
+  const std::map<double, std::size_t> index = number_bodies(read, dimension_, bodies_);
   local_.resize(bodies_.size());
   std::vector<std::vector<Face>> faces(bodies_.size());
   // Nodes that several pieces have are one node, found by their number in the input. Elements are divided
   // into simplices, and faces are collected to find the skin.
   for (std::size_t p = 0; p < read.size(); ++p) {
-    const Read& r = read[p];
+    const PieceData& r = read[p];
     for_each_part(file.pieces()[p], r.cells,
                   [&](std::size_t c, Shape shape, std::vector<std::int32_t> nodes) {
                     if (mesh::dimension(shape) != dimension_) return;
