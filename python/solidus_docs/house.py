@@ -3,7 +3,8 @@
 ``./dev house`` prints them. A room is a folder of ``src``, and each folder within it counts by itself, a unit is a header with
 its source, or either alone. The floors of a folder are the units on the longest chain of includes within it. Comments are counted in sources (.cpp)
 as lines that hold nothing else; a function of TOLD lines and more tells its steps by a comment directly above its head or
-within its body. Sizes are read by a scanner of braces, not by a compiler: macros and preprocessor branches are text like any
+within its body. A class that is larger for a reason stands with it in ``large_classes.toml`` beside this file.
+Sizes are read by a scanner of braces, not by a compiler: macros and preprocessor branches are text like any
 other.
 """
 
@@ -12,6 +13,7 @@ from __future__ import annotations
 import argparse
 import re
 import sys
+import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -19,9 +21,11 @@ LONG_FUNCTION = 60  #: lines, from the name to the closing brace
 TOLD = 30  #: lines of a function from which on a comment has to tell its steps
 METHODS, MEMBERS = 12, 15  #: of a class: public methods and data members beyond which it is large
 
+LARGE_FOR_A_REASON = Path(__file__).with_name("large_classes.toml")  #: classes beyond the bounds that stay so, with why
+
 _BLANKED = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', re.S)
 _INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
-_TYPE = re.compile(r"\b(class|struct|union)\s+(?:\[\[[^\]]*\]\]\s*)?(\w+)(?:<[^{;]*>)?\s*(?:final\s*)?(?::[^:][^{;]*)?$", re.S)
+_TYPE = re.compile(r"\b(?<!enum )(class|struct|union)\s+(?:\[\[[^\]]*\]\]\s*)?(\w+)(?:<[^{;]*>)?\s*(?:final\s*)?(?::[^:][^{;]*)?$", re.S)
 _NAME = re.compile(r"(~?\w+|operator\s*\S+)\s*\($")
 
 
@@ -62,6 +66,16 @@ class House:
     rooms: dict[str, Room] = field(default_factory=dict)
     functions: list[Function] = field(default_factory=list)
     classes: list[Class] = field(default_factory=list)
+
+
+def reasons() -> dict[str, str]:
+    """Of the classes that are large for a reason, by file below src and name."""
+    return {name: kind["reason"] for kind in tomllib.loads(LARGE_FOR_A_REASON.read_text(encoding="utf-8")).values() for name in kind["classes"]}
+
+
+def placed(one: Class) -> str:
+    """A class as ``reasons`` names it."""
+    return f"{one.file.removeprefix('src/')} {one.name}"
 
 
 def blanked(text: str) -> str:
@@ -227,13 +241,17 @@ def text_of(found: House) -> str:
     lines.append(f"{sum(f.lines >= TOLD for f in found.functions)} functions have {TOLD} lines or more, {len(silent)} of them no comment:")
     lines += [f"  {f.lines:4}  {f.name:32} {f.file}:{f.line}" for f in silent]
     long = sorted((f for f in found.functions if f.lines > LONG_FUNCTION), key=lambda f: -f.lines)
-    large = sorted((c for c in found.classes if c.large), key=lambda c: -(c.methods + c.members))
+    why = reasons()
+    large = sorted((c for c in found.classes if c.large and placed(c) not in why), key=lambda c: -(c.methods + c.members))
     lengths = sorted(f.lines for f in found.functions)
     lines.append(f"\n{len(lengths)} functions, the median has {lengths[len(lengths) // 2]} lines, nine tenths at most "
                  f"{lengths[9 * len(lengths) // 10]}; {len(long)} have more than {LONG_FUNCTION}:")
     lines += [f"  {f.lines:4}  {f.name:32} {f.file}:{f.line}" for f in long]
     lines.append(f"\n{len(found.classes)} classes, {len(large)} with more than {METHODS} public methods or {MEMBERS} members:")
     lines += [f"  {c.methods:3} {c.members:3}  {c.name:32} {c.file}:{c.line}" for c in large]
+    kept = sorted((c for c in found.classes if c.large and placed(c) in why), key=lambda c: (why[placed(c)], c.name))
+    lines.append(f"\n{len(kept)} more are as large for a reason ({LARGE_FOR_A_REASON.name}):")
+    lines += [f"  {c.methods:3} {c.members:3}  {c.name:32} {why[placed(c)]}" for c in kept]
     return "\n".join(lines)
 
 

@@ -54,6 +54,13 @@ class House(unittest.TestCase):
         self.assertEqual([f"{f.file}:{f.line} {f.name}" for f in house.untold(found)], [])
         self.assertGreaterEqual(house.share_of_comments(found), 0.08)
 
+    def test_an_enumeration_is_no_class(self):
+        self.assertEqual(house.scan("enum class Colour { red, green };\n", "text.hpp")[1], [])
+
+    def test_classes_that_are_large_for_a_reason_are_there_and_large(self):
+        large = {house.placed(c) for c in self.found.classes if c.large}
+        self.assertEqual(sorted(set(house.reasons()) - large), [])
+
     def test_reads_all_rooms(self):
         found = self.found
         self.assertEqual({folder.split("/")[0] for folder in found.rooms}, {path.name for path in (links.ROOT / "src").iterdir() if path.is_dir()})
