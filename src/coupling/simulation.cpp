@@ -332,15 +332,12 @@ PlannedStep Simulation::plan(const Progress& p) const {
   const double time = p.committed.time;
   const StepOptions& options = options_.stages[p.stage].step;
   LongestStep longest;
-  // A casting is solid somewhere in the step in which its last melt freezes, and contracts fast then. Errors
-  // grow with the square of the step, so that a case that allows four times the default error of temperature
-  // has steps twice as long here too. A run that begins with little melt begins with the step asked for: it
-  // is no less than a quarter of that.
-  if (options.limits.last_melt && p.solid_fraction < k_solid) {
-    const double looseness = std::sqrt(options.limits.temperature / StepLimits{}.temperature);
-    const double left = longest_before_solid(1 - p.solid_fraction, time - p.committed.poured);
-    longest = {std::max(looseness * left, 0.25 * options.step), "last melt"};
-  }
+  // A casting is solid somewhere in the step in which its last melt freezes, and contracts fast then. Steps
+  // go with the root of the error allowed, from a quarter of the step asked for on, which mush begins with.
+  const double looser = std::sqrt(options.limits.temperature / StepLimits{}.temperature);
+  const double left = looser * longest_before_solid(1 - p.solid_fraction, time - p.committed.poured);
+  if (options.limits.last_melt && p.solid_fraction < k_solid)
+    longest = {std::max(left, 0.25 * options.step), "last melt"};
   const PlannedStep step = p.control->plan(time, longest);
   if (loads_ == nullptr || !options.adaptive) return step;
   const double moves = loads_->lasting_loads(time, step.time);
