@@ -25,8 +25,8 @@ struct Cost {
 };
 constexpr Cost k_heat{3.5e-6, 1.2, 0.1, 4e-3};
 constexpr Cost k_mechanics_solid{12e-6, 1.1, 0.08, 10e-3};
-/// Metal that melts, yields and touches its mould takes eight times as long.
-constexpr Cost k_poured_solid{95e-6, 1.1, 0.08, 10e-3};
+/// Metal that melts, yields and touches its mould takes nine times as long.
+constexpr Cost k_poured_solid{110e-6, 1.1, 0.08, 10e-3};
 constexpr Cost k_mechanics_plane{11e-6, 1.1, 0.08, 60e-3};
 /// Up to so many nodes of metal every process factorises all of it (linear/factorisation.cpp), and the serial
 /// part is this.
@@ -35,7 +35,7 @@ constexpr double k_whole_factors = 10000, k_serial_of_whole_factors = 0.27;
 constexpr double k_start = 0.8;
 /// An adaptive run takes at least as many steps as this, and of each stage as many as that, even where its
 /// first step would reach the end.
-constexpr double k_adaptive_steps = 80, k_adaptive_steps_of_stage = 20;
+constexpr double k_adaptive_steps = 120, k_adaptive_steps_of_stage = 20;
 /// The most that a further number of processes may leave of the time of fewer, or it is not taken.
 constexpr double k_gain_of_two = 0.9, k_gain_of_more = 0.97;
 
