@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   int code = 0;
   try {
     solidus::setup::Case c = solidus::setup::load_case(argv[1], {"time.end=\"2 s\""});
-    const solidus::run::RunResult result = run_case(c, {.folder = argv[2]});
+    const solidus::run::RunResult result = solidus::run::run_case(c, {.folder = argv[2]});
     std::printf("%s: %s\n", c.spec.title.c_str(), result.finished ? "finished" : result.reason.c_str());
   } catch (const std::exception& error) {  // a place in the user's files, what was found and what is allowed
     std::fprintf(stderr, "%s\n", error.what());

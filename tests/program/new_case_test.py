@@ -126,7 +126,7 @@ class NewCase(ProgramTest):
     def riser(self, case):
         """Foot, diameter and height of the riser [mm]."""
         mm = lambda text: float(text.split()[0])
-        riser = case["mesh"]["riser"]
+        riser, = case["mesh"]["riser"]
         return [mm(x) for x in riser["foot"]], mm(riser["diameter"]), mm(riser["height"])
 
     def volumes(self):
