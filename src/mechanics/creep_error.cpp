@@ -15,7 +15,7 @@ namespace solidus::mechanics {
 
 namespace {
 
-constexpr std::size_t k_components = 6;
+constexpr std::size_t k_stress_components = 6;
 /// Of 2G: a casting keeps stresses far above it, hot metal flows under lower ones in any step.
 constexpr double k_least_stress = 2e-4;
 
@@ -58,7 +58,7 @@ CreepError::CreepError(const MechanicalPhase& phase) : phase_(phase) {
     b.creeps = creeps(material);
     if (!b.creeps) continue;
     any_ = true;
-    b.first = material.solidification() != nullptr ? k_components : 0;  // behind ε^v (law_parts.cpp)
+    b.first = material.solidification() != nullptr ? k_stress_components : 0;  // behind ε^v (law_parts.cpp)
     const PackVector<Lane> nodal = mesh::nodal_weights(mesh, block, phase.kind());
     // Nodal weights of an element sum to its volume.
     const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
@@ -81,12 +81,12 @@ CreepField CreepError::flow(const MechanicalState& from, const MechanicalState& 
     const auto width = static_cast<std::size_t>(now.n_components);
     if (old.values.size() != now.values.size()) continue;
     const std::size_t n = width > 0 ? now.values.size() / width : 0;  // none where a process has no element
-    field[b] = {static_cast<int>(k_components), now.n_points, {}};
-    field[b].values.assign(n * k_components, Lane(0.0));
+    field[b] = {static_cast<int>(k_stress_components), now.n_points, {}};
+    field[b].values.assign(n * k_stress_components, Lane(0.0));
     for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t k = 0; k < k_components; ++k) {
+      for (std::size_t k = 0; k < k_stress_components; ++k) {
         const std::size_t at = i * width + blocks_[b].first + k;
-        field[b].values[i * k_components + k] = Lane(factor) * (now.values[at] - old.values[at]);
+        field[b].values[i * k_stress_components + k] = Lane(factor) * (now.values[at] - old.values[at]);
       }
   }
   return field;
@@ -118,7 +118,7 @@ double CreepError::of_stress(const CreepField& error, const CreepField& rate, co
     // Blocks without flow, or whose stress is not stored, have nothing to compare.
     if (b >= error.size() || error[b].values.empty()) continue;
     if (b >= now.elements.size() || !now.elements[b]) continue;
-    std::vector<double> stress(static_cast<std::size_t>(block.size()) * k_components);
+    std::vector<double> stress(static_cast<std::size_t>(block.size()) * k_stress_components);
     now.elements[b]->get(ElementField::stress, stress);
     const material::Material& material = phase_.material(block.body);
     const material::Viscoplastic law(material);
@@ -134,14 +134,14 @@ double CreepError::of_stress(const CreepField& error, const CreepField& rate, co
       const auto p = law.properties_at<double>(theta, theta);
       if (p.elastic.solid_fraction < 1) continue;
       const double two_g = 2 * p.elastic.shear, volume = blocks_[b].volume[e];
-      const double* s = stress.data() + e * k_components;
+      const double* s = stress.data() + e * k_stress_components;
       const Sym<double> deviator = dev(Sym<double>{s[0], s[1], s[2], s[3], s[4], s[5]});
       // A least stress keeps elements without stress from counting as infinitely wrong.
       const double least = k_least_stress * two_g;
       double square = 0;
       // The error at each point is reduced by what relaxation leaves of it within this step and the next.
       for (std::size_t q = 0; q < n_points; ++q) {
-        const std::size_t at = (e / k_lanes * n_points + q) * k_components;
+        const std::size_t at = (e / k_lanes * n_points + q) * k_stress_components;
         const int lane = static_cast<int>(e % k_lanes);
         const double left = two_g * norm(tensor(error[b].values.data() + at, lane)) *
                             share_left(*material.flow, p, largest_rate(rate[b], before, b, at, lane), dt);
