@@ -28,6 +28,7 @@ class DesignTest(ProgramTest):
         left, right = sorted(float(riser["foot"][1].removesuffix(" mm")) for riser in case["mesh"]["riser"])
         self.assertAlmostEqual(left, -40, delta=2)
         self.assertAlmostEqual(right, 40, delta=2)
+        self.assertIn("radiation", {condition["kind"] for condition in case["thermal_condition"]})
         self.assertIn("sleeve", {body["role"] for body in case["body"]})
         self.assertIn("MANIFOLD_SOLID_BREP", (found / "case/risers.step").read_text())
         with (found / "design.csv").open() as file:
