@@ -84,7 +84,8 @@ def judge(grid, parts, risers, bodies, limits, up):
     """parts, risers: numbers of bodies; up: the axis that points up."""
     volumes, body = cell_volumes(grid), grid.cell_data["body"]
     emptied = np.asarray(grid.point_data["emptied"])
-    pores = sum(np.asarray(grid.point_data[name]) for name in ("unfed_pores", "gas_pores") if name in grid.point_data)
+    unfed = np.asarray(grid.point_data.get("unfed_pores", np.zeros_like(emptied)))
+    pores = unfed + np.asarray(grid.point_data.get("gas_pores", np.zeros_like(emptied)))
     of_part = np.isin(body, parts)
     part = float(volumes[of_part].sum())
     hollow = _means(grid, of_part, emptied) * volumes[of_part]

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "cases/case_materials.hpp"
+#include "heat/quantities.hpp"
 #include "results/fields/state_fields.hpp"
 #include "results/tables/probes.hpp"
 #include "setup/mesh_input.hpp"
@@ -19,7 +20,7 @@ namespace solidus::run {
 
 namespace {
 
-constexpr const char* k_temperature = "temperature";
+constexpr const char* k_temperature = heat::fields::k_temperature.name;
 
 /// The probes of a case that sample temperatures, at points and over groups.
 std::vector<results::Probe> temperature_probes(const cases::CaseSpec& spec) {

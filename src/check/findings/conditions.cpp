@@ -43,9 +43,8 @@ void cold_arguments(const cases::ThermalConditionSpec& t, const char* key, const
 }
 
 void surroundings(const cases::CaseSpec& spec, Findings& findings) {
-  // Values that are possible and far from usual, condition by condition: surroundings, held temperatures,
-  // sources, emissivities, fluxes and films. Constants alone are judged, since a table may pass such values
-  // for a moment. Each finding says what is usual.
+  // Values that are possible and far from usual, condition by condition. Constants alone are judged, since a
+  // table may pass such values for a moment. Each finding says what is usual.
   using Kind = cases::ThermalConditionSpec::Kind;
   for (const cases::ThermalConditionSpec& t : spec.thermal_conditions) {
     const bool surrounded = t.kind == Kind::film || t.kind == Kind::radiation;
