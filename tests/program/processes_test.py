@@ -59,12 +59,13 @@ class Processes(ProgramTest):
         with (self.folder / "log").open("w") as log:
             log.write("before\n")
             log.flush()
-            subprocess.run([PROGRAM, "run", *block(4), "--no-progress", "-o", "out", *TWO], cwd=self.folder, stdout=log, stderr=log,
-                           env=environment(), check=True, stdin=subprocess.DEVNULL)
+            subprocess.run([PROGRAM, "run", *block(4), "--heat-only", "--no-progress", "-o", "out", *TWO], cwd=self.folder,
+                           stdout=log, stderr=log, env=environment(), check=True, stdin=subprocess.DEVNULL)
             log.write("behind\n")
         lines = (self.folder / "log").read_text().splitlines()
         self.assertEqual((lines[0], lines[-1]), ("before", "behind"))
         self.assertIn("Results in out", lines[-2])
+        self.assertEqual(sum("heat alone, without" in line for line in lines), 1)
 
     def test_what_is_wrong_is_said_once_with_the_code_of_one_process(self):
         for words, code, text in ((("--processes", "0"), 1, "--processes"), (("--processes", "two"), 1, "--processes"),

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 #include <utility>
 
 #include "app/case_arguments.hpp"
+#include "app/launched.hpp"
 #include "app/places.hpp"
 #include "app/process_choice.hpp"
 #include "app/report_page.hpp"
@@ -22,6 +24,7 @@
 #include "run/error_runs.hpp"
 #include "setup/mechanics_input.hpp"
 #include "setup/time_input.hpp"
+#include "system/log.hpp"
 #include "system/processes.hpp"
 #include "system/terminal.hpp"
 
@@ -92,10 +95,19 @@ run::RunResult run_all(const RunArguments& arguments, const setup::Case& c, run:
   return {};
 }
 
+/// The case; one that a launcher has read already says nothing again.
+setup::Case read_case(const RunArguments& arguments) {
+  const logging::Level level = logging::level();
+  if (started_by_launcher()) logging::set_level(std::max(level, logging::Level::warn));
+  setup::Case c = load_case(arguments);
+  logging::set_level(level);
+  return c;
+}
+
 ExitCode run_case(const RunArguments& arguments) {
   // The order of a run at the command line: case, options, the page that watches it, the run itself, and what
   // is said at its end.
-  const setup::Case c = load_case(arguments);
+  const setup::Case c = read_case(arguments);
   if (arguments.sure && c.spec.time.steady)
     throw InputError(c.spec.time.where, "--sure compares answers of a transient run, and this case is steady",
                      "a run without --sure");
