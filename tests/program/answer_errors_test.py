@@ -11,6 +11,18 @@ from summary_test import CASE, GEOMETRY
 
 
 
+class ExpectedSteps(ProgramTest):
+    # In a die temperatures make most steps, in sand the skin that lets go and the last melt.
+    def test_of_castings_that_deform_are_right_within_two(self):
+        for name in ("alsi10mg_die", "nodular_iron_sand"):
+            folder = self.folder / name
+            summary = castings.run(PROGRAM, folder, castings.make(PROGRAM, folder, name, 1))
+            with self.subTest(casting=name, steps=summary["steps"]):
+                share = summary["understood"]["expected"]["steps"] / summary["steps"]
+                self.assertGreater(share, 0.5)
+                self.assertLess(share, 2)
+
+
 class StatedErrors(ProgramTest):
     # Two of the castings of the nightly run.
     def test_cover_the_errors_of_castings(self):
