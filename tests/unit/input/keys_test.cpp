@@ -29,6 +29,7 @@ struct Options {
   Inner inner;
   std::optional<Inner> extra;
   std::vector<Condition> conditions;
+  std::vector<Inner> risers;
   std::map<std::string, Inner> changes;
   SourceLocation where;
 };
@@ -58,6 +59,7 @@ Section<Options> declaration() {
   s.section("inner", &Options::inner, inner);
   s.section("extra", &Options::extra, inner);
   s.sections("condition", &Options::conditions, condition);
+  s.sections("riser", &Options::risers, inner).or_one();
   s.named_sections("change", &Options::changes, inner);
   s.place(&Options::where);
   return s;
@@ -142,6 +144,18 @@ TEST(Keys, AMissingKeyIsNamedWithItsSection) {
               AllOf(HasSubstr("'title' is missing"), HasSubstr("What the case is about")));
   EXPECT_THAT(error("title = \"t\"\n[[condition]]\nname = \"x\"\nkind = \"film\"\n"),
               AllOf(HasSubstr("case.toml:2"), HasSubstr("'film' is missing in [[condition]]")));
+}
+
+TEST(Keys, SectionsOfWhichOneIsUsualMayBeWrittenAsOne) {
+  const auto risers = [](const std::string& text) {
+    return declaration().read(parse_document("title = \"x\"\n" + text, "case.toml")).risers;
+  };
+  EXPECT_TRUE(risers("").empty());
+  EXPECT_EQ(risers("[riser]\ncount = 3\n").at(0).count, 3);
+  EXPECT_EQ(risers("[[riser]]\ncount = 3\n[[riser]]\n").size(), 2U);
+  EXPECT_THROW(risers("riser = 3\n"), InputError);
+  EXPECT_THROW(declaration().read(parse_document("title = \"x\"\n[condition]\nname = \"a\"\n", "case.toml")),
+               InputError);
 }
 
 TEST(Keys, AKeyOfAnotherKindIsRefused) {
