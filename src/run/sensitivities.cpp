@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -20,7 +21,7 @@ namespace solidus::run {
 
 namespace {
 
-constexpr const char* k_temperature = heat::fields::k_temperature.name;
+constexpr std::string_view k_temperature = heat::fields::k_temperature.name;
 
 /// The probes of a case that sample temperatures, at points and over groups.
 std::vector<results::Probe> temperature_probes(const cases::CaseSpec& spec) {
