@@ -25,6 +25,8 @@ struct alignas(cmsghdr) Control {
 
 /// The address of a name without a file, which goes with its last socket.
 sockaddr_un address_of(const std::string& name) {
+  // A zero in front of the name tells Linux that it is no path: nothing is left on a disk when the program is
+  // killed.
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   std::memcpy(address.sun_path + 1, name.data(), std::min(name.size(), sizeof address.sun_path - 1));
@@ -38,6 +40,7 @@ socklen_t length_of(const std::string& name) {
 }  // namespace
 
 Descriptor::~Descriptor() {
+  // The number is closed once: whoever gives a descriptor away keeps −1.
   if (number_ >= 0) ::close(number_);
 }
 Descriptor::Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
@@ -53,9 +56,12 @@ Meeting open_meeting() {
   Meeting meeting{Descriptor(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0)), {}};
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
+  // The system's own choice is free for certain, and so two runs of one user never meet each other's
+  // processes.
   socklen_t length = sizeof address.sun_family;  // no name: the system chooses one
   auto* const any = reinterpret_cast<sockaddr*>(&address);
   if (!meeting.socket.open() || ::bind(meeting.socket.number(), any, length) != 0) return Meeting{Descriptor(), {}};
+  // The name that was chosen is read back, without the zero in front of it.
   length = sizeof address;
   if (::getsockname(meeting.socket.number(), any, &length) != 0 ||
       ::listen(meeting.socket.number(), SOMAXCONN) != 0)
@@ -75,6 +81,7 @@ Descriptor join_meeting(const std::string& name) {
 
 std::optional<pid_t> process_behind(const Descriptor& connection) {
   ucred other{};
+  // The system itself says who is at the other end, so that no word of the sender has to be believed.
   socklen_t length = sizeof other;
   if (::getsockopt(connection.number(), SOL_SOCKET, SO_PEERCRED, &other, &length) != 0 ||
       other.uid != ::geteuid())
@@ -84,6 +91,7 @@ std::optional<pid_t> process_behind(const Descriptor& connection) {
 
 bool send_files(const Descriptor& connection, const std::string& line, std::span<const int> files) {
   std::string text = line.substr(0, k_longest_line);
+  // At least one byte has to go along, for without data no descriptors are sent.
   iovec part{text.data(), text.size()};
   Control control;
   msghdr message{};
@@ -99,6 +107,8 @@ bool send_files(const Descriptor& connection, const std::string& line, std::span
     std::memcpy(CMSG_DATA(header), files.data(), files.size_bytes());
   }
   ssize_t sent = -1;
+  // A signal that comes meanwhile is no failure: the call is repeated. A partner that is gone shall not end
+  // this program by a signal of its own.
   do sent = ::sendmsg(connection.number(), &message, MSG_NOSIGNAL);
   while (sent < 0 && errno == EINTR);
   return sent == static_cast<ssize_t>(text.size());
@@ -114,14 +124,18 @@ std::optional<ReceivedFiles> receive_files(const Descriptor& connection) {
   message.msg_control = control.bytes.data();
   message.msg_controllen = control.bytes.size();
   ssize_t n = -1;
+  // Descriptors that arrive are closed in programs that this one starts.
   do n = ::recvmsg(connection.number(), &message, MSG_CMSG_CLOEXEC);
   while (n < 0 && errno == EINTR);
+  // Nothing read means that the other side has gone.
   if (n <= 0) return std::nullopt;
   ReceivedFiles received{std::string(text.data(), static_cast<std::size_t>(n)), {}};
+  // Each number that has arrived is taken into an object at once, so that it is closed whatever follows.
   for (cmsghdr* header = CMSG_FIRSTHDR(&message); header != nullptr; header = CMSG_NXTHDR(&message, header)) {
     if (header->cmsg_level != SOL_SOCKET || header->cmsg_type != SCM_RIGHTS) continue;
     const std::size_t count = (header->cmsg_len - CMSG_LEN(0)) / sizeof(int);
     for (std::size_t i = 0; i < count; ++i) {
+      // The bytes are copied, since a control message need not be aligned for numbers.
       int number = -1;
       std::memcpy(&number, CMSG_DATA(header) + i * sizeof(int), sizeof number);
       received.files.emplace_back(number);

@@ -43,6 +43,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Writes into a file in memory what the first process takes over: the warnings so far, and the mesh.
 void fill(const Descriptor& file, const setup::MadeMesh& mesh) {
+  // The order here is the order in which take_over() reads: a number, so many warnings, and the mesh.
   const mesh::PutBytes put = [&](const void* bytes, std::size_t n) {
     mesh::put_all(file.number(), bytes, n);
   };
@@ -51,6 +52,7 @@ void fill(const Descriptor& file, const setup::MadeMesh& mesh) {
   put(&n_warnings, sizeof n_warnings);
   for (const std::string& warning : warnings) mesh::put_text(warning, put);
   setup::put_made_mesh(mesh, put);
+  // The receiver shares this place in the file with the sender, and has to find its beginning.
   lseek(file.number(), 0, SEEK_SET);
 }
 
@@ -84,11 +86,15 @@ class Mpirun {
 };
 
 int Mpirun::start(std::vector<std::string> command, std::vector<std::string> environment) {
+  // One pipe brings the words of mpirun, the other the number of an error if it cannot be started. Both close
+  // themselves in the program that is started.
   std::array<int, 2> ends{}, failed{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0 || pipe2(failed.data(), O_CLOEXEC) != 0) return errno;
   output_ = Descriptor(ends[0]);
   const Descriptor writes(ends[1]), told(failed[0]);
   Descriptor tells(failed[1]);
+  // Everything that allocates is done while this is one process: after fork() only calls that are safe in a
+  // handler of signals are allowed in the child.
   std::vector<char*> argv = pointers_to(command), envp = pointers_to(environment);
   const pid_t parent = ::getpid();
   pid_ = ::fork();
@@ -104,12 +110,14 @@ int Mpirun::start(std::vector<std::string> command, std::vector<std::string> env
     dup2(nothing, STDIN_FILENO);
     dup2(ends[1], STDOUT_FILENO);
     dup2(ends[1], STDERR_FILENO);
+    // A success never returns; a failure sends its number back through the second pipe.
     execvpe(argv[0], argv.data(), envp.data());
     const int error = errno;
     if (::write(failed[1], &error, sizeof error) < 0) _exit(1);
     _exit(1);
   }
   if (pid_ < 0) return errno;
+  // The parent's own end has to be closed, or the read below would wait for ever after a success.
   tells = Descriptor();
   int error = 0;
   if (::read(told.number(), &error, sizeof error) == static_cast<ssize_t>(sizeof error)) {
@@ -121,17 +129,21 @@ int Mpirun::start(std::vector<std::string> command, std::vector<std::string> env
 
 bool Mpirun::hear(int milliseconds) {
   pollfd waiting{output_.number(), POLLIN, 0};
+  // A silence is no end: only a pipe that its writer has closed tells that mpirun is through.
   if (::poll(&waiting, 1, milliseconds) <= 0) return true;
   std::array<char, 4096> buffer{};
   const ssize_t n = ::read(output_.number(), buffer.data(), buffer.size());
   if (n < 0 && errno == EINTR) return true;
   if (n <= 0) return false;
+  // More text than this is read and dropped, so that mpirun never waits for a full pipe.
   constexpr std::size_t k_kept = 1 << 16;  // bytes
   if (text_.size() < k_kept) text_.append(buffer.data(), static_cast<std::size_t>(n));
   return true;
 }
 
 void Mpirun::end() {
+  // First the polite signal, on which mpirun ends its processes; whatever is left after the time is ended by
+  // force.
   ::kill(pid_, SIGTERM);
   constexpr std::chrono::seconds k_patience(5);
   const Clock::time_point until = Clock::now() + k_patience;
@@ -142,6 +154,8 @@ void Mpirun::end() {
 }
 
 int Mpirun::wait() {
+  // An interrupted wait is repeated, and a process that is waited for already is not waited for again: its
+  // number may belong to another one.
   if (pid_ > 0)
     while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
     }
@@ -153,6 +167,7 @@ std::string Mpirun::said() const {
   constexpr std::size_t k_enough = 40;  // characters; what follows the first lines is advice
   std::string line;
   std::istringstream lines(text_);
+  // Lines that only frame the text, and those that are empty, are left out of what the user is told.
   for (std::string part; std::getline(lines, part) && line.size() < k_enough;) {
     const std::size_t begin = part.find_first_not_of(' ');
     if (begin == std::string::npos || part.starts_with("----")) continue;
@@ -182,11 +197,14 @@ struct Member {
 std::string gather(int n, const Descriptor& meeting, Mpirun& mpirun, std::vector<Member>& members) {
   constexpr std::chrono::seconds k_patience(60);
   const Clock::time_point until = Clock::now() + k_patience;
+  // Three things can happen: a process knocks, mpirun says something or ends, or neither within a tenth of a
+  // second. The time is looked at each time round.
   while (static_cast<int>(members.size()) < n) {
     if (Clock::now() > until)
       return fmt::format("it started {} of {} processes within a minute", members.size(), n);
     std::array<pollfd, 2> waiting{{{meeting.number(), POLLIN, 0}, {mpirun.output().number(), POLLIN, 0}}};
     if (::poll(waiting.data(), waiting.size(), 100) <= 0) continue;
+    // If mpirun ends here, no further process comes, and its own words are the best reason that can be given.
     if (waiting[1].revents != 0 && !mpirun.hear(0)) {
       const int status = mpirun.wait();
       const std::string said = mpirun.said();
@@ -194,11 +212,15 @@ std::string gather(int n, const Descriptor& meeting, Mpirun& mpirun, std::vector
                          said.empty() ? "" : ": ", said);
     }
     if (waiting[0].revents == 0) continue;
+    // Whoever connects is asked for its user by the system, so that no stranger gets a hand on the output or
+    // the mesh.
     Member member{Descriptor(::accept4(meeting.number(), nullptr, nullptr, SOCK_CLOEXEC))};
     const std::optional<pid_t> pid = process_behind(member.connection);
     if (!pid) continue;
     const std::optional<ReceivedFiles> said = receive_files(member.connection);
     int count = 0;
+    // The line holds the rank and the number of processes as MPI tells them; a line of another form is none
+    // of ours.
     if (!said || std::sscanf(said->line.c_str(), "%d %d", &member.rank, &count) != 2) continue;
     if (count != n)
       return "those that it starts do not find each other: it is of another MPI than the program";
@@ -212,8 +234,11 @@ std::string gather(int n, const Descriptor& meeting, Mpirun& mpirun, std::vector
 /// well, or 128 and the number of the signal that ended one.
 ExitCode code_of(int status, const ForwardedSignals& signals, const Mpirun& mpirun) {
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  // A code of this program's own is passed on as it is, since its message has been printed by the process
+  // that ended with it.
   for (const ExitCode known : {k_done, k_bad_input, k_cannot_continue, k_our_bug, k_interrupted})
     if (code == known) return known;
+  // A signal that the user sent ends this program the same way, so that a shell sees what it expects.
   if (signals.count() > 0 && code == 128 + signals.last()) {
     std::signal(signals.last(), SIG_DFL);
     std::raise(signals.last());
@@ -235,6 +260,8 @@ ExitCode code_of(int status, const ForwardedSignals& signals, const Mpirun& mpir
 
 std::string find_mpirun() {
   std::error_code error;
+  // The one beside the program is taken for that of the MPI with which it was built, and goes before any
+  // other on the path.
   const fs::path beside = program_path().parent_path() / "mpirun";
   if (fs::exists(beside, error)) return beside.string();
   const char* path = std::getenv("PATH");
@@ -248,18 +275,25 @@ std::string find_mpirun() {
 
 LaunchOutcome run_on_processes(int n, const std::string& mpirun, std::shared_ptr<setup::MadeMesh> mesh,
                                const std::string& greeting) {
+  // All that can fail without a process is done first: then nothing has to be ended when it fails.
   const Meeting meeting = open_meeting();
   Descriptor file(memfd_create("solidus mesh", MFD_CLOEXEC));
   if (!meeting.socket.open() || !file.open())
     return {{}, "the system has no sockets or no files in memory", std::move(mesh)};
   fill(file, *mesh);
+  // The mesh lies in the file now. A second copy in this process, which only waits from here on, would cost
+  // the others their memory.
   mesh.reset();
   return_free_memory();
+  // If the processes do not come up, the mesh is read back from the file and the run goes on alone.
   const auto in_vain = [&](std::string why) -> LaunchOutcome {
     return {{}, std::move(why), std::make_shared<setup::MadeMesh>(take_over(file.number()))};
   };
+  // Signals are taken up while there is nobody to send them to, and sent on as soon as there is.
   ForwardedSignals signals;
   Mpirun launcher;
+  // The processes share the machine as its scheduler sees fit: binding would put those of two runs onto the
+  // same cores.
   std::vector<std::string> command = {mpirun,      "-n",   std::to_string(n),      "--oversubscribe",
                                       "--bind-to", "none", program_path().string()};
   command.insert(command.end(), kept_arguments().begin(), kept_arguments().end());
@@ -269,6 +303,7 @@ LaunchOutcome run_on_processes(int n, const std::string& mpirun, std::shared_ptr
   if (std::string failure = gather(n, meeting.socket, launcher, members); !failure.empty())
     return in_vain(std::move(failure));
   print(greeting);
+  // From here on the run has begun: its processes are known and signals reach them.
   std::vector<pid_t> pids;
   for (const Member& member : members) pids.push_back(member.pid);
   signals.send_to(pids);
@@ -276,6 +311,7 @@ LaunchOutcome run_on_processes(int n, const std::string& mpirun, std::shared_ptr
   const std::array files = {STDOUT_FILENO, STDERR_FILENO, file.number()};
   for (const Member& member : members)
     send_files(member.connection, "welcome", std::span(files).first(member.rank == 0 ? 3 : 2));
+  // The memory of the mesh goes when the last process that holds the file closes it.
   file = Descriptor();
   while (launcher.hear(-1)) {
   }

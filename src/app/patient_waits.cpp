@@ -51,14 +51,19 @@ Nanoseconds now() {
 
 /// A look that found nothing.
 void look_in_vain() {
+  // Each thread has waits of its own. Nobody tells that a wait ends, so that a pause between two looks is
+  // taken for the end.
   static thread_local Nanoseconds begun = 0, last = 0;
   const Nanoseconds time = now();
   if (time - last > k_one_wait) begun = time;
   last = time;
   const Nanoseconds waited = time - begun;
+  // Most messages arrive within this time, and a sleep would make them late.
   if (waited < k_looks) return;
   const timespec sleep{0, static_cast<long>(std::min(waited / k_part, k_longest_sleep))};
   nanosleep(&sleep, nullptr);
+  // The sleep is part of the wait: without this its length would pass for a pause, and the next look would
+  // begin a new wait.
   last = now();
 }
 
@@ -66,6 +71,7 @@ void look_in_vain() {
 /// which is longer, has ended. Linux before 6.12 takes the request and heeds it not.
 void ask_for_short_slices() {
 #ifdef SYS_sched_setattr
+  // Processes under another policy, such as that of a real-time job, have slices that are not ours to change.
   if (sched_getscheduler(0) != SCHED_OTHER) return;
   SchedulerAttributes wanted;
   if (syscall(SYS_sched_getattr, 0, &wanted, sizeof wanted, 0) != 0) return;  // keeps what `nice` has set
@@ -86,6 +92,7 @@ void wait_patiently() {
 }  // namespace solidus::app
 
 extern "C" __attribute__((visibility("default"))) int sched_yield() noexcept {
+  // Until the program asks for patience this is the call of the system, as for every other caller of it.
   if (!solidus::app::patient) return static_cast<int>(syscall(SYS_sched_yield));
   solidus::app::look_in_vain();
   return 0;

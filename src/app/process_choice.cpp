@@ -50,6 +50,7 @@ std::optional<int> asked_by_environment() {
   const std::string_view given(text);
   int n = 0;
   const auto [end, error] = std::from_chars(given.begin(), given.end(), n);
+  // The whole text has to be a number: "4 cores" or "2x" would else be taken as a number that was not meant.
   if (error != std::errc() || end != given.end() || n < 1)
     throw InputError({k_variable}, fmt::format("'{}' is no number of processes", given), "1, 2, …");
   return n;
@@ -73,6 +74,7 @@ bool in_batch_job() {
 /// Processor time of this process and of those that have ended below it [s].
 double own_seconds() {
   double seconds = 0;
+  // The user's and the system's time count both, and so does that of the programs that this one has started.
   for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
     rusage used{};
     getrusage(who, &used);
@@ -87,6 +89,8 @@ class FreeCores {
  public:
   FreeCores() : load_(cores_of(usable_processors())), began_(Clock::now()), own_(own_seconds()) {}
   int count() const {
+    // A shorter look would see few ticks of the clock and take a busy core for a free one; time that went
+    // into the mesh counts as watched.
     std::this_thread::sleep_until(began_ + k_watched);
     return std::max(static_cast<int>(std::floor(load_.free_cores(own_seconds() - own_) + k_spare)), 1);
   }
@@ -115,6 +119,7 @@ std::shared_ptr<setup::MadeMesh> mesh_of(const setup::Case& c) {
 
 /// Runs on as many processes as were asked for.
 RunStart run_as_asked(int n, int cores, const setup::Case& c, const run::RunOptions& options) {
+  // One process is this one; nothing has to be started, and no mpirun need be there.
   if (n == 1) {
     print(line(1, cores, "as asked"));
     return {};
@@ -127,6 +132,8 @@ RunStart run_as_asked(int n, int cores, const setup::Case& c, const run::RunOpti
   // What is wrong with the folder or a material is found before the mesh is made, as on one process.
   run::check_restart(c.spec, options);
   cases::load_materials(c.spec);
+  // The user gave a number, so that a failure is an error here, where a choice of the program would fall back
+  // to one process.
   LaunchOutcome outcome = run_on_processes(n, mpirun, mesh_of(c), line(n, cores, "as asked"));
   if (!outcome.code)
     throw InputError({}, fmt::format("{}, and '{}' does not start them: {}", what, mpirun, outcome.failure),
@@ -136,6 +143,8 @@ RunStart run_as_asked(int n, int cores, const setup::Case& c, const run::RunOpti
 
 /// Why a run stays on one process, whatever its mesh is; empty where it may be on several.
 std::string reason_for_one(const setup::Case& c, int cores, const std::string& mpirun) {
+  // The order is that of importance: in a batch job it is the job's limits that hold, whatever else is
+  // missing.
   if (in_batch_job()) return "in a batch job, whose own launcher starts several";
   std::error_code error;
   if (!std::filesystem::is_regular_file(c.file, error)) return "a case from a pipe is read once";
@@ -150,6 +159,7 @@ int usable_cores() {
 }
 
 RunStart start_run(std::optional<int> asked, const setup::Case& c, const run::RunOptions& options) {
+  // A process that the launcher started has its mesh and its number already, and must not start others.
   if (started_by_launcher()) return {{}, mesh_of_launcher()};
   if (started_by_mpi()) {
     if (asked)
@@ -158,27 +168,33 @@ RunStart start_run(std::optional<int> asked, const setup::Case& c, const run::Ru
     return {};
   }
   const int cores = usable_cores();
+  // The command line goes before the environment, and both before the estimate.
   if (!asked) asked = asked_by_environment();
   if (asked) return run_as_asked(*asked, cores, c, options);
   const std::string mpirun = find_mpirun();
   const std::string why = reason_for_one(c, cores, mpirun);
+  // Where one process is certain, the mesh is made by the run itself, at its usual place.
   if (cores == 1 || !why.empty()) {
     print(line(1, cores, why));
     return {};
   }
   // The load is watched while the mesh is read or made, which takes as long for large meshes.
   const FreeCores free_cores;
+  // Mistakes of the case are told before the mesh is made, which may take minutes.
   run::check_restart(c.spec, options);
   const std::vector<material::Material> materials = cases::load_materials(c.spec);
   RunStart start{{}, mesh_of(c)};
   const run::RunWork work = run::run_work(c.spec, materials, start.mesh->mesh);
   const int paying = run::processes_that_pay(work, cores);
+  // Waiting for the load is spared where one process would be best anyway.
   const int n = paying == 1 ? 1 : std::min(paying, free_cores.count());
+  // An interruption while the mesh was made ends the run at its beginning, as on one process.
   if (n == 1 || stop_asked()) {
     print(line(1, cores, paying == 1 ? "the case is small" : "other programs use the rest"));
     return start;
   }
   LaunchOutcome outcome = run_on_processes(n, mpirun, std::move(start.mesh), line(n, cores));
+  // Without several processes the run is slower and otherwise the same, so that a warning is enough.
   if (!outcome.code) {
     logging::warn("'{}' does not start several processes here: {}", mpirun, outcome.failure);
     print(line(1, cores));

@@ -50,10 +50,12 @@ Section<ChillBlockSpec> chill_keys() {
 namespace {
 
 void check_riser(const RiserBlockSpec& r) {
+  // Numbers of coordinates come first, since everything after them reads three.
   if (r.foot.size() != 3)
     throw InputError(r.where, fmt::format("'foot' has {} coordinates", r.foot.size()), "three");
   if (!r.neck_to.empty() && r.neck_to.size() != 3)
     throw InputError(r.where, fmt::format("'neck_to' has {} coordinates", r.neck_to.size()), "three");
+  // A neck that is wider than the riser, or as high, would leave no riser above it.
   if (r.neck_diameter && *r.neck_diameter > r.diameter)
     throw InputError(
         r.where,
@@ -63,6 +65,8 @@ void check_riser(const RiserBlockSpec& r) {
     throw InputError(
         r.where, fmt::format("'neck_height' is {:g} m, and the riser {:g} m high", r.neck_height, r.height),
         "a neck that ends below the top of the riser");
+  // A neck needs its diameter and either a height or a point to which it leads; half of these is told as what
+  // is missing.
   if (!r.neck_to.empty() && !r.neck_diameter)
     throw InputError(r.where, "'neck_to' is there without 'neck_diameter'", "the diameter of the neck");
   if (r.neck_to.empty() && r.neck_diameter && !(r.neck_height > 0))
@@ -76,6 +80,7 @@ void check_chill(const ChillBlockSpec& c) {
   if (c.lowest.size() != 3 || c.highest.size() != 3)
     throw InputError(c.where, "the box of a chill has no two corners",
                      "lowest and highest of three coordinates each");
+  // Each pair of coordinates is compared, so that the message can name the axis.
   for (std::size_t i = 0; i < 3; ++i)
     if (!(c.highest[i] > c.lowest[i]))
       throw InputError(
@@ -87,6 +92,8 @@ void check_chill(const ChillBlockSpec& c) {
 }  // namespace
 
 void check_feeders(const std::vector<RiserBlockSpec>& risers, const std::vector<ChillBlockSpec>& chills) {
+  // Risers, their sleeves and chills become groups of one mesh, and so their names have to differ among all
+  // of them.
   std::set<std::string> names;
   const auto add = [&](const std::string& name, const SourceLocation& where) {
     if (!names.insert(name).second)

@@ -59,6 +59,8 @@ BodyNorm::Moments::Turning BodyNorm::Moments::turning(AnalysisKind kind) const {
   std::array<Point, 3> inertia{};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    // All moments are shifted to the centre of the nodes, which makes translation and rotation independent of
+    // each other.
     m[i] = moment[i] - (place[j] * displacement[k] - place[k] * displacement[j]) / weight;
     inertia[i][i] = second[0][j] + second[0][k] - (place[j] * place[j] + place[k] * place[k]) / weight;
     inertia[j][k] = inertia[k][j] = place[j] * place[k] / weight - second[1][i];
@@ -68,6 +70,8 @@ BodyNorm::Moments::Turning BodyNorm::Moments::turning(AnalysisKind kind) const {
   constexpr double k_singular = 1e-9;
   const double least = k_singular * (second[0][0] + second[0][1] + second[0][2]);
   auto& [l, d, y] = of;
+  // A plane body turns about z alone. The factors are taken row by row; a direction that has no inertia is
+  // passed over, and its rotation stays zero.
   for (std::size_t i = kind == AnalysisKind::plane_strain ? 2 : 0; i < 3; ++i) {
     d[i] = inertia[i][i];
     y[i] = m[i];
@@ -85,16 +89,21 @@ BodyNorm::Moments::Turning BodyNorm::Moments::turning(AnalysisKind kind) const {
 }
 
 double BodyNorm::Moments::distortion(AnalysisKind kind) const {
+  // Without nodes that count nothing is known of a motion, and the sum is zero as well.
   if (weight <= 0) return square;
   const auto explained_by = [&](std::size_t i) { return displacement[i] * displacement[i] / weight; };
   // A ring that widens does not move.
   if (kind == AnalysisKind::axisymmetric) return std::max(square - explained_by(1), 0.0);
   const Turning turns = turning(kind);
   double rest = square;
+  // Translation and rotation are each taken off the whole: what they explain does not overlap about the
+  // centre.
   for (std::size_t i = 0; i < 3; ++i) rest -= explained_by(i);
   // mᵀ I⁻¹ m = Σ y_i² / D_i.
   for (std::size_t i = 0; i < 3; ++i)
     if (turns.d[i] > 0) rest -= turns.y[i] * turns.y[i] / turns.d[i];
+  // Rounding may leave a little less than nothing where a body only moves. A value that is not a number must
+  // not be turned into zero.
   return std::isnan(rest) ? rest : std::max(rest, 0.0);
 }
 
@@ -147,11 +156,13 @@ BodyNorm::BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind)
       }
   }
   for (std::size_t b = 0; b < n_bodies_; ++b) {
+    // The volume is summed over processes, each of which has its own nodes.
     const double volume = parallel::global_sum(std::accumulate(weight[b].begin(), weight[b].end(), 0.0));
     for (std::size_t i = 0; i < n_owned; ++i)
       if (weight[b][i] > 0)
         shares_.push_back({static_cast<Index>(i), static_cast<int>(b), weight[b][i] / volume});
   }
+  // A centre is a sum over the nodes of all processes, and needed on each of them.
   for (const Share& share : shares_)
     for (std::size_t k = 0; k < 3; ++k)
       centre_[static_cast<std::size_t>(share.body)][k] +=
@@ -177,6 +188,7 @@ double BodyNorm::operator()(std::span<const double> values, std::span<const char
 double BodyNorm::largest(const std::vector<double>& squares) const {
   double largest = 0;
   for (const double square : squares) {
+    // A comparison with a value that is not a number is false, and the largest of the others would hide it.
     if (std::isnan(square)) return square;
     largest = std::max(largest, square);
   }
@@ -190,6 +202,7 @@ void BodyNorm::each_displaced(std::span<const double> displacement, std::span<co
   // Places count from the centre of the body, which keeps the moments well conditioned.
   for (const Share& share : shares_) {
     const auto node = static_cast<std::size_t>(share.node), body = static_cast<std::size_t>(share.body);
+    // Nodes that do not count have no part in the motion either.
     if (displacement.empty() || (!counts.empty() && counts[node] == 0)) continue;
     Point u{}, x = mesh_->x[node];
     for (std::size_t k = 0; k < width; ++k) u[k] = displacement[node * width + k];
@@ -204,6 +217,7 @@ std::vector<BodyNorm::Moments> BodyNorm::moments(std::span<const double> displac
   each_displaced(displacement, counts, [&](const Share& share, const Point& x, const Point& u) {
     moments[static_cast<std::size_t>(share.body)].add(share.weight, x, u);
   });
+  // The moments go between processes as plain numbers, whose count has to be that of the structure.
   static_assert(sizeof(Moments) == Moments::k_size * sizeof(double));
   processes::sum(std::span(reinterpret_cast<double*>(moments.data()), Moments::k_size * n_bodies_));
   return moments;
@@ -236,6 +250,7 @@ double BodyNorm::mean(std::span<const double> values) const {
     sum[static_cast<std::size_t>(share.body)] += share.weight * values[static_cast<std::size_t>(share.node)];
   double largest = 0;
   for (const double s : sum) {
+    // The magnitude is taken after the sum: in a mean, what is above and below cancels.
     const double mean = std::abs(parallel::global_sum(s));
     if (std::isnan(mean)) return mean;
     largest = std::max(largest, mean);

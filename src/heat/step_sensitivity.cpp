@@ -48,6 +48,8 @@ void add(double factor, std::span<const double> x, std::span<double> y) {
 }  // namespace
 
 StepSensitivity::StepSensitivity(ThermalPhase& phase, bool exact) : phase_(phase), exact_(exact) {
+  // Only with these settings the heat of a node is one known curve of its temperature, along which
+  // derivatives are taken.
   if (!phase.nodal() || phase.consistent_ || phase.printed_)
     throw InputError({}, "derivatives are known where nodes hold the heat",
                      "heat.integration = \"closed\" and heat.sensible = \"enthalpy\"");
@@ -57,6 +59,8 @@ void StepSensitivity::advance(const ThermalState& old, const StageFlows& flows, 
                               std::span<NeighbourPhase> neighbours) {
   assert(flows.known());
   const profile::Part part("sensitivities");
+  // Neighbours are followed in copies: only when all stages have succeeded do their states move on, so that a
+  // stage that is rejected leaves them where they were.
   std::vector<Neighbour> moved;
   for (const NeighbourPhase& n : neighbours) moved.push_back({n.phase, &n.state, n.state});
   phase_.solver_->begin(true);
@@ -80,6 +84,8 @@ void StepSensitivity::advance(const ThermalState& old, const StageFlows& flows, 
 /// Conditions, and limits of conduction, of a stage: those of the run's temperatures for all phases.
 void StepSensitivity::begin(ThermalPhase& phase, const Stage& stage, const ThermalState& old,
                             const ThermalState& before, const ThermalState& now) {
+  // Both phases of a pair have to see the same window of loads and the same limits, else the difference of
+  // their residuals would hold jumps of a switch in place of a derivative.
   phase.system_->exchange(true);
   phase.system_->set_window(stage.loads);
   phase.limit_conduction(before, old);
@@ -90,6 +96,8 @@ void StepSensitivity::begin(ThermalPhase& phase, const Stage& stage, const Therm
 void StepSensitivity::add_residual(ThermalPhase& phase, const Stage& stage, const ThermalState& old,
                                    const ThermalState& before, const ThermalState& end,
                                    std::vector<double>& f) {
+  // The heat content is counted from the start of the stage, of which a second-order stage carries a part of
+  // the first one over; all rates are in watts.
   std::vector<double> r(f.size());
   phase.system_->residual(end.temperature, r);
   for (std::size_t i = 0; i < f.size(); ++i) {
@@ -100,6 +108,8 @@ void StepSensitivity::add_residual(ThermalPhase& phase, const Stage& stage, cons
 
 void StepSensitivity::advance_stage(const Stage& stage, const ThermalState& old, const ThermalState& before,
                                     const ThermalState& now, std::span<Neighbour> neighbours) {
+  // The order matters: the system of the run's phase is set up, its residual taken and its matrix assembled
+  // at the same state, and each neighbour then uses that one matrix.
   begin(phase_, stage, old, before, now);
   const std::size_t n = at(phase_.mesh_.n_owned_nodes);
   // What the run's own iteration has left of F is not the neighbours' to remove.
@@ -109,6 +119,7 @@ void StepSensitivity::advance_stage(const Stage& stage, const ThermalState& old,
   factorised_ = factorise();
   bool first = true;
   for (Neighbour& neighbour : neighbours) {
+    // The neighbour gets the limits of the run as well, and its own loads at the same times.
     begin(*neighbour.phase, stage, old, before, now);
     ThermalState end = guess(*neighbour.phase, now);
     double before_it = HUGE_VAL, at_first = 0;
@@ -117,11 +128,17 @@ void StepSensitivity::advance_stage(const Stage& stage, const ThermalState& old,
     for (int k = 0; k < k_corrections; ++k) {
       std::vector<double> f(n), step(end.temperature.size());
       add_residual(*neighbour.phase, stage, *neighbour.old, neighbour.before, end, f);
+      // Only what the neighbour's residual has more than the run's counts, and rows of prescribed
+      // temperatures have none.
       for (std::size_t i = 0; i < n; ++i) f[i] = phase_.system_->fixed()[i] ? 0.0 : f[i] - left[i];
       const double size = std::sqrt(dot(f, f));
       if (k == 0) at_first = size;
+      // Corrections end when the rest is of second order in the change, or when they gain nothing: the
+      // tangent is then no better than what is left.
       if (k > 0 && (size <= k_second_order * at_first || size >= k_no_better * before_it)) break;
       before_it = size;
+      // The matrix is prepared at its first use alone; every later neighbour and correction solves with it
+      // again.
       solve(f, step, std::exchange(first, false));
       follow(stage, f, step, end);
       if (exact_) break;
@@ -133,9 +150,13 @@ void StepSensitivity::advance_stage(const Stage& stage, const ThermalState& old,
 /// The neighbour at the heats of the run, with temperatures that its own curves have there.
 ThermalState StepSensitivity::guess(const ThermalPhase& phase, const ThermalState& now) const {
   ThermalState end = now;
+  // Heats are kept and temperatures shifted by the difference of the two curves, so that the iteration starts
+  // where a changed latent heat or capacity is accounted for already.
   for (Index i = 0; i < phase.mesh_.n_owned_nodes; ++i)
     end.temperature[at(i)] += phase.storage_->temperature(i, now.enthalpy[at(i)]) -
                               phase_.storage_->temperature(i, now.enthalpy[at(i)]);
+  // Prescribed temperatures go in last, since the neighbour may prescribe others, and heat has to stay within
+  // the range of its curve at such a temperature.
   phase.ghosts_.update(end.temperature, 1);
   phase.system_->prescribe(end.temperature);
   for (Index i = 0; i < phase.mesh_.n_owned_nodes; ++i)
@@ -151,6 +172,8 @@ void StepSensitivity::linearise(const Stage& stage, const ThermalState& now) {
   const NodalEnthalpy& storage = *phase_.storage_;
   const NodalPotential& potential = system.potential();
   const std::size_t n = at(phase_.mesh_.n_owned_nodes);
+  // The unknown is a potential v of the temperature Θ, in which conduction is nearly symmetric. Its slope
+  // dv/dΘ turns steps of v into those of Θ; ghosts need it for the rows at seams.
   slope_.assign(now.temperature.size(), 1.0);
   if (!potential.identity()) {
     for (std::size_t i = 0; i < n; ++i)
@@ -160,6 +183,8 @@ void StepSensitivity::linearise(const Stage& stage, const ThermalState& now) {
   system.assemble_symmetric(now.temperature, slope_);
   to_heat_.assign(n, 0.0);
   held_.assign(n, 0);
+  // On a plateau the temperature does not change with the heat: the row is held by a large diagonal, which
+  // keeps the structure of the matrix, and the heat of that node follows afterwards.
   for (std::size_t i = 0; i < n; ++i) {
     const auto node = static_cast<Index>(i);
     double& diagonal = *system.matrix().diagonal_block(node);
@@ -176,7 +201,10 @@ void StepSensitivity::linearise(const Stage& stage, const ThermalState& now) {
 
 /// K δv, zero in rows that are held.
 void StepSensitivity::multiply(std::vector<double>& step, std::vector<double>& product) const {
+  // Ghosts have to be current: rows of owned nodes reach into neighbouring processes.
   phase_.ghosts_.update(step, 1);
+  // The matrix stands for its symmetric part alone, and the rest of the tangent is added to the product entry
+  // by entry.
   phase_.system_->matrix().multiply(step, product);
   for (const HeatSystem::Entry& e : phase_.system_->unsymmetric_part())
     product[at(e.row)] += e.value * step[at(e.column)];
@@ -187,6 +215,8 @@ void StepSensitivity::multiply(std::vector<double>& step, std::vector<double>& p
 /// Factors of K with what the symmetric matrix lacks, where one process has all nodes and few enough of them:
 /// each neighbour then costs a forward and a backward substitution.
 bool StepSensitivity::factorise() {
+  // Factors are computed by one process for all nodes: with ghosts, or with several processes, part of the
+  // matrix would be missing.
   const bool small = held_.size() == slope_.size() && held_.size() <= k_most_factorised;
   if (!small || parallel::global_sum(1.0) > 1) return false;
   std::vector<linear::SparseFactors::Entry> further;
@@ -199,6 +229,7 @@ bool StepSensitivity::factorise() {
 /// @param first  the matrix has not been solved with yet
 void StepSensitivity::solve(std::span<const double> f, std::vector<double>& step, bool first) {
   if (!factorised_) return iterate(f, step, first);
+  // Rows that are held have the diagonal one in the factors, and zero on the right gives them a step of zero.
   std::vector<double> b(held_.size());
   for (std::size_t i = 0; i < b.size(); ++i) b[i] = held_[i] ? 0.0 : -f[i];
   factors_.solve(b, std::span(step).first(b.size()));
@@ -212,8 +243,11 @@ void StepSensitivity::iterate(std::span<const double> f, std::vector<double>& st
   HeatSystem& system = *phase_.system_;
   const std::size_t n = held_.size();
   std::vector<double> left(n);
+  // The right side starts as the whole residual, from which the share along each direction is taken away.
   for (std::size_t i = 0; i < n; ++i) left[i] = held_[i] ? 0.0 : -f[i];
   const double target = k_accuracy * std::sqrt(dot(left, left));
+  // A residual of zero needs no step; only the first call goes on, because it is the one that prepares the
+  // solver with the new matrix.
   if (target == 0 && !first) return;
   struct Direction {
     std::vector<double> step, product;  ///< the products are orthonormal
@@ -226,20 +260,27 @@ void StepSensitivity::iterate(std::span<const double> f, std::vector<double>& st
     const linear::LinearReport report = std::exchange(first, false)
                                             ? phase_.solver_->solve(system.matrix(), left, owned)
                                             : phase_.solver_->solve_again(left, owned, 0);
+    // A linear system that does not converge rejects the step: its derivative would be wrong without a sign
+    // of it.
     if (!report.converged)
       throw StepRejected("sensitivities: the linear system: " + report.reason, {}, Failure::heat);
+    // Directions must not move held rows, or the products would not belong to the steps.
     for (std::size_t i = 0; i < n; ++i)
       if (held_[i]) d.step[i] = 0;
     multiply(d.step, d.product);
+    // Each new product is made orthogonal to all others, with the same combination of the steps, so that the
+    // best share along it does not disturb those found already.
     for (const Direction& before : directions) {
       const double along = dot(before.product, d.product);
       add(-along, before.step, d.step);
       add(-along, before.product, d.product);
     }
+    // A direction of no length adds nothing: the space is used up, and the rest is as small as it becomes.
     const double length = std::sqrt(dot(d.product, d.product));
     if (!(length > 0)) break;
     for (auto* v : {&d.step, &d.product})
       for (double& value : *v) value /= length;
+    // The residual is least where its share along the new product is removed.
     const double share = dot(left, d.product);
     add(share, d.step, step);
     add(-share, d.product, left);
@@ -252,12 +293,16 @@ void StepSensitivity::iterate(std::span<const double> f, std::vector<double>& st
 /// Moves the end of the stage by δv.
 void StepSensitivity::follow(const Stage& stage, std::span<const double> f, std::vector<double>& step,
                              ThermalState& end) const {
+  // The products are needed without the rows of plateaus set to zero, for these are the rows that tell how
+  // much heat such a node takes up.
   const HeatSystem& system = *phase_.system_;
   std::vector<double> product(held_.size());
   phase_.system_->matrix().multiply(step, product);
   for (const HeatSystem::Entry& e : system.unsymmetric_part())
     product[at(e.row)] += e.value * step[at(e.column)];
   for (std::size_t i = 0; i < held_.size(); ++i) {
+    // Prescribed nodes have their end already; a node on a plateau takes the heat that the balance leaves at
+    // its fixed temperature, all others move along their curves.
     if (system.fixed()[i]) continue;
     if (held_[i]) {
       end.enthalpy[i] -= stage.dt * (f[i] + product[i]);

@@ -17,6 +17,8 @@ Matrix pattern_of(const BlockMatrix& a) {
   const std::span<const std::int64_t> start = a.row_start();
   const std::span<const Index> columns = a.columns();
   const auto n = static_cast<int>(start.size()) - 1;
+  // A symmetric storage holds one half of the entries. Unsymmetric ones come at places of either half, so
+  // that the factors have to know both.
   std::vector<Eigen::Triplet<double, int>> entries;
   for (int row = 0; row < n; ++row)
     for (std::int64_t s = start[static_cast<std::size_t>(row)]; s < start[static_cast<std::size_t>(row) + 1];
@@ -25,6 +27,7 @@ Matrix pattern_of(const BlockMatrix& a) {
       entries.emplace_back(row, column, 0.0);
       entries.emplace_back(column, row, 0.0);
     }
+  // Triplets of the same place are added up, which is harmless for zeros.
   Matrix matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
@@ -48,6 +51,8 @@ bool SparseFactors::factorise(const BlockMatrix& a, std::span<const Entry> furth
   Implementation& m = *implementation_;
   const std::span<const std::int64_t> start = a.row_start();
   const std::span<const Index> columns = a.columns();
+  // The order of elimination depends on the pattern alone, and finding it takes a good part of the whole: it
+  // is kept as long as the pattern is the same.
   const bool same = std::ranges::equal(start, m.row_start) && std::ranges::equal(columns, m.columns);
   if (!same) {
     m.matrix = pattern_of(a);
@@ -59,6 +64,8 @@ bool SparseFactors::factorise(const BlockMatrix& a, std::span<const Entry> furth
   std::fill_n(m.matrix.valuePtr(), m.matrix.nonZeros(), 0.0);
   const auto n = static_cast<Index>(start.size()) - 1;
   assert(held.size() == static_cast<std::size_t>(n));
+  // A row that is held is cut off in both directions, so that its unknown stays zero and changes nothing
+  // elsewhere.
   const auto free = [&](Index node) { return held[static_cast<std::size_t>(node)] == 0; };
   const auto add = [&](Index row, Index column, double value) {
     if (free(row) && free(column))
@@ -66,6 +73,8 @@ bool SparseFactors::factorise(const BlockMatrix& a, std::span<const Entry> furth
   };
   const bool half = a.storage() == BlockMatrix::Storage::upper;
   const double* const values = a.block(0);
+  // Values are added into a pattern that is there already: the entries found by coeffRef() exist, and nothing
+  // is moved in memory.
   for (Index row = 0; row < n; ++row) {
     if (!free(row)) m.matrix.coeffRef(static_cast<int>(row), static_cast<int>(row)) = 1;
     for (std::int64_t s = start[static_cast<std::size_t>(row)]; s < start[static_cast<std::size_t>(row) + 1];
@@ -75,12 +84,15 @@ bool SparseFactors::factorise(const BlockMatrix& a, std::span<const Entry> furth
       if (half && column != row) add(column, row, values[s]);
     }
   }
+  // Entries of the unsymmetric part come last, at places that the symmetric pattern has.
   for (const Entry& e : further) add(e.row, e.column, e.value);
+  // A matrix that is singular is told to the caller, who then has the iterative solver.
   m.factors.factorize(m.matrix);
   return m.factors.info() == Eigen::Success;
 }
 
 void SparseFactors::solve(std::span<const double> b, std::span<double> x) const {
+  // The vectors are used where they lie, without a copy.
   const auto n = static_cast<Eigen::Index>(b.size());
   Eigen::Map<Eigen::VectorXd>(x.data(), n) =
       implementation_->factors.solve(Eigen::Map<const Eigen::VectorXd>(b.data(), n));

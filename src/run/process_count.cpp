@@ -41,6 +41,8 @@ constexpr double k_gain_of_two = 0.9, k_gain_of_more = 0.97;
 
 /// Number of different nodes of some groups.
 double count_nodes(const std::vector<const cases::BodySpec*>& bodies, const mesh::RawMesh& mesh) {
+  // A node on the seam of two bodies is one unknown, and is counted once. Only nodes that a group names
+  // count: a mesh may hold parts that no body uses.
   std::vector<char> there(mesh.x.size(), 0);
   for (const cases::BodySpec* body : bodies) {
     const auto group = mesh.groups.find(body->mesh_group());
@@ -55,6 +57,8 @@ double count_nodes(const std::vector<const cases::BodySpec*>& bodies, const mesh
 
 /// @param adaptive  as many steps as an adaptive run takes of this; absent: steps are equal
 double steps_of(std::optional<double> duration, std::optional<double> step, std::optional<double> adaptive) {
+  // A case without an end or a step is counted as one step: its estimate is then the cost of the mesh, and
+  // errs towards few processes.
   if (!duration || !step || !(*step > 0)) return 1;
   const double equal = std::max(*duration / *step, 1.0);
   return adaptive ? std::min(equal, *adaptive) : equal;
@@ -66,7 +70,9 @@ double expected_steps(const cases::CaseSpec& spec) {
     return spec.time.adaptive ? std::optional(steps) : std::nullopt;
   };
   const std::vector<cases::StageRun> stages = cases::stage_runs(spec);
+  // Without stages the case has one duration.
   if (stages.empty()) return steps_of(spec.time.end, spec.time.step, if_adaptive(k_adaptive_steps));
+  // With stages each has its own duration, and its own step where it gives one.
   double steps = 0;
   for (const cases::StageRun& run : stages)
     steps += steps_of(run.end - run.start, run.stage->step ? run.stage->step : spec.time.step,
@@ -79,6 +85,8 @@ double expected_steps(const cases::CaseSpec& spec) {
 RunWork run_work(const cases::CaseSpec& spec, const std::vector<material::Material>& materials,
                  const mesh::RawMesh& mesh) {
   std::vector<const cases::BodySpec*> warm, moving, poured;
+  // Bodies are sorted by what they cost: all conduct, some move as well, and metal that is poured is the
+  // dearest.
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const cases::BodySpec& body = spec.bodies[b];
     if (spec.has_heat()) warm.push_back(&body);
@@ -91,15 +99,22 @@ RunWork run_work(const cases::CaseSpec& spec, const std::vector<material::Materi
 }
 
 double expected_seconds(const RunWork& work, int processes) {
+  // Messages pass in a tree, so that their time grows with the doublings of the processes.
   const double doublings = std::log2(static_cast<double>(processes));
   const auto of_phase = [&](const Cost& cost, double nodes) {
     if (!(nodes > 0)) return 0.0;
+    // The work falls as it is divided, but its serial part stays, and the sum of the parts is larger than the
+    // whole.
     const double alone = nodes * cost.node;
     return processes == 1 ? alone
                           : alone * (cost.serial + cost.growth / processes) + cost.messages * doublings;
   };
+  // Few nodes of metal are factorised by each process for itself, which makes more of the work serial; beyond
+  // that the factors are shared.
   Cost poured = work.solid ? k_poured_solid : k_mechanics_plane;
   if (work.poured_nodes < k_whole_factors) poured.serial = k_serial_of_whole_factors;
+  // Poured metal is counted apart from the other bodies that move, for a node of it costs many times as much
+  // as one of them.
   const double step =
       of_phase(k_heat, work.heat_nodes) + of_phase(poured, work.poured_nodes) +
       of_phase(work.solid ? k_mechanics_solid : k_mechanics_plane, work.mechanics_nodes - work.poured_nodes);
@@ -109,6 +124,8 @@ double expected_seconds(const RunWork& work, int processes) {
 int processes_that_pay(const RunWork& work, int cores) {
   int best = 1;
   double least = expected_seconds(work, 1);
+  // Every number of processes is looked at, since costs need not fall evenly; a number that gains next to
+  // nothing over fewer is left out, as its cores are better free for others.
   for (int n = 2; n <= cores; ++n) {
     const double seconds = expected_seconds(work, n);
     if (seconds > least * (best == 1 ? k_gain_of_two : std::pow(k_gain_of_more, n - best))) continue;

@@ -26,6 +26,8 @@ constexpr std::string_view k_temperature = heat::fields::k_temperature.name;
 /// The probes of a case that sample temperatures, at points and over groups.
 std::vector<results::Probe> temperature_probes(const cases::CaseSpec& spec) {
   std::vector<results::Probe> probes;
+  // Other fields are left out without a complaint: a case may have probes of stresses beside those whose
+  // derivatives are wanted.
   for (const results::Probe& probe : setup::probes(spec)) {
     const auto* point = std::get_if<results::PointProbe>(&probe);
     const auto* group = std::get_if<results::GroupProbe>(&probe);
@@ -38,6 +40,8 @@ std::vector<results::Probe> temperature_probes(const cases::CaseSpec& spec) {
 
 void check_case(const cases::CaseSpec& spec) {
   const SourceLocation& where = spec.time.where;
+  // Steps that adapt would differ between the run and its neighbours, and a difference of two runs at
+  // different times is no derivative.
   if (spec.time.steady || spec.time.adaptive)
     throw InputError(where, "derivatives are known of runs with steps of a given size",
                      "time.steady = false, time.adaptive = false");
@@ -48,6 +52,8 @@ void check_case(const cases::CaseSpec& spec) {
 }
 
 bool same_mesh(const mesh::Mesh& a, const mesh::Mesh& b) {
+  // Coordinates that are equal to the last bit mean the same divisions; a neighbour with other places would
+  // need an interpolation that no derivative survives.
   return a.x == b.x && a.bodies.size() == b.bodies.size() && a.blocks.size() == b.blocks.size();
 }
 
@@ -76,9 +82,12 @@ struct Sensitivities::Built {
 
   explicit Built(Neighbour neighbour)
       : name(std::move(neighbour.name)), change(neighbour.change), c(std::move(neighbour.c)) {
+    // The neighbour is set up like a run of its own, from materials over the mesh to the phases, since any of
+    // them may depend on the parameter.
     a.materials = cases::load_materials(c.spec);
     a.mesh = setup::load_mesh(c.spec);
     setup::build(c.spec, a);
+    // Its initial state belongs to the probes from here on; only its heat is replaced at each step.
     state = std::move(a.initial);
     reader = std::make_unique<Reader>(c.spec, a);
   }
@@ -87,6 +96,8 @@ struct Sensitivities::Built {
 Sensitivities::Sensitivities(const setup::Case& base, const setup::Assembly& a,
                              std::vector<Neighbour> neighbours, const std::filesystem::path& file) {
   check_case(base.spec);
+  // Columns follow the probes of the base case, and their number decides what is comparable among the
+  // neighbours.
   reader_ = std::make_unique<Reader>(base.spec, a);
   const std::vector<results::CsvColumn>& probed = reader_->probes.columns();
   if (probed.empty())
@@ -94,6 +105,8 @@ Sensitivities::Sensitivities(const setup::Case& base, const setup::Assembly& a,
                      "[[probe]] with field = \"temperature\"");
   std::vector<coupling::HeatSensitivity::Neighbour> followed;
   std::vector<results::CsvColumn> columns{{"time", "s"}};
+  // Each neighbour is built as a whole and then compared: a parameter that moves nodes is refused with its
+  // name, not found by a wrong number later.
   for (Neighbour& neighbour : neighbours) {
     built_.push_back(std::make_unique<Built>(std::move(neighbour)));
     const Built& n = *built_.back();
@@ -102,10 +115,12 @@ Sensitivities::Sensitivities(const setup::Case& base, const setup::Assembly& a,
                        fmt::format("the parameter '{}' changes the mesh or the probes", n.name),
                        "data, conditions and places of probes");
     followed.push_back({&n.a.phases, n.state.heat});
+    // One column for each parameter and probe, in the order in which add_row() has the values.
     for (const results::CsvColumn& column : probed)
       columns.push_back({column.header() + " by " + n.name, ""});
   }
   heat_.emplace(a.phases, std::move(followed));
+  // The table is opened by the first process alone: two that wrote one file would spoil it.
   if (processes::rank() == 0) table_.emplace(file, std::move(columns));
 }
 
@@ -123,10 +138,12 @@ void Sensitivities::step(const coupling::StepRecord& record, const coupling::Sta
 
 /// One column a parameter and probe: the difference of the neighbour's value from the run's, over the change.
 void Sensitivities::add_row(const coupling::State& state) {
+  // The values of the run are read once, and serve all neighbours.
   const std::vector<double> here = reader_->values(state);
   std::vector<double> row{state.time};
   for (std::size_t i = 0; i < built_.size(); ++i) {
     Built& n = *built_[i];
+    // The neighbour's heat comes from the solver of derivatives, and its probes read it like that of any run.
     n.state.heat = heat_->neighbours()[i].state;
     const std::vector<double> there = n.reader->values(n.state);
     for (std::size_t k = 0; k < here.size(); ++k) row.push_back((there[k] - here[k]) / n.change);

@@ -30,6 +30,7 @@ void check_element_count(const cases::MeshSpec& m, double elements) {
 }
 
 double product(const std::vector<int>& divisions) {
+  // The product is a floating number, since that of large divisions would not fit into a whole one.
   double n = 1;
   for (const int d : divisions) n *= d;
   return n;
@@ -40,11 +41,15 @@ void check_face_rule(const cases::MeshGroupSpec& g) {
   const auto refuse = [&](const std::string& what, const std::string& allowed) {
     throw InputError(g.where, fmt::format("the group '{}' of the mesh: {}", g.name, what), allowed);
   };
+  // A rule has the surface from its geometry alone; beside numbers or a label it would be open which of them
+  // decides.
   if (g.kind == cases::MeshGroupSpec::Kind::body || !g.numbers.empty() || !g.label.empty())
     refuse("a rule chooses faces of the mesh", "no kind = \"body\", numbers or label beside a rule");
   for (const std::vector<double>* point : {&g.normal, &g.plane, &g.nearest})
     if (!point->empty() && point->size() != 3)
       refuse("a rule has a point or direction that is none", "three coordinates");
+  // Keys that only make sense together are refused alone, for the half of a rule would choose other faces
+  // than were meant.
   if (!g.plane.empty() && g.normal.empty())
     refuse("'plane' is a point of a plane without its normal", "normal = [0, 0, 1] beside it");
   if (!g.normal.empty() && !(std::hypot(g.normal[0], g.normal[1], g.normal[2]) > 0))
@@ -54,6 +59,7 @@ void check_face_rule(const cases::MeshGroupSpec& g) {
 /// Coats are cut out of a block that is thick enough for all of them.
 void check_coats(const cases::MeshSpec& m) {
   if (m.coats.empty()) {
+    // Without coats only 'bed' can be wrong, which needs them.
     if (m.mould && m.mould->bed)
       throw InputError(m.mould->where, "'bed' is what lies beyond coats, and there is no [[mesh.coat]]",
                        "[[mesh.coat]], or no 'bed'");
@@ -64,6 +70,8 @@ void check_coats(const cases::MeshSpec& m) {
     throw InputError(where, "[[mesh.coat]] is cut out of a block of mould, and there is no [mesh.mould]",
                      "[mesh.mould] with walls thicker than all coats together");
   check_names(m.coats, "[[mesh.coat]]");
+  // Coats lie on each other, so that the wall has to hold the sum of them. A wall of zero is an open side,
+  // where nothing is cut.
   double whole = 0;
   for (const cases::MeshCoatSpec& coat : m.coats) whole += coat.thickness;
   for (const double wall : m.mould->walls)
@@ -76,6 +84,7 @@ void check_coats(const cases::MeshSpec& m) {
 
 /// The mesh has one source, and its names are told apart.
 void check_source(const cases::MeshSpec& m) {
+  // Both or neither are the same mistake: there has to be one source.
   if (m.shape.has_value() == m.file.has_value())
     throw InputError(m.where,
                      m.shape ? "[mesh] has both a shape and a file" : "[mesh] has neither a shape nor a file",
@@ -89,6 +98,7 @@ void check_source(const cases::MeshSpec& m) {
 
 /// Sizes, mould, shell, riser and symmetry of a casting.
 void check_casting(const cases::MeshSpec& m) {
+  // One length is for all sides, and six are for each.
   if (m.mould && m.mould->walls.size() != 1 && m.mould->walls.size() != 6)
     throw InputError(m.mould->where, fmt::format("'walls' has {} lengths", m.mould->walls.size()),
                      "one, or six: lowest and highest x, y and z");
@@ -104,12 +114,14 @@ void check_casting(const cases::MeshSpec& m) {
                                  "sizes and shared faces themselves",
                                  m.element_size ? "element_size" : "conforming"),
                      "[[mesh.size]] for each body");
+  // Risers and chills are checked by the rules that a file of feeders obeys too.
   cases::check_feeders(m.risers, m.chills);
 }
 
 void check_groups_of(const cases::MeshSpec& m) {
   // A group is chosen in exactly one way.
   for (const cases::MeshGroupSpec& g : m.groups) {
+    // A box counts as given when one of its corners is, so that the other one is asked for.
     const bool box = !g.lowest.empty() || !g.highest.empty();
     if (g.by_rule())
       check_face_rule(g);
@@ -124,6 +136,8 @@ void check_groups_of(const cases::MeshSpec& m) {
 
 /// A built-in shape takes its order from the element, and has only groups by rule.
 void check_keys_of_shape(const cases::MeshSpec& m, bool solid) {
+  // The order and the groups of a file have no meaning for a shape, and a key that is read and not used would
+  // mislead.
   if (m.order != 1)
     throw InputError(
         m.where, "'order' is that of files that hold a geometry; a built-in shape takes it from 'element'",
@@ -140,6 +154,7 @@ void check_keys_of_shape(const cases::MeshSpec& m, bool solid) {
                      "file with a geometry, and the mesh is a built-in shape");
   if (!m.constants.empty())
     throw InputError(m.where, "[[mesh.constant]] is for .geo scripts, and the mesh is a built-in shape");
+  // Names of elements begin with their shape, which tells the dimension.
   const bool element_3d = m.element.starts_with("tet") || m.element.starts_with("hex");
   if (solid != element_3d)
     throw InputError(m.where,
@@ -153,9 +168,11 @@ void check_cylinder_in_mould(const cases::MeshSpec& m, const cases::AnalysisSpec
   if (analysis.kind != AnalysisKind::axisymmetric)
     throw InputError(m.where, "the shape cylinder_in_mould is for axisymmetric analyses");
   const cases::CylinderInMouldSpec& c = *m.cylinder_in_mould;
+  // A small tolerance lets equal heights pass that differ in the last bit after a change of unit.
   if (c.mould_height < (c.mould_bottom + c.height) * (1 - 1e-12))
     throw InputError(m.where, "the mould is lower than its bottom and the casting together",
                      "mould_height >= mould_bottom + height");
+  // The estimate counts squares of each element size on the section of metal and mould.
   const double width = c.radius + c.mould_wall;
   check_element_count(m, c.radius * c.height / (c.element_size * c.element_size) +
                              width * c.mould_height / (c.mould_element_size * c.mould_element_size));
@@ -165,6 +182,7 @@ void check_blocks(const cases::MeshSpec& m, bool solid) {
   if (*m.shape == "block") {
     if (!m.block) throw InputError(m.where, "the section [mesh.block] is missing");
     const std::size_t dimension = solid ? 3 : 2;
+    // An origin may be left out, which is the corner at zero.
     const bool origin_fits = m.block->origin.empty() || m.block->origin.size() == dimension;
     if (m.block->size.size() != dimension || m.block->divisions.size() != dimension || !origin_fits)
       throw InputError(m.where, "[mesh.block] does not fit the analysis",
@@ -190,7 +208,10 @@ void check_mesh(const cases::MeshSpec& m, const cases::AnalysisSpec& analysis) {
   check_source(m);
   check_casting(m);
   check_groups_of(m);
+  // Files have their own checks when they are read; the rest here is about shapes.
   if (!m.shape) return;
+  // The order of these checks is that of their causes: an element of the wrong dimension is told first, and
+  // not as divisions that do not fit.
   const bool solid = analysis.kind == AnalysisKind::solid;
   check_keys_of_shape(m, solid);
   if (*m.shape == "cylinder_in_mould") check_cylinder_in_mould(m, analysis);

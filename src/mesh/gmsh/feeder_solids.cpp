@@ -13,6 +13,7 @@ namespace occ = gmsh::model::occ;
 int united(int first, int second) {
   gmsh::vectorpair out;
   std::vector<gmsh::vectorpair> map;
+  // Solids in one another would be divided at their common faces and give bodies of their own.
   occ::fuse({{3, first}}, {{3, second}}, out, map);
   return out.front().second;
 }
@@ -27,6 +28,8 @@ int upright(const Point& centre, double low, double high, double diameter, doubl
 /// the riser.
 int neck_to_the_side(const RiserCylinder& r, double unit) {
   const Point& to = *r.neck_to;
+  // The neck stays within the height of the riser by half of its own width, or it would stick out at the foot
+  // or the top.
   const double half = std::min(0.5 * r.neck_diameter, 0.5 * r.height);
   const double z = std::clamp(to[2], r.foot[2] + half, r.foot[2] + r.height - half);
   return occ::addCylinder(r.foot[0] / unit, r.foot[1] / unit, z / unit, (to[0] - r.foot[0]) / unit,
@@ -36,6 +39,8 @@ int neck_to_the_side(const RiserCylinder& r, double unit) {
 int riser_solid(const RiserCylinder& r, double unit) {
   const double foot = r.foot[2], top = foot + r.height, wide = foot + r.neck_height;
   if (r.neck_to) return united(upright(r.foot, foot, top, r.diameter, unit), neck_to_the_side(r, unit));
+  // Without a neck that is narrower than the riser one cylinder is enough; two of the same width would leave
+  // a seam.
   if (!(r.neck_height > 0) || !(r.neck_diameter < r.diameter))
     return upright(r.foot, foot, top, r.diameter, unit);
   return united(upright(r.foot, foot, wide, r.neck_diameter, unit),
@@ -47,6 +52,7 @@ int riser_solid(const RiserCylinder& r, double unit) {
 std::vector<AddedBody> add_feeders(const CastingGeometry& geometry, double unit,
                                    const std::function<int(int)>& kept) {
   std::vector<AddedBody> added;
+  // Risers go first, so that they keep the space that they share with sleeves and chills.
   for (const RiserCylinder& r : geometry.risers) added.push_back({r.name, kept(riser_solid(r, unit))});
   // The riser keeps the inside of its sleeve.
   for (const RiserCylinder& r : geometry.risers)

@@ -25,6 +25,7 @@ std::vector<SkinFace> coated_skin(const RawMesh& mesh, const std::string& block)
   const auto key = [](const SkinFace& face) { return face_key(face.nodes.data(), vertex_count(face.shape)); };
   std::vector<SkinFace> skin = skin_of(mesh, block);
   FaceOwners owners;
+  // Faces are told apart by their vertices; the owners are found in one pass over all other bodies.
   for (const SkinFace& face : skin) owners.emplace(key(face), FaceOwner{});
   find_face_owners(mesh, other_bodies(mesh, block), owners);
   std::erase_if(skin, [&](const SkinFace& face) { return owners.at(key(face)).body < 0; });
@@ -37,6 +38,7 @@ CoatReport report_on(const RawMesh& mesh, const std::string& coat) {
     const auto n = static_cast<std::size_t>(node_count(block.shape));
     for (std::size_t e = 0; e < block.nodes.size(); e += n, ++report.elements) {
       const auto x = [&](std::size_t a) { return mesh.x[static_cast<std::size_t>(block.nodes[e + a])]; };
+      // The volume is that of straight-edged tetrahedra, which is enough for a report.
       report.volume += std::abs(volume_6(x(0), x(1), x(2), x(3))) / 6;
     }
   }
@@ -47,6 +49,8 @@ CoatReport report_on(const RawMesh& mesh, const std::string& coat) {
 
 std::vector<CoatReport> make_coats(RawMesh& mesh, const std::string& block, const std::vector<Coat>& coats,
                                    bool bed, const std::string& source) {
+  // Names are compared with those of the geometry first: a coat of such a name would be added to a body that
+  // is there.
   double whole = 0;
   for (const Coat& coat : coats) {
     whole += coat.thickness;
@@ -54,6 +58,8 @@ std::vector<CoatReport> make_coats(RawMesh& mesh, const std::string& block, cons
       throw InputError({source}, "the coat '" + coat.name + "' has the name of a group of the geometry",
                        "another name in [[mesh.coat]]");
   }
+  // The skin is taken once, from the whole block: each coat is measured from the metal and not from the coat
+  // below it.
   const std::vector<SkinFace> skin = coated_skin(mesh, block);
   if (skin.empty())
     throw InputError({source}, "there is nothing to be coated: no body shares faces with '" + block + "'");
@@ -61,6 +67,7 @@ std::vector<CoatReport> make_coats(RawMesh& mesh, const std::string& block, cons
   constexpr double k_beyond = 1.1;
   const double reach = k_beyond * whole;
   const SkinSearch search(skin, reach);
+  // Each cut takes the innermost part off the block, which becomes the next coat; the rest is the bed.
   double depth = 0;
   for (const Coat& coat : coats) {
     depth += coat.thickness;
@@ -73,6 +80,8 @@ std::vector<CoatReport> make_coats(RawMesh& mesh, const std::string& block, cons
   if (!bed) leave_out(mesh, block);
   // Some elements are flat where the surface cut off little; nodes that are free to move mend most of them.
   smooth_poor_tetrahedra(mesh);
+  // A repair changes the connections of elements, and is kept for those that stay poor when their nodes have
+  // moved.
   constexpr double k_poor = 0.1;
   repair_poor_tetrahedra(mesh, k_poor);
   std::vector<CoatReport> reports;

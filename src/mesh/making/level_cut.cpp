@@ -56,6 +56,7 @@ class LevelCut {
  public:
   LevelCut(RawMesh& mesh, const std::string& body, const LevelFunction& level, const std::string& source)
       : mesh_(mesh), body_(mesh.groups.at(body)), level_(level) {
+    // All elements are looked at first, so that a mesh that cannot be cut is refused whole.
     for (const RawBlock& block : body_.blocks) {
       if (block.shape != Shape::tet4 && block.shape != Shape::tet10)
         throw InputError({source},
@@ -69,8 +70,12 @@ class LevelCut {
   }
 
   void cut(RawGroup& below) {
+    // The function is looked at once for each node of the body, as each look is a search for the nearest
+    // face.
     for (std::size_t i = 0; i < mesh_.x.size(); ++i)
       if (!around_[i].empty()) value_[i] = level_(mesh_.x[i]);
+    // The order matters: edges are split while nodes stand where the mesher had them, planes are found in the
+    // split mesh, and nodes move last, since a moved node changes both.
     split_edges_across();
     find_planes();
     draw_nodes_onto_surface();
@@ -90,10 +95,12 @@ class LevelCut {
       for (std::size_t e = 0; e < block.nodes.size(); e += n) {
         Corners tet;
         std::copy_n(block.nodes.begin() + static_cast<std::ptrdiff_t>(e), 4, tet.begin());
+        // The lists of elements around each node make moving and splitting a matter of the neighbourhood.
         for (const Index node : tet) around_[at(node)].push_back(tets_.size());
         tets_.push_back(upright(tet));
       }
     }
+    // New nodes and elements get numbers beyond all that the file has, so that no number names two things.
     last_node_ = *std::ranges::max_element(mesh_.input_node);
     for (const auto& [name, group] : mesh_.groups)
       for (const RawBlock& block : group.blocks)
@@ -107,6 +114,7 @@ class LevelCut {
     return mean_ratio(mesh_.x[at(t[0])], mesh_.x[at(t[1])], mesh_.x[at(t[2])], mesh_.x[at(t[3])]);
   }
   Corners upright(Corners tet) const {
+    // The mesh may have elements that are inside out; two corners that change places set them right.
     if (volume(tet) < 0) std::swap(tet[2], tet[3]);
     return tet;
   }
@@ -115,6 +123,7 @@ class LevelCut {
   void find_held_nodes(const std::string& body) {
     held_.assign(mesh_.x.size(), 0);
     for (const auto& [name, group] : mesh_.groups) {
+      // The body's own elements do not hold it, or nothing could move.
       if (name == body) continue;
       for (const RawBlock& block : group.blocks) {
         const auto n = static_cast<std::size_t>(node_count(block.shape));
@@ -136,11 +145,14 @@ class LevelCut {
   void split_edges_across() {
     constexpr int k_passes = 3;
     constexpr double k_well = 0.1;  // of the edge
+    // A split edge has halves that may reach across in their turn, which the next pass finds.
     for (int pass = 0; pass < k_passes; ++pass) {
       std::set<Edge> across;
       for (const Corners& tet : tets_)
         for (const auto& e : k_edges) {
           const Edge edge = edge_key(tet[e[0]], tet[e[1]]);
+          // Held edges are left alone: a node in one would stand in the face of another group that does not
+          // have it.
           if (value_[at(edge.first)] * value_[at(edge.second)] <= 0 || held_edges_.contains(edge)) continue;
           const Point &a = mesh_.x[at(edge.first)], &b = mesh_.x[at(edge.second)];
           const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
@@ -155,14 +167,19 @@ class LevelCut {
   }
   void split_edge(const Edge& edge) {
     const auto [a, b] = edge;
+    // The new node belongs to no other group; it gets its value at once, for the next pass reads it.
     const Index middle = add_node(between(mesh_.x[at(a)], mesh_.x[at(b)], 0.5));
     value_.push_back(level_(mesh_.x.back()));
     held_.push_back(0);
     around_.emplace_back();
+    // Every element at the edge is in the lists of both ends: the first end keeps its elements, and the
+    // second one trades each of them for the new half.
     const std::vector<std::size_t> with_a = around_[at(a)];
     for (const std::size_t t : with_a) {
       if (std::ranges::find(tets_[t], b) == tets_[t].end()) continue;
       Corners other = tets_[t];
+      // Each element at the edge becomes two: the old one keeps the first end, the new one the second, and
+      // both get the middle.
       std::ranges::replace(tets_[t], b, middle);
       std::ranges::replace(other, a, middle);
       std::erase(around_[at(b)], t);
@@ -174,6 +191,7 @@ class LevelCut {
 
   /// Nodes on the outside of the mesh stay in the planes of the faces that they are in.
   void find_planes() {
+    // A face that one element alone has is on the outside of the body.
     std::map<std::array<Index, 3>, int> count;
     constexpr std::array<std::array<std::size_t, 3>, 4> k_faces = {
         {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
@@ -199,6 +217,8 @@ class LevelCut {
     if (held_[at(node)] != 0) return false;
     const auto planes = planes_.find(node);
     if (planes == planes_.end()) return true;
+    // A step is allowed if it stays in all planes around the node, up to rounding in proportion to its
+    // length: on an edge of the outside that leaves its direction, in a corner none.
     const double length = std::hypot(along[0], along[1], along[2]);
     return std::ranges::all_of(planes->second, [&](const Point& n) {
       return std::abs(n[0] * along[0] + n[1] * along[1] + n[2] * along[2]) <= k_in_plane * length;
@@ -209,6 +229,8 @@ class LevelCut {
   double crossing(Index below, Index above) const {
     constexpr int k_halvings = 20;
     double low = 0, high = 1;
+    // After twenty halvings the place is known to a millionth of the edge, which is far below the size of any
+    // element.
     for (int i = 0; i < k_halvings; ++i) {
       const double middle = 0.5 * (low + high);
       (level_(between(mesh_.x[at(below)], mesh_.x[at(above)], middle)) < 0 ? low : high) = middle;
@@ -223,11 +245,13 @@ class LevelCut {
     for (std::size_t i = 0; i < mesh_.x.size(); ++i) {
       const auto node = static_cast<Index>(i);
       if (around_[i].empty() || held_[i] != 0 || value_[i] == 0) continue;
+      // Beyond this share of the edge a node would go too far: the edge is cut in place of that.
       double nearest = k_near;
       Point place = mesh_.x[i];
       std::set<Index> seen;
       for (const std::size_t t : around_[i])
         for (const Index other : tets_[t]) {
+          // Only edges that the surface crosses count, each of them once.
           if (value_[at(other)] * value_[i] >= 0 || !seen.insert(other).second) continue;
           const bool is_below = value_[i] < 0;
           const double t_below = is_below ? crossing(node, other) : crossing(other, node);
@@ -237,6 +261,8 @@ class LevelCut {
           if (share < nearest && may_go(node, along)) nearest = share, place = there;
         }
       if (nearest == k_near) continue;
+      // The node is moved for a trial; if an element around it becomes poor, it goes back and its edges are
+      // cut.
       const Point before = std::exchange(mesh_.x[i], place);
       const bool sound = std::ranges::all_of(
           around_[i], [&](std::size_t t) { return quality(tets_[t]) >= k_least_quality; });
@@ -249,6 +275,8 @@ class LevelCut {
 
   /// The node in which the surface crosses an edge: the lower end where that lies on it.
   Index cut_node(Index below, Index above) {
+    // A node that lies on the surface counts as below; two elements at one edge share the node that cuts it,
+    // so that no gap opens.
     if (value_[at(below)] == 0) return below;
     const auto [place, is_new] = cut_nodes_.emplace(edge_key(below, above), -1);
     if (is_new) {
@@ -268,6 +296,8 @@ class LevelCut {
     std::vector<Index> below, above;
     bool any_below = false;
     for (const Index node : tet) {
+      // A node on the surface can go with either side, and so it is a node below that decides whether the
+      // element is cut.
       any_below = any_below || value_[at(node)] < 0;
       (value_[at(node)] <= 0 ? below : above).push_back(node);
     }
@@ -303,6 +333,8 @@ class LevelCut {
   }
   /// Elements of which two vertices are one have no volume.
   void keep(std::vector<Corners>& side, const Corners& tet) {
+    // Such elements come from nodes that lie on the surface themselves, and their neighbours close the space
+    // without them.
     for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t b = 0; b < a; ++b)
         if (tet[a] == tet[b]) return;
@@ -315,6 +347,7 @@ class LevelCut {
   /// The nodes in the middles of the edges of all second-order tetrahedra, as they were.
   void find_middles() {
     if (order_ == 1) return;
+    // Middles of all groups are known first, so that faces of other groups keep the nodes that they have.
     for (const auto& [name, group] : mesh_.groups)
       for (const RawBlock& block : group.blocks) {
         if (block.shape != Shape::tet10) continue;
@@ -329,6 +362,7 @@ class LevelCut {
         mesh_.x[at(node)] = between(mesh_.x[at(edge.first)], mesh_.x[at(edge.second)], 0.5);
   }
   Index middle(Index a, Index b) {
+    // An edge that is new gets its middle once, for all elements around it.
     const auto [place, is_new] = middles_.emplace(edge_key(a, b), -1);
     if (is_new) place->second = add_node(between(mesh_.x[at(a)], mesh_.x[at(b)], 0.5));
     return place->second;
@@ -342,6 +376,8 @@ class LevelCut {
         block.nodes.push_back(middle(tet[k_edges[k][0]], tet[k_edges[k][1]]));
       block.input_element.push_back(++last_element_);
     }
+    // The upper side takes the place of the body; the lower one is added to a group that may hold another
+    // part already.
     if (!adds) group.blocks.clear();
     group.dimension = 3;
     if (!block.nodes.empty()) group.blocks.push_back(std::move(block));

@@ -30,6 +30,8 @@ void leave_out_lower_elements(RawMesh& mesh, const std::vector<char>& used) {
   for (const auto& [name, group] : mesh.groups)
     if (group.dimension == mesh.dimension) bodies.push_back(name);
   FaceOwners owners;
+  // The faces that are asked for go in first, so that only their owners are looked for and not those of all
+  // faces.
   for_all_elements(mesh, [&](const RawGroup& group, const RawBlock& block, const Index* nodes, std::size_t) {
     if (group.dimension == mesh.dimension - 1)
       owners.emplace(face_key(nodes, vertex_count(block.shape)), FaceOwner{});
@@ -39,9 +41,12 @@ void leave_out_lower_elements(RawMesh& mesh, const std::vector<char>& used) {
     if (group.dimension == mesh.dimension) continue;
     for (RawBlock& block : group.blocks) {
       const auto n = static_cast<std::size_t>(node_count(block.shape));
+      // Elements that stay keep their order and their numbers from the file.
       RawBlock kept{block.shape, {}, {}};
       for (std::size_t e = 0; e < block.nodes.size(); e += n) {
         const Index* nodes = block.nodes.data() + e;
+        // A face needs a body that has it as a face: its nodes alone may all be used while the body beside it
+        // is gone.
         const bool stays =
             group.dimension == mesh.dimension - 1
                 ? owners.at(face_key(nodes, vertex_count(block.shape))).body >= 0
@@ -59,6 +64,7 @@ void leave_out_lower_elements(RawMesh& mesh, const std::vector<char>& used) {
 void leave_out_nodes(RawMesh& mesh, const std::vector<char>& used) {
   std::vector<Index> renumbered(mesh.x.size(), -1);
   std::size_t n = 0;
+  // New numbers are never larger than old ones, so that the nodes move within their own array.
   for (std::size_t i = 0; i < mesh.x.size(); ++i) {
     if (used[i] == 0) continue;
     renumbered[i] = static_cast<Index>(n);
@@ -70,6 +76,7 @@ void leave_out_nodes(RawMesh& mesh, const std::vector<char>& used) {
   for (auto& [name, group] : mesh.groups)
     for (RawBlock& block : group.blocks)
       for (Index& node : block.nodes) node = renumbered[at(node)];
+  // A facet of a drawn face goes as soon as one of its nodes does; −1 stands where a facet has fewer corners.
   for (DrawnFace& face : mesh.drawn_faces) {
     std::erase_if(face.facets, [&](const std::array<Index, 4>& facet) {
       return std::ranges::any_of(facet, [&](Index v) { return v >= 0 && renumbered[at(v)] < 0; });
@@ -82,6 +89,7 @@ void leave_out_nodes(RawMesh& mesh, const std::vector<char>& used) {
 }  // namespace
 
 void leave_out_unused(RawMesh& mesh) {
+  // Nodes of bodies alone count as used: a surface whose body is gone must not keep its nodes alive.
   std::vector<char> used(mesh.x.size(), 0);
   for_all_elements(mesh, [&](const RawGroup& group, const RawBlock&, const Index* nodes, std::size_t n) {
     for (std::size_t a = 0; group.dimension == mesh.dimension && a < n; ++a) used[at(nodes[a])] = 1;
