@@ -69,6 +69,7 @@ DieChannel bore(const std::vector<const SkinFace*>& part, double radius) {
   Eigen::Vector3d centre{0, 0, 0}, normals{0, 0, 0};
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const SkinFace* face : part) {
+    // Sums over the facets weigh each by its area, so that the division of the mesh does not count.
     const Eigen::Vector3d n = vector(face->normal);
     area += face->area;
     centre += face->area * vector(face->centre);
@@ -76,6 +77,7 @@ DieChannel bore(const std::vector<const SkinFace*>& part, double radius) {
     spread += face->area * n * n.transpose();
   }
   centre /= area;
+  // A part of a tube, such as a fillet, has normals that add up to something.
   if (normals.norm() > k_closed * area) return {};
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> directions(spread);  // the least one first
   const Eigen::Vector3d axis = directions.eigenvectors().col(0);
@@ -86,6 +88,7 @@ DieChannel bore(const std::vector<const SkinFace*>& part, double radius) {
       low = std::min(low, along), high = std::max(high, along);
     }
   }
+  // Where normals look away from the axis, the part is a pin and no bore.
   if (inward <= 0) return {};
   DieChannel channel;
   channel.place = part.front()->centre;
@@ -131,11 +134,13 @@ std::vector<DieChannel> die_channels(const mesh::RawMesh& mesh, const std::strin
 
 double speed_of_water(double diameter) {
   constexpr double k_usual = 1, k_turbulent = 1e4;
+  // Water in bores runs at a metre in a second, or as fast as it takes to be turbulent [m/s].
   return std::max(k_usual, k_turbulent * k_viscosity / diameter);
 }
 
 double film_of_water(double diameter) {
   constexpr double k_conductivity = 0.615, k_prandtl = 5.4;  // at 30 °C
+  // The formula of Dittus and Boelter holds for turbulent flow, which the speed makes certain.
   const double reynolds = speed_of_water(diameter) * diameter / k_viscosity;
   return 0.023 * std::pow(reynolds, 0.8) * std::pow(k_prandtl, 0.4) * k_conductivity / diameter;
 }

@@ -27,6 +27,7 @@ class Choice {
     // sizes from the walls, symmetry and riser, then bodies and mould.
     draft_.meshed = part_.meshed;
     draft_.geometry = options_.geometry;
+    // The unit of the file itself is not repeated in the case, for two statements of it could disagree.
     if (!part_.file_unit) draft_.unit = options_.unit.empty() ? "mm" : options_.unit;
     draft_.process = process_.name;
     draft_.alloy = options_.alloy;
@@ -82,6 +83,8 @@ class Choice {
     double& c = x[static_cast<std::size_t>(draft_.symmetry->axis)];
     const double at = draft_.symmetry->at, near = 0.1 * thickest_;
     if (c > at) c = 2 * at - c;
+    // A place that is nearly on the plane is moved close to it, so that a probe and its image are not two
+    // points beside each other.
     if (at - c < near) c = at - inside * thickest_;
   }
 
@@ -113,6 +116,8 @@ class Choice {
   void choose_sizes(double scale) {
     constexpr double k_nodes = 3500, k_nodes_per_cube = 3, k_nodes_of_skin = 6000, k_nodes_per_square = 1.15;
     const double half = options_.symmetry.empty() ? 1 : 0.5;
+    // The number of elements falls with the cube of their size and that of the skin with its square; a
+    // fineness of two halves the size.
     const double by_number = std::cbrt(k_nodes_per_cube * half * part_.volume / k_nodes) / options_.fineness;
     const double by_skin =
         std::sqrt(k_nodes_per_square * half * part_.area / k_nodes_of_skin) / options_.fineness;
@@ -142,6 +147,7 @@ class Choice {
       body.role = role;
       describe(draft_, process_, body);
     };
+    // Risers, sleeves and chills follow the bodies of the file, each as a body with a role of its own.
     for (const DraftRiser& riser : draft_.risers) add(riser.name, cases::Role::riser);
     for (const DraftRiser& riser : draft_.risers)
       if (riser.sleeve > 0) add(riser.name + "_sleeve", cases::Role::sleeve);
@@ -159,6 +165,7 @@ class Choice {
     const double wall =
         of_wall(shell > 0 ? k_room_of_shell * shell : std::max(least, process_.walls * thickest_));
     mould.walls.fill(wall);
+    // At the plane of symmetry and at an open top there is no wall, because the mould ends there.
     if (draft_.symmetry) mould.walls[2 * static_cast<std::size_t>(draft_.symmetry->axis) + 1] = 0;
     if (riser_on_top() || ends_in_a_riser()) mould.walls[5] = 0;  // open at the top
     DraftBody& body = draft_.bodies.emplace_back();
@@ -167,6 +174,8 @@ class Choice {
     body.role = process_.mould;
     describe(draft_, process_, body);
     draft_.law = process_.law;
+    // The shell replaces the block in the draft, after which the size of the block's elements is that of the
+    // shell.
     if (shell > 0) choose_shell(shell, body);
     // Away from the metal elements grow with the wall that they fill, not with the part.
     if (!draft_.shell)
@@ -185,6 +194,7 @@ class Choice {
 
   /// Chosen here, or given in a file.
   void choose_feeders() {
+    // A second riser for a thick place that has one would stand in the first.
     if (part_.has_riser()) throw InputError({"--riser"}, "the geometry has a riser already", "no --riser");
     if (options_.riser) {
       RiserChoice choice = choose_risers(part_, std::abs(alloy_.solidification()->volume_change),
@@ -197,6 +207,8 @@ class Choice {
       draft_.risers = std::move(given.risers);
       draft_.chills = std::move(given.chills);
     }
+    // A riser that is thicker than the part freezes last, and the mould has to be as wide as heat gets until
+    // then.
     for (const DraftRiser& riser : draft_.risers) thickest_ = std::max(thickest_, riser.diameter);
   }
 
@@ -224,6 +236,7 @@ class Choice {
       double& high = body.role == cases::Role::riser || body.role == cases::Role::gating ? riser : other;
       if (cases::is_poured(body.role)) high = std::max(high, body.extent.high[2]);
     }
+    // Tops that differ by a thousandth of the height count as equal, since the extents are those of facets.
     const double top = part_.high[2], near = 1e-3 * (top - part_.low[2]);
     return process_.mould == cases::Role::mould && riser > top - near && other < riser - near;
   }

@@ -47,6 +47,7 @@ std::vector<DraftLayers> choose_layers(const Draft& draft, const std::vector<Hea
     one.name = wall.body + "_on_" + wall.poured;
     one.surface = wall.surface;
     one.body = body->group;
+    // All heated walls of a body draw on the same volume, so that a thin core is not filled from two sides.
     double heated = 0;
     for (const HeatedWall& other : walls)
       if (other.body == wall.body) heated += other.area;
@@ -58,6 +59,8 @@ std::vector<DraftLayers> choose_layers(const Draft& draft, const std::vector<Hea
     one.number =
         static_cast<int>(std::lround(std::min(k_most, (in_shell ? k_number_in_shell : k_number) * finer)));
     one.growth = std::round(1e3 * std::pow(k_growth, 1 / finer)) / 1e3;
+    // With growth q and number n the first thickness is depth (q − 1) / (qⁿ − 1); finer layers grow as much
+    // over the same depth.
     one.first = two_digits(depth * (one.growth - 1) / (std::pow(one.growth, one.number) - 1));
   }
   return layers;

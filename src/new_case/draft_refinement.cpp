@@ -84,6 +84,7 @@ class Refinement {
     // Meshes, overlaps and messages of the many tries are kept from the user until the last one.
     mesh::KeptMesh kept;  // the case is built again and again, often with the same elements
     const OverlapListener listener(estimate_.overlap);
+    // The log is quiet from here on, or each try would print the warnings of a draft that nobody gets to see.
     const QuietLog quiet;
     kept.leave_to_direct_ways(time_of_direct_ways_);
     try {
@@ -111,6 +112,7 @@ class Refinement {
       // Every run would try the same ways again.
       if (const auto way = kept.way(); way && (way->number > 0 || way->quality < mesh::k_sound_quality)) {
         draft_.way = way->number + 1;
+        // The way that was found is written down, so that a run of the case begins with it.
         write_draft(draft_);
       }
       // A mesh that stayed poor is told in the report.
@@ -143,6 +145,7 @@ class Refinement {
 
   /// Cores in cavities are bodies that only the mesh tells of; so are the skins that nothing faces.
   void find_skins() {
+    // Cores are found in the mesh with all bodies that the draft knows of, which is therefore made first.
     mesh::RawMesh mesh = drafted_mesh();
     bool more = false;
     // A body that the draft does not know is a core; with it the mesh is made again.
@@ -198,6 +201,7 @@ class Refinement {
     heated_.clear();
     if (draft_.meshed) return;
     const std::vector<mesh::GroupReport> groups = mesh::assess(mesh).groups;
+    // Areas and volumes come from one look at the mesh, by the names of its groups.
     const auto measure = [&](const std::string& group) {
       const auto found = std::ranges::find(groups, group, &mesh::GroupReport::name);
       return found == groups.end() ? 0.0 : found->measure;
@@ -237,6 +241,8 @@ class Refinement {
     double heat = 0, outside = 0, warmer = 0;
     for (const DraftBody& body : draft_.bodies)
       if (body.role == cases::Role::die) warmer = body.start - k_ambient;
+    // Heat is counted from the pouring temperature down to well below the solidus, where the casting leaves
+    // the die; the cavity gives off some of it while the die is open.
     for (const results::PourOverview& pour : checked.overview.pours)
       for (const results::BodyOverview& body : checked.overview.bodies)
         if (body.name == pour.body)
@@ -254,6 +260,7 @@ class Refinement {
           own += has_channels(draft_, die.name) ? 0 : skin.area;
         }
     }
+    // Dies with channels of their own take the share of heat that goes with their part of the cavity.
     if (cavity > 0) heat *= own / cavity;
     if (heat <= 0 || outside <= 0 || warmer <= 0) return 0;
     return two_digits(heat / (shots.cycle() * outside * warmer));
@@ -271,6 +278,8 @@ class Refinement {
     std::vector<PouredTime> times;
     for (const results::PourOverview& pour : checked.overview.pours) {
       double own = pour.freezing_time.value_or(0), deep = pour.mould_reach;
+      // A body that would freeze much later than the castings counts with twice their time, and its depth
+      // falls with the square root, as heat spreads.
       const double most = k_outlives * of_castings;
       if (of_castings > 0 && own > most) deep *= std::sqrt(most / own), own = most;
       times.push_back({pour.body, own, pour.solidus});
@@ -331,6 +340,8 @@ class Refinement {
     constexpr double k_most = 6000, k_wanted = 3500;
     const double finer = fineness_ * fineness_ * fineness_;
     if (estimate_.metal_nodes <= k_most * finer || draft_.meshed || coarsening_is_vain_) return true;
+    // A coarser mesh that has hardly fewer nodes shows that features of the part decide their number: the
+    // finer sizes are put back.
     if (finer_ && estimate_.metal_nodes > finer_->nodes / finer_->scale) {
       draft_.size = finer_->size;
       draft_.smallest = finer_->smallest;
@@ -338,6 +349,7 @@ class Refinement {
       coarsening_is_vain_ = true;
       return false;
     }
+    // The number of nodes falls with the cube of the size.
     const double scale = std::cbrt(estimate_.metal_nodes / (k_wanted * finer));
     finer_ = {draft_.size, draft_.smallest, draft_.mould_size, estimate_.metal_nodes, scale};
     draft_.size = two_digits(draft_.size * scale);
@@ -377,6 +389,8 @@ void write_draft(const Draft& draft) {
   if (!fs::exists(copy) || !fs::equivalent(copy, draft.geometry, error))
     fs::copy_file(draft.geometry, copy, fs::copy_options::overwrite_existing, error);
   require(!error, error.message());
+  // The number of the last error is cleared, and the text is written out to the end, as a full disk is
+  // noticed only then.
   errno = 0;
   std::ofstream file(draft.folder / "case.toml");
   file << case_text(draft);

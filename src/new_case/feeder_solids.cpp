@@ -33,6 +33,8 @@ class Script {
     } else {
       upright(r, r.foot[2], top, r.diameter);
     }
+    // The sleeve is a tube: a second cylinder of the riser's width is taken out of it, from the end of the
+    // neck upwards.
     if (!(r.sleeve > 0)) return;
     upright(r, wide, top, r.diameter + 2 * r.sleeve);
     upright(r, wide, top, r.diameter);
@@ -46,6 +48,7 @@ class Script {
   const std::string& text() const { return text_; }
 
  private:
+  // Lengths of the script are in millimetres, with nine digits.
   static std::string place(const mesh::Point& x) {
     return fmt::format("{:.9g}, {:.9g}, {:.9g}", 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
   }
@@ -75,6 +78,7 @@ void write_feeder_solids(const Draft& draft, const std::filesystem::path& file) 
   Script script;
   for (const DraftRiser& riser : draft.risers) script.add(riser);
   for (const DraftChill& chill : draft.chills) script.add(chill);
+  // The path stands in quotes in the script, and a sign that ends them would let it run on as a command.
   const std::string path = std::filesystem::absolute(file).string();
   if (path.find_first_of("\"\\\n") != std::string::npos)
     throw InputError({path}, "the solids of risers cannot be written to a path with such signs",

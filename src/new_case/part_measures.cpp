@@ -55,12 +55,14 @@ PartMeasures measure_part(const NewCaseOptions& options) {
     if (body.role == cases::Role::mould || body.role == cases::Role::die) m.has_mould = true;
     if (cases::is_poured(body.role)) m.metal.push_back(body.name);
   }
+  // Elements of the file are kept only where a mould comes with them; else the mould is made around the part.
   m.meshed = meshed && m.has_mould;
   for (std::size_t i = 0; i < 3; ++i) {
     m.low[i] = 1e300, m.high[i] = -1e300;
     for (const setup::GeometryBody& body : m.bodies)
       m.low[i] = std::min(m.low[i], body.extent.low[i]), m.high[i] = std::max(m.high[i], body.extent.high[i]);
   }
+  // Walls are measured for what is poured, as it alone decides sizes and times.
   for (const setup::GeometryBody& body : m.bodies)
     if (cases::is_poured(body.role)) {
       m.volume += body.extent.volume;

@@ -81,6 +81,7 @@ double area_in(const std::vector<std::array<mesh::Point, 3>>& triangles, const m
                                 (t[0][2] + t[1][2] + t[2][2]) / 3};
     double far = 0;
     for (const mesh::Point& corner : t) far = std::max(far, distance(corner, middle));
+    // Triangles that are out of reach altogether are passed over, which are most of them.
     if (distance(middle, centre) > radius + far) continue;
     mesh::Point u{}, v{};
     for (std::size_t i = 0; i < 3; ++i) u[i] = t[1][i] - t[0][i], v[i] = t[2][i] - t[0][i];
@@ -105,6 +106,9 @@ double area_in(const std::vector<std::array<mesh::Point, 3>>& triangles, const m
 }
 
 double Choice::modulus_of(const InscribedSphere& place) const {
+  // The modulus of a place is the volume of metal over its cooled skin, both within a ball of twice the
+  // radius of the place. A sphere has a third of its radius, and a plate all of half its thickness, between
+  // which it must lie.
   const double radius = 2 * place.radius, area = area_in(view_.faces(), place.centre, radius);
   if (!(area > 0)) return place.radius;
   return std::clamp(grid_.volume_in(place.centre, radius) / area, place.radius / 3, place.radius);
@@ -118,6 +122,8 @@ std::vector<Group> Choice::groups() const {
       double& x = place.centre[static_cast<std::size_t>(symmetry_->axis)];
       x = std::min(x, 2 * symmetry_->at - x);
     }
+    // A place joins the group from whose thickest place a way leads that is nearly as wide as itself; without
+    // one it begins a group of its own, and gets a riser.
     const std::size_t cube = grid_.cube_at(place.centre);
     const auto open = [&](const Group& group) { return group.widest[cube] >= k_open * grid_.depth(cube); };
     if (const auto found = std::ranges::find_if(groups, open); found != groups.end())
@@ -152,8 +158,11 @@ DraftRiser Choice::riser_on(const InscribedSphere& place, double diameter, int f
 
 void Choice::put(const InscribedSphere& place, double modulus, int fixed) {
   constexpr double k_clear = 0.55;  // of the sum of the diameters
+  // The diameter follows from the modulus alone here; the metal that the riser has to feed is known when all
+  // risers stand.
   DraftRiser riser = riser_on(place, riser_diameter(modulus, 0, shrinkage_), fixed);
   riser.modulus = modulus;
+  // Two that would touch or overlap are one lump of metal: the second is left out and told to the user.
   for (const DraftRiser& other : choice_.risers)
     if (std::hypot(riser.foot[0] - other.foot[0], riser.foot[1] - other.foot[1]) <
         k_clear * (riser.diameter + other.diameter)) {
@@ -195,6 +204,7 @@ void Choice::put_on(const Group& group) {
 
 std::vector<mesh::WayStart> Choice::feet() const {
   std::vector<mesh::WayStart> starts;
+  // Ways begin under the foot, within half of the diameter and a quarter of it in depth.
   for (const DraftRiser& r : choice_.risers) starts.push_back({r.foot, 0.5 * r.diameter, 0.25 * r.diameter});
   if (!symmetry_) return starts;
   for (const DraftRiser& r : choice_.risers) {
@@ -234,6 +244,7 @@ void Choice::put_where_too_far() {
     const std::size_t before = choice_.risers.size();
     const InscribedSphere place{grid_.centre(best), grid_.depth(best)};
     put(place, modulus_of(place), symmetry_ ? symmetry_->axis : -1);
+    // A riser that found no room would be tried again for ever.
     if (choice_.risers.size() == before) return;
   }
 }
@@ -256,6 +267,7 @@ void Choice::give_metal() {
     // The start of a riser on the plane is found before its image, and has both halves.
     const double share = counted > 0 ? metal[i] / static_cast<double>(counted) : 1.0 / static_cast<double>(n);
     const double diameter = riser_diameter(riser.modulus, share * part_.volume, shrinkage_);
+    // A riser only grows by the metal that it feeds, for its modulus asks for its diameter in any case.
     if (diameter <= riser.diameter) continue;
     const DraftRiser wider = riser_on(stands_on_[i].first, diameter, stands_on_[i].second);
     const double modulus = riser.modulus;

@@ -61,10 +61,12 @@ double misfit(const mesh::ViewFromAbove& view, const mesh::Point& centre, double
   double hanging = 0, raised = 0;
   for (const double share : {0.4, 0.8, k_distance})
     for (int i = 0; i < k_directions; ++i) {
+      // Three rings of points tell the ground within the foot, near its edge and just beside it.
       const double angle = 2 * std::numbers::pi * i / k_directions, r = 0.5 * diameter * share;
       const mesh::Point below = {centre[0] + r * std::cos(angle), centre[1] + r * std::sin(angle), -1e3};
       const double step = (view.top(below) - centre[2]) / diameter;
       if (step > k_level) ++raised;
+      // Beside the foot a step down does no harm.
       if (share < 1 && step < -k_level) ++hanging;
     }
   return (k_raised * raised + hanging) / k_directions;
@@ -79,6 +81,7 @@ mesh::Point standing_place(const mesh::ViewFromAbove& view, const mesh::Point& p
   constexpr int k_shifts = 8, k_directions = 16;
   constexpr double k_near = 0.5;  // a foot that is moved by its diameter is worth a misfit of so much
   mesh::Point best = place;
+  // The way to the place counts as well, so that a riser goes aside only for a better stand.
   double least = misfit(view, place, diameter);
   // The middle of a boss is better than any other place that is no worse to stand on.
   if (const std::optional<mesh::Point> middle = middle_of_ground(view, place, diameter);
@@ -118,6 +121,7 @@ double lowest_under(const mesh::ViewFromAbove& view, const mesh::Point& centre, 
 
 std::optional<double> hollow_above(const mesh::ViewFromAbove& view, const mesh::InscribedSphere& place) {
   constexpr double k_thin = 0.1;  // of the diameter of the place
+  // From the centre of the place upwards: where metal ends for the first time, and where it begins again.
   const double exit = view.first_exit(place.centre);
   const double entry = view.first_exit({place.centre[0], place.centre[1], exit + 1e-6 * place.radius});
   if (!(entry - exit > k_thin * 2 * place.radius)) return {};
@@ -133,6 +137,7 @@ double riser_diameter(double modulus, double metal, double shrinkage) {
   constexpr double k_yield = 0.14;
   const double needed = shrinkage * metal / std::max(k_yield - shrinkage, 0.02);
   const double by_metal = std::cbrt(needed / (0.25 * std::numbers::pi * k_slender_riser));
+  // The larger of the two diameters satisfies both conditions, and whole millimetres are what patterns have.
   return rounded_up(std::max(by_modulus, by_metal), 1e-3);
 }
 
