@@ -24,7 +24,7 @@ struct Candidates {
 };
 
 Candidates candidates(const std::string& value, const CommandTree& tree, const KnownWords& known) {
-  // What is placed for the value in the help says what may follow: keys, materials, verbs, or
+  // The placeholder of the value in the help says which completions may follow: keys, materials, verbs, or
   // files.
   using Kind = Candidates::Kind;
   if (value == "KEY") return {Kind::words, known.keys};

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t k_most = 1024;  // processes
 constexpr std::array k_forwarded = {SIGINT, SIGTERM, SIGUSR1, SIGHUP, SIGQUIT, SIGTSTP};
 
-// What a handler of signals may read.
+// A handler of signals may read these alone.
 std::array<std::atomic<pid_t>, k_most> receivers;
 std::atomic<std::size_t> n_receivers = 0;
 std::atomic<int> last_signal = 0, n_signals = 0;

@@ -75,7 +75,7 @@ class Mpirun {
   void end();
   /// Waits for its end, as waitpid(2) tells it.
   int wait();
-  /// What it has said, in one line.
+  /// The text that it has printed, in one line.
   std::string said() const;
 
  private:
@@ -179,7 +179,7 @@ std::string Mpirun::said() const {
 std::vector<std::string> environment_of_processes(const std::string& meeting) {
   std::vector<std::string> all = kept_environment();
   all.push_back(fmt::format("{}={}", k_launcher_variable, meeting));
-  // Who may run one process as root may run two.
+  // A user who may run one process as root may run two.
   if (geteuid() == 0)
     for (const char* allow : {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"})
       all.emplace_back(allow);
@@ -212,8 +212,8 @@ std::string gather(int n, const Descriptor& meeting, Mpirun& mpirun, std::vector
                          said.empty() ? "" : ": ", said);
     }
     if (waiting[0].revents == 0) continue;
-    // Whoever connects is asked for its user by the system, so that no stranger gets a hand on the output or
-    // the mesh.
+    // The system tells the user of each process that connects, so that no stranger gets a hand on the output
+    // or the mesh.
     Member member{Descriptor(::accept4(meeting.number(), nullptr, nullptr, SOCK_CLOEXEC))};
     const std::optional<pid_t> pid = process_behind(member.connection);
     if (!pid) continue;

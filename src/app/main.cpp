@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
     listen_to_signals();
     mesh::give_up_reading_when(stop_asked);
   }
-  // What is kept here must be read before libraries change the environment.
+  // Libraries may change the environment, so it is read before they start.
   keep_environment();
   keep_arguments(argc, argv);
   profile::begin();
