@@ -86,10 +86,10 @@ void StepSensitivity::begin(ThermalPhase& phase, const Stage& stage, const Therm
                             const ThermalState& before, const ThermalState& now) {
   // Both phases of a pair have to see the same window of loads and the same limits, else the difference of
   // their residuals would hold jumps of a switch in place of a derivative.
-  phase.system_->exchange(true);
+  phase.system_->parts().exchanges = true;
   phase.system_->set_window(stage.loads);
   phase.limit_conduction(before, old);
-  phase.system_->find_limits(now.temperature);
+  phase.system_->limits().find(now.temperature);
 }
 
 /// f += F of a stage that ends in `end`.
@@ -130,7 +130,8 @@ void StepSensitivity::advance_stage(const Stage& stage, const ThermalState& old,
       add_residual(*neighbour.phase, stage, *neighbour.old, neighbour.before, end, f);
       // Only what the neighbour's residual has more than the run's counts, and rows of prescribed
       // temperatures have none.
-      for (std::size_t i = 0; i < n; ++i) f[i] = phase_.system_->fixed()[i] ? 0.0 : f[i] - left[i];
+      for (std::size_t i = 0; i < n; ++i)
+        f[i] = phase_.system_->parts().prescribed.fixed()[i] ? 0.0 : f[i] - left[i];
       const double size = std::sqrt(dot(f, f));
       if (k == 0) at_first = size;
       // Corrections end when the rest is of second order in the change, or when they gain nothing: the
@@ -158,9 +159,9 @@ ThermalState StepSensitivity::guess(const ThermalPhase& phase, const ThermalStat
   // Prescribed temperatures go in last, since the neighbour may prescribe others, and heat has to stay within
   // the range of its curve at such a temperature.
   phase.ghosts_.update(end.temperature, 1);
-  phase.system_->prescribe(end.temperature);
+  phase.system_->parts().prescribed.prescribe(end.temperature);
   for (Index i = 0; i < phase.mesh_.n_owned_nodes; ++i)
-    if (phase.system_->fixed()[at(i)])
+    if (phase.system_->parts().prescribed.fixed()[at(i)])
       end.enthalpy[at(i)] = std::clamp(now.enthalpy[at(i)], phase.storage_->lower(i, end.temperature[at(i)]),
                                        phase.storage_->upper(i, end.temperature[at(i)]));
   return end;
@@ -170,7 +171,7 @@ ThermalState StepSensitivity::guess(const ThermalPhase& phase, const ThermalStat
 void StepSensitivity::linearise(const Stage& stage, const ThermalState& now) {
   HeatSystem& system = *phase_.system_;
   const NodalEnthalpy& storage = *phase_.storage_;
-  const NodalPotential& potential = system.potential();
+  const NodalPotential& potential = system.parts().elements.nodal();
   const std::size_t n = at(phase_.mesh_.n_owned_nodes);
   // The unknown is a potential v of the temperature Θ, in which conduction is nearly symmetric. Its slope
   // dv/dΘ turns steps of v into those of Θ; ghosts need it for the rows at seams.
@@ -189,7 +190,7 @@ void StepSensitivity::linearise(const Stage& stage, const ThermalState& now) {
     const auto node = static_cast<Index>(i);
     double& diagonal = *system.matrix().diagonal_block(node);
     to_heat_[i] = storage.slope(node, now.enthalpy[i]) * slope_[i];
-    held_[i] = to_heat_[i] == 0.0 || system.fixed()[i] ? 1 : 0;
+    held_[i] = to_heat_[i] == 0.0 || system.parts().prescribed.fixed()[i] ? 1 : 0;
     const double rate =
         to_heat_[i] == 0.0 ? storage.capacity(node, now.temperature[i]) / slope_[i] : 1.0 / to_heat_[i];
     if (to_heat_[i] == 0.0)
@@ -206,7 +207,7 @@ void StepSensitivity::multiply(std::vector<double>& step, std::vector<double>& p
   // The matrix stands for its symmetric part alone, and the rest of the tangent is added to the product entry
   // by entry.
   phase_.system_->matrix().multiply(step, product);
-  for (const HeatSystem::Entry& e : phase_.system_->unsymmetric_part())
+  for (const UnsymmetricPart::Entry& e : phase_.system_->parts().unsymmetric.entries())
     product[at(e.row)] += e.value * step[at(e.column)];
   for (std::size_t i = 0; i < held_.size(); ++i)
     if (held_[i]) product[i] = 0;
@@ -220,7 +221,7 @@ bool StepSensitivity::factorise() {
   const bool small = held_.size() == slope_.size() && held_.size() <= k_most_factorised;
   if (!small || parallel::global_sum(1.0) > 1) return false;
   std::vector<linear::SparseFactors::Entry> further;
-  for (const HeatSystem::Entry& e : phase_.system_->unsymmetric_part())
+  for (const UnsymmetricPart::Entry& e : phase_.system_->parts().unsymmetric.entries())
     further.push_back({e.row, e.column, e.value});
   return factors_.factorise(phase_.system_->matrix(), further, held_);
 }
@@ -295,15 +296,15 @@ void StepSensitivity::follow(const Stage& stage, std::span<const double> f, std:
                              ThermalState& end) const {
   // The products are needed without the rows of plateaus set to zero, for these are the rows that tell how
   // much heat such a node takes up.
-  const HeatSystem& system = *phase_.system_;
+  HeatSystem& system = *phase_.system_;
   std::vector<double> product(held_.size());
   phase_.system_->matrix().multiply(step, product);
-  for (const HeatSystem::Entry& e : system.unsymmetric_part())
+  for (const UnsymmetricPart::Entry& e : system.parts().unsymmetric.entries())
     product[at(e.row)] += e.value * step[at(e.column)];
   for (std::size_t i = 0; i < held_.size(); ++i) {
     // Prescribed nodes have their end already; a node on a plateau takes the heat that the balance leaves at
     // its fixed temperature, all others move along their curves.
-    if (system.fixed()[i]) continue;
+    if (system.parts().prescribed.fixed()[i]) continue;
     if (held_[i]) {
       end.enthalpy[i] -= stage.dt * (f[i] + product[i]);
     } else {

@@ -28,7 +28,7 @@ std::size_t at(Index i) {
 CarriedHeat ThermalPhase::set_conditions(const ThermalConditions& conditions, ThermalState* state,
                                          const std::function<double(Index, int)>& fresh) {
   // Bodies that come need their heat; if none comes or goes only the factors of the solver are forgotten.
-  const linear::ActiveSet before = system_->active(), now(mesh_, conditions.absent_bodies);
+  const linear::ActiveSet before = system_->parts().elements.active(), now(mesh_, conditions.absent_bodies);
   for (int body = 0; body < static_cast<int>(materials_.size()); ++body)
     if (now.body(body) && !before.body(body) && !fresh)
       throw std::invalid_argument("a body that comes back needs its heat");
@@ -98,7 +98,7 @@ double ThermalPhase::heat_content(const ThermalState& state) const {
 }
 
 void ThermalPhase::change_bodies(const linear::ActiveSet& before) {
-  const linear::ActiveSet& now = system_->active();
+  const linear::ActiveSet& now = system_->parts().elements.active();
   storage_->set_active(now);
   if (at_nodes_) at_nodes_->set_active(now);
   if (consistent_) consistent_->set_active(now);

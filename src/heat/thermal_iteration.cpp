@@ -58,7 +58,7 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
   // limits of conduction are found for it.
   old_ = &old;
   dt_ = dt;
-  phase_.system_->exchange(true);
+  phase_.system_->parts().exchanges = true;
   if (phase_.printed_) phase_.printed_->begin_stage({dt, factor}, old.temperature);
   if (phase_.consistent_) {
     phase_.consistent_->begin_stage({dt}, old.temperature);
@@ -94,10 +94,10 @@ void ThermalIteration::restart(const ThermalState& state) {
 bool ThermalIteration::may_extrapolate(const ThermalState& old, const ThermalState& stage,
                                        const LoadWindow& loads) {
   if (!nodal()) return true;
-  TemperatureRange around = phase_.system_->surroundings();  // at the end of the first stage
+  TemperatureRange around = phase_.system_->limits().surroundings();  // at the end of the first stage
   phase_.system_->set_window(loads);
   // The range of surroundings over the whole step, with some room for deformation.
-  const TemperatureRange at_end = phase_.system_->surroundings();
+  const TemperatureRange at_end = phase_.system_->limits().surroundings();
   around = {std::min({around.lowest, at_end.lowest, at_start_.lowest}),
             std::max({around.highest, at_end.highest, at_start_.highest})};
   const double by_deformation =
@@ -120,19 +120,20 @@ void ThermalIteration::evaluate() {
   phase_.temperature_system_->residual(now_.temperature, residual_);
   double sum = 0;
   for (std::size_t i = 0; i < residual_.size(); ++i)
-    if (!phase_.system_->fixed()[i]) sum += std::abs(residual_[i]);
+    if (!phase_.system_->parts().prescribed.fixed()[i]) sum += std::abs(residual_[i]);
   unbalanced_ = parallel::global_sum(sum);
 }
 
 bool ThermalIteration::revise_limits() {
-  const TemperatureRange range = phase_.system_->closed_range(range_, at_start_, now_.temperature);
+  const TemperatureRange range = phase_.system_->limits().closed(range_, at_start_, now_.temperature);
   double beyond = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(phase_.mesh_.n_owned_nodes); ++i)
     beyond = std::max({beyond, range.lowest - now_.temperature[i], now_.temperature[i] - range.highest});
   const double width = range.highest - range.lowest;
   if (!(parallel::global_max(beyond) > k_by_deformation + k_by_deformation_of_range * width)) return false;
-  if (phase_.system_->hold_nodes(now_.temperature, range) != ConductionLimiter::Held::further) return false;
-  phase_.system_->find_limits(now_.temperature);
+  if (phase_.system_->limits().hold(now_.temperature, range) != ConductionLimiter::Held::further)
+    return false;
+  phase_.system_->limits().find(now_.temperature);
   return true;
 }
 
@@ -161,7 +162,8 @@ linear::BlockMatrix& ThermalIteration::assemble(int iteration) {
     return phase_.system_->matrix();
   }
   rhs_.resize(residual_.size());
-  for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] = phase_.system_->fixed()[i] ? 0.0 : -residual_[i];
+  for (std::size_t i = 0; i < rhs_.size(); ++i)
+    rhs_[i] = phase_.system_->parts().prescribed.fixed()[i] ? 0.0 : -residual_[i];
   return phase_.temperature_system_->exact_tangent(now_.temperature);
 }
 
@@ -178,7 +180,7 @@ void ThermalIteration::set_direction(std::span<double> step_t, std::span<const d
     return;
   }
   for (std::size_t i = 0; i < residual_.size(); ++i)
-    if (phase_.system_->fixed()[i]) step_t[i] = 0;
+    if (phase_.system_->parts().prescribed.fixed()[i]) step_t[i] = 0;
   phase_.ghosts_.update(step_t, 1);
   step_.assign(step_t.begin(), step_t.end());
 }

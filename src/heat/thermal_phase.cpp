@@ -113,7 +113,7 @@ std::unique_ptr<ThermalIteration> ThermalPhase::iteration() {
 }
 
 const linear::ActiveSet& ThermalPhase::active() const {
-  return system_->active();
+  return system_->parts().elements.active();
 }
 
 bool ThermalPhase::follow_graph() {
@@ -140,28 +140,29 @@ double ThermalPhase::seconds_solver() const {
 }
 
 double ThermalPhase::lasting_loads(double from, double to) const {
-  return system_->lasting(from, to);
+  const HeatParts& parts = system_->parts();
+  return std::min(parts.surfaces.lasting(from, to), parts.sources.lasting(from, to));
 }
 
 TemperatureRange ThermalPhase::ambient_range(double time, bool with_contributions) const {
-  system_->set_time(time);
-  return system_->ambient_range(with_contributions);
+  system_->set_window(LoadWindow::at(time));
+  return system_->limits().ambient(with_contributions);
 }
 
 TemperatureRange ThermalPhase::range_around(double time, std::span<const double> temperature) const {
   const TemperatureRange range = ambient_range(time);
   const bool open = range.lowest == -HUGE_VAL || range.highest == HUGE_VAL;
-  return open ? system_->closed_range(range, {}, temperature) : range;
+  return open ? system_->limits().closed(range, {}, temperature) : range;
 }
 
 void ThermalPhase::begin_burning(const BurningState& state, double begin, double end) {
-  system_->set_burning(state, begin, end);
+  system_->parts().sources.set_burning(state, begin, end);
 }
 
 BurningState ThermalPhase::burnt(const BurningState& state, const ThermalState& before,
                                  const ThermalState& after, double begin, double end) const {
-  if (state.lit.empty() || system_->ignition().empty()) return state;
-  return burn(state, system_->ignition(), before.temperature, after.temperature, begin, end);
+  if (state.lit.empty() || system_->parts().sources.ignition().empty()) return state;
+  return burn(state, system_->parts().sources.ignition(), before.temperature, after.temperature, begin, end);
 }
 
 }  // namespace solidus::heat

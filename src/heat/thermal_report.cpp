@@ -58,16 +58,19 @@ HeatBalance ThermalPhase::measure(std::span<const double> temperature, std::span
   HeatBalance balance;
   // Reactions are heat at prescribed temperatures; each kind of condition is listed with its heat.
   std::vector<double> reactions(residual.size());  // where the temperature is prescribed
-  for (std::size_t i = 0; i < reactions.size(); ++i) reactions[i] = system_->fixed()[i] ? residual[i] : 0.0;
+  for (std::size_t i = 0; i < reactions.size(); ++i)
+    reactions[i] = system_->parts().prescribed.fixed()[i] ? residual[i] : 0.0;
   // Entropy comes in with the heat at its temperature, q/Θ; reactions are heat at a prescribed
   // temperature.
   double entropy = system_->entropy_power(temperature);
   for (std::size_t i = 0; i < reactions.size(); ++i) entropy += reactions[i] / temperature[i];
   balance.entropy_in = parallel::global_sum(entropy) * dt;
-  for (const auto& [name, power] : system_->reaction_powers(reactions))
+  for (const auto& [name, power] : system_->parts().prescribed.reaction_powers(reactions))
     balance.conditions.push_back({name, power * dt});
-  for (const auto& [name, power] : system_->powers()) balance.conditions.push_back({name, power * dt});
-  for (double power : system_->contribution_powers()) balance.contributions.push_back(power * dt);
+  for (const std::vector<NamedPower>& powers :
+       {system_->parts().surfaces.powers(), system_->parts().sources.powers()})
+    for (const auto& [name, power] : powers) balance.conditions.push_back({name, power * dt});
+  for (double power : system_->parts().contributions.powers()) balance.contributions.push_back(power * dt);
   if (consistent_) balance.contributions.pop_back();  // no heat, but stored in another place
   if (printed_) balance.contributions.pop_back();     // no heat, but what a printed form loses
   return balance;

@@ -48,27 +48,27 @@ ThermalReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState
   // need none.
   assert(start.temperature.size() == mesh_.x.size());
   follow_graph();
-  system_->set_time(time);
-  system_->exchange(true);
+  system_->set_window(LoadWindow::at(time));
+  system_->parts().exchanges = true;
   solver_->begin(false);
   std::vector<double> temperature = start.temperature;
-  system_->prescribe(temperature);
+  system_->parts().prescribed.prescribe(temperature);
   temperature_system_->use_storage(false);
   if (consistent_) consistent_->use(false);
   ThermalReport report;
   std::vector<double> residual(at(mesh_.n_owned_nodes));
   const TemperatureRange range = limit_conduction({temperature, {}}, start).range;
-  system_->clear_limits();  // a linear field, say, needs none
+  system_->limits().clear();  // a linear field, say, needs none
   report.newton = solve_temperature(temperature, residual);
   const double moved = temperature_system_->moved();
   // Limits are then found and the system solved again until they stay, and nodes that leave the range lose
   // their share.
-  for (int i = 0; i < k_steady_revisions && system_->find_limits(temperature, k_limit_change * moved); ++i)
+  for (int i = 0; i < k_steady_revisions && system_->limits().find(temperature, k_limit_change * moved); ++i)
     add_iterations(report.newton, solve_temperature(temperature, residual));
-  for (int i = 0;
-       i < k_steady_revisions && system_->hold_nodes(temperature, range) == ConductionLimiter::Held::further;
+  for (int i = 0; i < k_steady_revisions &&
+                  system_->limits().hold(temperature, range) == ConductionLimiter::Held::further;
        ++i) {
-    system_->find_limits(temperature);
+    system_->limits().find(temperature);
     add_iterations(report.newton, solve_temperature(temperature, residual));
   }
   // The balance is that of the last residual.
@@ -105,7 +105,7 @@ void ThermalPhase::require(const linear::NewtonReport& report, std::span<const d
   if (report.converged) return;
   WorstNode worst;
   for (std::size_t i = 0; i < residual.size(); ++i)
-    if (!system_->fixed()[i]) worst.look(i, std::abs(residual[i]));
+    if (!system_->parts().prescribed.fixed()[i]) worst.look(i, std::abs(residual[i]));
   throw HeatRejected("heat: " + report.reason, worst.text(mesh_, temperature, residual), Failure::heat,
                      temperature, worst.owned());
 }

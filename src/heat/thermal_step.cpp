@@ -62,7 +62,7 @@ ThermalReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, 
   // deformation has warmed.
   follow_graph();
   solver_->begin(true);
-  system_->exchange(!pass.adiabatic);
+  system_->parts().exchanges = !pass.adiabatic;
   ThermalState next;
   ThermalReport report;
   const bool flows = nodal() && !pass.adiabatic;
@@ -108,9 +108,9 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   // By the closed rule extrapolation is watched: the range of surroundings over both stages bounds what it
   // may lead to.
   if (flows && options_.integration == HeatIntegration::closed) {
-    around = system_->surroundings();
+    around = system_->limits().surroundings();
     system_->set_window(last_loads(pass.time, pass.dt, true));
-    const TemperatureRange at_end = system_->surroundings();
+    const TemperatureRange at_end = system_->limits().surroundings();
     around = {std::min(around.lowest, at_end.lowest), std::max(around.highest, at_end.highest)};
     guard.emplace(*system_, *storage_, old, middle);
     second_order = !pass.within_range || !guard->extrapolates_too_far(around);
@@ -210,7 +210,7 @@ std::vector<double> ThermalPhase::flow(const ThermalState& from, const ThermalSt
                                        const linear::RungeKuttaStage& stage) const {
   std::vector<double> flow(at(mesh_.n_owned_nodes));
   for (std::size_t i = 0; i < flow.size(); ++i) flow[i] = (next.enthalpy[i] - from.enthalpy[i]) / stage.dt;
-  const std::span<const double> stored = system_->stored_by_contributions();
+  const std::span<const double> stored = system_->parts().contributions.stored();
   for (std::size_t i = 0; i < stored.size(); ++i) flow[i] += stored[i];
   return flow;
 }
@@ -218,10 +218,10 @@ std::vector<double> ThermalPhase::flow(const ThermalState& from, const ThermalSt
 ThermalState ThermalPhase::start(const ThermalState& old, const LoadWindow& loads, bool all) {
   system_->set_window(loads);
   ThermalState next{old.temperature, old.enthalpy};
-  system_->prescribe(next.temperature);
+  system_->parts().prescribed.prescribe(next.temperature);
   if (nodal())
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-      if (all || system_->fixed()[at(i)])
+      if (all || system_->parts().prescribed.fixed()[at(i)])
         next.enthalpy[at(i)] = std::clamp(old.enthalpy[at(i)], storage_->lower(i, next.temperature[at(i)]),
                                           storage_->upper(i, next.temperature[at(i)]));
   return next;
@@ -230,7 +230,7 @@ ThermalState ThermalPhase::start(const ThermalState& old, const LoadWindow& load
 /// Starts the iteration from heats instead of temperatures, where it is free.
 void ThermalPhase::start_from(std::span<const double> heat, ThermalState& next) const {
   for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i) {
-    if (system_->fixed()[i]) continue;
+    if (system_->parts().prescribed.fixed()[i]) continue;
     next.enthalpy[i] = heat[i];
     next.temperature[i] = storage_->temperature(static_cast<Index>(i), heat[i]);
   }
@@ -243,11 +243,11 @@ void ThermalPhase::start_from(std::span<const double> heat, ThermalState& next) 
 ConductionBounds ThermalPhase::limit_conduction(const ThermalState& before, const ThermalState& old,
                                                 bool keep) {
   std::vector<double> temperature = before.temperature;
-  system_->prescribe(temperature);
+  system_->parts().prescribed.prescribe(temperature);
   if (!keep) {
-    system_->limit(options_.bounds);
-    system_->release_nodes();  // the limits follow from the state alone
-    system_->find_limits(temperature);
+    system_->limits().use(options_.bounds);
+    system_->limits().release();  // the limits follow from the state alone
+    system_->limits().find(temperature);
   }
   TemperatureRange start;
   for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i) {
@@ -255,7 +255,7 @@ ConductionBounds ThermalPhase::limit_conduction(const ThermalState& before, cons
     start.highest = std::max({start.highest, temperature[i], old.temperature[i]});
   }
   start = {parallel::global_min(start.lowest), parallel::global_max(start.highest)};
-  const TemperatureRange around = system_->ambient_range();
+  const TemperatureRange around = system_->limits().ambient();
   return {{std::min(start.lowest, around.lowest), std::max(start.highest, around.highest)}, start, keep};
 }
 
@@ -265,7 +265,7 @@ void ThermalPhase::begin_stage(const linear::RungeKuttaStage& stage, std::span<c
 
 void ThermalPhase::book(std::span<const double> residual, double dt, std::span<double> heat) const {
   for (std::size_t i = 0; i < residual.size(); ++i)
-    if (!system_->fixed()[i]) heat[i] -= dt * residual[i];
+    if (!system_->parts().prescribed.fixed()[i]) heat[i] -= dt * residual[i];
   ghosts_.update(heat, 1);
 }
 
@@ -278,7 +278,7 @@ std::vector<double> ThermalPhase::flow_at_end(const StageFlows& flows) const {
 
 std::vector<double> ThermalPhase::time_error(const ThermalState& now, const StageFlows& flows,
                                              std::span<const double> flow_before) {
-  system_->exchange(true);
+  system_->parts().exchanges = true;
   system_->set_window(LoadWindow::over(flows.time - flows.last_share * flows.dt, flows.time));
   return (*spread_)(heat::time_error(flows, flow_before), now.temperature, flows.last_share * flows.dt);
 }

@@ -40,7 +40,7 @@ EnthalpyNewton::EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const
 void EnthalpyNewton::evaluate(std::span<const double> temperature) {
   const profile::Part part("residual");
   double moved = system_.residual(temperature, r_), norm = 0, contents = 0;
-  const std::vector<char>& fixed = system_.fixed();
+  const std::vector<char>& fixed = system_.parts().prescribed.fixed();
   // Stored heat joins the flows; at prescribed temperatures the residual is a reaction, elsewhere it must
   // vanish.
   for (std::size_t i = 0; i < r_.size(); ++i) {
@@ -64,7 +64,7 @@ double EnthalpyNewton::temperature_of(std::size_t i, double heat) const {
 void EnthalpyNewton::set_tilt(double tilt, std::span<double> temperature) {
   tilt_ = tilt;
   for (std::size_t i = 0; i < r_.size(); ++i)
-    if (!system_.fixed()[i]) temperature[i] = temperature_of(i, heat_[i]);
+    if (!system_.parts().prescribed.fixed()[i]) temperature[i] = temperature_of(i, heat_[i]);
   ghosts_.update(temperature, 1);
   evaluate(temperature);
 }
@@ -91,21 +91,21 @@ void EnthalpyNewton::assemble(std::span<const double> temperature) {
     else
       diagonal += capacity / dt_;
     // A held node has no equation here: its residual must not set the scale of the linear solver.
-    b_[i] = held || system_.fixed()[i] ? 0.0 : -r_[i];
+    b_[i] = held || system_.parts().prescribed.fixed()[i] ? 0.0 : -r_[i];
   }
   conductance_ = parallel::global_sum(conductance);
 }
 
 void EnthalpyNewton::hold(std::span<double> step_t) const {
   for (std::size_t i = 0; i < step_t.size(); ++i)
-    if (inverse_[i] == 0.0 || system_.fixed()[i]) step_t[i] = 0.0;
+    if (inverse_[i] == 0.0 || system_.parts().prescribed.fixed()[i]) step_t[i] = 0.0;
 }
 
 void EnthalpyNewton::enthalpy_step(std::span<const double> step_t, std::span<const double> further) {
   system_.matrix().multiply(step_t, step_h_);
   for (std::size_t i = 0; i < r_.size(); ++i) {
     const double change = step_h_[i] + (further.empty() ? 0.0 : further[i]);
-    if (system_.fixed()[i])
+    if (system_.parts().prescribed.fixed()[i])
       step_h_[i] = 0;
     else
       step_h_[i] = inverse_[i] == 0.0 ? -dt_ * (r_[i] + change) : step_t[i] / inverse_[i];
@@ -114,7 +114,7 @@ void EnthalpyNewton::enthalpy_step(std::span<const double> step_t, std::span<con
 
 void EnthalpyNewton::move(std::span<const double> start, double alpha, std::span<double> temperature) {
   for (std::size_t i = 0; i < r_.size(); ++i) {
-    if (system_.fixed()[i]) continue;
+    if (system_.parts().prescribed.fixed()[i]) continue;
     heat_[i] = start[i] + alpha * step_h_[i];
     temperature[i] = temperature_of(i, heat_[i]);
   }

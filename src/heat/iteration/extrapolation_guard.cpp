@@ -50,11 +50,11 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
   };
   for (std::size_t i = 0; i < n_; ++i) {
     const auto node = static_cast<Index>(i);
-    if (!system.active().node(node)) continue;
+    if (!system.parts().elements.active().node(node)) continue;
     look(first, before_[i]);
     look(second, now_[i]);
     ahead[i] = now_[i];
-    if (system.fixed()[i]) continue;
+    if (system.parts().prescribed.fixed()[i]) continue;
     const double heat = old.enthalpy[i] + k_sdirk_carried * (middle.enthalpy[i] - old.enthalpy[i]);
     ahead[i] = storage.temperature(node, heat);
   }
@@ -92,7 +92,8 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
 }
 
 bool ExtrapolationGuard::free(std::size_t i) const {
-  return system_.active().node(static_cast<Index>(i)) && !system_.fixed()[i];
+  return system_.parts().elements.active().node(static_cast<Index>(i)) &&
+         !system_.parts().prescribed.fixed()[i];
 }
 
 /// Calls f(node, neighbour) for all neighbours of the owned nodes, which may be ghosts.

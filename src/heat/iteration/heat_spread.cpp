@@ -46,7 +46,7 @@ std::vector<double> HeatSpread::operator()(std::span<const double> heat, std::sp
   const profile::Part part("error estimate");
   const std::vector<double> capacity = capacities(temperature);
   const std::size_t n = capacity.size();
-  const NodalPotential& potential = system_.potential();
+  const NodalPotential& potential = system_.parts().elements.nodal();
   std::vector<double> slope(temperature.size(), 1.0);
   // c = dv/dΘ: in the potential v the matrix of conduction is symmetric.
   if (!potential.identity()) {
@@ -60,7 +60,7 @@ std::vector<double> HeatSpread::operator()(std::span<const double> heat, std::sp
   for (std::size_t i = 0; i < n; ++i) {
     double& diagonal = *a.diagonal_block(static_cast<Index>(i));
     diagonal += capacity[i] / (dt * slope[i]);
-    const bool free = system_.fixed()[i] == 0 && diagonal > 0;
+    const bool free = system_.parts().prescribed.fixed()[i] == 0 && diagonal > 0;
     inverse[i] = free ? 1.0 / diagonal : 0.0;  // zero keeps a node out
     r[i] = free ? heat[i] / dt : 0.0;
     z[i] = inverse[i] * r[i];

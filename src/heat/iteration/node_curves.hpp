@@ -15,7 +15,7 @@ namespace solidus::heat {
 class NodeCurves {
  public:
   /// Both must outlive this object; the potential is that which the system has at a call.
-  NodeCurves(const NodalEnthalpy& storage, const HeatSystem& system);
+  NodeCurves(const NodalEnthalpy& storage, HeatSystem& system);
 
   /// @param heat  H of the node [J]
   /// Returns temperature and potential [K] and dv/dH [K/J], which is zero on a plateau.
@@ -41,13 +41,13 @@ class NodeCurves {
   /// Nothing where several materials store heat or conduct it.
   std::optional<NodeShare> only_share(Index node) const {
     const std::optional<NodeShare> share = storage_.only_share(node);
-    return share && system_.potential().is_of(node, share->body) ? share : std::nullopt;
+    return share && system_.parts().elements.nodal().is_of(node, share->body) ? share : std::nullopt;
   }
   StorageCurve::AtHeat sum_at_heat(Index node, double heat) const;
   StorageCurve::AtPotential sum_at_potential(Index node, double potential, double near) const;
 
   const NodalEnthalpy& storage_;
-  const HeatSystem& system_;
+  HeatSystem& system_;
   std::vector<StorageCurve> curves_;  ///< [body]
 };
 

@@ -58,13 +58,13 @@ double TemperatureSystem::residual(std::span<const double> x, std::span<double> 
   }
   // The reaction is what the condition brings or takes: it is heat moved, too.
   for (std::size_t i = 0; i < r.size(); ++i)
-    if (system_.fixed()[i]) moved += std::abs(r[i]);
+    if (system_.parts().prescribed.fixed()[i]) moved += std::abs(r[i]);
   moved_ = 0.5 * parallel::global_sum(moved);
   return moved_ / std::sqrt(static_cast<double>(mesh_.n_global_nodes));
 }
 
 linear::BlockMatrix& TemperatureSystem::tangent(std::span<const double> x) {
-  const NodalPotential& potential = system_.potential();
+  const NodalPotential& potential = system_.parts().elements.nodal();
   slope_.resize(mesh_.x.size(), 1.0);
   // Slopes of the potential make the matrix symmetric in it.
   if (!potential.identity()) {
@@ -76,7 +76,7 @@ linear::BlockMatrix& TemperatureSystem::tangent(std::span<const double> x) {
     if (!storing_) return;
     for (const auto& block : points_) block->add_tangent(x, matrix);
   };
-  system_.assemble_symmetric(x, slope_, add_storage, HeatSystem::SharedNodes::plain);
+  system_.assemble_symmetric(x, slope_, add_storage, SharedNodes::plain);
   return system_.matrix();
 }
 

@@ -31,7 +31,7 @@ constexpr double k_refining = 0.1;  ///< of the systems that find their directio
 ///                Empty: none
 linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const float> chords) {
   linear::BlockMatrix& a = system_.matrix();
-  const NodalPotential& potential = system_.potential();
+  const NodalPotential& potential = system_.parts().elements.nodal();
   const auto n = r_.size();
   std::vector<char> held(n);
   const bool alone = n == step_.size();  // diagonal_ is that of A then
@@ -44,7 +44,7 @@ linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const fl
       if (!alone) of_a[i] = diagonal;
       double stiffness = chords.empty() ? 0.0 : static_cast<double>(chords[i]);
       if (stiffness == 0) stiffness = curve_slope_[i] == 0.0 ? HUGE_VAL : 1.0 / (dt_ * curve_slope_[i]);
-      held[i] = std::isinf(stiffness) || system_.fixed()[i] ? 1 : 0;
+      held[i] = std::isinf(stiffness) || system_.parts().prescribed.fixed()[i] ? 1 : 0;
       if (std::isinf(stiffness))
         diagonal =
             k_plateau_stiffness * (std::abs(diagonal) + storage_.capacity(node, temperature_[i]) /
@@ -55,12 +55,12 @@ linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const fl
       product_[i] = held[i] ? 0.0 : -r_[i];
     }
   }
-  system_.release_work();
+  system_.parts().conduction.release_work();
   linear::LinearReport report = solver_.solve(a, product_, std::span(step_).first(n), forcing);
   for (std::size_t i = 0; i < n; ++i)
     if (held[i]) step_[i] = 0;
   ghosts_.update(step_, 1);
-  const bool unsymmetric = parallel::any_process(!system_.unsymmetric_part().empty());
+  const bool unsymmetric = parallel::any_process(!system_.parts().unsymmetric.entries().empty());
   if (report.converged && unsymmetric) report.iterations += refine(held, forcing);
   for (std::size_t i = 0; i < n; ++i)
     *a.diagonal_block(static_cast<Index>(i)) = alone ? diagonal_[i] : of_a[i];
@@ -73,7 +73,7 @@ linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const fl
 void TruncatedNewton::multiply_exactly(std::span<double> step, std::span<double> product,
                                        std::span<const char> held) {
   system_.matrix().multiply(step, product);
-  for (const HeatSystem::Entry& e : system_.unsymmetric_part())
+  for (const UnsymmetricPart::Entry& e : system_.parts().unsymmetric.entries())
     product[static_cast<std::size_t>(e.row)] += e.value * step[static_cast<std::size_t>(e.column)];
   for (std::size_t i = 0; i < held.size(); ++i)
     if (held[i]) product[i] = 0;
@@ -138,10 +138,10 @@ int TruncatedNewton::refine(std::span<const char> held, double forcing) {
 /// The slopes D = ΔH/(Δt δ) of the chords of the nodes' curves over the steps of now, where the tangents are
 /// less steep or there are none; zero elsewhere.
 void TruncatedNewton::find_chords(std::span<float> chords) const {
-  const NodalPotential& potential = system_.potential();
+  const NodalPotential& potential = system_.parts().elements.nodal();
   for (std::size_t i = 0; i < r_.size(); ++i) {
     chords[i] = 0;
-    if (system_.fixed()[i] || step_[i] == 0) continue;
+    if (system_.parts().prescribed.fixed()[i] || step_[i] == 0) continue;
     const auto node = static_cast<Index>(i);
     const double slope = storage_.point(node, heat_[i]).slope, c = potential.slope(node, temperature_[i]);
     const double v = potential.value(node, temperature_[i]) + step_[i];
@@ -160,7 +160,7 @@ void TruncatedNewton::find_chords(std::span<float> chords) const {
 /// Solves (D + A) δ = −F with D the slope of the chord of each node's curve over δ itself, by repetition. It
 /// begins without plateaus: their nodes have the capacity of their temperature.
 linear::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
-  const NodalPotential& potential = system_.potential();
+  const NodalPotential& potential = system_.parts().elements.nodal();
   // Nodes on a plateau have slope zero, their chord would be infinite: they begin with the capacity
   // of their temperature.
   std::vector<float> chords(r_.size()), before(r_.size());

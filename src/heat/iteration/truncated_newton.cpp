@@ -46,13 +46,13 @@ void TruncatedNewton::allocate() {
 void TruncatedNewton::release() {
   for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_, &step_}) std::vector<double>().swap(*v);
   solver_.release();
-  system_.release_work();
+  system_.parts().conduction.release_work();
 }
 
 void TruncatedNewton::evaluate() {
   const profile::Part part("residual");
   double moved = system_.residual(temperature_, r_), norm = 0, contents = 0;
-  const std::vector<char>& fixed = system_.fixed();
+  const std::vector<char>& fixed = system_.parts().prescribed.fixed();
   // Stored heat joins the flows; at prescribed temperatures the residual is a reaction, elsewhere it must
   // vanish.
   for (std::size_t i = 0; i < r_.size(); ++i) {
@@ -70,7 +70,7 @@ void TruncatedNewton::evaluate() {
 /// A at the temperatures of now.
 void TruncatedNewton::assemble() {
   const profile::Part part("assembly");
-  const NodalPotential& potential = system_.potential();
+  const NodalPotential& potential = system_.parts().elements.nodal();
   std::vector<double> slope(mesh_.x.size(), 1.0);  // c = dv/dΘ
   if (!potential.identity()) {
     for (std::size_t i = 0; i < r_.size(); ++i)
@@ -100,17 +100,17 @@ void TruncatedNewton::assemble() {
 /// with others: when flows change too much, and then when temperatures are out of range.
 bool TruncatedNewton::revise_limits(const ConductionBounds& bounds) {
   if (!bounds.kept && revisions_ < k_revisions &&
-      system_.find_limits(temperature_, k_limit_change * moved_)) {
+      system_.limits().find(temperature_, k_limit_change * moved_)) {
     ++revisions_;
     return true;
   }
   if (revisions_ >= k_revisions + k_holds) return false;
   using Held = ConductionLimiter::Held;
   const Held held =
-      system_.hold_nodes(temperature_, system_.closed_range(bounds.range, bounds.start, temperature_));
+      system_.limits().hold(temperature_, system_.limits().closed(bounds.range, bounds.start, temperature_));
   if (held == Held::none || (held == Held::as_before && ++idle_ > k_idle)) return false;
   revisions_ = std::max(revisions_, k_revisions) + 1;
-  system_.find_limits(temperature_);
+  system_.limits().find(temperature_);
   return true;
 }
 

@@ -23,7 +23,8 @@ constexpr int k_relaxations = 60;      ///< evaluations of a node's curve in one
 /// of v. The left-hand side rises with H, at 1/Δt at least: Newton's method, within a bracket as soon as
 /// there is one. The neighbours wait for the result: what does not depend on the residual is divided first.
 double TruncatedNewton::relax(std::size_t i, double residual) {
-  if (std::abs(residual) <= negligible_ || system_.fixed()[i] || (!relaxed_.empty() && relaxed_[i] == 0))
+  if (std::abs(residual) <= negligible_ || system_.parts().prescribed.fixed()[i] ||
+      (!relaxed_.empty() && relaxed_[i] == 0))
     return 0;
   const auto node = static_cast<Index>(i);
   const double a = std::max(diagonal_[i], 0.0), h0 = heat_[i], v0 = potential_[i], rate = rate_;
@@ -110,7 +111,7 @@ double TruncatedNewton::look_up(Index node) {
 /// starts from the residuals of the linear A points elsewhere, and no length of it brings F down.
 /// @param all  every node, however small its residual is
 void TruncatedNewton::relax_nodes(bool all) {
-  system_.release_work();
+  system_.parts().conduction.release_work();
   assemble();
   {
     const profile::Part part("sweeps");
@@ -131,7 +132,7 @@ void TruncatedNewton::relax_nodes(bool all) {
 /// larger afterwards, A tells too little of it: such sweeps are then left out for the rest of the step.
 double TruncatedNewton::relax_locally() {
   const profile::Part part("sweeps");
-  LocalSweeps local(system_.matrix(), r_, system_.fixed(), ghosts_);
+  LocalSweeps local(system_.matrix(), r_, system_.parts().prescribed.fixed(), ghosts_);
   negligible_ = 0;
   local.run([this](std::size_t i, double residual) {
     const double heat = heat_[i], change = relax(i, residual);

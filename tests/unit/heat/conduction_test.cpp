@@ -78,7 +78,7 @@ TEST_P(EveryShape, HasATangentThatIsTheDerivativeOfItsResidual) {
   conditions.radiations.push_back({"glow", "x_max", {Table({300, 1100}, {0.2, 0.9}), true}, Table(300.0)});
   const std::vector<material::Material> materials{conductor(Table({200, 600, 1200}, {300, 150, 60}))};
   heat::HeatSystem system(mesh, kind_of(shape), materials, conditions, closed, {});
-  system.set_time(1.0);
+  system.set_window(LoadWindow::at(1.0));
   std::vector<double> t = field(mesh), direction;
   for (const mesh::Point& x : mesh.x) direction.push_back(std::cos(5 * x[0] + 3 * x[1] + 2 * x[2]));
   const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
@@ -104,14 +104,14 @@ TEST_P(EveryShape, AddsUpSourcesAndFluxesExactly) {
   conditions.sources.push_back({"source", "block", Table(7.0)});
   const std::vector<material::Material> materials{conductor(Table(100.0))};
   heat::HeatSystem system(mesh, kind_of(shape), materials, conditions, closed, {});
-  system.set_time(1.0);
+  system.set_window(LoadWindow::at(1.0));
   std::vector<double> r(static_cast<std::size_t>(mesh.n_owned_nodes));
   system.residual(std::vector<double>(mesh.x.size(), 500.0), r);
   double sum = 0;
   for (double value : r) sum -= value;
   EXPECT_NEAR(parallel::global_sum(sum), 30 + 7, 1e-8);  // unit area, unit volume
-  EXPECT_NEAR(system.powers()[0].value, 30, 1e-9);
-  EXPECT_NEAR(system.powers()[1].value, 7, 1e-9);
+  EXPECT_NEAR(system.parts().surfaces.powers()[0].value, 30, 1e-9);
+  EXPECT_NEAR(system.parts().sources.powers()[0].value, 7, 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Conduction, EveryShape,

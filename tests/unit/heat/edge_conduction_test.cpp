@@ -169,7 +169,7 @@ double energy(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<doubl
               bool correct) {
   heat::HeatSystem system(mesh, kind, {conductor()}, {}, true, {}, linear::BlockMatrix::Storage::whole,
                           correct);
-  system.set_time(0);
+  system.set_window(LoadWindow::at(0));
   std::vector<double> r(static_cast<std::size_t>(mesh.n_owned_nodes));
   system.residual(temperature, r);
   double sum = 0;
@@ -218,7 +218,7 @@ TEST_P(SolidAngle, ATemperatureLinearAlongTheEdgeIsExact) {
   const mesh::Mesh mesh = angle_mesh(shape, GetParam());
   heat::HeatSystem system(mesh, kind_of(shape), {conductor()}, {}, true, {},
                           linear::BlockMatrix::Storage::whole, true);
-  system.set_time(0);
+  system.set_window(LoadWindow::at(0));
   std::vector<double> t, r(static_cast<std::size_t>(mesh.n_owned_nodes));
   for (const Point& x : mesh.x) t.push_back(400 + x[2]);
   system.residual(t, r);

@@ -1,0 +1,115 @@
+#include "heat/conduction/conduction_elements.hpp"
+
+#include <algorithm>
+
+#include "mesh/block_part.hpp"
+
+namespace solidus::heat {
+
+ConductionElements::ConductionElements(const mesh::Mesh& mesh, AnalysisKind kind, bool closed,
+                                       bool correct_edges, bool pattern_stays,
+                                       const std::vector<material::Material>& materials)
+    : mesh_(mesh), kind_(kind), closed_(closed), pattern_stays_(pattern_stays), active_(mesh) {
+  if (correct_edges) edges_ = EdgeConduction(mesh);
+  for (const material::Material& m : materials) potentials_.emplace_back(m.conductivity);
+  fields_.resize(materials.size());
+  blocks_.resize(mesh.blocks.size());
+  for (std::size_t body = 0; body < fields_.size(); ++body) find_field_nodes(body);
+  nodal_ = std::make_unique<NodalPotential>(mesh, potentials_, active_);
+}
+
+void ConductionElements::set_active(const linear::ActiveSet& active) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    if (!active.body(mesh_.blocks[b].body)) blocks_[b].reset();
+  for (std::size_t body = 0; body < fields_.size(); ++body) {
+    fields_[body].nodes.clear();
+    if (active.body(static_cast<int>(body))) find_field_nodes(body);
+  }
+  active_ = active;
+  nodal_ = std::make_unique<NodalPotential>(mesh_, potentials_, active_);
+}
+
+void ConductionElements::find_field_nodes(std::size_t body) {
+  if (potentials_[body].constant()) return;
+  std::vector<char> of_body(mesh_.x.size(), 0);
+  for (const mesh::ElementBlock& block : mesh_.blocks)
+    if (static_cast<std::size_t>(block.body) == body)
+      for (const Index node : block.nodes) of_body[static_cast<std::size_t>(node)] = 1;
+  Field& u = fields_[body];
+  u.nodes.reserve(static_cast<std::size_t>(std::count(of_body.begin(), of_body.end(), 1)));
+  for (std::size_t i = 0; i < of_body.size(); ++i)
+    if (of_body[i] != 0) u.nodes.push_back(static_cast<Index>(i));
+}
+
+void ConductionElements::bind(linear::BlockMatrix& matrix) {
+  matrix_ = &matrix;
+  for (const auto& block : blocks_)
+    if (block) block->bind(matrix);
+}
+
+ConductionBlock& ConductionElements::block(std::size_t number) {
+  if (!blocks_[number]) {
+    blocks_[number] = make_conduction_block(mesh_, mesh_.blocks[number], kind_, closed_, edges_);
+    blocks_[number]->bind(*matrix_);
+  }
+  return *blocks_[number];
+}
+
+const double* ConductionElements::potential(std::size_t body, std::span<const double> temperature) {
+  if (potentials_[body].constant()) return temperature.data();
+  Field& field = fields_[body];
+  if (!field.nodes.empty()) field.value.resize(mesh_.x.size());
+  for (const Index node : field.nodes) {
+    const auto i = static_cast<std::size_t>(node);
+    field.value[i] = potentials_[body].value(temperature[i]);
+  }
+  return field.value.data();
+}
+
+void ConductionElements::add_tangent(std::span<const double> temperature) {
+  // Conductivities are evaluated once for the nodes of each body whose table needs it.
+  for (std::size_t b = 0; b < fields_.size(); ++b) {
+    if (!fields_[b].nodes.empty()) fields_[b].value.resize(mesh_.x.size());
+    for (const Index node : fields_[b].nodes) {
+      const auto i = static_cast<std::size_t>(node);
+      fields_[b].value[i] = potentials_[b].conductivity(temperature[i]);
+    }
+  }
+  // A constant conductivity is a factor of the whole block.
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const auto body = static_cast<std::size_t>(mesh_.blocks[b].body);
+    if (!active_.body(static_cast<int>(body))) continue;
+    if (potentials_[body].constant())
+      block(b).add_tangent(potentials_[body].reference(), {}, *matrix_);
+    else
+      block(b).add_tangent(1.0, fields_[body].value, *matrix_);
+  }
+}
+
+void ConductionElements::add_unit(int body) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if (mesh_.blocks[b].body != body || !active_.body(body)) continue;
+    // Where the result is all that is wanted, the geometry is made for some elements at a time.
+    if (pattern_stays_ && !blocks_[b])
+      mesh::for_parts(mesh_.blocks[b], [&](const mesh::ElementBlock& part, Index) {
+        make_conduction_block(mesh_, part, kind_, closed_, edges_)->add_tangent_once(1.0, *matrix_);
+      });
+    else
+      block(b).add_tangent_once(1.0, *matrix_);
+  }
+}
+
+void ConductionElements::release_work() {
+  for (Field& u : fields_) std::vector<double>().swap(u.value);
+}
+
+std::size_t ConductionElements::bytes() const {
+  std::size_t total = nodal_->bytes();
+  for (const auto& block : blocks_)
+    if (block) total += block->bytes();
+  for (const Field& u : fields_)
+    total += u.nodes.capacity() * sizeof(Index) + u.value.capacity() * sizeof(double);
+  return total;
+}
+
+}  // namespace solidus::heat
