@@ -1,5 +1,5 @@
 """random CASES [--seed S] [--program P] [--folder F] [--jobs J] [--limit SECONDS] [--processes P]
-                [--allow N] [--also SEED ...]
+                [--allow N] [--also SEED ...] [--physics PHYSICS]
 
 Runs cases made from the seeds S, S + 1, ... and says what of them broke an invariant, stopped (exit code 2) or was
 refused. Folders of cases that went well are removed; the others stay, for `solidus run FOLDER/SEED/case.toml`.
@@ -32,13 +32,15 @@ def main():
     parser.add_argument("--processes", type=int, default=2, help="at most, of a run: 1 where others use the machine")
     parser.add_argument("--allow", type=int, default=0, help="how many may break or stop")
     parser.add_argument("--also", type=int, nargs="*", default=[], help="further seeds, of cases that were mended")
+    parser.add_argument("--physics", default="", choices=["heat", "mechanics", "thermomechanical"],
+                        help="that all cases have; default: what each draws")
     arguments = parser.parse_args()
 
     runner = Runner(arguments.program, arguments.folder, arguments.limit)
     count, reasons = collections.Counter(), collections.defaultdict(list)
 
     def run(seed):
-        case = random_case(seed)
+        case = random_case(seed, arguments.physics)
         case.processes = min(case.processes, arguments.processes)
         return case, runner.check(case)
 

@@ -30,13 +30,15 @@ class Case:
     facts: dict = field(default_factory=dict)
 
 
-def random_case(seed):
+def random_case(seed, only=""):
+    """The case of a seed; only: the physics that all are to have, whatever the seed draws."""
     rng = random.Random(seed)
     case = Case(seed)
     facts = case.facts
     w = Writer()
     kind = facts["kind"] = rng.choice(["plane_strain", "axisymmetric", "solid"])
-    physics = facts["physics"] = rng.choice(["heat", "mechanics"] + 6 * ["thermomechanical"])
+    drawn = rng.choice(["heat", "mechanics"] + 6 * ["thermomechanical"])
+    physics = facts["physics"] = only or drawn
     element = facts["element"] = rng.choice(SOLID if kind == "solid" else PLANE)
     dynamic = facts["dynamic"] = physics != "heat" and rng.random() < 0.08
     w.add(title=f"A random case, seed {seed}")
