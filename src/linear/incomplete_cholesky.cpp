@@ -32,7 +32,7 @@ std::int64_t IncompleteCholesky::end_of_owned(std::size_t row) const {
   return end;
 }
 
-void IncompleteCholesky::set_up(BlockMatrix& a) {
+void IncompleteCholesky::set_up(BlockMatrix& a, Fill fill) {
   assert(a.block_size() == 1 && a.storage() == BlockMatrix::Storage::upper);
   start_ = a.row_start();
   column_ = a.columns();
@@ -40,12 +40,12 @@ void IncompleteCholesky::set_up(BlockMatrix& a) {
   factor_.resize(column_.size());
   a.constrained([&] {
     for (const float shift : k_shifts)
-      if (factorise(a.block(0), shift)) break;
+      if (factorise(a.block(0), shift, fill)) break;
   });
 }
 
 /// Returns whether no pivot was negative beyond rounding.
-bool IncompleteCholesky::factorise(const double* values, float shift) {
+bool IncompleteCholesky::factorise(const double* values, float shift, Fill fill) {
   bool positive = true;
   // Single precision halves the memory; the factor only preconditions.
   std::transform(values, values + column_.size(), factor_.begin(),
@@ -67,7 +67,10 @@ bool IncompleteCholesky::factorise(const double* values, float shift) {
     // diagonal.
     if (!(pivot > k_least_pivot * original)) pivot = original;
     // The row is taken out of those below, then divided by its pivot.
-    eliminate(static_cast<Index>(row), end, bears);
+    if (fill == Fill::pattern)
+      eliminate(static_cast<Index>(row), end, bears);
+    else
+      eliminate_on_diagonal(static_cast<Index>(row), end, bears);
     const float inverse = pivot != 0.0F ? 1.0F / pivot : 1.0F;
     for (std::int64_t s = diagonal + 1; s < end; ++s) factor_[at(s)] *= inverse;
     pivot = inverse;
@@ -114,6 +117,23 @@ void IncompleteCholesky::eliminate(Index row, std::int64_t end, std::span<float>
         bears[at(column)] -= change;
       }
     }
+  }
+}
+
+/// The same where no entry off the diagonal changes: of row j's fill Σ_k u_j u_k / d over k ≠ j only the sum
+/// is needed, so that one pass along the row does.
+void IncompleteCholesky::eliminate_on_diagonal(Index row, std::int64_t end, std::span<float> bears) {
+  const std::int64_t diagonal = start_[at(row)];
+  const float pivot = factor_[at(diagonal)];
+  if (pivot == 0.0F) return;
+  float sum = 0.0F;
+  for (std::int64_t s = diagonal + 1; s < end; ++s) sum += factor_[at(s)];
+  const float inverse = 1.0F / pivot;
+  for (std::int64_t s = diagonal + 1; s < end; ++s) {
+    const float value = factor_[at(s)], share = value * inverse;
+    const std::size_t below = at(column_[at(s)]);
+    factor_[at(start_[below])] -= share * value;
+    bears[below] -= share * (sum - value);
   }
 }
 

@@ -115,12 +115,19 @@ void KrylovSolver::set(Mat op, Mat preconditioner) {
   my.stale = true;
 }
 
+void KrylovSolver::set_operator(Mat op) {
+  Implementation& my = *implementation_;
+  my.op = op;
+  petsc::check(KSPSetOperators(my.ksp, op, my.preconditioner), "KSPSetOperators");
+}
+
 LinearReport KrylovSolver::solve(std::span<const double> b, std::span<double> x, double relative,
-                                 double absolute) {
+                                 double absolute, int at_most) {
   Implementation& my = *implementation_;
   if (!my.ksp) return {0, false, "no factorisation"};
   // Tolerances change from call to call, as Newton's iteration asks for them.
-  petsc::check(KSPSetTolerances(my.ksp, relative, absolute, PETSC_DEFAULT, my.options.max_iterations),
+  petsc::check(KSPSetTolerances(my.ksp, relative, absolute, PETSC_DEFAULT,
+                                at_most > 0 ? at_most : my.options.max_iterations),
                "KSPSetTolerances");
   petsc::put(b, my.b);
 

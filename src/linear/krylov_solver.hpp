@@ -24,8 +24,12 @@ class KrylovSolver {
 
   /// Sets the operator and its preconditioner, which is set up at the next solve.
   void set(Mat op, Mat preconditioner);
+  /// Sets another operator, which the factors of the last solve() precondition as they are.
+  void set_operator(Mat op);
   /// Solves to ‖b − A x‖ <= max(relative ‖b‖, absolute) from x = 0, on owned degrees of freedom. Collective.
-  LinearReport solve(std::span<const double> b, std::span<double> x, double relative, double absolute = 0);
+  /// @param at_most  iterations, after which it is given up; zero: those of the options
+  LinearReport solve(std::span<const double> b, std::span<double> x, double relative, double absolute = 0,
+                     int at_most = 0);
   /// y = A x with the operator of set(), on owned degrees of freedom. Collective.
   void multiply(std::span<const double> x, std::span<double> y);
   /// The next matrices have another pattern, or nothing of the past shall count.

@@ -28,6 +28,11 @@ void LinearSolver::use_rigid_body_modes(int components) {
   implementation_->rigid_components = components;
 }
 
+void LinearSolver::keep_fill(bool keep) {
+  using Fill = IncompleteCholesky::Fill;
+  implementation_->fill = keep ? Fill::pattern : Fill::diagonal;
+}
+
 void LinearSolver::use_blocks_of_first_field(BlockMatrix& blocks, double scale) {
   implementation_->blocks = &blocks;
   implementation_->of_first_field.scale = scale;

@@ -66,6 +66,9 @@ class LinearSolver : public TangentSolver {
   ~LinearSolver() override;
   /// Rigid-body modes for multigrid from the coordinates of the owned nodes (mechanics).
   void use_rigid_body_modes(int components);
+  /// Whether incomplete factors of our own keep the fill that has a place in the pattern, as they do unless
+  /// this says otherwise, or change the diagonal alone (incomplete_cholesky.hpp). Holds for the next set-up.
+  void keep_fill(bool keep);
   /// Gives a field split the blocks of its first field, which must have no constraints: multigrid.hpp then
   /// replaces GAMG. To be called before every solve; the blocks must outlive it.
   /// @param scale  the rows of the matrix that is solved over those of the blocks

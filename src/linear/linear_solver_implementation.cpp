@@ -127,7 +127,7 @@ LinearReport LinearSolver::Implementation::solve_by_gradients(std::span<const do
   const double start = processes::wall_time();
   if (stale) {
     const profile::Part set_up("solver set-up");
-    incomplete->set_up(*blocks);
+    incomplete->set_up(*blocks, fill);
     stale = false;
   }
   const double ready = processes::wall_time();
@@ -356,7 +356,7 @@ KSPConvergedReason LinearSolver::Implementation::run(Vec rhs, Vec solution, int&
                  "KSPSetReusePreconditioner");
     petsc::check(KSPSetUp(ksp), "KSPSetUp");
     if (multigrid && stale) multigrid->set_up(*blocks);
-    if (incomplete && stale) incomplete->set_up(*blocks);
+    if (incomplete && stale) incomplete->set_up(*blocks, fill);
     if (incomplete) stale = false;
   }
   PetscTime(&t1);

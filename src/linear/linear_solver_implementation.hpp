@@ -108,6 +108,7 @@ struct LinearSolver::Implementation {
   ScaledMultigrid of_first_field;
   bool split_failed = false;  ///< with multigrid of our own; GAMG takes over until forget()
   std::unique_ptr<IncompleteCholesky> incomplete;
+  IncompleteCholesky::Fill fill = IncompleteCholesky::Fill::pattern;
   std::unique_ptr<ConjugateGradients> gradients;  ///< with them; null: PETSc's Krylov solver runs
   BlockMatrix* blocks = nullptr;
   petsc::MatHandle shell;  ///< multiplies by the blocks

@@ -12,6 +12,8 @@ namespace {
 /// Iterations of the quick solver for one digit above which the strong solver takes over.
 constexpr double k_slow = 20;
 constexpr int k_quick_limit = 400;  ///< iterations after which the quick solver gives up
+/// Iterations of a solve from which on factors with fill save more than they cost, some eight iterations.
+constexpr int k_worth_fill = 24;
 }  // namespace
 
 HeatSolver::HeatSolver(const mesh::Mesh& mesh, linear::SolverKind kind, bool symmetric,
@@ -34,6 +36,7 @@ linear::LinearSolver& HeatSolver::strong() {
 
 void HeatSolver::begin(bool transient) {
   use_quick_ = transient && options_.kind == linear::SolverKind::automatic;
+  fill_ = false;
   if (!use_quick_ || quick_) return;
   linear::LinearSolverOptions quick = options_;
   quick.transient_heat = true;
@@ -52,7 +55,9 @@ linear::LinearReport HeatSolver::solve(linear::BlockMatrix& a, std::span<const d
   last_ = quick_.get();
   keeps_nothing_ = a.storage() == linear::BlockMatrix::Storage::upper;  // PETSc's factors keep their pattern
   // How many iterations a digit takes decides whether it is asked again.
+  quick_->keep_fill(fill_);
   linear::LinearReport report = quick_->solve(a, b, x, forcing);
+  fill_ = fill_ || report.iterations > k_worth_fill;
   const double digits = -std::log10(std::max(forcing, options_.relative_tolerance));
   use_quick_ = report.converged && report.iterations <= k_slow * digits;
   if (report.converged) return report;

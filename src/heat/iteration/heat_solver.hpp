@@ -9,7 +9,8 @@ namespace solidus::heat {
 
 /// A transient step is diagonally strong and CG + incomplete Cholesky serves, unless the step is so long that
 /// the matrix is nearly that of the steady state. Then the solver of the steady state takes over
-/// (MUMPS or multigrid) until the end of the step. A kind that the user chose is used alone.
+/// (MUMPS or multigrid) until the end of the step. Its factors change the diagonal alone, which suffices for
+/// most steps, until a solve has taken many iterations. A kind that the user chose is used alone.
 class HeatSolver {
  public:
   HeatSolver(const mesh::Mesh& mesh, linear::SolverKind kind, bool symmetric, double relative_tolerance);
@@ -39,6 +40,7 @@ class HeatSolver {
   linear::LinearSolverOptions options_;
   std::unique_ptr<linear::LinearSolver> quick_, strong_;
   bool use_quick_ = false;
+  bool fill_ = false;                     ///< the quick solver's factors keep their fill
   bool keeps_nothing_ = false;            ///< the quick solver, from one solve to the next
   linear::LinearSolver* last_ = nullptr;  ///< that the last solve() ended with
 };

@@ -73,6 +73,7 @@ void SaddleSolver::make_solver() {
   // memory of the other.
   made_ = true;
   hierarchy_.renew();
+  factors_.forget();
   copy_.reset();
   const auto product = [this](std::span<const double> x, std::span<double> y) { multiply(x, y); };
   // Small systems are factorised; with sub-scales the factors precondition, since the projection is
@@ -132,8 +133,45 @@ void SaddleSolver::precondition(std::span<const double> r, std::span<double> z) 
 
 linear::LinearReport SaddleSolver::solve(linear::BlockMatrix&, std::span<const double> b, std::span<double> x,
                                          double forcing) {
+  linear::LinearReport report = solve_with_old_factors(b, forcing);
+  if (report.converged) {
+    expand_solution(x);
+    return report;
+  }
+  const int spent = report.iterations;
   set_up();
-  return solve_again(b, x, forcing);
+  report = solve_again(b, x, forcing);
+  report.iterations += spent;
+  return report;
+}
+
+linear::LinearReport SaddleSolver::solve_with_old_factors(std::span<const double> b, double forcing) {
+  linear::LinearReport report;
+  report.converged = false;
+  // In the plane factors cost no more than the directions that would save them.
+  if (!direct_ || !made_ || mesh_.dimension != 3) return report;
+  double square = 0;
+  for (const double value : b) square += value * value;
+  if (!factors_.may_serve(std::sqrt(parallel::global_sum(square)))) return report;
+  // The operator is the tangent of now, by its blocks, so that it need not be copied for PETSc.
+  factors_.keep();
+  factorised_->set_operator(operator_->matrix());
+  restrict_right(b);
+  const Stopwatch watch(seconds_solve_);
+  return factorised_->solve(right_, solution_, std::max(forcing, options_.relative_tolerance), 0,
+                            linear::FactorAge::k_patience);
+}
+
+void SaddleSolver::restrict_right(std::span<const double> b) {
+  // From the monotone form to the symmetric one.
+  std::vector<double> whole(b.begin(), b.end());
+  const auto n_u = static_cast<std::size_t>(mesh_.n_owned_nodes * matrix_.components());
+  for (std::size_t i = n_u; i < whole.size(); ++i) whole[i] = -whole[i];
+  unknowns_->restrict_to(whole, right_);
+}
+
+void SaddleSolver::expand_solution(std::span<double> x) {
+  unknowns_->expand(solution_, x);
 }
 
 void SaddleSolver::set_up() {
@@ -144,6 +182,7 @@ void SaddleSolver::set_up() {
     // The assembled matrix holds displacements and pressures of the free entries.
     Mat assembled = copy_.copy(mesh_, matrix_, *unknowns_);
     factorised_->set(pressure_.orthogonal() ? operator_->matrix() : assembled, assembled);
+    factors_.renew();
     return;
   }
   // Both factors go together: moduli that are not of now cost no iterations as long as the hierarchy serves.
@@ -157,19 +196,16 @@ void SaddleSolver::set_up() {
 
 linear::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::span<double> x,
                                                double forcing) {
-  const auto n_u = static_cast<std::size_t>(mesh_.n_owned_nodes * matrix_.components());
-  // From the monotone form to the symmetric one.
-  std::vector<double> whole(b.begin(), b.end());
-  for (std::size_t i = n_u; i < whole.size(); ++i) whole[i] = -whole[i];
-  unknowns_->restrict_to(whole, right_);
+  restrict_right(b);
   linear::LinearReport report;
   // An old hierarchy that fails is renewed; a new one that fails gives way to a factorisation where the
   // system is small enough for one.
   for (bool again = true; again;) {
     again = false;
-    // A factorisation costs the same at any tolerance, an iteration does not.
-    const double relative = direct_ ? std::min(k_direct_tolerance, options_.relative_tolerance)
-                                    : std::max(forcing, options_.relative_tolerance);
+    // Factors of this matrix cost the same at any tolerance, an iteration does not.
+    const double relative = direct_ && !factors_.old()
+                                ? std::min(k_direct_tolerance, options_.relative_tolerance)
+                                : std::max(forcing, options_.relative_tolerance);
     const int spent = report.iterations;
     {
       const Stopwatch watch(seconds_solve_);
@@ -191,8 +227,7 @@ linear::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::s
     }
     report.iterations += spent;
   }
-  unknowns_->expand(solution_, whole);
-  std::copy(whole.begin(), whole.end(), x.begin());
+  expand_solution(x);
   return report;
 }
 
@@ -200,6 +235,7 @@ void SaddleSolver::forget() {
   // The analysis of an indefinite matrix looks at its values too (MUMPS pairs pivots and orders the graph of
   // the pairs), so that the one of an earlier step would leave other bits than the one of a run that goes on.
   chosen_ = made_ = false;
+  factors_.forget();
 }
 
 void SaddleSolver::reset() {

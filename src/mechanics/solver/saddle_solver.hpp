@@ -10,7 +10,8 @@
 /// not converge and a factorisation is possible, it takes over until forget().
 ///
 /// Orthogonal sub-scales couple neighbours of neighbours. That part of S is applied and never assembled:
-/// GMRES has it in its operator and goes without it in what preconditions it, the factors included.
+/// GMRES has it in its operator and goes without it in what preconditions it, the factors included. In three
+/// dimensions factors of an iteration before precondition too, as long as that pays (factor_age.hpp).
 /// PETSc options of the factorisation: mechanics_mixed_.
 #pragma once
 
@@ -19,6 +20,7 @@
 #include <span>
 #include <vector>
 
+#include "linear/factor_age.hpp"
 #include "linear/function_matrix.hpp"
 #include "linear/hierarchy_age.hpp"
 #include "linear/krylov_solver.hpp"
@@ -68,6 +70,11 @@ class SaddleSolver final : public linear::TangentSolver {
   void choose();
   void make_solver();
   void set_up();
+  /// The right-hand side and the solution of the unknowns, from and to those of solve().
+  void restrict_right(std::span<const double> b);
+  void expand_solution(std::span<double> x);
+  /// Solves with the factors of an iteration before; a report that has not converged where they do not serve.
+  linear::LinearReport solve_with_old_factors(std::span<const double> b, double forcing);
   /// y = K x of the unknowns.
   void multiply(std::span<const double> x, std::span<double> y);
   void precondition(std::span<const double> r, std::span<double> z);
@@ -88,6 +95,7 @@ class SaddleSolver final : public linear::TangentSolver {
   std::optional<linear::RecyclingGmres> iterative_;  ///< where many are
   std::optional<SaddlePreconditioner> preconditioner_;
   linear::HierarchyAge hierarchy_;
+  linear::FactorAge factors_;
   double seconds_setup_ = 0, seconds_solve_ = 0;
   std::vector<double> right_, solution_;                     ///< [unknown]
   std::vector<double> whole_, product_, local_u_, local_p_;  ///< scratch
