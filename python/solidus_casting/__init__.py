@@ -13,11 +13,12 @@ which the build makes with ``-DSOLIDUS_PYTHON=ON``; :func:`has_core` tells wheth
 """
 
 from .case import Case
-from .child import Progress, run
+from .child import run
 from .core import has_core, initialize
 from .errors import InputError, InternalError, ProgramMissing, RunInterrupted, RunStopped, SolidusError
 from .constitutive import Law, Material, celsius, material, materials
 from .moment import Moment
+from .progress import Progress
 from .verbs import program, version
 from .results import Results
 from .simulation import Simulation, Step

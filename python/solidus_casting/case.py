@@ -4,21 +4,16 @@ from __future__ import annotations
 
 import contextlib
 import copy
-import itertools
-import re
 import tempfile
 import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, Callable
 
-from . import schema as schemas, verbs
+from . import schema as schemas, verbs, written
 from .errors import InputError
 from .sections import Document, Section, plain
 from .toml_text import document_text, key_text, value_text
-
-if TYPE_CHECKING:
-    from .results import Results
 
 
 class Case(Section):
@@ -154,11 +149,10 @@ class Case(Section):
         with self.as_arguments() as arguments:
             return verbs.call("check", *arguments, *physics_option(physics))
 
-    def run(self, output: str | Path | None = None, **options: Any) -> "Results":
-        """Runs the case as a child process; see :func:`solidus_casting.run`."""
-        from .child import run
-
-        return run(self, output, **options)
+    def run(self, output: str | Path | None = None, **options: Any) -> Any:
+        """Runs the case as a child process and returns its :class:`Results`; see :func:`solidus_casting.run`."""
+        assert _run is not None, "solidus_casting.child says how cases run"
+        return _run(self, output, **options)
 
     @contextlib.contextmanager
     def as_arguments(self) -> Iterator[list[str]]:
@@ -178,15 +172,13 @@ class Case(Section):
             file = Path(folder) / "case.toml"
             text = document_text(_with_absolute_paths(self.to_dict(), self._folder))
             file.write_text(text, encoding="utf-8")
-            _written[str(file)] = text
-            while len(_written) > _MOST_WRITTEN:
-                _written.pop(next(iter(_written)))
+            written.remember(file, text)
             try:
                 yield [str(file)]
             except InputError as error:
                 if error.file != file:
                     raise
-                key = _key_at(text, error.line or 0)
+                key = written.key_at(text, error.line or 0)
                 raise InputError(error.found, error.allowed, key=key) from error
 
     def _assignments(self) -> list[str] | None:
@@ -223,19 +215,13 @@ class Case(Section):
         return place
 
 
-# Cases that were handed to the program in a file of their own, for messages that name its lines: a simulation gives them when
-# the file has gone.
-_written: dict[str, str] = {}
-_MOST_WRITTEN = 16
+_run: Callable[..., Any] | None = None
 
 
-def with_keys(message: str) -> str:
-    """A message that names keys of the case, where the program named lines of a file that the user never saw."""
-    def key(match: re.Match[str]) -> str:
-        text = _written.get(match[1])
-        return (_key_at(text, int(match[2])) or "the case") if text else match[0]
-
-    return re.sub(r"(/\S*?/solidus_case_\w+/case\.toml):(\d+)(?::\d+)?", key, message)
+def run_by(run: Callable[..., Any]) -> None:
+    """How :meth:`Case.run` runs a case: what runs cases knows them and their results, while a case knows neither."""
+    global _run
+    _run = run
 
 
 def physics_option(physics: str | None) -> list[str]:
@@ -303,25 +289,3 @@ def _with_absolute_paths(document: Document, folder: Path) -> Document:
         if isinstance(material, str) and (material.endswith(".toml") or "/" in material):
             body["material"] = absolute(material)
     return document
-
-
-def _key_at(text: str, line: int) -> str | None:
-    """The path of the key that stands on a line of a written case."""
-    lines = text.splitlines()
-    section: list[str] = []
-    counts: dict[str, int] = {}
-    key = ""
-    for number, content in enumerate(lines, 1):
-        if content.startswith("["):
-            header, key = content.strip("[]"), ""
-            section = [header]
-            if content.startswith("[["):
-                counts[header] = counts.get(header, 0) + 1
-                own = itertools.takewhile(lambda below: not below.startswith("["), lines[number:])
-                names = [below.partition(" = ")[2].strip('"') for below in own if below.startswith("name = ")]
-                section.append(names[0] if names else str(counts[header]))
-        else:
-            key = content.partition(" = ")[0]
-        if number == line:
-            return ".".join([*section, key] if key else section) or None
-    return None

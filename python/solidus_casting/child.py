@@ -10,43 +10,20 @@ import tempfile
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any
 
 from . import verbs
-from .case import Case, physics_option, with_keys
+from .case import Case, physics_option, run_by
 from .errors import RunInterrupted
+from .progress import Progress
+from .results import Results
+from .simulation import Simulation
+from .written import with_keys
 
 logger = logging.getLogger("solidus_casting")
 
 _POLL = 0.1  # seconds between looks at the tables of a run
-
-
-@dataclass(frozen=True)
-class Progress:
-    """A step that a run has committed.
-
-    Attributes
-    ----------
-    time, end, step:
-        Where the run stands, where it ends (``None`` where the case does not say), and the size of the step [s].
-    number:
-        Of the step, from one.
-    row:
-        The whole row of ``steps.csv``, by header.
-    """
-
-    time: float
-    step: float
-    number: int
-    end: float | None = None
-    row: dict[str, str] = field(default_factory=dict, repr=False)
-
-    @property
-    def fraction(self) -> float | None:
-        """How much of the time is done, from 0 to 1."""
-        return None if not self.end else min(1.0, self.time / self.end)
 
 
 def run(case: Case | str | Path, output: str | Path | None = None, *, restart: bool = False, processes: int | None = None,
@@ -93,8 +70,6 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
     if not isinstance(case, Case):
         case = Case.load(case)
     if in_process:
-        from .simulation import Simulation
-
         if output is None or processes not in (None, 1) or options or sure or stop is not None:
             raise ValueError("a run in this process needs a folder for its results, has the processes and options of "
                              "solidus_casting.initialize(), and knows neither sure nor stop")
@@ -147,8 +122,6 @@ class _Child:
                     logger.info(with_keys(line))
 
     def wait(self) -> Any:
-        from .results import Results
-
         try:
             while True:
                 try:
@@ -235,3 +208,6 @@ def _end_time(case: Case) -> float | None:
     number, _, unit = end.partition(" ")
     factor = {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0, "hour": 3600.0, "hours": 3600.0}.get(unit.strip())
     return None if factor is None else float(number) * factor
+
+
+run_by(run)

@@ -15,6 +15,7 @@ from typing import Any
 
 from .errors import ProgramMissing
 from .verbs import program, version
+from .written import with_keys
 
 _NAME = "solidus_casting._core"
 _logger = logging.getLogger("solidus_casting")
@@ -105,8 +106,6 @@ def closed_at_exit(simulation: Any) -> None:
 
 
 def _message(level: str, text: str) -> None:
-    from .case import with_keys
-
     _logger.log({"warning": logging.WARNING, "info": logging.INFO}.get(level, logging.DEBUG), with_keys(text))
 
 

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from . import verbs
 from .case import Case
 from .errors import SolidusError
 from .moment import Moment, Place
@@ -216,15 +217,11 @@ class Results(Sequence[Moment]):
 
     def report(self, output: str | Path | None = None) -> Path:
         """Writes the page ``report.html`` and returns its path."""
-        from . import verbs
-
         file = Path(output).absolute() if output else self.folder / "report.html"
         verbs.call("report", self.folder, "-o", file)
         return file
 
     def plot(self) -> Path:
         """Draws the pictures of the run as ``solidus plot`` does and returns their folder."""
-        from . import verbs
-
         verbs.call("plot", self.folder)
         return self.folder / "plots"

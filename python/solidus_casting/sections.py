@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, MutableMapping
-from typing import TYPE_CHECKING, Any, Callable
+from typing import Any, Callable, Protocol
 
 from . import schema as schemas
 from .errors import InputError
-
-if TYPE_CHECKING:
-    from .case import Case
+from .toml_text import document_text
 
 Document = dict[str, Any]
+
+
+class Whole(Protocol):
+    """What sections ask of the case that they are sections of."""
+
+    def given(self) -> Document: ...
+
+    def _changed(self) -> None: ...
+
+    def _resolved_value(self, path: str) -> Any: ...
+
+    def _resolved_or_nothing(self, path: str) -> Any: ...
 
 
 def plain(value: Any) -> Any:
@@ -34,9 +44,9 @@ class Section(MutableMapping[str, Any]):
     does not give has the value of an included file, else the program's default. Iterating goes over the keys that are given.
     """
 
-    _case: "Case"
+    _case: Whole
 
-    def __init__(self, case: "Case", schema: schemas.Schema, path: str, given: Callable[[bool], Document | None]) -> None:
+    def __init__(self, case: Whole, schema: schemas.Schema, path: str, given: Callable[[bool], Document | None]) -> None:
         object.__setattr__(self, "_case", case)
         object.__setattr__(self, "_schema", schema)
         object.__setattr__(self, "_path", path)
@@ -126,8 +136,6 @@ class Section(MutableMapping[str, Any]):
         return schemas.keys(self._schema)
 
     def __repr__(self) -> str:
-        from .toml_text import document_text
-
         head = f"[{self._path}]\n" if self._path else ""
         return head + document_text(plain(self)).rstrip("\n")
 
@@ -135,7 +143,7 @@ class Section(MutableMapping[str, Any]):
 class Sections(list):
     """A list of sections, for example ``case.body``: by name or number, ``case.body.casting`` or ``case.body[0]``."""
 
-    def __init__(self, case: "Case", schema: schemas.Schema, path: str, given: Callable[[bool], Any]) -> None:
+    def __init__(self, case: Whole, schema: schemas.Schema, path: str, given: Callable[[bool], Any]) -> None:
         self._case, self._schema, self._path, self._given = case, schema, path, given
         super().__init__(self._section(index, entry) for index, entry in enumerate(given(False) or []))
 

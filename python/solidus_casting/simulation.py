@@ -11,10 +11,10 @@ import numpy as np
 from solidus_plots.vtu import Arrays, Grid
 
 from .case import Case
-from .child import Progress
 from .core import closed_at_exit, core
 from .errors import InputError, RunStopped, SolidusError
 from .moment import Moment
+from .progress import Progress
 from .results import Results
 from .toml_text import value_text
 

@@ -1,10 +1,12 @@
 """Imports of the sources run one way: between rooms, between headers, and between a room and its folders of laws and schemes."""
 
+import ast
 import pathlib
 import re
 import unittest
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2] / "src"
+PACKAGES = SOURCES.parent / "python"
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 DECLARED_IN_ADVANCE = re.compile(r"^(template <[^>]*>\s*)?(class|struct|enum class) \w+( : \w+)?;", re.MULTILINE)
 # What all rooms stand on has no namespace of its own but `solidus` (decision 0076).
@@ -38,6 +40,23 @@ def foreign_namespaces(file, text):
         if not is_own and DECLARED_IN_ADVANCE.sub("", re.sub(r"//[^\n]*", "", body)).strip():
             found.append(name)
     return found
+
+
+def python_imports(package):
+    """Of every module of a package, but its __init__ and __main__, which put it together, the modules of it that it imports: within
+    functions and for types alone too."""
+    graph = {}
+    for file in sorted(package.rglob("*.py")):
+        name = file.relative_to(package).with_suffix("").as_posix()
+        if file.name in ("__init__.py", "__main__.py"):
+            continue
+        graph[name] = []
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.level:
+                folder = file.parents[node.level - 1] / (node.module or "").replace(".", "/")
+                named = [folder / one.name for one in node.names] + [folder]
+                graph[name] += [one.relative_to(package).as_posix() for one in named if one.with_suffix(".py").is_file()]
+    return graph
 
 
 def is_interface(file):
@@ -77,6 +96,19 @@ def circle(graph):
 
 
 class Imports(unittest.TestCase):
+    def test_modules_of_a_python_package_import_one_way(self):
+        for package in sorted(PACKAGES.glob("solidus_*/__init__.py")):
+            self.assertEqual(circle(python_imports(package.parent)), [], package.parent.name)
+
+    def test_a_case_from_python_knows_nothing_of_results(self):
+        graph = python_imports(PACKAGES / "solidus_casting")
+        below, todo = set(), ["case"]
+        while todo:
+            module = todo.pop()
+            below.add(module)
+            todo += [other for other in graph[module] if other not in below]
+        self.assertEqual(below & {"results", "moment", "child", "simulation"}, set())
+
     def test_a_circle_is_found_and_named(self):
         self.assertEqual(circle({"a": ["b"], "b": ["c"], "c": ["b"]}), ["b", "c", "b"])
         self.assertEqual(circle({"a": ["b", "c"], "b": ["c"], "c": []}), [])

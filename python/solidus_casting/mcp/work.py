@@ -15,8 +15,9 @@ from typing import IO, Any
 
 from .. import verbs
 from ..case import Case
-from ..child import Progress, run
+from ..child import run
 from ..errors import InputError, RunInterrupted
+from ..progress import Progress
 from ..results import Results
 from .protocol import Cancelled, Job
 from .room import Room
