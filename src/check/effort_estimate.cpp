@@ -78,13 +78,21 @@ bool in_sand(const setup::Assembly& a, const CaseMeasures& m) {
   return around < k_share * metal;
 }
 
+/// Whether graphite precipitates in what is poured: the last melt then takes more steps (decision 0090).
+bool precipitates_graphite(const setup::Assembly& a, const CaseMeasures& m) {
+  for (std::size_t b = 0; b < a.materials.size(); ++b)
+    for (const material::PhaseChange& change : a.materials[b].phase_changes)
+      if (m.is_poured(b) && change.graphite) return true;
+  return false;
+}
+
 /// Errors go with the square of a step, so that steps go with the root of what the run passes through over
 /// the error allowed: measured 6 to 10 times that with heat alone. Castings that deform take 2 to 6.7 times
 /// that until they are solid, in sand 0.4, because their temperatures are even, and besides steps in which a
 /// skin lets go and in which the last melt freezes (twenty castings, decision 0075).
 double adaptive_steps(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m) {
   constexpr double k_of_heat = 7.5, k_of_casting = 5, k_until_solid = 4, k_in_sand = 0.4;
-  constexpr double k_of_skin = 1.1, k_last_melt = 15, k_least = 20;
+  constexpr double k_of_skin = 1.1, k_last_melt = 15, k_last_melt_with_graphite = 25, k_least = 20;
   const double error = spec.time.temperature_error.value_or(1.0);
   const double n_stages = std::max(1.0, static_cast<double>(a.stages.size()));
   const double root = std::sqrt(range_of_temperature(spec, a) / error);
@@ -95,7 +103,8 @@ double adaptive_steps(const cases::CaseSpec& spec, const setup::Assembly& a, con
     const std::vector<double> sections =
         spec.time.displacement_error ? setup::sections_of(spec, a.mesh) : std::vector<double>{};
     steps = of_root * root + k_of_skin / setup::skin_change(spec.time, sections) +
-            k_last_melt * std::sqrt(coupling::StepLimits{}.temperature / error);
+            (precipitates_graphite(a, m) ? k_last_melt_with_graphite : k_last_melt) *
+                std::sqrt(coupling::StepLimits{}.temperature / error);
   } else if (spec.has_heat()) {
     steps = k_of_heat * root;
   }

@@ -335,9 +335,9 @@ PlannedStep Simulation::plan(const Progress& p) const {
   // A casting is solid somewhere in the step in which its last melt freezes, and contracts fast then. Steps
   // go with the root of the error allowed, from a quarter of the step asked for on, which mush begins with.
   const double looser = std::sqrt(options.limits.temperature / StepLimits{}.temperature);
-  const double left = looser * longest_before_solid(1 - p.solid_fraction, time - p.committed.poured);
-  if (options.limits.last_melt && p.solid_fraction < k_solid)
-    longest = {std::max(left, 0.25 * options.step), "last melt"};
+  const double least = options.limits.last_melt;
+  const double left = looser * longest_before_solid(1 - p.solid_fraction, time - p.committed.poured, least);
+  if (least > 0 && p.solid_fraction < k_solid) longest = {std::max(left, 0.25 * options.step), "last melt"};
   const PlannedStep step = p.control->plan(time, longest);
   if (loads_ == nullptr || !options.adaptive) return step;
   const double moves = loads_->lasting_loads(time, step.time);

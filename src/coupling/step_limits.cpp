@@ -43,11 +43,11 @@ Strictest strictest(const StepLimits& limits, const StepMeasure& measure) {
   };
   if (limits.control != ErrorControl::none) {
     look("temperature error", " K", measure.temperature_error, limits.temperature, 2, k_tolerated,
-         limits.last_melt ? k_safety_before_mechanics : k_safety);
+         limits.last_melt > 0 ? k_safety_before_mechanics : k_safety);
     look("displacement error", " m", measure.displacement_error, limits.displacement, 2,
-         limits.inertia     ? k_tolerated
-         : limits.last_melt ? k_tolerated_worst_node
-                            : k_tolerated_displacement);
+         limits.inertia         ? k_tolerated
+         : limits.last_melt > 0 ? k_tolerated_worst_node
+                                : k_tolerated_displacement);
     look("stress error", "", measure.stress_error, limits.stress, 2, k_tolerated);
   }
   look("coherent skin", "", measure.skin_change, limits.skin, 1, k_tolerated);
@@ -56,10 +56,10 @@ Strictest strictest(const StepLimits& limits, const StepMeasure& measure) {
   return result;
 }
 
-double longest_before_solid(double melt, double elapsed) {
-  constexpr double k_most_melt = 0.2, k_of_what_is_left = 0.5, k_least = 0.01;
+double longest_before_solid(double melt, double elapsed, double least) {
+  constexpr double k_most_melt = 0.2, k_of_what_is_left = 0.5;
   if (!(melt > 0) || melt >= k_most_melt || !(elapsed > 0)) return std::numeric_limits<double>::infinity();
-  return std::max(k_of_what_is_left * melt, k_least) * elapsed;
+  return std::max(k_of_what_is_left * melt, least) * elapsed;
 }
 
 }  // namespace solidus::coupling

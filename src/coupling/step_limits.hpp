@@ -16,9 +16,11 @@ struct StepLimits {
   bool inertia = false;         ///< displacements are integrated in time, as temperatures are
   double stress = 0.005;        ///< local error per step, as a share of the stress [1]
 
-  double skin = 0.04;      ///< change per step of the coherent share of a skin in contact [1]
-  double opening = 0;      ///< of a skin that lets go in a step [m]; zero: any
-  bool last_melt = false;  ///< steps get shorter while the last melt freezes (longest_before_solid())
+  double skin = 0.04;  ///< change per step of the coherent share of a skin in contact [1]
+  double opening = 0;  ///< of a skin that lets go in a step [m]; zero: any
+  /// Steps get shorter while the last melt freezes, down to this share of the time since it was poured
+  /// (longest_before_solid()); zero: no casting deforms, and they do not.
+  double last_melt = 0;
 
   bool operator==(const StepLimits&) const = default;
 };
@@ -48,10 +50,11 @@ struct Strictest {
 Strictest strictest(const StepLimits& limits, const StepMeasure& measure);
 
 /// The longest step [s] that still tells when a casting is solid: half of what is left at the mean rate since
-/// it was poured, and not less than a hundredth of the time since. Endless while a fifth is melt, and where
+/// it was poured, and not less than a share of the time since. Endless while a fifth is melt, and where
 /// nothing is.
 /// @param melt     liquid share of all bodies that can melt [1]
 /// @param elapsed  since the casting was poured [s]
-double longest_before_solid(double melt, double elapsed);
+/// @param least    that share, StepLimits::last_melt
+double longest_before_solid(double melt, double elapsed, double least);
 
 }  // namespace solidus::coupling

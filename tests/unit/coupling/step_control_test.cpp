@@ -185,12 +185,13 @@ TEST(StepLimits, TheGapThatASkinOpensAsItLetsGoBoundsAStepInProportion) {
 
 TEST(StepLimits, TheLastMeltFreezesInStepsOfAHundredthOfItsTime) {
   using solidus::coupling::longest_before_solid;
-  EXPECT_EQ(longest_before_solid(0.2, 30), HUGE_VAL);
-  EXPECT_DOUBLE_EQ(longest_before_solid(0.1, 30), 1.5);  // half of what is left at the mean rate
-  EXPECT_DOUBLE_EQ(longest_before_solid(0.02, 30), 0.3);
-  EXPECT_DOUBLE_EQ(longest_before_solid(1e-9, 30), 0.3);
-  EXPECT_EQ(longest_before_solid(0, 30), HUGE_VAL);
-  EXPECT_EQ(longest_before_solid(0.1, 0), HUGE_VAL);  // what begins as mush has no rate yet
+  EXPECT_EQ(longest_before_solid(0.2, 30, 0.01), HUGE_VAL);
+  EXPECT_DOUBLE_EQ(longest_before_solid(0.1, 30, 0.01), 1.5);  // half of what is left at the mean rate
+  EXPECT_DOUBLE_EQ(longest_before_solid(0.02, 30, 0.01), 0.3);
+  EXPECT_DOUBLE_EQ(longest_before_solid(1e-9, 30, 0.01), 0.3);
+  EXPECT_DOUBLE_EQ(longest_before_solid(1e-9, 30, 0.004), 0.12);
+  EXPECT_EQ(longest_before_solid(0, 30, 0.01), HUGE_VAL);
+  EXPECT_EQ(longest_before_solid(0.1, 0, 0.01), HUGE_VAL);  // what begins as mush has no rate yet
 }
 
 TEST(StepLimits, TheHeatOfACastingThatDeformsIsPlannedATenthShort) {
@@ -200,7 +201,7 @@ TEST(StepLimits, TheHeatOfACastingThatDeformsIsPlannedATenthShort) {
   limits.control = ErrorControl::predictor;
   measure.temperature_error = limits.temperature;
   EXPECT_DOUBLE_EQ(strictest(limits, measure).factor, 0.8);
-  limits.last_melt = true;
+  limits.last_melt = 0.01;
   EXPECT_DOUBLE_EQ(strictest(limits, measure).factor, 0.9);
 }
 
@@ -216,7 +217,7 @@ TEST(StepLimits, ADisplacementThatIsNotIntegratedInTimeMayMissMoreBeforeItsStepI
   limits.inertia = false;
   measure.displacement_error = 4 * limits.displacement;
   EXPECT_TRUE(strictest(limits, measure).exceeded);
-  limits.last_melt = true;  // of a casting it is that of the worst node
+  limits.last_melt = 0.01;  // of a casting it is that of the worst node
   EXPECT_FALSE(strictest(limits, measure).exceeded);
   measure.displacement_error = 13 * limits.displacement;
   EXPECT_TRUE(strictest(limits, measure).exceeded);
