@@ -19,7 +19,8 @@ from solidus_plots.vtu import ResultError
 SEPARATORS = (";", "\t", ",", "|")
 NOTHING = {"", "-", "--", "---", "nan", "n/a", "na", "ol", "open", "over", "ovld", "err", "error", "fault", "#nv", "null",
            "inf", "-inf", "+inf", "burnout"}
-OPEN_CIRCUIT = 9000.0  # numbers from here on are what loggers write for a broken wire (9999, 32767, 1e30)
+OPEN_CIRCUIT = 9000.0  # temperatures from here on are what loggers write for a broken wire (9999, 32767)
+OVERFLOW = 1e30  # numbers from here on are what instruments write for no reading, whatever they measure (9.9e37)
 LEAST_READINGS = 3
 SECONDS = {"ms": 1e-3, "s": 1.0, "sec": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0}
 DAY = 86400.0
@@ -84,7 +85,7 @@ def _number(cell, decimal):
         value = float(text)
     except ValueError:
         return None
-    return value if abs(value) < OPEN_CIRCUIT else np.nan
+    return value if abs(value) < OVERFLOW else np.nan
 
 
 def _moment(cell, decimal):
@@ -226,6 +227,8 @@ def read_logger(path, time_column=None, time_unit=None):
     for number, name in enumerate(names):
         if number == clock:
             continue
+        if not units[number] or units[number].lower() in TEMPERATURES:  # a force of 9999 N is a reading
+            values[np.abs(values[:, number]) >= OPEN_CIRCUIT, number] = np.nan
         column = Column(name, units[number], values[:, number])
         _judge(column, lines_of)
         table.columns[name] = column

@@ -61,6 +61,13 @@ class Loggers(Folder):
         self.assertEqual(columns["TC3"].dead, "it says 24 from line 5 to 9: a dead channel")
         self.assertEqual(columns["TC4"].dead, "0 readings from line 5 on: an open circuit or no sensor")
 
+    def test_large_numbers_are_readings_but_for_temperatures(self):
+        rows = "\n".join(f"{3600 * hour},{500 - hour},{9000 + 1000 * hour},{9999 if hour > 3 else hour}" for hour in range(6))
+        table = read_logger(self.write("t.csv", "time[s],TC1[degC],force[N],TC2[degC]\n" + rows + "\n"))
+        self.assertEqual(table.time[-1], 18000)
+        np.testing.assert_array_equal(table.columns["force"].values, 9000.0 + 1000 * np.arange(6))
+        self.assertEqual(np.isnan(table.columns["TC2"].values).sum(), 2)
+
     def test_a_wire_that_breaks_has_readings_before(self):
         table = read_logger(self.write("t.csv", "time [min],A [degC]\n0,20\n1,30\n2,40\n3,OL\n4,OL\n"))
         self.assertEqual(list(table.time), [0, 60, 120, 180, 240])
