@@ -77,7 +77,7 @@ def text():
             grouped.setdefault(why, []).append(TITLES[test])
         silent = [TITLES[t] for t in importlib.import_module(f"codes.{code}").TESTS if (code, t) not in answers]
         if silent:
-            grouped.setdefault("the deck is there, but no run of it came to its end", []).extend(silent)
+            grouped.setdefault("there is a deck, but no run of it has come to its end (the head of the deck says how far)", []).extend(silent)
         lines += [f"- {heads[code]}: {'; '.join(tests)}: {why}." for why, tests in grouped.items()]
     lines += [MISSING, "", "Next: [the tests](../../cases/ten_tests/README.md) · [against experiments](README.md) · [compared with other "
               "programs](../comparison.md)", ""]

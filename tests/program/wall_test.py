@@ -1,0 +1,50 @@
+"""The wall of experiments: its page is that of what is kept, quick rows come out again, and mistakes in its files are said."""
+
+import json
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+from program import PROGRAM, SOURCES, ProgramTest
+
+from solidus_docs import wall
+
+
+class Wall(ProgramTest):
+    def test_the_page_is_that_of_what_is_kept(self):
+        self.assertEqual(wall.page(), (SOURCES / "docs/validation/wall.md").read_text())
+        kept = json.loads((SOURCES / "docs/validation/wall.json").read_text())
+        self.assertEqual(list(kept), list(wall.experiments()))
+        self.assertGreaterEqual(len(kept), 6)
+
+    def test_quick_rows_come_out_again(self):
+        kept = json.loads((SOURCES / "docs/validation/wall.json").read_text())
+        for name in ("contraction", "liquidus", "iron_density"):
+            spec, program = wall.experiments()[name], wall.Program(PROGRAM)
+            found = wall.COMPUTE[spec["kind"]](spec, program, Path(self.folder))
+            for now, then in zip(found, kept[name]["values"], strict=True):
+                with self.subTest(experiment=name, row=then["name"]):
+                    self.assertAlmostEqual(now["computed"], then["computed"], delta=1e-3 * abs(then["computed"]))
+
+    def test_a_width_lies_between_two_probes(self):
+        history = {"T_0um[degC]": [20, 1800, 900], "T_25um[degC]": [20, 1400, 900], "T_37.5um[degC]": [20, 1200, 900], "time[s]": [0, 1, 2]}
+        self.assertAlmostEqual(wall.width(history, 1300), 2 * 31.25)
+
+    def test_mistakes_are_said_with_their_file(self):
+        file = self.write("experiment.toml", 'title = "a"\norder = 1\nkinds = "values"\n')
+        with self.assertRaisesRegex(ValueError, "experiment.toml: 'kinds' is no key of an experiment"):
+            wall.read_experiment(file)
+        file.write_text('title = "a"\norder = 1\n')
+        with self.assertRaisesRegex(ValueError, "experiment.toml: the key 'kind' is missing"):
+            wall.read_experiment(file)
+        file = self.write("measured.csv", "name,measured,error\na,1.0,much\n")
+        with self.assertRaisesRegex(ValueError, "row 1: 'error' must be a number; found 'much'"):
+            wall.read_measured(file)
+        done = subprocess.run([sys.executable, "-m", "solidus_docs.wall", "nothing"], capture_output=True, text=True, cwd=SOURCES)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("there is no experiment 'nothing'; there are billet_aa6060", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
