@@ -112,6 +112,15 @@ def with_words(index):
     return index
 
 
+def with_separated_states(worker):
+    """The script of the search with states of its automaton that cannot be taken for each other.
+
+    lunr merges states whose texts are alike; a text is that of the characters and numbers of the states they lead to, put together
+    without a sign between: "1" to state 23 is "12" to state 3. Which words collide hangs on all pages; a search for one fails.
+    """
+    return re.sub(r"(TokenSet\.prototype\.toString=function\(\)\{.{0,250}?\+\w+\+\w+\.id)\}", r'\1+","}', worker)
+
+
 def build(folder):
     folder = pathlib.Path(folder).resolve()
     shutil.rmtree(folder, ignore_errors=True)
@@ -140,6 +149,8 @@ def build(folder):
     (folder / "site/search/search_index.json").write_text(json.dumps(index, separators=(",", ":")))
     (folder / "site/search/search_index.js").write_text(
         f"var __search = {{index: Promise.resolve({json.dumps(index, separators=(',', ':'))})}};\n")
+    for worker in (folder / "site").glob("assets/javascripts/workers/search.*.min.js"):
+        worker.write_text(with_separated_states(worker.read_text()))
     return folder / "site/index.html"
 
 

@@ -225,7 +225,8 @@ def page():
                      f"| {row['version']} |")
     for name, spec in there.items():
         place = spec["folder"].relative_to(ROOT)
-        lines += ["", f"## {spec['title']}", "", f"[{place}](../../{place}). {spec['said']}", "", *table(kept[name]["values"]), "",
+        page_of = place if (spec["folder"] / "README.md").exists() else place.parent
+        lines += ["", f"## {spec['title']}", "", f"[`{place}`](../../{page_of}/README.md). {spec['said']}", "", *table(kept[name]["values"]), "",
                   f"- Source: {spec['source']}", f"- Licence: {spec['licence']}", f"- Read: {spec['read']}",
                   f"- Assumed: {spec['assumed']}"]
     return wrap.wrapped("\n".join(lines + ["", "Next: [add an experiment](add_an_experiment.md) · [ten tests for any code](ten_tests.md) "

@@ -173,6 +173,12 @@ class Site(unittest.TestCase):
         self.assertTrue(index.startswith("var __search = {index: Promise.resolve("))
         self.assertIn("Niyama", index)
 
+    def test_states_of_the_search_are_told_apart(self):
+        text = 't.TokenSet.prototype.toString=function(){for(;i<n;i++){var s=r[i],o=this.edges[s];e=e+s+o.id}return e},t.x=function(){}'
+        self.assertEqual(site.with_separated_states(text), text.replace("o.id}", 'o.id+","}'))
+        (worker,) = self.root.glob("assets/javascripts/workers/search.*.min.js")
+        self.assertRegex(worker.read_text(), r'\.id\+","\}return')
+
     def test_the_search_finds_each_page_of_the_guide_by_its_task_among_the_first_three(self):
         self.assertEqual(set(TASKS), {file.stem for file in (links.ROOT / "docs/guide").glob("*.md")})
         wanted = [(f"docs/guide/{page}.html", task) for page, tasks in TASKS.items() for task in tasks]
