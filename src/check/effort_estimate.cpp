@@ -25,7 +25,7 @@ constexpr Cost k_solid_iterative{6e-6, 150e-6, 1.2e3, 48e3};
 
 Cost cost(const cases::CaseSpec& spec, double nodes_of_mechanics) {
   if (spec.analysis.kind != AnalysisKind::solid) return k_plane;
-  constexpr double k_direct_unknowns = 50000;  // where linear::SolverKind::automatic changes
+  constexpr double k_direct_unknowns = 50000;  // from which on the costs of an iteration were measured
   const bool direct =
       spec.mechanics.solver == linear::SolverKind::direct ||
       (spec.mechanics.solver == linear::SolverKind::automatic && 3 * nodes_of_mechanics < k_direct_unknowns);

@@ -161,6 +161,16 @@ std::vector<CooledSkin> skins_without_melt(const cases::CaseSpec& spec, const se
   return skins;
 }
 
+/// Marks the nodes of a skin: those of its surface, or of the other body.
+void mark_nodes(const mesh::Mesh& mesh, const CooledSkin& skin, std::span<char> marked) {
+  if (skin.surface.empty()) {
+    const std::vector<char> there = nodes_of(mesh, *skin.other);
+    for (std::size_t i = 0; i < there.size(); ++i) marked[i] = static_cast<char>(marked[i] | there[i]);
+  } else if (const auto surface = mesh.surfaces.find(skin.surface); surface != mesh.surfaces.end()) {
+    for (const Index node : surface->second.nodes) marked[static_cast<std::size_t>(node)] = 1;
+  }
+}
+
 /// Finds the parts of the skin that count as cooled, and the problem in one dimension, without the metal that
 /// is poured with the body: the skin that its mould cools is the A of V/A.
 /// @param earlier  estimates of what was poured before: a casting that is solid by now takes heat as a mould
@@ -188,12 +198,7 @@ void estimate_alone(const cases::CaseSpec& spec, const setup::Assembly& a, const
     if (skin.cooling < k_least_share_of_cooling * most) continue;
     pour.cooled_area += skin.area;
     pour.conductance += skin.area * skin.cooling;
-    if (skin.surface.empty()) {
-      const std::vector<char> there = nodes_of(a.mesh, *skin.other);
-      for (std::size_t i = 0; i < there.size(); ++i) on_skin[i] = static_cast<char>(on_skin[i] | there[i]);
-    } else if (const auto surface = a.mesh.surfaces.find(skin.surface); surface != a.mesh.surfaces.end()) {
-      for (const Index node : surface->second.nodes) on_skin[static_cast<std::size_t>(node)] = 1;
-    }
+    mark_nodes(a.mesh, skin, on_skin);
     cloud.insert(cloud.end(), skin.points.begin(), skin.points.end());
   }
   pour.cooled_area = std::min(pour.cooled_area, m.bodies[body].skin);  // two films on one surface

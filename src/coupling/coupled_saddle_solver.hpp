@@ -64,6 +64,23 @@ class CoupledSaddleSolver final : public linear::CoupledTangentSolver {
   std::size_t n_displacements() const;
   std::size_t n_pressures() const;
 
+  /// The solver of the whole, and what it multiplies by.
+  struct Outer {
+    bool direct = true;
+    std::unique_ptr<linear::FunctionMatrix> matrix;
+    std::optional<linear::KrylovSolver> factorised;   ///< where few are unknown
+    std::optional<linear::RecyclingGmres> iterative;  ///< where many are
+  };
+  /// The solver of the temperatures, part of the preconditioner.
+  struct Heat {
+    std::optional<linear::LinearSolver> solver;
+    bool changed = true;  ///< K_ΘΘ has, since the last solve with it
+  };
+  struct Work {
+    std::vector<double> right, solution;  ///< [unknown]
+    std::vector<double> whole, product, part, local_u, local_p, local_t;
+  };
+
   const mesh::Mesh& mesh_;
   linear::CoupledMatrix& matrix_;
   mechanics::NodalPressure& pressure_;
@@ -72,18 +89,13 @@ class CoupledSaddleSolver final : public linear::CoupledTangentSolver {
   double tightest_;  ///< relative tolerance
   std::optional<linear::CoupledUnknowns> unknowns_;
   linear::CoupledCopy copy_;
-  bool direct_ = true;
-  std::unique_ptr<linear::FunctionMatrix> operator_;
-  std::optional<linear::KrylovSolver> factorised_;   ///< where few are unknown
-  std::optional<linear::RecyclingGmres> iterative_;  ///< where many are
+  Outer outer_;
   std::optional<mechanics::SaddlePreconditioner> saddle_;
-  std::optional<linear::LinearSolver> temperatures_;
-  bool new_temperatures_ = true;  ///< K_ΘΘ has changed since the last solve with it
+  Heat heat_;
   linear::HierarchyAge hierarchy_;
   linear::FieldWeights weights_;
   double seconds_ = 0;
-  std::vector<double> right_, solution_;                                      ///< [unknown]
-  std::vector<double> whole_, product_, part_, local_u_, local_p_, local_t_;  ///< scratch
+  Work work_;
 };
 
 }  // namespace solidus::coupling

@@ -58,6 +58,27 @@ Connectivity::Connectivity(const mesh::Mesh& mesh, const parallel::GhostExchange
                            std::vector<char> chosen)
     : mesh_(mesh), ghosts_(ghosts), chosen_(std::move(chosen)) {}
 
+/// A ghost's owner may call its part by another number: then both are one part.
+/// @param label  of each local node on this process, and then of all of them
+void Connectivity::join_over_processes(std::span<const char> inside, std::vector<double>& label) const {
+  std::vector<double> of_owner = label;
+  ghosts_.update(of_owner, 1);
+  // Such pairs of labels are few: only parts that lie on more than one process have them.
+  std::vector<std::pair<double, double>> pairs;
+  for (std::size_t i = static_cast<std::size_t>(mesh_.n_owned_nodes); i < inside.size(); ++i)
+    if (inside[i] != 0 && of_owner[i] != label[i]) pairs.emplace_back(label[i], of_owner[i]);
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  // All processes get all pairs and come to the same common labels.
+  std::vector<double> flat;
+  for (const auto& [mine, owners] : pairs) flat.insert(flat.end(), {mine, owners});
+  const std::map<double, double> common = joined_labels(gathered(flat));
+  // A label without a pair is a part of this process alone and stays.
+  if (common.empty()) return;
+  for (double& one : label)
+    if (const auto found = common.find(one); found != common.end()) one = found->second;
+}
+
 ConnectedParts Connectivity::parts(std::span<const char> inside) const {
   // Inside nodes of one element are connected; elements with all nodes inside make their part whole.
   const std::size_t n = inside.size();
@@ -94,23 +115,7 @@ ConnectedParts Connectivity::parts(std::span<const char> inside) const {
   for (std::size_t i = 0; i < n; ++i)
     if (inside[i] != 0) parts.label[i] = parts.label[joined.root(i)];
 
-  // A ghost's owner may call its part by another number: then both are one part.
-  std::vector<double> of_owner = parts.label;
-  ghosts_.update(of_owner, 1);
-  // Such pairs of labels are few: only parts that lie on more than one process have them.
-  std::vector<std::pair<double, double>> pairs;
-  for (std::size_t i = static_cast<std::size_t>(mesh_.n_owned_nodes); i < n; ++i)
-    if (inside[i] != 0 && of_owner[i] != parts.label[i]) pairs.emplace_back(parts.label[i], of_owner[i]);
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  // All processes get all pairs and come to the same common labels.
-  std::vector<double> flat;
-  for (const auto& [mine, owners] : pairs) flat.insert(flat.end(), {mine, owners});
-  const std::map<double, double> common = joined_labels(gathered(flat));
-  // A label without a pair is a part of this process alone and stays.
-  if (!common.empty())
-    for (double& label : parts.label)
-      if (const auto found = common.find(label); found != common.end()) label = found->second;
+  join_over_processes(inside, parts.label);
 
   // Which parts hold a whole element, over all processes.
   std::vector<double> own;

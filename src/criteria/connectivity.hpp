@@ -27,6 +27,8 @@ class Connectivity {
   ConnectedParts parts(std::span<const char> inside) const;
 
  private:
+  void join_over_processes(std::span<const char> inside, std::vector<double>& label) const;
+
   const mesh::Mesh& mesh_;
   const parallel::GhostExchange& ghosts_;
   std::vector<char> chosen_;

@@ -110,6 +110,7 @@ class Feeding : public Criterion {
   void feed(Step& step) const;
   void leave_out_absent(Step& step) const;
   void find_pools(Step& step) const;
+  bool asks_in_mush(const Step& step) const;
   void feed_mush(Step& step) const;
   void share_among_pools(Step& step, const std::vector<double>& from_pool, const std::vector<int>& region,
                          std::size_t n_regions) const;

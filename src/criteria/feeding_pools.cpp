@@ -114,15 +114,19 @@ void Feeding::find_pools(Step& step) const {
     if (step.inside[i] != 0) step.pool[i] = place_in(pools.label, parts.label[i]);
 }
 
+// Nothing is to be done where no mush outside of pools asks for metal or holds gas.
+bool Feeding::asks_in_mush(const Step& step) const {
+  bool mush = false;
+  for (std::size_t i = 0; i < step.demands.size(); ++i)
+    mush = mush || (step.soft[i] != 0 && step.pool[i] < 0 &&
+                    (step.demands[i].metal != 0 || gas_[static_cast<std::size_t>(body_[i])]));
+  return parallel::any_process(mush);
+}
+
 // Pores open where mush is not connected with a pool.
 void Feeding::feed_mush(Step& step) const {
   const std::size_t owned = step.demands.size();
-  bool mush = false;
-  // Nothing to do where no mush outside of pools asks for metal or holds gas.
-  for (std::size_t i = 0; i < owned; ++i)
-    mush = mush || (step.soft[i] != 0 && step.pool[i] < 0 &&
-                    (step.demands[i].metal != 0 || gas_[static_cast<std::size_t>(body_[i])]));
-  if (!parallel::any_process(mush)) return;
+  if (!asks_in_mush(step)) return;
   // Mush that is connected with a pool over soft metal is fed by it, through the mush.
   const ConnectedParts parts = connectivity_.parts(step.soft);
   std::vector<double> own;

@@ -50,6 +50,19 @@ Pool pool_of(const double* r) {
           r[13] != 0};
 }
 
+/// The hottest node of a part. Ties are broken by the solid fraction and then by the number in the input, so
+/// that the place does not depend on the partition.
+void take_hotter(MeltPart& part, double temperature, double fraction, double number,
+                 const mesh::Point& where) {
+  if (!(std::tuple(-temperature, fraction, number) <
+        std::tuple(-part.temperature, part.fraction, part.number)))
+    return;
+  part.temperature = temperature;
+  part.fraction = fraction;
+  part.number = number;
+  part.where = where;
+}
+
 std::vector<char> melting_bodies(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage,
                                  const std::vector<char>& wanted) {
   std::vector<char> chosen;
@@ -162,15 +175,7 @@ void Pools::track(const CriterionInput* old, const CriterionInput& next, Criteri
     part.volume += volume;
     part.solid += volume * fraction;
     part.fed = part.fed || feeder_[i] != 0;
-    // Ties between equally hot nodes are broken by the solid fraction and then by the number in the input, so
-    // that the place does not depend on the partition.
-    if (std::tuple(-temperature, fraction, in_input) <
-        std::tuple(-part.temperature, part.fraction, part.number)) {
-      part.temperature = temperature;
-      part.fraction = fraction;
-      part.number = in_input;
-      part.where = mesh_.x[i];
-    }
+    take_hotter(part, temperature, fraction, in_input, mesh_.x[i]);
     if (pool > 0) overlaps[{parts.label[i], pool}] += volume;
   }
   // A part that no border of a process cuts is whole here.

@@ -114,7 +114,7 @@ bool ThermalIteration::overshoots(const ThermalState& next) const {
 void ThermalIteration::evaluate() {
   if (nodal()) {
     newton_->evaluate(now_.temperature);
-    unbalanced_ = newton_->unbalanced();
+    unbalanced_ = newton_->sums().unbalanced;
     return;
   }
   phase_.temperature_system_->residual(now_.temperature, residual_);
@@ -142,7 +142,7 @@ std::span<const double> ThermalIteration::residual() const {
 }
 
 double ThermalIteration::moved() const {
-  return nodal() ? newton_->moved() : phase_.temperature_system_->moved();
+  return nodal() ? newton_->sums().moved : phase_.temperature_system_->moved();
 }
 
 bool ThermalIteration::converged() const {

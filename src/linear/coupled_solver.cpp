@@ -6,16 +6,10 @@
 
 #include <algorithm>
 
+#include "linear/automatic_solver.hpp"
 #include "parallel/petsc_handles.hpp"
 
 namespace solidus::linear {
-
-namespace {
-
-/// Degrees of freedom of all fields; above, a factorisation in three dimensions fills up.
-constexpr GlobalIndex k_direct_limit_3d = 20000;
-
-}  // namespace
 
 struct CoupledSolver::Petsc {
   petsc::MatHandle assembled;  ///< the nest as one matrix, for the direct solver
@@ -23,7 +17,7 @@ struct CoupledSolver::Petsc {
 
 CoupledSolver::CoupledSolver(const mesh::Mesh& mesh, int components, CoupledSolverKind kind,
                              double relative_tolerance)
-    : direct_(is_direct(kind, mesh.dimension, mesh.n_global_nodes * (components + 1), k_direct_limit_3d)),
+    : direct_(factorises_coupled(kind, {mesh.dimension, mesh.n_global_nodes * (components + 1)}, false)),
       solver_(mesh, {.prefix = "coupled_",
                      .kind = direct_ ? SolverKind::direct : SolverKind::field_split,
                      .symmetric = false,

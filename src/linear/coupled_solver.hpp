@@ -46,13 +46,6 @@ class CoupledTangentSolver {
   virtual double seconds() const = 0;
 };
 
-/// Whether a kind means a factorisation.
-/// @param n_unknowns, limit_3d  of all processes: from how many on it is not the default in three dimensions
-inline bool is_direct(CoupledSolverKind kind, int dimension, GlobalIndex n_unknowns, GlobalIndex limit_3d) {
-  if (kind != CoupledSolverKind::automatic) return kind == CoupledSolverKind::direct;
-  return dimension == 2 || n_unknowns < limit_3d;
-}
-
 /// Solver of the coupled system of displacement and temperature without a nodal pressure; systems with one
 /// are solved by coupling/coupled_saddle_solver.hpp.
 class CoupledSolver final : public CoupledTangentSolver {

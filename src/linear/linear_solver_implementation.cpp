@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "linear/automatic_solver.hpp"
 #include "linear/interruption.hpp"
 #include "parallel/petsc_options.hpp"
 #include "system/free_memory.hpp"
@@ -14,14 +15,7 @@ namespace solidus::linear {
 
 namespace {
 
-/// Degrees of freedom from which on multigrid is the default. In three dimensions it is as fast from 2 000 on
-/// and eight times faster at 15 000 (docs/log/benchmarks.md), but where it has trouble a factorisation of so
-/// few costs nothing either.
-constexpr GlobalIndex k_direct_limit_3d = 6000, k_direct_limit_2d = 15000;
-/// The same for PETSc's multigrid, which is slower and serves in three dimensions alone.
-constexpr GlobalIndex k_direct_limit_of_petsc = 50000;
-/// Up to so many a factorisation takes over where multigrid has not converged in so many iterations.
-constexpr GlobalIndex k_rescue_limit = 300000;
+/// Iterations after which a factorisation takes over where it may (factors_rescue_field).
 constexpr int k_patience = 400;
 constexpr double k_refine_above =
     1e-8;  ///< residual of a direct solve relative to b: above it one step of refinement
@@ -31,17 +25,10 @@ constexpr int k_field_split_restart = 100;  ///< directions that FGMRES keeps
 /// many again as the first one with it and more than a few.
 constexpr double k_slower = 0.5, k_more_iterations = 5;
 
-/// @param of_blocks  multigrid would be ours, not PETSc's
-SolverKind automatic_kind(const LinearSolverOptions& options, const mesh::Mesh& mesh, int components,
-                          bool of_blocks) {
-  if (options.kind != SolverKind::automatic) return options.kind;
-  if (options.transient_heat) return SolverKind::incomplete;
-  const bool plane = mesh.dimension == 2;
-  if (!of_blocks && plane) return SolverKind::direct;
-  const GlobalIndex limit = !of_blocks ? k_direct_limit_of_petsc
-                            : plane    ? k_direct_limit_2d
-                                       : k_direct_limit_3d;
-  return mesh.n_global_nodes * components < limit ? SolverKind::direct : SolverKind::multigrid;
+SolverKind kind_for(const LinearSolverOptions& options, const mesh::Mesh& mesh, int components,
+                    bool of_blocks) {
+  return solver_of_field(options.kind, {mesh.dimension, mesh.n_global_nodes * components},
+                         options.transient_heat, of_blocks);
 }
 
 /// z = ours.apply(r)
@@ -95,13 +82,13 @@ petsc::NullSpaceHandle petsc_rigid_body_modes(const mesh::Mesh& mesh, int compon
 
 /// Whether the preconditioner is ours: not where the user asks PETSc for one, and not for tied unknowns.
 bool is_ours(const LinearSolverOptions& options, const mesh::Mesh& mesh, int block_size, int modes) {
-  return automatic_kind(options, mesh, block_size, true) == SolverKind::multigrid &&
+  return kind_for(options, mesh, block_size, true) == SolverKind::multigrid &&
          BlockMultigrid::supports(block_size, modes) && !petsc::user_gave_option(options.prefix + "pc_type");
 }
 
 /// The same of incomplete factors.
 bool is_our_factor(const LinearSolverOptions& options, const mesh::Mesh& mesh, int block_size) {
-  return automatic_kind(options, mesh, block_size, true) == SolverKind::incomplete && options.symmetric &&
+  return kind_for(options, mesh, block_size, true) == SolverKind::incomplete && options.symmetric &&
          block_size == 1 && !petsc::user_gave_option(options.prefix + "pc_") &&
          !petsc::user_gave_option(options.prefix + "sub_");
 }
@@ -140,7 +127,7 @@ LinearReport LinearSolver::Implementation::solve_by_gradients(std::span<const do
 }
 
 bool LinearSolver::Implementation::factorisation_serves(const BlockMatrix& a) const {
-  return options.kind == SolverKind::automatic && mesh.n_global_nodes * a.block_size() < k_rescue_limit;
+  return factors_rescue_field(options.kind, mesh.n_global_nodes * a.block_size());
 }
 
 void LinearSolver::Implementation::create_shell(BlockMatrix& a) {
@@ -236,7 +223,7 @@ void LinearSolver::Implementation::create(Mat a) {
   petsc::make_scalar_products_reproducible();
   PetscInt components = 0;
   petsc::check(MatGetBlockSize(a, &components), "MatGetBlockSize");
-  kind = automatic_kind(options, mesh, static_cast<int>(components), a == shell);
+  kind = kind_for(options, mesh, static_cast<int>(components), a == shell);
   petsc::check(KSPCreate(PETSC_COMM_WORLD, ksp.out()), "KSPCreate");
   petsc::check(KSPSetOptionsPrefix(ksp, options.prefix.c_str()), "KSPSetOptionsPrefix");
   petsc::check(KSPSetErrorIfNotConverged(ksp, PETSC_FALSE), "KSPSetErrorIfNotConverged");

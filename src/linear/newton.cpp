@@ -45,20 +45,15 @@ class Iteration {
  public:
   Iteration(NonlinearSystem& system, TangentSolver& solver, const parallel::GhostExchange& ghosts,
             std::span<const int> components, std::span<double> x, const NewtonOptions& options)
-      : system_(system),
-        solver_(solver),
-        ghosts_(ghosts),
-        components_(components),
-        x_(x),
-        options_(options),
-        start_(x.size()),
-        local_step_(x.size()) {
+      : system_(system), solver_(solver), ghosts_(ghosts), components_(components), x_(x), options_(options) {
+    work_.start.resize(x.size());
+    work_.local_step.resize(x.size());
     // Lengths of the residual and of the step by the owned entries of all fields.
     std::size_t n = 0;
     for (const int of_field : components) n += owned(of_field);
     n_first_ = owned(components.front());
-    r_.resize(n);
-    step_.resize(n);
+    work_.r.resize(n);
+    work_.step.resize(n);
   }
 
   NewtonReport run();
@@ -88,6 +83,11 @@ class Iteration {
   double slope_at(double alpha);
   double search(double slope);
 
+  struct Work {
+    std::vector<double> r, step;            ///< on owned nodes
+    std::vector<double> start, local_step;  ///< on local nodes
+  };
+
   NonlinearSystem& system_;
   TangentSolver& solver_;
   const parallel::GhostExchange& ghosts_;
@@ -95,8 +95,7 @@ class Iteration {
   std::size_t n_first_ = 0;  ///< owned entries of the first field
   std::span<double> x_;
   const NewtonOptions& options_;
-  std::vector<double> r_, step_;            ///< on owned nodes
-  std::vector<double> start_, local_step_;  ///< on local nodes
+  Work work_;
   const std::vector<char>* fixed_ = nullptr;
   const MultiPointConstraints* constraints_ = nullptr;
   double norm_ = 0, reference_ = 0;
@@ -125,13 +124,13 @@ bool Iteration::takes_effort() const {
 
 void Iteration::measure_next_step(double alpha, double norm_before) {
   if (options_.step_tolerance <= 0) return;
-  for (double& value : local_step_) value *= alpha;
+  for (double& value : work_.local_step) value *= alpha;
   const double contraction = alpha == 1 && norm_before > 0 ? std::min(1.0, norm_ / norm_before) : 1.0;
-  next_step_ = contraction * system_.relative_step(x_, local_step_);
+  next_step_ = contraction * system_.relative_step(x_, work_.local_step);
 }
 
 void Iteration::evaluate() {
-  reference_ = system_.residual(x_, r_);
+  reference_ = system_.residual(x_, work_.r);
   if (fixed_) constrain();
 }
 
@@ -139,9 +138,9 @@ void Iteration::evaluate() {
 /// constraint.
 void Iteration::constrain() {
   for (std::size_t i = 0; i < n_first_ && i < fixed_->size(); ++i)
-    if ((*fixed_)[i]) r_[i] = 0;
-  constraints_->sum(std::span(r_).first(n_first_));
-  norm_ = std::sqrt(dot(r_, r_));
+    if ((*fixed_)[i]) work_.r[i] = 0;
+  constraints_->sum(std::span(work_.r).first(n_first_));
+  norm_ = std::sqrt(dot(work_.r, work_.r));
 }
 
 void Iteration::spread_step() {
@@ -151,9 +150,9 @@ void Iteration::spread_step() {
   // Field by field from the owned unknowns to the local ones, with ghosts.
   for (const int components : components_) {
     const std::size_t n_owned = owned(components), n = n_nodes * static_cast<std::size_t>(components);
-    std::copy_n(step_.begin() + static_cast<std::ptrdiff_t>(from), n_owned,
-                local_step_.begin() + static_cast<std::ptrdiff_t>(to));
-    ghosts_.update(std::span(local_step_).subspan(to, n), components);
+    std::copy_n(work_.step.begin() + static_cast<std::ptrdiff_t>(from), n_owned,
+                work_.local_step.begin() + static_cast<std::ptrdiff_t>(to));
+    ghosts_.update(std::span(work_.local_step).subspan(to, n), components);
     from += n_owned;
     to += n;
   }
@@ -163,17 +162,17 @@ void Iteration::spread_step() {
 // negative, Newton's direction leads to the maximum of the energy, and the line search, which looks for a
 // change of sign, goes with it.
 double Iteration::descend() {
-  const double slope = dot(step_, r_);
+  const double slope = dot(work_.step, work_.r);
   if (!options_.descends || !(slope > 0)) return slope;
-  for (double& value : step_) value = -value;
-  for (double& value : local_step_) value = -value;
+  for (double& value : work_.step) value = -value;
+  for (double& value : work_.local_step) value = -value;
   return -slope;
 }
 
 double Iteration::slope_at(double alpha) {
-  for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = start_[i] + alpha * local_step_[i];
+  for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = work_.start[i] + alpha * work_.local_step[i];
   evaluate();
-  return dot(step_, r_);
+  return dot(work_.step, work_.r);
 }
 
 /// Finds alpha with |s(alpha)| <= line_search_slope |s(0)|, s(alpha) = d · r(x + alpha d): the full step if
@@ -249,12 +248,12 @@ NewtonReport Iteration::run() {
     const bool solved = stepped_ && converged(false);
     // A chord uses the factors of the round before.
     if (!tangent && !chord) tangent = &system_.tangent(x_);
-    for (double& value : r_) value = -value;
+    for (double& value : work_.r) value = -value;
     // The tolerance of the linear solve follows the convergence (Eisenstat and Walker).
     const double eta = forcing.next(norm_, goal() / norm_);
-    const LinearReport linear =
-        chord ? solver_.solve_again(r_, step_, eta) : solver_.solve(*tangent, r_, step_, eta);
-    for (double& value : r_) value = -value;
+    const LinearReport linear = chord ? solver_.solve_again(work_.r, work_.step, eta)
+                                      : solver_.solve(*tangent, work_.r, work_.step, eta);
+    for (double& value : work_.r) value = -value;
     tangent = nullptr;
     ++report.iterations;
     if (takes_effort()) ++report.effort;
@@ -270,34 +269,34 @@ NewtonReport Iteration::run() {
     }
     // Prescribed entries do not move, followers move with their leaders.
     for (std::size_t i = 0; i < n_first_ && i < fixed_->size(); ++i)
-      if ((*fixed_)[i]) step_[i] = 0;
-    constraints_->share(std::span(step_).first(n_first_));
+      if ((*fixed_)[i]) work_.step[i] = 0;
+    constraints_->share(std::span(work_.step).first(n_first_));
     spread_step();
 
     // The search starts from x, to which it may have to go back.
     const double norm_before = norm_;
     double alpha = 1;
-    std::copy(x_.begin(), x_.end(), start_.begin());
+    std::copy(x_.begin(), x_.end(), work_.start.begin());
     if (options_.line_search) {
       alpha = search(descend());
       if (chord && !(norm_ < norm_before)) {
         // The tangent before does not serve here, where a contact that it knew has opened: back, for a new
         // one.
-        std::copy(start_.begin(), start_.end(), x_.begin());
+        std::copy(work_.start.begin(), work_.start.end(), x_.begin());
         evaluate();
         chord = false;
         continue;
       }
       if (solved && !(norm_ < norm_before)) {
-        std::copy(start_.begin(), start_.end(), x_.begin());
+        std::copy(work_.start.begin(), work_.start.end(), x_.begin());
         evaluate();
         report.converged = true;
         return report;
       }
-      system_.accept(x_, local_step_, alpha);
+      system_.accept(x_, work_.local_step, alpha);
     } else {
-      for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += local_step_[i];
-      system_.accept(x_, local_step_, 1.0);
+      for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += work_.local_step[i];
+      system_.accept(x_, work_.local_step, 1.0);
       evaluate();
     }
     // What this round has brought decides about the next one: whether the step is expected to

@@ -168,6 +168,31 @@ std::string channels_text(const Draft& draft, const std::string& die) {
       speed, die);
 }
 
+/// Mould, mesh and time to freeze, which an estimate has given.
+std::string estimate_text(const Draft& draft, const DraftEstimate& estimate) {
+  std::string out;
+  if (draft.mould) {
+    const std::string open = draft.mould->walls[5] == 0 ? ", open at the top, where the metal ends" : "";
+    out += draft.shell ? fmt::format("\n  {:<10}  {:.3g} mm thick, on all of the skin{}", draft.shell->name,
+                                     1e3 * draft.shell->thickness, open)
+                       : fmt::format("\n  {:<10}  walls of {:.3g} mm{}", draft.mould->name,
+                                     1e3 * *std::ranges::max_element(draft.mould->walls), open);
+  }
+  out += fmt::format("\n  mesh        {:.0f} nodes, {:.0f} of them in metal; {}", estimate.nodes,
+                     estimate.metal_nodes,
+                     draft.meshed ? std::string("elements as the file has them")
+                                  : fmt::format("edges of {:.3g} to {:.3g} mm there",
+                                                1e3 * estimate.shortest_edge, 1e3 * estimate.longest_edge));
+  if (estimate.freezing > 0)
+    out += fmt::format(
+        "\n  freezes     in about {:g} s by an estimate of one dimension; {}", two_digits(estimate.freezing),
+        draft.shots
+            ? fmt::format("it leaves the die after {:g} s, {} times",
+                          draft.shots->pour + draft.shots->solidify + draft.shots->open, draft.shots->number)
+            : fmt::format("the run ends when it has, at {:g} s at the latest", draft.end));
+  return out;
+}
+
 }  // namespace
 
 std::string report_text(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate,
@@ -195,26 +220,7 @@ std::string report_text(const Draft& draft, const PartMeasures& part, const Draf
   if (draft.symmetry)
     out += fmt::format("\n  symmetry    the half below {} = {:.4g} mm is computed",
                        "xyz"[draft.symmetry->axis], 1e3 * draft.symmetry->at);
-  // Mould, mesh and time to freeze, which an estimate has given.
-  if (draft.mould) {
-    const std::string open = draft.mould->walls[5] == 0 ? ", open at the top, where the metal ends" : "";
-    out += draft.shell ? fmt::format("\n  {:<10}  {:.3g} mm thick, on all of the skin{}", draft.shell->name,
-                                     1e3 * draft.shell->thickness, open)
-                       : fmt::format("\n  {:<10}  walls of {:.3g} mm{}", draft.mould->name,
-                                     1e3 * *std::ranges::max_element(draft.mould->walls), open);
-  }
-  out += fmt::format("\n  mesh        {:.0f} nodes, {:.0f} of them in metal; {}", estimate.nodes,
-                     estimate.metal_nodes,
-                     draft.meshed ? std::string("elements as the file has them")
-                                  : fmt::format("edges of {:.3g} to {:.3g} mm there",
-                                                1e3 * estimate.shortest_edge, 1e3 * estimate.longest_edge));
-  if (estimate.freezing > 0)
-    out += fmt::format(
-        "\n  freezes     in about {:g} s by an estimate of one dimension; {}", two_digits(estimate.freezing),
-        draft.shots
-            ? fmt::format("it leaves the die after {:g} s, {} times",
-                          draft.shots->pour + draft.shots->solidify + draft.shots->open, draft.shots->number)
-            : fmt::format("the run ends when it has, at {:g} s at the latest", draft.end));
+  out += estimate_text(draft, estimate);
   if (draft.shots && draft.shots->cooling > draft.film)
     out +=
         fmt::format("\n  cooling     {:g} W/m2/K outside the die take what the castings bring, an estimate",

@@ -47,35 +47,27 @@ std::string riser_text(const DraftRiser& r) {
   return t + "\n";
 }
 
-std::string mesh_text(const Draft& d) {
+/// Sizes of elements in what is poured, and how they grow in what surrounds it.
+std::string element_size_text(const Draft& d, const DraftBody& b) {
   // Behind layers of sand elements that grow fast would take up too much heat.
   constexpr double k_growth_of_sand = 0.2, k_growth = 0.6;
-  // The file and its unit, and the way of meshing that was found best.
-  std::string t = fmt::format("[mesh]\nfile = {}\n", quoted(d.geometry.filename().string()));
-  if (!d.unit.empty()) t += fmt::format("unit = {}\n", quoted(d.unit));
-  if (d.way > 0)
-    t += fmt::format(
-        "way = {}   # of meshing, the best of those tried; without this line all are tried again\n", d.way);
-  t += "\n";
-  if (d.meshed) return t + "# Elements are those of the file.\n\n";
-  t += "# Elements: the largest, and the smallest in thin walls. Half the size is about eight times the "
-       "time.\n";
-  // Sizes for what is poured, and how elements grow in what surrounds it.
-  for (const DraftBody& b : d.bodies) {
-    if (cases::is_poured(b.role)) {
-      // A riser that is put onto the part has four elements across, or its freezing is that of the mesh.
-      const auto riser = std::ranges::find(d.risers, b.group, &DraftRiser::name);
-      const double most = riser == d.risers.end() ? d.size : two_digits(riser->diameter / 4);
-      t += fmt::format(
-          "[[mesh.size]]\nbody = {}\nsize = {}\nsmallest = {}\nacross = 2    # through a wall\n\n",
-          quoted(b.group), mm(std::min(d.size, most)), mm(std::min(d.smallest, most)));
-    } else
-      t += fmt::format(
-          "[[mesh.size]]\nbody = {}\nsize = {}\nacross = 0\ngrowth = {}  # away from the metal\n\n",
-          quoted(d.shell && b.group == d.shell->name ? d.mould->name : b.group), mm(d.mould_size),
-          has_layers(b.role) ? k_growth_of_sand : k_growth);
+  if (cases::is_poured(b.role)) {
+    // A riser that is put onto the part has four elements across, or its freezing is that of the mesh.
+    const auto riser = std::ranges::find(d.risers, b.group, &DraftRiser::name);
+    const double most = riser == d.risers.end() ? d.size : two_digits(riser->diameter / 4);
+    return fmt::format(
+        "[[mesh.size]]\nbody = {}\nsize = {}\nsmallest = {}\nacross = 2    # through a wall\n\n",
+        quoted(b.group), mm(std::min(d.size, most)), mm(std::min(d.smallest, most)));
   }
-  // Block, riser, symmetry and layers, as far as the draft has them.
+  return fmt::format(
+      "[[mesh.size]]\nbody = {}\nsize = {}\nacross = 0\ngrowth = {}  # away from the metal\n\n",
+      quoted(d.shell && b.group == d.shell->name ? d.mould->name : b.group), mm(d.mould_size),
+      has_layers(b.role) ? k_growth_of_sand : k_growth);
+}
+
+/// The block around the parts, and the shell out of which it is cut.
+std::string mould_text(const Draft& d) {
+  std::string t;
   if (d.mould) {
     const auto& w = d.mould->walls;
     const bool even = std::all_of(w.begin(), w.end(), [&](double x) { return x == w[0]; });
@@ -91,6 +83,23 @@ std::string mesh_text(const Draft& d) {
         "[[mesh.coat]]   # more of them from the metal outward: a face coat of another ceramic, a back-up\n"
         "name = {}\nthickness = {}\n\n",
         quoted(d.shell->name), mm(d.shell->thickness));
+  return t;
+}
+
+std::string mesh_text(const Draft& d) {
+  // The file and its unit, and the way of meshing that was found best.
+  std::string t = fmt::format("[mesh]\nfile = {}\n", quoted(d.geometry.filename().string()));
+  if (!d.unit.empty()) t += fmt::format("unit = {}\n", quoted(d.unit));
+  if (d.way > 0)
+    t += fmt::format(
+        "way = {}   # of meshing, the best of those tried; without this line all are tried again\n", d.way);
+  t += "\n";
+  if (d.meshed) return t + "# Elements are those of the file.\n\n";
+  t += "# Elements: the largest, and the smallest in thin walls. Half the size is about eight times the "
+       "time.\n";
+  for (const DraftBody& b : d.bodies) t += element_size_text(d, b);
+  // Block, riser, symmetry and layers, as far as the draft has them.
+  t += mould_text(d);
   for (const DraftRiser& riser : d.risers) t += riser_text(riser);
   for (const DraftChill& chill : d.chills)
     t += fmt::format(

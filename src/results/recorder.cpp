@@ -114,12 +114,12 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
       output_(options_.continue_from ? FieldOutput(folder, mesh, options_.continue_from->state.time)
                                      : FieldOutput(folder, mesh)),
       checkpoints_(folder.root()),
-      criteria_probed_(samples_criteria(phases, options_.probes)),
-      began_(processes::wall_time()) {
+      criteria_probed_(samples_criteria(phases, options_.probes)) {
+  seconds_.began = processes::wall_time();
   // Profiles and fields are made on every process; a field that does not exist is complained about before the
   // run begins.
   for (const Profile& profile : options_.profiles)
-    profiles_.emplace_back(mesh, options_.kind, profile, fields_.bodies());
+    tables_.profiles.emplace_back(mesh, options_.kind, profile, fields_.bodies());
   fields_.bodies().select(options_.fields);  // complains about a field there is not
   // Tables are written by the first process alone. A run that continues keeps the rows up to its checkpoint.
   on_first_process([&] {
@@ -131,33 +131,33 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
     for (const CsvColumn& c : globals_.columns()) columns.push_back(c);
     if (options_.continue_from) {
       const double time = options_.continue_from->state.time;
-      history_.emplace(folder.history(), columns, time);
-      steps_.emplace(folder.steps(), step_columns(step_table()), time);
+      tables_.history.emplace(folder.history(), columns, time);
+      tables_.steps.emplace(folder.steps(), step_columns(step_table()), time);
     } else {
-      history_.emplace(folder.history(), columns);
-      steps_.emplace(folder.steps(), step_columns(step_table()));
+      tables_.history.emplace(folder.history(), columns);
+      tables_.steps.emplace(folder.steps(), step_columns(step_table()));
     }
     // Tables of pools, feeding and shots exist only where the run has something to put into them.
     if (phases.criteria != nullptr && phases.heat != nullptr && options_.melting)
-      pools_.emplace(folder.pools(), options_.continue_from
-                                         ? std::optional(options_.continue_from->state.time)
-                                         : std::nullopt);
+      tables_.pools.emplace(folder.pools(), options_.continue_from
+                                                ? std::optional(options_.continue_from->state.time)
+                                                : std::nullopt);
     if (follows(phases, criteria::fields::k_emptied))
-      feeding_.emplace(folder.feeding(), options_.continue_from
-                                             ? std::optional(options_.continue_from->state.time)
-                                             : std::nullopt);
+      tables_.feeding.emplace(folder.feeding(), options_.continue_from
+                                                    ? std::optional(options_.continue_from->state.time)
+                                                    : std::nullopt);
     if (options_.shots && phases.heat != nullptr)
-      shots_.emplace(folder.shots(), options_.continue_from
-                                         ? std::optional(options_.continue_from->state.time)
-                                         : std::nullopt);
+      tables_.shots.emplace(folder.shots(), options_.continue_from
+                                                ? std::optional(options_.continue_from->state.time)
+                                                : std::nullopt);
     if (options_.progress != nullptr) progress_.emplace(*options_.progress, options_.progress_options);
   });
 }
 
 std::vector<Reading> Recorder::readings() const {
   std::vector<Reading> readings = globals_.all();
-  if (options_.shots) readings = with_shot(std::move(readings), shot_, since_pouring_);
-  return options_.stages ? with_stage(std::move(readings), stage_, cycle_) : readings;
+  if (options_.shots) readings = with_shot(std::move(readings), last_.shot, last_.since_pouring);
+  return options_.stages ? with_stage(std::move(readings), last_.stage, last_.cycle) : readings;
 }
 
 double Recorder::heat_of_bodies(const coupling::State& state) const {
@@ -189,11 +189,11 @@ void Recorder::begin(const coupling::State& state) {
     options_.summary.steps = options_.continue_from->continuation.steps;
     options_.summary.rejected = options_.continue_from->rejected;
     options_.summary.shortened = options_.continue_from->shortened;
-    last_row_ = history_row(state);
+    last_.row = history_row(state);
     // Stresses follow with the first step: a run that stops before it ends with the row that it has.
     on_first_process([&] {
       const std::vector<double> row = last_row(folder_.history());
-      if (row.size() == last_row_.size()) last_row_ = row;
+      if (row.size() == last_.row.size()) last_.row = row;
     });
     return;
   }
@@ -217,22 +217,23 @@ void Recorder::step(const coupling::StepRecord& taken, const coupling::State& st
   show_castings(record, state);
   measure_internal_energy(record, state);
   globals_.add(record, heat_of_bodies(state));
-  stage_ = record.stage_of_case;
-  cycle_ = record.cycle;
+  last_.stage = record.stage_of_case;
+  last_.cycle = record.cycle;
   fields_.update(state);
-  if (!options_.castings.empty()) last_step_.step(fields_.bodies());
+  if (!options_.castings.empty()) last_.step.step(fields_.bodies());
   if (criteria_probed_) fields_.update_criteria(state);
-  on_first_process([&] { steps_->add(step_row(record, step_table())); });
+  on_first_process([&] { tables_.steps->add(step_row(record, step_table())); });
   add_history_row(state);
   add_pools(state);
   // Fields are written where the step asks for them, after everything else is up to date.
   if (record.output) write_fields(state);
-  if (record.temperature_error > largest_error_[0]) largest_error_ = {record.temperature_error, record.time};
+  if (record.temperature_error > last_.largest_error[0])
+    last_.largest_error = {record.temperature_error, record.time};
   if (progress_) progress_->step(record);
   // Times of the two phases and of the output, for the profile at the end.
-  seconds_heat_ += record.heat.seconds;
-  seconds_mechanics_ += record.mechanics.seconds;
-  seconds_output_ += processes::wall_time() - start;
+  seconds_.heat += record.heat.seconds;
+  seconds_.mechanics += record.mechanics.seconds;
+  seconds_.output += processes::wall_time() - start;
   options_.summary.steps = record.number;
   options_.summary.rejected += record.rejected;
   options_.summary.shortened += record.shortened;
@@ -245,9 +246,9 @@ void Recorder::shot(const coupling::ShotRecord& record, const coupling::State& s
   const std::optional<double> solid = time_to_solidify(mesh_, fields_.bodies(), options_.castings);
   if (!criteria_probed_) fields_.release_criteria();
   on_first_process([&] {
-    if (!shots_) return;
-    shots_->add(record, solid);
-    if (progress_) progress_->shot(shot_text(shots_->rows().back()));
+    if (!tables_.shots) return;
+    tables_.shots->add(record, solid);
+    if (progress_) progress_->shot(shot_text(tables_.shots->rows().back()));
   });
 }
 
@@ -295,7 +296,7 @@ void Recorder::checkpoint(const coupling::RestartData& continuation, const coupl
   checkpoints_.write(mesh_, options_.fingerprint,
                      {state, continuation, globals_.energy(), options_.summary.rejected,
                       options_.summary.shortened, globals_.stability()});
-  seconds_output_ += processes::wall_time() - start;
+  seconds_.output += processes::wall_time() - start;
 }
 
 void Recorder::stopped(const coupling::Stop& stop, const coupling::State& state) {
@@ -321,9 +322,9 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
     fields_.update_criteria(state);
     s.answers = answers(mesh_, phases_, state, options_.castings, fields_.bodies(), mechanical);
     if (phases_.criteria != nullptr) s.criteria = phases_.criteria->findings(state.criteria);
-    add_errors(mesh_, phases_, state, fields_.bodies(), last_step_, *s.answers, s.criteria);
-    if (shots_) s.answers->shots = shots_->rows();
-    if (options_.fixed_steps && largest_error_[0] > 0) s.answers->step_error = largest_error_;
+    add_errors(mesh_, phases_, state, fields_.bodies(), last_.step, *s.answers, s.criteria);
+    if (tables_.shots) s.answers->shots = tables_.shots->rows();
+    if (options_.fixed_steps && last_.largest_error[0] > 0) s.answers->step_error = last_.largest_error;
     if (!criteria_probed_) fields_.release_criteria();
     if (phases_.heat != nullptr) s.answers->energy_defect = globals_.relative_defect();
   }
@@ -336,32 +337,33 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
 }
 
 std::vector<double> Recorder::history_row(const coupling::State& state) {
-  shot_ = state.shot;
-  since_pouring_ = state.time - state.poured;
+  last_.shot = state.shot;
+  last_.since_pouring = state.time - state.poured;
   std::vector<double> row = {state.time};
-  if (options_.stages) row.insert(row.end(), {static_cast<double>(stage_), static_cast<double>(cycle_)});
-  if (options_.shots) row.insert(row.end(), {static_cast<double>(shot_), since_pouring_});
+  if (options_.stages)
+    row.insert(row.end(), {static_cast<double>(last_.stage), static_cast<double>(last_.cycle)});
+  if (options_.shots) row.insert(row.end(), {static_cast<double>(last_.shot), last_.since_pouring});
   for (const double v : probes_.values(fields_.bodies(), readings())) row.push_back(v);
   for (const double v : globals_.values()) row.push_back(v);
   return row;
 }
 
 void Recorder::add_history_row(const coupling::State& state) {
-  last_row_ = history_row(state);
-  on_first_process([&] { history_->add(last_row_); });
+  last_.row = history_row(state);
+  on_first_process([&] { tables_.history->add(last_.row); });
 }
 
 void Recorder::add_pools(const coupling::State& state) {
   on_first_process([&] {
-    if (pools_) pools_->add(state);
-    if (feeding_) feeding_->add(state);
+    if (tables_.pools) tables_.pools->add(state);
+    if (tables_.feeding) tables_.feeding->add(state);
   });
 }
 
 void Recorder::write_fields(const coupling::State& state) {
   fields_.update_criteria(state);
   output_.write(state.time, fields_.bodies().select(options_.fields), fields_.surfaces());
-  for (const ProfileTable& profile : profiles_) profile.write(folder_.root(), fields_.bodies());
+  for (const ProfileTable& profile : tables_.profiles) profile.write(folder_.root(), fields_.bodies());
   if (!criteria_probed_) fields_.release_criteria();
 }
 
@@ -373,10 +375,10 @@ void Recorder::write_summary_file(const std::string& outcome, const coupling::St
   s.end_time = state.time;
   s.memory = peak_memory();
   if (phases_.heat != nullptr) s.relative_energy_defect = globals_.relative_defect();
-  s.seconds.emplace_back("heat", seconds_heat_);
-  s.seconds.emplace_back("mechanics", seconds_mechanics_);
-  s.seconds.emplace_back("output", seconds_output_);
-  s.seconds.emplace_back("run", processes::wall_time() - began_);
+  s.seconds.emplace_back("heat", seconds_.heat);
+  s.seconds.emplace_back("mechanics", seconds_.mechanics);
+  s.seconds.emplace_back("output", seconds_.output);
+  s.seconds.emplace_back("run", processes::wall_time() - seconds_.began);
   if (phases_.heat != nullptr) {
     s.seconds.emplace_back("heat_solver", phases_.heat->seconds_solver());
     s.table_bytes.emplace_back("heat", phases_.heat->bytes());
@@ -406,9 +408,9 @@ void Recorder::write_summary_file(const std::string& outcome, const coupling::St
   s.profile_total = profile::total();
   // The first process adds the last row of the history, and writes.
   on_first_process([&] {
-    const auto& columns = history_->columns();
+    const auto& columns = tables_.history->columns();
     for (std::size_t i = 0; i < columns.size(); ++i)
-      s.final_values.emplace_back(columns[i].header(), last_row_[i]);
+      s.final_values.emplace_back(columns[i].header(), last_.row[i]);
     write_summary(folder_.summary(), s);
   });
 }

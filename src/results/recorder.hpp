@@ -85,6 +85,27 @@ class Recorder : public coupling::Observer {
   void conclude(const std::string& outcome, const coupling::State& state, bool mechanical);
   void write_summary_file(const std::string& outcome, const coupling::State& state);
 
+  /// On process 0, but for profiles.
+  struct Tables {
+    std::optional<CsvTable> history, steps;
+    std::vector<ProfileTable> profiles;
+    std::optional<PoolTable> pools;       ///< where pools are followed
+    std::optional<FeedingTable> feeding;  ///< where feeding is followed
+    std::optional<ShotTable> shots;       ///< in a run with shots
+  };
+  /// What the last row tells.
+  struct Last {
+    std::vector<double> row;
+    LastStep step;
+    int stage = 0, cycle = 0;               ///< as in StepRecord
+    int shot = 0;                           ///< as in State
+    double since_pouring = 0;               ///< [s]
+    std::array<double, 2> largest_error{};  ///< Answers::step_error, of the run so far
+  };
+  struct Seconds {
+    double heat = 0, mechanics = 0, output = 0, began = 0;
+  };
+
   const RunFolder& folder_;
   const mesh::Mesh& mesh_;
   const coupling::Phases& phases_;
@@ -92,23 +113,14 @@ class Recorder : public coupling::Observer {
   int rank_ = 0;
   StateFields fields_;
   Probes probes_;
-  std::vector<ProfileTable> profiles_;
   GlobalHistory globals_;
   FieldOutput output_;
   CheckpointFolder checkpoints_;
-  bool criteria_probed_ = false;             ///< a probe samples a field of a criterion
-  std::optional<CsvTable> history_, steps_;  // on process 0
-  std::optional<PoolTable> pools_;           // on process 0, where pools are followed
-  std::optional<FeedingTable> feeding_;      // on process 0, where feeding is followed
-  std::optional<ShotTable> shots_;           // on process 0, in a run with shots
-  std::optional<Progress> progress_;         // on process 0
-  std::vector<double> last_row_;
-  LastStep last_step_;
-  int stage_ = 0, cycle_ = 0;              ///< of the last row, as in StepRecord
-  int shot_ = 0;                           ///< as in State
-  double since_pouring_ = 0;               ///< [s]
-  std::array<double, 2> largest_error_{};  ///< Answers::step_error
-  double seconds_heat_ = 0, seconds_mechanics_ = 0, seconds_output_ = 0, began_ = 0;
+  bool criteria_probed_ = false;      ///< a probe samples a field of a criterion
+  std::optional<Progress> progress_;  // on process 0
+  Tables tables_;
+  Last last_;
+  Seconds seconds_;
 };
 
 }  // namespace solidus::results

@@ -90,36 +90,36 @@ bool heats_by_end_stresses(const cases::CaseSpec& spec) {
 
 }  // namespace
 
+Transient::Watches::Watches(const cases::CaseSpec& spec, setup::Assembly& a)
+    : range(spec, a),
+      stability(spec, a.coldest_start()),
+      first_law(spec, a.heat.get()),
+      walls(a.phases.contacts),
+      lag(setup::keeps_strain(spec, a.materials, a.start)),
+      friction_lag(a.phases.contacts,
+                   setup::may_map_slip_again(spec, setup::keeps_strain(spec, a.materials, a.start)),
+                   setup::slips_after_heat(spec, setup::keeps_strain(spec, a.materials, a.start))),
+      gaps(a.phases.contacts) {}
+
 Transient::Transient(const cases::CaseSpec& spec, const RunOptions& options, setup::Assembly& a,
                      coupling::Observer* recorder)
-    : spec_(spec),
-      options_(options),
-      a_(a),
-      simulation_(make_simulation(spec, a)),
-      range_(spec, a),
-      stability_(spec, a.coldest_start()),
-      first_law_(spec, a.heat.get()),
-      walls_(a.phases.contacts),
-      lag_(setup::keeps_strain(spec, a.materials, a.start)),
-      friction_lag_(a.phases.contacts,
-                    setup::may_map_slip_again(spec, setup::keeps_strain(spec, a.materials, a.start)),
-                    setup::slips_after_heat(spec, setup::keeps_strain(spec, a.materials, a.start))),
-      gaps_(a.phases.contacts) {
+    : spec_(spec), options_(options), a_(a), simulation_(make_simulation(spec, a)), watches_(spec, a) {
   // Observers see each step in the order in which they are added. The recorder comes after those that watch
   // the run, so that what they find in a step precedes what it writes of it.
-  simulation_.add(range_);
-  if (a.heat) simulation_.add(bounds_.emplace(spec, *a.heat));
+  simulation_.add(watches_.range);
+  if (a.heat) simulation_.add(watches_.bounds.emplace(spec, *a.heat));
   if (a.phases.coherency != nullptr) {
-    simulation_.add(walls_);
-    simulation_.add(melts_.emplace(spec, a));
+    simulation_.add(watches_.walls);
+    simulation_.add(watches_.melts.emplace(spec, a));
   }
-  if (setup::lags_a_step(spec, setup::keeps_strain(spec, a.materials, a.start))) simulation_.add(lag_);
-  simulation_.add(friction_lag_);
-  if (heats_by_end_stresses(spec)) simulation_.add(stress_work_);
-  simulation_.add(gaps_);
-  simulation_.add(dissipation_);
-  if (a.phases.audits_stability()) simulation_.add(stability_);
-  if (spec.has_heat()) simulation_.add(first_law_);
+  if (setup::lags_a_step(spec, setup::keeps_strain(spec, a.materials, a.start)))
+    simulation_.add(watches_.lag);
+  simulation_.add(watches_.friction_lag);
+  if (heats_by_end_stresses(spec)) simulation_.add(watches_.stress_work);
+  simulation_.add(watches_.gaps);
+  simulation_.add(watches_.dissipation);
+  if (a.phases.audits_stability()) simulation_.add(watches_.stability);
+  if (spec.has_heat()) simulation_.add(watches_.first_law);
   if (recorder != nullptr) simulation_.add(*recorder);
   simulation_.add(why_);
   // Criteria, loads and burning are followed by the simulation itself, since their state belongs to it.
@@ -130,7 +130,8 @@ Transient::Transient(const cases::CaseSpec& spec, const RunOptions& options, set
   // Failures are explained by diagnose(), stages are set up by apply(): both need the case, which the
   // simulation does not know.
   simulation_.diagnose_by([this](const coupling::State& last, const StepRejected& rejected, double dt) {
-    return diagnose(spec_, a_, melts_ ? melts_->ran_out() : std::string(), last, rejected, dt);
+    return diagnose(spec_, a_, watches_.melts ? watches_.melts->ran_out() : std::string(), last, rejected,
+                    dt);
   });
   simulation_.at_stage([this](std::size_t stage, const coupling::StageStart& start, coupling::State* begins) {
     return setup::apply(spec_, stage, start.displacement, begins, a_);

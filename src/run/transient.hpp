@@ -53,21 +53,27 @@ class Transient {
   coupling::Simulation& simulation() { return simulation_; }
 
  private:
+  /// What looks at each step and says what a reader of the results must know.
+  struct Watches {
+    Watches(const cases::CaseSpec& spec, setup::Assembly& a);
+    RangeWatch range;
+    std::optional<BoundsWatch> bounds;
+    std::optional<MeltWatch> melts;
+    DissipationWatch dissipation;
+    StabilityWatch stability;
+    FirstLawWatch first_law;
+    WallWatch walls;
+    LagWatch lag;
+    FrictionLagWatch friction_lag;
+    StressWorkWatch stress_work;
+    GapWatch gaps;
+  };
+
   const cases::CaseSpec& spec_;
   const RunOptions& options_;
   setup::Assembly& a_;
   coupling::Simulation simulation_;
-  RangeWatch range_;
-  std::optional<BoundsWatch> bounds_;
-  std::optional<MeltWatch> melts_;
-  DissipationWatch dissipation_;
-  StabilityWatch stability_;
-  FirstLawWatch first_law_;
-  WallWatch walls_;
-  LagWatch lag_;
-  FrictionLagWatch friction_lag_;
-  StressWorkWatch stress_work_;
-  GapWatch gaps_;
+  Watches watches_;
   std::unique_ptr<coupling::ShotMap> shots_;
   StopReason why_;
 };

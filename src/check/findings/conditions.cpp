@@ -42,6 +42,26 @@ void cold_arguments(const cases::ThermalConditionSpec& t, const char* key, const
                         "are its temperatures in degC? argument_unit = \"degC\""});
 }
 
+/// Too small a film is mostly one in kW, too large a one in W/mm²; both are compared with air and water.
+void film(const cases::ThermalConditionSpec& t, Findings& findings) {
+  if (is_number(t.coefficient) && is_number(t.factor) && t.coefficient.table.value(0) < k_least_film)
+    findings.push_back({false, t.where,
+                        fmt::format("the film '{}' has {:g} W/m2/K", t.name, t.coefficient.table.value(0)),
+                        "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
+  if (t.coefficient.place == nullptr && !is_number(t.coefficient) &&
+      t.coefficient.table.max_value() > k_most_possible_film)
+    findings.push_back(
+        {true, t.where,
+         fmt::format("the film '{}' comes to {:g} W/m2/K", t.name, t.coefficient.table.max_value()),
+         "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
+  // A film far beyond the usual holds the surface at the temperature of its surroundings.
+  if (is_number(t.coefficient) && is_number(t.factor))
+    if (const double h = t.coefficient.table.value(0); h > k_most_film)
+      findings.push_back({h > k_most_possible_film, t.where,
+                          fmt::format("the film '{}' has {:g} W/m2/K", t.name, h),
+                          "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
+}
+
 void surroundings(const cases::CaseSpec& spec, Findings& findings) {
   // Values that are possible and far from usual, condition by condition. Constants alone are judged, since a
   // table may pass such values for a moment. Each finding says what is usual.
@@ -82,25 +102,7 @@ void surroundings(const cases::CaseSpec& spec, Findings& findings) {
       findings.push_back({false, t.where,
                           fmt::format("the flux '{}' has {:g} W/m2", t.name, t.flux.table.value(0)),
                           "usual are 1e2 to 1e7 W/m2"});
-    // Too small a film is mostly one in kW, too large a one in W/mm²; both are compared with air
-    // and water.
-    if (t.kind == Kind::film && is_number(t.coefficient) && is_number(t.factor) &&
-        t.coefficient.table.value(0) < k_least_film)
-      findings.push_back({false, t.where,
-                          fmt::format("the film '{}' has {:g} W/m2/K", t.name, t.coefficient.table.value(0)),
-                          "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
-    if (t.kind == Kind::film && t.coefficient.place == nullptr && !is_number(t.coefficient) &&
-        t.coefficient.table.max_value() > k_most_possible_film)
-      findings.push_back(
-          {true, t.where,
-           fmt::format("the film '{}' comes to {:g} W/m2/K", t.name, t.coefficient.table.max_value()),
-           "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
-    // A film far beyond the usual holds the surface at the temperature of its surroundings.
-    if (t.kind == Kind::film && is_number(t.coefficient) && is_number(t.factor))
-      if (const double h = t.coefficient.table.value(0); h > k_most_film)
-        findings.push_back({h > k_most_possible_film, t.where,
-                            fmt::format("the film '{}' has {:g} W/m2/K", t.name, h),
-                            "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
+    if (t.kind == Kind::film) film(t, findings);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,23 @@ namespace {
 
 constexpr double k_all = 0.9;   // nodes of a feeder, of all that is poured
 constexpr double k_low = 0.25;  // height of a feeder, of that of its casting
+
+/// Heights of a feeder's nodes in what is poured, against gravity, summed over all processes, and how many of
+/// them this process owns in each body. Collective.
+std::pair<double, std::vector<double>> nodes_of_feeder(const mesh::Mesh& mesh, const std::string& group,
+                                                       std::span<const int> poured,
+                                                       const std::array<double, 3>& g, std::size_t n_bodies) {
+  double height = 0;
+  std::vector<double> of_body(n_bodies, 0.0);
+  if (const auto nodes = mesh.node_sets.find(group); nodes != mesh.node_sets.end())
+    for (const Index node : nodes->second) {
+      const auto i = static_cast<std::size_t>(node);
+      if (node >= mesh.n_owned_nodes || poured[i] < 0) continue;
+      of_body[static_cast<std::size_t>(poured[i])] += 1;
+      for (std::size_t d = 0; d < 3; ++d) height -= g[d] * mesh.x[i][d];
+    }
+  return {parallel::global_sum(height), std::move(of_body)};
+}
 
 /// Feeders that touch no melt, or that lie where melt does not flow down from. Collective.
 void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
@@ -47,16 +65,7 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
   }
   for (const std::string& group : spec.criteria.feeders) {
     // The mean height of the feeder's own nodes is compared with the ends of what it belongs to.
-    double height = 0;                                  // sum over its nodes
-    std::vector<double> of_body(m.bodies.size(), 0.0);  // its nodes
-    if (const auto nodes = a.mesh.node_sets.find(group); nodes != a.mesh.node_sets.end())
-      for (const Index node : nodes->second) {
-        const auto i = static_cast<std::size_t>(node);
-        if (node >= a.mesh.n_owned_nodes || poured[i] < 0) continue;
-        of_body[static_cast<std::size_t>(poured[i])] += 1;
-        for (std::size_t d = 0; d < 3; ++d) height -= g[d] * a.mesh.x[i][d];
-      }
-    height = parallel::global_sum(height);
+    const auto [height, of_body] = nodes_of_feeder(a.mesh, group, poured, g, m.bodies.size());
     double n = 0, lowest = 0, highest = 0;
     // Bodies weigh in by the number of the feeder's nodes in them, as it may reach over several.
     for (std::size_t body = 0; body < of_body.size(); ++body) {

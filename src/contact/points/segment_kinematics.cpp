@@ -37,9 +37,9 @@ SegmentKinematics::SegmentKinematics(const mesh::Mesh& mesh, AnalysisKind kind, 
   place(std::vector<double>(mesh.x.size() * components_, 0.0));
   // The share of the slave's area that faces the master.
   double whole = 0, covered = 0;
-  for (std::size_t c = 0; c < face_.size(); ++c) {
-    whole += whole_[c];
-    covered += covered_[c];
+  for (std::size_t c = 0; c < cells_.face.size(); ++c) {
+    whole += cells_.whole[c];
+    covered += cells_.covered[c];
   }
   coverage_ = covered / whole;
 }
@@ -61,17 +61,17 @@ void SegmentKinematics::add_cells() {
   std::array<double, k_max_face_nodes> shape{};
   for (Index f = 0; f < slave_.n_faces(); ++f) {
     const Face face = slave_.reference_face(f);
-    first_cell_.push_back(n_points());
+    cells_.first_cell.push_back(n_points());
     Index number = 0;
     // A cell is where one value of pressure lives: its area, its centre and the mean of the shape functions
     // on it.
     for (const std::vector<Point>& cell : face_cells(face.shape)) {
-      face_.push_back(f);
-      number_.push_back(number++);
+      cells_.face.push_back(f);
+      cells_.number.push_back(number++);
       // Pressure is constant on a cell, so that its motion is the mean over the cell's pieces.
-      double& whole = whole_.emplace_back(0.0);
-      Point& position = position_.emplace_back();
-      auto& mean = shape_.emplace_back();
+      double& whole = cells_.whole.emplace_back(0.0);
+      Point& position = cells_.position.emplace_back();
+      auto& mean = cells_.shape.emplace_back();
       for (const SlaveRulePoint& q : cell_rule(face, kind_, cell, 6)) {
         mesh::basis_values(face.shape, q.xi, shape);
         whole += q.weight;
@@ -83,22 +83,22 @@ void SegmentKinematics::add_cells() {
       for (double& value : mean) value /= whole;
     }
   }
-  first_cell_.push_back(n_points());
-  covered_.assign(face_.size(), 0.0);
+  cells_.first_cell.push_back(n_points());
+  cells_.covered.assign(cells_.face.size(), 0.0);
 }
 
 SegmentKinematics::Particle SegmentKinematics::particle(Index point) const {
   const std::size_t c = at(point);
-  const auto nodes = slave_.nodes(face_[c]);
+  const auto nodes = slave_.nodes(cells_.face[c]);
   const bool counted = nodes[0] < n_owned_;
-  const bool met = covered_[c] > 0;
-  return {.number = face_[c] * k_points_of_a_face + number_[c],
+  const bool met = cells_.covered[c] > 0;
+  return {.number = cells_.face[c] * k_points_of_a_face + cells_.number[c],
           .counted = counted,
-          .position = position_[c],
-          .area = whole_[c],
-          .weight = met ? covered_[c] : whole_[c],
+          .position = cells_.position[c],
+          .area = cells_.whole[c],
+          .weight = met ? cells_.covered[c] : cells_.whole[c],
           .nodes = nodes,
-          .share = std::span(shape_[c]).first(nodes.size())};
+          .share = std::span(cells_.shape[c]).first(nodes.size())};
 }
 
 void SegmentKinematics::cut(Index slave_face, const Face& now, const FaceSearch& master) {
@@ -113,9 +113,10 @@ void SegmentKinematics::cut(Index slave_face, const Face& now, const FaceSearch&
   std::ranges::stable_sort(pieces, {}, cell);
   std::size_t next = 0;
   // The loop fills the range of each cell of the face in turn, empty ones included, so that cell c
-  // has the places [first_place_[c], first_place_[c + 1]).
-  for (const Index last = first_cell_[at(slave_face) + 1]; static_cast<Index>(first_place_.size()) <= last;) {
-    const std::size_t number = at(number_[first_place_.size() - 1]);
+  // has the places [cells_.first_place[c], cells_.first_place[c + 1]).
+  for (const Index last = cells_.first_cell[at(slave_face) + 1];
+       static_cast<Index>(cells_.first_place.size()) <= last;) {
+    const std::size_t number = at(cells_.number[cells_.first_place.size() - 1]);
     for (; next < pieces.size() && cell(pieces[next]) == number; ++next) {
       const PairedPoint& p = pieces[next];
       const double area = p.measure * reference.jacobian(p.slave_xi) / now.jacobian(p.slave_xi);
@@ -124,7 +125,7 @@ void SegmentKinematics::cut(Index slave_face, const Face& now, const FaceSearch&
                         .weight = area * circumference(kind_, reference.at(p.slave_xi)),
                         .hint = p.master_face});
     }
-    first_place_.push_back(static_cast<Index>(found_.size()));
+    cells_.first_place.push_back(static_cast<Index>(found_.size()));
   }
 }
 
@@ -136,7 +137,7 @@ void SegmentKinematics::place(std::span<const double> displacement, Points) {
     faces.push_back(master_.current_face(f, displacement, components));
   const FaceSearch master(std::move(faces));
   found_.clear();
-  first_place_.assign(1, 0);
+  cells_.first_place.assign(1, 0);
   for (Index f = 0; f < slave_.n_faces(); ++f)
     cut(f, slave_.current_face(f, displacement, components), master);
   places_.set_places(found_);
@@ -144,22 +145,22 @@ void SegmentKinematics::place(std::span<const double> displacement, Points) {
   places_.place(displacement, Points::all);
   // A cell that is covered in a sliver alone has no stable mean: it counts as one without a
   // partner.
-  for (std::size_t c = 0; c < face_.size(); ++c) {
-    covered_[c] = 0;
-    for (Index s = first_place_[c]; s < first_place_[c + 1]; ++s)
-      if (places_.partner(s).face >= 0) covered_[c] += places_.particle(s).weight;
-    if (covered_[c] < k_least_covered * whole_[c]) covered_[c] = 0;
+  for (std::size_t c = 0; c < cells_.face.size(); ++c) {
+    cells_.covered[c] = 0;
+    for (Index s = cells_.first_place[c]; s < cells_.first_place[c + 1]; ++s)
+      if (places_.partner(s).face >= 0) cells_.covered[c] += places_.particle(s).weight;
+    if (cells_.covered[c] < k_least_covered * cells_.whole[c]) cells_.covered[c] = 0;
   }
 }
 
 FacetGap SegmentKinematics::facets(Index point) const {
   FacetGap mean;
-  if (covered_[at(point)] == 0) return mean;
+  if (cells_.covered[at(point)] == 0) return mean;
   // The mean over the pieces of the cell, by area.
-  for (Index s = first_place_[at(point)]; s < first_place_[at(point) + 1]; ++s) {
+  for (Index s = cells_.first_place[at(point)]; s < cells_.first_place[at(point) + 1]; ++s) {
     if (places_.partner(s).face < 0) continue;
     const FacetGap here = places_.facets(s);
-    const double alpha = places_.particle(s).weight / covered_[at(point)];
+    const double alpha = places_.particle(s).weight / cells_.covered[at(point)];
     mean.height += alpha * here.height;
     mean.bound += alpha * here.bound;
     mean.fits += alpha * here.fits;
@@ -168,30 +169,30 @@ FacetGap SegmentKinematics::facets(Index point) const {
 }
 
 bool SegmentKinematics::concerns(Index point) const {
-  for (Index s = first_place_[at(point)]; s < first_place_[at(point) + 1]; ++s)
+  for (Index s = cells_.first_place[at(point)]; s < cells_.first_place[at(point) + 1]; ++s)
     if (places_.concerns(s)) return true;
   return false;
 }
 
 void SegmentKinematics::number_nodes(const PointMotion& place) const {
-  where_.clear();
+  last_.where.clear();
   // Nodes of all pieces of a cell in one list, and where each piece has its own in it.
   for (const Index node : place.nodes) {
-    where_.push_back(at(static_cast<Index>(std::ranges::find(nodes_, node) - nodes_.begin())));
-    if (where_.back() < nodes_.size()) continue;
-    nodes_.push_back(node);
-    share_.push_back(0);
-    normal_share_.emplace_back();
-    push_share_.emplace_back();
-    penetration_rate_.emplace_back();
-    way_rate_.emplace_back();
-    turn_rate_.emplace_back();
+    last_.where.push_back(at(static_cast<Index>(std::ranges::find(last_.nodes, node) - last_.nodes.begin())));
+    if (last_.where.back() < last_.nodes.size()) continue;
+    last_.nodes.push_back(node);
+    last_.share.push_back(0);
+    last_.normal_share.emplace_back();
+    last_.push_share.emplace_back();
+    last_.penetration_rate.emplace_back();
+    last_.way_rate.emplace_back();
+    last_.turn_rate.emplace_back();
   }
 }
 
 template <class Visit>
 void SegmentKinematics::for_each_place(Index point, Asked asked, Visit visit) const {
-  for (Index s = first_place_[at(point)]; s < first_place_[at(point) + 1]; ++s) {
+  for (Index s = cells_.first_place[at(point)]; s < cells_.first_place[at(point) + 1]; ++s) {
     if (places_.partner(s).face < 0) continue;
     const PointMotion place = places_.motion(s, {}, asked);
     number_nodes(place);
@@ -205,13 +206,13 @@ PointMotion SegmentKinematics::motion(Index point, const ContactPointState& old,
   const std::size_t c = at(point);
   PointMotion m;
   m.weight = particle(point).weight;
-  if (covered_[c] == 0) return m;
-  m.covered = std::min(covered_[c] / whole_[c], 1.0);
-  nodes_.clear();
-  share_.clear();
-  for (auto* points : {&normal_share_, &penetration_rate_}) points->clear();
-  for (auto* tensors : {&push_share_, &way_rate_, &turn_rate_}) tensors->clear();
-  Point normal{}, way = position_[c];
+  if (cells_.covered[c] == 0) return m;
+  m.covered = std::min(cells_.covered[c] / cells_.whole[c], 1.0);
+  last_.nodes.clear();
+  last_.share.clear();
+  for (auto* points : {&last_.normal_share, &last_.penetration_rate}) points->clear();
+  for (auto* tensors : {&last_.push_share, &last_.way_rate, &last_.turn_rate}) tensors->clear();
+  Point normal{}, way = cells_.position[c];
   // The weight of a place over that of the cell is its share α in gap, normal, push and slip; its nodes are
   // collected in one list for the cell.
   for_each_place(point, asked, [&](Index s, const PointMotion& place) {
@@ -226,22 +227,23 @@ PointMotion SegmentKinematics::motion(Index point, const ContactPointState& old,
     // normals.
     for (std::size_t b = 0; b < place.nodes.size(); ++b) {
       const double share = alpha * place.share[b];
-      share_[where_[b]] += share;
-      normal_share_[where_[b]] = contact::add_scaled(normal_share_[where_[b]], share, place.normal);
-      contact::add_scaled(push_share_[where_[b]], share, place.push);
+      last_.share[last_.where[b]] += share;
+      last_.normal_share[last_.where[b]] =
+          contact::add_scaled(last_.normal_share[last_.where[b]], share, place.normal);
+      contact::add_scaled(last_.push_share[last_.where[b]], share, place.push);
     }
     if (asked == Asked::rates) add_rates(s, alpha, place);
   });
   // The mean normal is made a unit vector; the anchor lies on the master along it where the cell is open.
   m.partnered = true;
-  m.nodes = nodes_;
-  m.share = share_;
-  m.normal_share = normal_share_;
-  m.push_share = push_share_;
+  m.nodes = last_.nodes;
+  m.share = last_.share;
+  m.normal_share = last_.normal_share;
+  m.push_share = last_.push_share;
   m.normal = scale(1 / norm(normal), normal);
   m.master_normal = scale(1 / norm(m.master_normal), m.master_normal);
   m.anchor = contact::add_scaled(way, std::max(-m.penetration, 0.0), m.master_normal);
-  if (asked == Asked::rates) m.penetration_rate = penetration_rate_;
+  if (asked == Asked::rates) m.penetration_rate = last_.penetration_rate;
   // The slip follows from the mean way and the state before.
   find_slip(old, way, asked, m);
   return m;
@@ -250,10 +252,11 @@ PointMotion SegmentKinematics::motion(Index point, const ContactPointState& old,
 void SegmentKinematics::add_rates(Index place, double share, const PointMotion& of) const {
   const SlidingKinematics::ReferenceRates reference = places_.reference_rates(place);
   for (std::size_t b = 0; b < of.nodes.size(); ++b) {
-    const std::size_t node = where_[b];
-    penetration_rate_[node] = contact::add_scaled(penetration_rate_[node], share, of.penetration_rate[b]);
-    contact::add_scaled(way_rate_[node], share, reference.place[b]);
-    contact::add_scaled(turn_rate_[node], share, reference.normal[b]);
+    const std::size_t node = last_.where[b];
+    last_.penetration_rate[node] =
+        contact::add_scaled(last_.penetration_rate[node], share, of.penetration_rate[b]);
+    contact::add_scaled(last_.way_rate[node], share, reference.place[b]);
+    contact::add_scaled(last_.turn_rate[node], share, reference.normal[b]);
   }
 }
 
@@ -272,23 +275,23 @@ void SegmentKinematics::find_slip(const ContactPointState& old, const Point& way
   // rotation of T_n.
   if (asked == Asked::motion) return;
   const Tensor turn = carries ? rotation_rates(old.master_normal, nu, old.traction).by_to : Tensor{};
-  slip_rate_.assign(nodes_.size(), Tensor{});
-  carried_rate_.assign(nodes_.size(), Tensor{});
-  for (std::size_t b = 0; b < nodes_.size() && old.anchored; ++b) {
-    Tensor& slip = slip_rate_[b];
-    slip = way_rate_[b];
-    add_outer(slip, -1, nu, transposed_times(way_rate_[b], nu));
-    add_outer(slip, -1, nu, transposed_times(turn_rate_[b], gone));
-    contact::add_scaled(slip, -along, turn_rate_[b]);
-    if (carries) carried_rate_[b] = times(turn, turn_rate_[b]);
+  last_.slip_rate.assign(last_.nodes.size(), Tensor{});
+  last_.carried_rate.assign(last_.nodes.size(), Tensor{});
+  for (std::size_t b = 0; b < last_.nodes.size() && old.anchored; ++b) {
+    Tensor& slip = last_.slip_rate[b];
+    slip = last_.way_rate[b];
+    add_outer(slip, -1, nu, transposed_times(last_.way_rate[b], nu));
+    add_outer(slip, -1, nu, transposed_times(last_.turn_rate[b], gone));
+    contact::add_scaled(slip, -along, last_.turn_rate[b]);
+    if (carries) last_.carried_rate[b] = times(turn, last_.turn_rate[b]);
   }
-  m.slip_rate = slip_rate_;
-  if (carries) m.carried_rate = carried_rate_;
+  m.slip_rate = last_.slip_rate;
+  if (carries) m.carried_rate = last_.carried_rate;
 }
 
 void SegmentKinematics::add_geometric_tangent(Index point, double pressure, const Point& traction,
                                               std::span<Tensor> k) const {
-  const std::size_t n = nodes_.size();
+  const std::size_t n = last_.nodes.size();
   assert(k.size() == n * n);
   std::vector<Tensor> part;
   // Pieces add theirs at the places of their nodes in the list of the cell.
@@ -298,12 +301,12 @@ void SegmentKinematics::add_geometric_tangent(Index point, double pressure, cons
     places_.add_geometric_tangent(s, pressure, traction, part);
     for (std::size_t b = 0; b < m; ++b)
       for (std::size_t c = 0; c < m; ++c)
-        contact::add_scaled(k[where_[b] * n + where_[c]], 1, part[b * m + c]);
+        contact::add_scaled(k[last_.where[b] * n + last_.where[c]], 1, part[b * m + c]);
   });
 }
 
 void SegmentKinematics::add_share_rates(Index point, std::span<Point> rates) const {
-  const std::size_t n = nodes_.size();
+  const std::size_t n = last_.nodes.size();
   assert(rates.size() == n * n);
   std::vector<Point> part;
   // The shares of a cell are the mean of those of its pieces by their weights.
@@ -313,8 +316,8 @@ void SegmentKinematics::add_share_rates(Index point, std::span<Point> rates) con
     places_.add_share_rates(s, part);
     for (std::size_t a = 0; a < m; ++a)
       for (std::size_t b = 0; b < m; ++b) {
-        Point& rate = rates[where_[a] * n + where_[b]];
-        rate = contact::add_scaled(rate, place.weight / covered_[at(point)], part[a * m + b]);
+        Point& rate = rates[last_.where[a] * n + last_.where[b]];
+        rate = contact::add_scaled(rate, place.weight / cells_.covered[at(point)], part[a * m + b]);
       }
   });
 }

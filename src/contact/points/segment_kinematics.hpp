@@ -38,7 +38,7 @@ class SegmentKinematics final : public ContactKinematics {
   SegmentKinematics(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,
                     const ContactSurface& master, std::unique_ptr<Master> met, double search_distance);
 
-  Index n_points() const override { return static_cast<Index>(face_.size()); }
+  Index n_points() const override { return static_cast<Index>(cells_.face.size()); }
   /// With the weight of the part that was covered when the cell was last placed, of a cell without a partner
   /// the whole.
   Particle particle(Index point) const override;
@@ -60,12 +60,30 @@ class SegmentKinematics final : public ContactKinematics {
   void add_cells();
   int degree_of_pieces(const ContactSurface& master) const;
   void cut(Index slave_face, const Face& now, const FaceSearch& master);
-  /// Finds the nodes of a place among those of the cell, in where_; new ones are added.
+  /// Finds the nodes of a place among those of the cell, in last_.where; new ones are added.
   void number_nodes(const PointMotion& place) const;
   void add_rates(Index place, double share, const PointMotion& at) const;
   void find_slip(const ContactPointState& old, const Point& way, Asked asked, PointMotion& motion) const;
   template <class Visit>
   void for_each_place(Index point, Asked asked, Visit visit) const;
+
+  /// Sorted by face.
+  struct Cells {
+    std::vector<Index> face, number;
+    std::vector<Point> position;  ///< mean of the reference configuration
+    std::vector<double> whole, covered;
+    std::vector<std::array<double, k_max_face_nodes>> shape;  ///< means of the slave's shape functions
+    std::vector<Index> first_cell;                            ///< [slave face], one more at the end
+    std::vector<Index> first_place;                           ///< [cell], one more at the end
+  };
+  /// Work arrays of the last motion(), [node].
+  struct LastMotion {
+    std::vector<Index> nodes;
+    std::vector<std::size_t> where;  ///< [node of a place]
+    std::vector<double> share;
+    std::vector<Point> normal_share, penetration_rate;
+    std::vector<Tensor> push_share, slip_rate, carried_rate, way_rate, turn_rate;
+  };
 
   AnalysisKind kind_;
   std::size_t components_;
@@ -75,21 +93,9 @@ class SegmentKinematics final : public ContactKinematics {
   SlidingKinematics places_;
   Index n_owned_;
 
-  // [cell], sorted by face
-  std::vector<Index> face_, number_;
-  std::vector<Point> position_;  ///< mean of the reference configuration
-  std::vector<double> whole_, covered_;
-  std::vector<std::array<double, k_max_face_nodes>> shape_;  ///< means of the slave's shape functions
-  std::vector<Index> first_cell_;                            ///< [slave face], one more at the end
-  std::vector<Index> first_place_;                           ///< [cell], one more at the end
-
+  Cells cells_;
   std::vector<SlavePlace> found_;  ///< work array of place()
-  // Work arrays of the last motion(), [node].
-  mutable std::vector<Index> nodes_;
-  mutable std::vector<std::size_t> where_;  ///< [node of a place]
-  mutable std::vector<double> share_;
-  mutable std::vector<Point> normal_share_, penetration_rate_;
-  mutable std::vector<Tensor> push_share_, slip_rate_, carried_rate_, way_rate_, turn_rate_;
+  mutable LastMotion last_;
 };
 
 }  // namespace solidus::contact

@@ -36,27 +36,27 @@ SlidingKinematics::SlidingKinematics(const mesh::Mesh& mesh, AnalysisKind kind, 
   add_points(kind, options);
   find_faces_that_concern();
   const std::size_t most = static_cast<std::size_t>(k_max_face_nodes) + master_->max_nodes();
-  frame_.nu_rate.resize(master_->max_nodes());
-  nodes_.resize(most);
-  share_.resize(most);
-  penetration_rate_.resize(most);
-  weight_rate_.resize(most);
-  xi_rate_.resize(most);
-  normal_rate_.resize(most);
-  slip_rate_.resize(most);
-  carried_rate_.resize(most);
+  last_.frame.nu_rate.resize(master_->max_nodes());
+  last_.nodes.resize(most);
+  last_.share.resize(most);
+  last_.penetration_rate.resize(most);
+  last_.weight_rate.resize(most);
+  last_.xi_rate.resize(most);
+  last_.normal_rate.resize(most);
+  last_.slip_rate.resize(most);
+  last_.carried_rate.resize(most);
 
   // At the start each point finds its partner. One that lies behind the master there would be pushed through
   // the body, and has no partner until it comes out.
   place(std::vector<double>(mesh.x.size() * components_, 0.0));
-  for (std::size_t p = 0; p < partner_.size(); ++p) {
-    behind_[p] = partner_[p].face >= 0 && master_->behind(partner_[p]) ? 1 : 0;
-    if (behind_[p] != 0) partner_[p] = {};
+  for (std::size_t p = 0; p < points_.partner.size(); ++p) {
+    points_.behind[p] = points_.partner[p].face >= 0 && master_->behind(points_.partner[p]) ? 1 : 0;
+    if (points_.behind[p] != 0) points_.partner[p] = {};
   }
   double all = 0, paired = 0;
-  for (std::size_t p = 0; p < weight_.size(); ++p) {
-    all += weight_[p];
-    if (partner_[p].face >= 0) paired += weight_of(p);
+  for (std::size_t p = 0; p < points_.weight.size(); ++p) {
+    all += points_.weight[p];
+    if (points_.partner[p].face >= 0) paired += weight_of(p);
   }
   coverage_ = paired / all;
 }
@@ -72,31 +72,31 @@ void SlidingKinematics::add_points(AnalysisKind kind, const SlidingOptions& opti
 }
 
 void SlidingKinematics::add_point(const SlavePlace& place, Index number, const Face& face) {
-  face_.push_back(place.face);
-  number_.push_back(number);
-  xi_.push_back(place.xi);
-  position_.push_back(face.at(place.xi));
-  weight_.push_back(place.weight);
-  mesh::basis_values(face.shape, place.xi, shape_.emplace_back());
-  hint_.push_back(place.hint);
+  points_.face.push_back(place.face);
+  points_.number.push_back(number);
+  points_.xi.push_back(place.xi);
+  points_.position.push_back(face.at(place.xi));
+  points_.weight.push_back(place.weight);
+  mesh::basis_values(face.shape, place.xi, points_.shape.emplace_back());
+  points_.hint.push_back(place.hint);
 }
 
 void SlidingKinematics::start_points() {
-  x_ = position_;
-  partner_.assign(weight_.size(), {});
-  behind_.assign(weight_.size(), 0);
-  concern_.assign(weight_.size(), reached);
+  points_.x = points_.position;
+  points_.partner.assign(points_.weight.size(), {});
+  points_.behind.assign(points_.weight.size(), 0);
+  points_.concern.assign(points_.weight.size(), reached);
 }
 
 void SlidingKinematics::set_places(std::span<const SlavePlace> places) {
-  for (auto* indices : {&face_, &number_, &hint_}) indices->clear();
-  for (auto* points : {&xi_, &position_}) points->clear();
-  weight_.clear();
-  shape_.clear();
+  for (auto* indices : {&points_.face, &points_.number, &points_.hint}) indices->clear();
+  for (auto* points : {&points_.xi, &points_.position}) points->clear();
+  points_.weight.clear();
+  points_.shape.clear();
   Face face;
   Index number = 0;
   for (const SlavePlace& place : places) {
-    if (face_.empty() || face_.back() != place.face) {
+    if (points_.face.empty() || points_.face.back() != place.face) {
       face = slave_.reference_face(place.face);
       number = 0;
     }
@@ -106,7 +106,7 @@ void SlidingKinematics::set_places(std::span<const SlavePlace> places) {
 }
 
 bool SlidingKinematics::own_slave(std::size_t point) const {
-  const auto nodes = slave_.nodes(face_[point]);
+  const auto nodes = slave_.nodes(points_.face[point]);
   return std::any_of(nodes.begin(), nodes.end(), [&](Index n) { return n < mesh_.n_owned_nodes; });
 }
 
@@ -144,20 +144,20 @@ void SlidingKinematics::find_faces_that_concern() {
 
 ContactKinematics::Particle SlidingKinematics::particle(Index point) const {
   const auto p = static_cast<std::size_t>(point);
-  const auto nodes = slave_.nodes(face_[p]);
-  return {.number = face_[p] * k_points_of_a_face + number_[p],
+  const auto nodes = slave_.nodes(points_.face[p]);
+  return {.number = points_.face[p] * k_points_of_a_face + points_.number[p],
           .counted = nodes[0] < mesh_.n_owned_nodes,
-          .position = position_[p],
-          .area = weight_[p],
+          .position = points_.position[p],
+          .area = points_.weight[p],
           .weight = weight_of(p),
           .nodes = nodes,
-          .share = std::span(shape_[p]).first(nodes.size())};
+          .share = std::span(points_.shape[p]).first(nodes.size())};
 }
 
 Point SlidingKinematics::place_of(std::size_t point, const Face& face) const {
   Point x{};
   for (std::size_t a = 0; a < static_cast<std::size_t>(face.n_nodes); ++a)
-    x = contact::add_scaled(x, shape_[point][a], face.x[a]);
+    x = contact::add_scaled(x, points_.shape[point][a], face.x[a]);
   return x;
 }
 
@@ -165,64 +165,67 @@ void SlidingKinematics::place(std::span<const double> displacement, Points point
   master_->place(displacement, time_);
   Face face;
   bool own = true;
-  for (std::size_t p = 0; p < face_.size(); ++p) {
-    if (p == 0 || face_[p] != face_[p - 1]) {
-      face = slave_.current_face(face_[p], displacement, static_cast<int>(components_));
+  for (std::size_t p = 0; p < points_.face.size(); ++p) {
+    if (p == 0 || points_.face[p] != points_.face[p - 1]) {
+      face = slave_.current_face(points_.face[p], displacement, static_cast<int>(components_));
       own = all_own_ || own_slave(p);
     }
-    x_[p] = place_of(p, face);
-    const Point normal = face.normal(xi_[p]);
-    partner_[p] = {};
-    const bool asked = own || points == Points::all || master_->may_meet_watched(x_[p], normal, hint_[p]);
-    if (asked && behind_[p] == 0) partner_[p] = master_->find(x_[p], normal, hint_[p]);
-    const Index met = partner_[p].face;
-    if (met >= 0) hint_[p] = met;
-    concern_[p] = own                                ? reached
-                  : met < 0 || face_concern_.empty() ? none
-                                                     : face_concern_[static_cast<std::size_t>(met)];
+    points_.x[p] = place_of(p, face);
+    const Point normal = face.normal(points_.xi[p]);
+    points_.partner[p] = {};
+    const bool asked =
+        own || points == Points::all || master_->may_meet_watched(points_.x[p], normal, points_.hint[p]);
+    if (asked && points_.behind[p] == 0)
+      points_.partner[p] = master_->find(points_.x[p], normal, points_.hint[p]);
+    const Index met = points_.partner[p].face;
+    if (met >= 0) points_.hint[p] = met;
+    points_.concern[p] = own                                ? reached
+                         : met < 0 || face_concern_.empty() ? none
+                                                            : face_concern_[static_cast<std::size_t>(met)];
   }
 }
 
 void SlidingKinematics::list_nodes(std::size_t point) const {
-  const auto slave = slave_.nodes(face_[point]);
-  n_slave_ = slave.size();
-  n_nodes_ = n_slave_ + frame_.nodes.size();
-  for (std::size_t a = 0; a < n_slave_; ++a) {
-    nodes_[a] = slave[a];
-    share_[a] = shape_[point][a];
+  const auto slave = slave_.nodes(points_.face[point]);
+  last_.n_slave = slave.size();
+  last_.n_nodes = last_.n_slave + last_.frame.nodes.size();
+  for (std::size_t a = 0; a < last_.n_slave; ++a) {
+    last_.nodes[a] = slave[a];
+    last_.share[a] = points_.shape[point][a];
   }
-  for (std::size_t a = 0; a < frame_.nodes.size(); ++a) {
-    nodes_[n_slave_ + a] = frame_.nodes[a];
-    share_[n_slave_ + a] = a < static_cast<std::size_t>(frame_.n_face_nodes) ? -frame_.share[a] : 0.0;
+  for (std::size_t a = 0; a < last_.frame.nodes.size(); ++a) {
+    last_.nodes[last_.n_slave + a] = last_.frame.nodes[a];
+    last_.share[last_.n_slave + a] =
+        a < static_cast<std::size_t>(last_.frame.n_face_nodes) ? -last_.frame.share[a] : 0.0;
   }
 }
 
 PointMotion SlidingKinematics::motion(Index point, const ContactPointState& old, Asked asked) const {
   const auto p = static_cast<std::size_t>(point);
-  const Partner& partner = partner_[p];
+  const Partner& partner = points_.partner[p];
   PointMotion m;
   m.weight = weight_of(p);
   m.covered = partner.covered;
   if (partner.face < 0) return m;
-  master_->frame(partner, asked == Asked::rates, frame_);
+  master_->frame(partner, asked == Asked::rates, last_.frame);
   list_nodes(p);
   m.partnered = true;
-  m.nodes = std::span(nodes_).first(n_nodes_);
-  m.n_slave = static_cast<int>(n_slave_);
-  m.share = std::span(share_).first(n_nodes_);
+  m.nodes = std::span(last_.nodes).first(last_.n_nodes);
+  m.n_slave = static_cast<int>(last_.n_slave);
+  m.share = std::span(last_.share).first(last_.n_nodes);
   m.penetration = partner.penetration;
   m.normal = scale(-1, partner.normal);
-  m.master_normal = plane_normal(partner, frame_);
+  m.master_normal = plane_normal(partner, last_.frame);
   // An open point keeps its own place as the master sees it: above a round corner it is ahead of the closest
   // point, and would else slip less than it moves in the step that closes it.
   const double opening = std::max(-partner.penetration, 0.0);
-  m.anchor = contact::add_scaled(frame_.reference_y, opening, m.master_normal);
-  m.push = push_forward(frame_, m.master_normal, partner.normal);
+  m.anchor = contact::add_scaled(last_.frame.reference_y, opening, m.master_normal);
+  m.push = push_forward(last_.frame, m.master_normal, partner.normal);
   if (asked == Asked::rates) {
     find_rates(partner);
-    m.penetration_rate = std::span(penetration_rate_).first(n_nodes_);
+    m.penetration_rate = std::span(last_.penetration_rate).first(last_.n_nodes);
     m.weight_rate = find_weight_rates(p);
-    m.slip_rate = std::span(slip_rate_).first(n_nodes_);
+    m.slip_rate = std::span(last_.slip_rate).first(last_.n_nodes);
   }
   find_slip(partner, old, asked, m);
   return m;
@@ -233,7 +236,7 @@ PointMotion SlidingKinematics::motion(Index point, const ContactPointState& old,
 void SlidingKinematics::find_slip(const Partner& partner, const ContactPointState& old, Asked asked,
                                   PointMotion& m) const {
   const Point nu = m.master_normal;
-  const Point way = old.anchored ? subtract(frame_.reference_y, old.anchor) : Point{};
+  const Point way = old.anchored ? subtract(last_.frame.reference_y, old.anchor) : Point{};
   const bool carries = old.anchored && norm(old.traction) > 0;
   m.slip = contact::add_scaled(way, -dot(nu, way), nu);
   if (carries) m.carried = rotate(old.master_normal, nu, old.traction);
@@ -242,35 +245,35 @@ void SlidingKinematics::find_slip(const Partner& partner, const ContactPointStat
   const bool turns = carries && master_->reference_turns();
   std::array<Point, 2> slip_xi{}, carried_xi{};
   for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha) {
-    const Point& nu_xi = plane_normal_xi(partner, frame_, alpha);
-    const Point& tau = frame_.reference_tau[alpha];
+    const Point& nu_xi = plane_normal_xi(partner, last_.frame, alpha);
+    const Point& tau = last_.frame.reference_tau[alpha];
     if (old.anchored) {
       slip_xi[alpha] = contact::add_scaled(tau, -dot(nu, tau) - dot(nu_xi, way), nu);
       slip_xi[alpha] = contact::add_scaled(slip_xi[alpha], -dot(nu, way), nu_xi);
     }
     if (turns) carried_xi[alpha] = times(turn, nu_xi);
   }
-  for (std::size_t c = 0; c < n_nodes_; ++c) {
-    slip_rate_[c] = {};
-    carried_rate_[c] = {};
+  for (std::size_t c = 0; c < last_.n_nodes; ++c) {
+    last_.slip_rate[c] = {};
+    last_.carried_rate[c] = {};
     for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha) {
-      add_outer(slip_rate_[c], 1, slip_xi[alpha], xi_rate_[c][alpha]);
-      if (turns) add_outer(carried_rate_[c], 1, carried_xi[alpha], xi_rate_[c][alpha]);
+      add_outer(last_.slip_rate[c], 1, slip_xi[alpha], last_.xi_rate[c][alpha]);
+      if (turns) add_outer(last_.carried_rate[c], 1, carried_xi[alpha], last_.xi_rate[c][alpha]);
     }
   }
-  if (turns) m.carried_rate = std::span(carried_rate_).first(n_nodes_);
+  if (turns) m.carried_rate = std::span(last_.carried_rate).first(last_.n_nodes);
 }
 
 std::span<const Point> SlidingKinematics::find_weight_rates(std::size_t point) const {
-  const std::array<double, 2>& slope = partner_[point].covered_xi;
+  const std::array<double, 2>& slope = points_.partner[point].covered_xi;
   if (slope[0] == 0 && slope[1] == 0) return {};
-  for (std::size_t c = 0; c < n_nodes_; ++c) {
-    weight_rate_[c] = {};
+  for (std::size_t c = 0; c < last_.n_nodes; ++c) {
+    last_.weight_rate[c] = {};
     for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha)
-      weight_rate_[c] =
-          contact::add_scaled(weight_rate_[c], weight_[point] * slope[alpha], xi_rate_[c][alpha]);
+      last_.weight_rate[c] = contact::add_scaled(last_.weight_rate[c], points_.weight[point] * slope[alpha],
+                                                 last_.xi_rate[c][alpha]);
   }
-  return std::span(weight_rate_).first(n_nodes_);
+  return std::span(last_.weight_rate).first(last_.n_nodes);
 }
 
 void SlidingKinematics::find_rates(const Partner& partner) const {
@@ -284,25 +287,25 @@ void SlidingKinematics::find_rates(const Partner& partner) const {
 void SlidingKinematics::find_face_rates(const Partner& partner) const {
   const double g = partner.penetration;
   const Point& nu = partner.normal;
-  const Point a = contact::add_scaled(frame_.tau[0], -g, frame_.nu_xi[0]);
-  const Point b = contact::add_scaled(frame_.tau[1], -g, frame_.nu_xi[1]);
+  const Point a = contact::add_scaled(last_.frame.tau[0], -g, last_.frame.nu_xi[0]);
+  const Point b = contact::add_scaled(last_.frame.tau[1], -g, last_.frame.nu_xi[1]);
   const Point bc = scale(-1, cross(b, nu)), ca = scale(-1, cross(nu, a)), ab = cross(a, b);
   const double det = dot(a, bc);
   const std::array<Point, 3> row{scale(1 / det, bc), scale(1 / det, ca), scale(1 / det, ab)};
-  for (std::size_t c = 0; c < n_nodes_; ++c) {
+  for (std::size_t c = 0; c < last_.n_nodes; ++c) {
     Tensor right{}, total{};
-    add_identity(right, share_[c], components_);
-    if (c >= n_slave_) {
-      total = frame_.nu_rate[c - n_slave_];
+    add_identity(right, last_.share[c], components_);
+    if (c >= last_.n_slave) {
+      total = last_.frame.nu_rate[c - last_.n_slave];
       contact::add_scaled(right, g, total);
     }
-    xi_rate_[c] = {};
+    last_.xi_rate[c] = {};
     for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha) {
-      xi_rate_[c][alpha] = transposed_times(right, row[alpha]);
-      add_outer(total, 1, frame_.nu_xi[alpha], xi_rate_[c][alpha]);
+      last_.xi_rate[c][alpha] = transposed_times(right, row[alpha]);
+      add_outer(total, 1, last_.frame.nu_xi[alpha], last_.xi_rate[c][alpha]);
     }
-    penetration_rate_[c] = transposed_times(right, row[2]);
-    normal_rate_[c] = total;
+    last_.penetration_rate[c] = transposed_times(right, row[2]);
+    last_.normal_rate[c] = total;
   }
 }
 
@@ -314,22 +317,24 @@ void SlidingKinematics::find_wedge_rates(const Partner& partner) const {
   const Point& nu = partner.normal;
   const double e1 = partner.along[0], e2 = partner.along[1];
   const bool edge = partner.region == Partner::Region::edge;
-  const Point t = contact::add_scaled(scale(e1, frame_.tau[0]), e2, frame_.tau[1]);
-  Point curvature = contact::add_scaled(scale(e1 * e1, frame_.tau_xi[0]), e2 * e2, frame_.tau_xi[1]);
-  curvature = contact::add_scaled(curvature, 2 * e1 * e2, frame_.tau_xi[2]);
+  const Point t = contact::add_scaled(scale(e1, last_.frame.tau[0]), e2, last_.frame.tau[1]);
+  Point curvature =
+      contact::add_scaled(scale(e1 * e1, last_.frame.tau_xi[0]), e2 * e2, last_.frame.tau_xi[1]);
+  curvature = contact::add_scaled(curvature, 2 * e1 * e2, last_.frame.tau_xi[2]);
   const double stiffness = dot(t, t) + g * dot(nu, curvature);
-  for (std::size_t c = 0; c < n_nodes_; ++c) {
+  for (std::size_t c = 0; c < last_.n_nodes; ++c) {
     double slope = 0;
-    if (c >= n_slave_) slope = e1 * frame_.slope[c - n_slave_][0] + e2 * frame_.slope[c - n_slave_][1];
+    if (c >= last_.n_slave)
+      slope = e1 * last_.frame.slope[c - last_.n_slave][0] + e2 * last_.frame.slope[c - last_.n_slave][1];
     Point along{};
-    if (edge) along = scale(1 / stiffness, contact::add_scaled(scale(share_[c], t), -g * slope, nu));
+    if (edge) along = scale(1 / stiffness, contact::add_scaled(scale(last_.share[c], t), -g * slope, nu));
     if (components_ == 2) along = {};
-    xi_rate_[c] = {scale(e1, along), scale(e2, along)};
-    Point dg = scale(-share_[c], nu);
+    last_.xi_rate[c] = {scale(e1, along), scale(e2, along)};
+    Point dg = scale(-last_.share[c], nu);
     for (std::size_t i = components_; i < 3; ++i) dg[i] = 0;
-    penetration_rate_[c] = dg;
-    Tensor& turn = normal_rate_[c] = {};
-    add_identity(turn, -share_[c] / g, components_);
+    last_.penetration_rate[c] = dg;
+    Tensor& turn = last_.normal_rate[c] = {};
+    add_identity(turn, -last_.share[c] / g, components_);
     add_outer(turn, 1 / g, t, along);
     add_outer(turn, -1 / g, nu, dg);
   }
@@ -338,84 +343,89 @@ void SlidingKinematics::find_wedge_rates(const Partner& partner) const {
 void SlidingKinematics::add_geometric_tangent(Index point, double pressure, const Point& traction,
                                               std::span<Tensor> k) const {
   const auto p = static_cast<std::size_t>(point);
-  const Partner& partner = partner_[p];
-  assert(k.size() == n_nodes_ * n_nodes_);
-  const PushRates push = push_rates(
-      frame_, plane_normal(partner, frame_),
-      {plane_normal_xi(partner, frame_, 0), plane_normal_xi(partner, frame_, 1)}, partner.normal, traction);
+  const Partner& partner = points_.partner[p];
+  assert(k.size() == last_.n_nodes * last_.n_nodes);
+  const PushRates push =
+      push_rates(last_.frame, plane_normal(partner, last_.frame),
+                 {plane_normal_xi(partner, last_.frame, 0), plane_normal_xi(partner, last_.frame, 1)},
+                 partner.normal, traction);
   const Point force = contact::add_scaled(push.pushed, -pressure, partner.normal);
   const double w = weight_of(p);
-  for (std::size_t c = 0; c < n_nodes_; ++c) {
+  for (std::size_t c = 0; c < last_.n_nodes; ++c) {
     // ∂f/∂x_c
     Tensor turn{};
-    contact::add_scaled(turn, -pressure, normal_rate_[c]);
-    const bool on_face = c >= n_slave_ && c < n_slave_ + static_cast<std::size_t>(frame_.n_face_nodes);
+    contact::add_scaled(turn, -pressure, last_.normal_rate[c]);
+    const bool on_face =
+        c >= last_.n_slave && c < last_.n_slave + static_cast<std::size_t>(last_.frame.n_face_nodes);
     for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha) {
-      add_outer(turn, 1, push.by_xi[alpha], xi_rate_[c][alpha]);
-      if (on_face) contact::add_scaled(turn, frame_.slope[c - n_slave_][alpha], push.by_tau[alpha]);
+      add_outer(turn, 1, push.by_xi[alpha], last_.xi_rate[c][alpha]);
+      if (on_face) contact::add_scaled(turn, last_.frame.slope[c - last_.n_slave][alpha], push.by_tau[alpha]);
     }
-    contact::add_scaled(turn, 1, times(push.by_normal, normal_rate_[c]));
-    for (std::size_t b = 0; b < n_nodes_; ++b) {
-      Tensor& block = k[b * n_nodes_ + c];
-      if (share_[b] != 0) contact::add_scaled(block, w * share_[b], turn);
-      if (b < n_slave_ || b - n_slave_ >= static_cast<std::size_t>(frame_.n_face_nodes)) continue;
+    contact::add_scaled(turn, 1, times(push.by_normal, last_.normal_rate[c]));
+    for (std::size_t b = 0; b < last_.n_nodes; ++b) {
+      Tensor& block = k[b * last_.n_nodes + c];
+      if (last_.share[b] != 0) contact::add_scaled(block, w * last_.share[b], turn);
+      if (b < last_.n_slave || b - last_.n_slave >= static_cast<std::size_t>(last_.frame.n_face_nodes))
+        continue;
       for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha)
-        add_outer(block, -w * frame_.slope[b - n_slave_][alpha], force, xi_rate_[c][alpha]);
+        add_outer(block, -w * last_.frame.slope[b - last_.n_slave][alpha], force, last_.xi_rate[c][alpha]);
     }
   }
 }
 
 SlidingKinematics::ReferenceRates SlidingKinematics::reference_rates(Index point) const {
   const Partner& met = partner(point);
-  place_rate_.assign(n_nodes_, Tensor{});
-  turn_rate_.assign(n_nodes_, Tensor{});
-  for (std::size_t c = 0; c < n_nodes_; ++c)
+  last_.place_rate.assign(last_.n_nodes, Tensor{});
+  last_.turn_rate.assign(last_.n_nodes, Tensor{});
+  for (std::size_t c = 0; c < last_.n_nodes; ++c)
     for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha) {
-      add_outer(place_rate_[c], 1, frame_.reference_tau[alpha], xi_rate_[c][alpha]);
-      add_outer(turn_rate_[c], 1, plane_normal_xi(met, frame_, alpha), xi_rate_[c][alpha]);
+      add_outer(last_.place_rate[c], 1, last_.frame.reference_tau[alpha], last_.xi_rate[c][alpha]);
+      add_outer(last_.turn_rate[c], 1, plane_normal_xi(met, last_.frame, alpha), last_.xi_rate[c][alpha]);
     }
-  return {place_rate_, turn_rate_};
+  return {last_.place_rate, last_.turn_rate};
 }
 
 void SlidingKinematics::add_share_rates(Index, std::span<Point> rates) const {
-  assert(rates.size() == n_nodes_ * n_nodes_);
-  for (std::size_t a = 0; a < static_cast<std::size_t>(frame_.n_face_nodes); ++a)
-    for (std::size_t b = 0; b < n_nodes_; ++b) {
-      Point& rate = rates[(n_slave_ + a) * n_nodes_ + b];
+  assert(rates.size() == last_.n_nodes * last_.n_nodes);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(last_.frame.n_face_nodes); ++a)
+    for (std::size_t b = 0; b < last_.n_nodes; ++b) {
+      Point& rate = rates[(last_.n_slave + a) * last_.n_nodes + b];
       for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha)
-        rate = contact::add_scaled(rate, -frame_.slope[a][alpha], xi_rate_[b][alpha]);
+        rate = contact::add_scaled(rate, -last_.frame.slope[a][alpha], last_.xi_rate[b][alpha]);
     }
 }
 
 std::span<const Index> SlidingKinematics::allowed(Index slave_face) const {
   const auto f = static_cast<std::size_t>(slave_face);
-  return std::span(allowed_).subspan(first_allowed_[f], first_allowed_[f + 1] - first_allowed_[f]);
+  return std::span(allowed_.faces).subspan(allowed_.first[f], allowed_.first[f + 1] - allowed_.first[f]);
 }
 
 bool SlidingKinematics::graph_outdated() const {
-  if (master_->max_nodes() == 0) return first_allowed_.empty();
-  for (std::size_t p = 0; p < face_.size(); ++p) {
-    if (concern_[p] != reached || partner_[p].face < 0 || partner_[p].penetration < -options_.graph_distance)
+  if (master_->max_nodes() == 0) return allowed_.first.empty();
+  for (std::size_t p = 0; p < points_.face.size(); ++p) {
+    if (points_.concern[p] != reached || points_.partner[p].face < 0 ||
+        points_.partner[p].penetration < -options_.graph_distance)
       continue;
-    if (first_allowed_.empty()) return true;
-    const auto faces = allowed(face_[p]);
-    if (!std::binary_search(faces.begin(), faces.end(), partner_[p].face)) return true;
+    if (allowed_.first.empty()) return true;
+    const auto faces = allowed(points_.face[p]);
+    if (!std::binary_search(faces.begin(), faces.end(), points_.partner[p].face)) return true;
   }
   return false;
 }
 
 void SlidingKinematics::add_to_graph(CliqueSink& sink) {
-  allowed_.clear();
-  first_allowed_.assign(1, 0);
+  allowed_.faces.clear();
+  allowed_.first.assign(1, 0);
   // The graph of the matrix has room for the partners that a point may get while the graph holds: the faces
   // around its present partner, ring by ring.
   std::vector<Index> faces, wider, clique;
   std::size_t p = 0;
   for (Index slave = 0; slave < slave_.n_faces(); ++slave) {
     faces.clear();
-    for (; p < face_.size() && face_[p] == slave; ++p)
-      if (concern_[p] != none && partner_[p].face >= 0 && partner_[p].penetration >= -options_.graph_distance)
-        faces.push_back(partner_[p].face);
+    for (; p < points_.face.size() && points_.face[p] == slave; ++p)
+      if (points_.concern[p] != none && points_.partner[p].face >= 0 &&
+          points_.partner[p].penetration >= -options_.graph_distance)
+        faces.push_back(points_.partner[p].face);
     for (int ring = 0; ring < options_.graph_rings; ++ring) {
       wider.clear();
       for (Index f : faces) wider.insert(wider.end(), master_->around(f).begin(), master_->around(f).end());
@@ -441,8 +451,8 @@ void SlidingKinematics::add_to_graph(CliqueSink& sink) {
     }
     // What is allowed is kept for each slave face, so that a point that leaves it is noticed and the graph
     // made again.
-    allowed_.insert(allowed_.end(), faces.begin(), faces.end());
-    first_allowed_.push_back(allowed_.size());
+    allowed_.faces.insert(allowed_.faces.end(), faces.begin(), faces.end());
+    allowed_.first.push_back(allowed_.faces.size());
   }
 }
 

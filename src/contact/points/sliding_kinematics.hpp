@@ -47,7 +47,7 @@ class SlidingKinematics : public ContactKinematics {
   /// Other points in place of those there are, sorted by face: without partners until the next place().
   void set_places(std::span<const SlavePlace> places);
 
-  Index n_points() const override { return static_cast<Index>(weight_.size()); }
+  Index n_points() const override { return static_cast<Index>(points_.weight.size()); }
   Particle particle(Index point) const override;
   FacetGap facets(Index point) const override;
   double coverage() const override { return coverage_; }
@@ -55,7 +55,9 @@ class SlidingKinematics : public ContactKinematics {
   void set_time(double time) override { time_ = time; }
   using ContactKinematics::place;
   void place(std::span<const double> displacement, Points points) override;
-  bool concerns(Index point) const override { return concern_[static_cast<std::size_t>(point)] != none; }
+  bool concerns(Index point) const override {
+    return points_.concern[static_cast<std::size_t>(point)] != none;
+  }
   PointMotion motion(Index point, const ContactPointState& old, Asked asked) const override;
   void add_geometric_tangent(Index point, double pressure, const Point& traction,
                              std::span<Tensor> k) const override;
@@ -66,11 +68,11 @@ class SlidingKinematics : public ContactKinematics {
   bool graph_outdated() const override;
   void add_to_graph(CliqueSink& sink) override;
 
-  const Partner& partner(Index point) const { return partner_[static_cast<std::size_t>(point)]; }
-  Index slave_face(Index point) const { return face_[static_cast<std::size_t>(point)]; }
-  const Point& slave_xi(Index point) const { return xi_[static_cast<std::size_t>(point)]; }
+  const Partner& partner(Index point) const { return points_.partner[static_cast<std::size_t>(point)]; }
+  Index slave_face(Index point) const { return points_.face[static_cast<std::size_t>(point)]; }
+  const Point& slave_xi(Index point) const { return points_.xi[static_cast<std::size_t>(point)]; }
   /// Ȳ of the last motion().
-  const Point& reference_place() const { return frame_.reference_y; }
+  const Point& reference_place() const { return last_.frame.reference_y; }
   /// ∂Ȳ/∂x_b and ∂ν^ref/∂x_b, [node] of the last motion(), which was asked for rates; valid until the next
   /// call.
   struct ReferenceRates {
@@ -87,7 +89,7 @@ class SlidingKinematics : public ContactKinematics {
   Point place_of(std::size_t point, const Face& face) const;
   void list_nodes(std::size_t point) const;
   /// The area that a point stands for where it is; all of its own where it has no partner [m²].
-  double weight_of(std::size_t point) const { return weight_[point] * partner_[point].covered; }
+  double weight_of(std::size_t point) const { return points_.weight[point] * points_.partner[point].covered; }
   void find_rates(const Partner& partner) const;
   /// ∂w/∂x_b from the rates of ξ̄; empty where the weight is constant.
   std::span<const Point> find_weight_rates(std::size_t point) const;
@@ -97,6 +99,38 @@ class SlidingKinematics : public ContactKinematics {
                  PointMotion& motion) const;
   std::span<const Index> allowed(Index slave_face) const;
 
+  /// Relation of a point to this process: from a face that it meets, the graph's rings reach a node of its
+  /// own (reached), or would from one that many faces on (near), so that the graph holds it before it comes.
+  enum Concern : char { none, near, reached };
+  /// The points, sorted by face.
+  struct PointTable {
+    std::vector<Index> face;
+    std::vector<Index> number;  ///< of the point on its face
+    std::vector<Point> xi, position, x;
+    std::vector<double> weight;
+    std::vector<std::array<double, k_max_face_nodes>> shape;
+    std::vector<Partner> partner;
+    std::vector<Index> hint;       ///< the face met last
+    std::vector<char> behind;      ///< Master::behind, in the reference configuration
+    std::vector<Concern> concern;  ///< at the last place()
+  };
+  /// Pairs of faces that the graph holds: master faces of every slave face, sorted.
+  struct AllowedFaces {
+    std::vector<std::size_t> first;  ///< [slave face], one more at the end
+    std::vector<Index> faces;
+  };
+  /// Work arrays of the last motion(), [node], which avoid allocations.
+  struct LastMotion {
+    MasterFrame frame;
+    std::size_t n_slave = 0, n_nodes = 0;
+    std::vector<Index> nodes;
+    std::vector<double> share;
+    std::vector<Point> penetration_rate, weight_rate;
+    std::vector<std::array<Point, 2>> xi_rate;
+    std::vector<Tensor> normal_rate;  ///< ∂ν/∂x_b
+    std::vector<Tensor> slip_rate, carried_rate, place_rate, turn_rate;
+  };
+
   const mesh::Mesh& mesh_;
   std::size_t components_;
   ContactSurface slave_;
@@ -105,35 +139,11 @@ class SlidingKinematics : public ContactKinematics {
   SlidingOptions options_;
   double time_ = 0, coverage_ = 0;
 
-  // [point], sorted by face
-  std::vector<Index> face_;
-  std::vector<Index> number_;  ///< of the point on its face
-  std::vector<Point> xi_, position_, x_;
-  std::vector<double> weight_;
-  std::vector<std::array<double, k_max_face_nodes>> shape_;
-  std::vector<Partner> partner_;
-  std::vector<Index> hint_;   ///< the face met last
-  std::vector<char> behind_;  ///< Master::behind, in the reference configuration
-  /// Relation of a point to this process: from a face that it meets, the graph's rings reach a node of its
-  /// own (reached), or would from one that many faces on (near), so that the graph holds it before it comes.
-  enum Concern : char { none, near, reached };
-  std::vector<Concern> concern_;       ///< [point] at the last place()
+  PointTable points_;
   bool all_own_ = false;               ///< this process owns the whole slave
   std::vector<Concern> face_concern_;  ///< [master face]; none for surfaces without nodes
-
-  // Pairs of faces that the graph holds: master faces of every slave face, sorted.
-  std::vector<std::size_t> first_allowed_;
-  std::vector<Index> allowed_;
-
-  // Work arrays of the last motion(), [node], which avoid allocations.
-  mutable MasterFrame frame_;
-  mutable std::size_t n_slave_ = 0, n_nodes_ = 0;
-  mutable std::vector<Index> nodes_;
-  mutable std::vector<double> share_;
-  mutable std::vector<Point> penetration_rate_, weight_rate_;
-  mutable std::vector<std::array<Point, 2>> xi_rate_;
-  mutable std::vector<Tensor> normal_rate_;  ///< ∂ν/∂x_b
-  mutable std::vector<Tensor> slip_rate_, carried_rate_, place_rate_, turn_rate_;
+  AllowedFaces allowed_;
+  mutable LastMotion last_;
 };
 
 }  // namespace solidus::contact

@@ -29,12 +29,12 @@ EnthalpyNewton::EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const
     : system_(system), storage_(storage), ghosts_(ghosts), tolerance_(tolerance) {
   const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
   for (auto* v : {&r_, &b_, &step_h_, &inverse_}) v->resize(n);
-  per_latent_.resize(n);
+  plateaus_.per_latent.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double latent = storage_.latent_capacity(static_cast<Index>(i));
-    per_latent_[i] = latent > 0 ? 1.0 / latent : 0.0;
+    plateaus_.per_latent[i] = latent > 0 ? 1.0 / latent : 0.0;
   }
-  has_plateaus_ = parallel::any_process(storage.has_plateaus());
+  plateaus_.any = parallel::any_process(storage.has_plateaus());
 }
 
 void EnthalpyNewton::evaluate(std::span<const double> temperature) {
@@ -50,19 +50,20 @@ void EnthalpyNewton::evaluate(std::span<const double> temperature) {
     contents += std::abs(heat_[i]) / dt_;
     (fixed[i] ? moved : norm) += std::abs(r_[i]);
   }
-  norm_ = parallel::global_sum(norm);
-  moved_ = 0.5 * parallel::global_sum(moved);  // what enters somewhere is stored or leaves somewhere else
-  round_off_ = k_round_off * (parallel::global_sum(contents) + conductance_);
+  sums_.unbalanced = parallel::global_sum(norm);
+  sums_.moved =
+      0.5 * parallel::global_sum(moved);  // what enters somewhere is stored or leaves somewhere else
+  sums_.round_off = k_round_off * (parallel::global_sum(contents) + sums_.conductance);
 }
 
 double EnthalpyNewton::temperature_of(std::size_t i, double heat) const {
   const double t = storage_.temperature(static_cast<Index>(i), heat);
-  return tilt_ > 0 ? t + tilt(i) * (heat - old_heat_[i]) : t;
+  return plateaus_.tilt > 0 ? t + tilt(i) * (heat - old_heat_[i]) : t;
 }
 
 /// Sets or removes the tilt of the plateaus, and updates all that depends on it.
 void EnthalpyNewton::set_tilt(double tilt, std::span<double> temperature) {
-  tilt_ = tilt;
+  plateaus_.tilt = tilt;
   for (std::size_t i = 0; i < r_.size(); ++i)
     if (!system_.parts().prescribed.fixed()[i]) temperature[i] = temperature_of(i, heat_[i]);
   ghosts_.update(temperature, 1);
@@ -70,8 +71,8 @@ void EnthalpyNewton::set_tilt(double tilt, std::span<double> temperature) {
 }
 
 bool EnthalpyNewton::converged() const {
-  if (tilt_ > 0) return false;
-  return norm_ <= tolerance_ * moved_ || norm_ <= round_off_;
+  if (plateaus_.tilt > 0) return false;
+  return sums_.unbalanced <= tolerance_ * sums_.moved || sums_.unbalanced <= sums_.round_off;
 }
 
 /// J + D; nodes on a plateau are held.
@@ -93,7 +94,7 @@ void EnthalpyNewton::assemble(std::span<const double> temperature) {
     // A held node has no equation here: its residual must not set the scale of the linear solver.
     b_[i] = held || system_.parts().prescribed.fixed()[i] ? 0.0 : -r_[i];
   }
-  conductance_ = parallel::global_sum(conductance);
+  sums_.conductance = parallel::global_sum(conductance);
 }
 
 void EnthalpyNewton::hold(std::span<double> step_t) const {
@@ -121,12 +122,13 @@ void EnthalpyNewton::move(std::span<const double> start, double alpha, std::span
 }
 
 void EnthalpyNewton::adapt_tilt(int iteration, std::span<double> temperature) {
-  if (has_plateaus_ && iteration == k_plain) {
+  if (plateaus_.any && iteration == k_plain) {
     set_tilt(k_tilt, temperature);
-    tilted_ = 0;
-  } else if (tilt_ > 0 && (norm_ <= k_tilted_enough * moved_ || ++tilted_ == k_tilted_at_most)) {
-    set_tilt(tilt_ > k_least_tilt ? k_less_tilt * tilt_ : 0.0, temperature);
-    tilted_ = 0;
+    plateaus_.tilted = 0;
+  } else if (plateaus_.tilt > 0 &&
+             (sums_.unbalanced <= k_tilted_enough * sums_.moved || ++plateaus_.tilted == k_tilted_at_most)) {
+    set_tilt(plateaus_.tilt > k_least_tilt ? k_less_tilt * plateaus_.tilt : 0.0, temperature);
+    plateaus_.tilted = 0;
   }
 }
 
@@ -134,9 +136,9 @@ void EnthalpyNewton::begin(std::span<const double> old_heat, double dt, std::spa
   old_heat_ = old_heat;
   heat_ = heat;
   dt_ = dt;
-  conductance_ = 0;
-  tilt_ = 0;
-  tilted_ = 0;
+  sums_.conductance = 0;
+  plateaus_.tilt = 0;
+  plateaus_.tilted = 0;
 }
 
 }  // namespace solidus::heat

@@ -28,7 +28,7 @@ namespace solidus::heat {
 
 class EnthalpyNewton {
  public:
-  /// @param tolerance  Σ|F_i| <= tolerance × heat moved per time
+  /// plateaus_aram tolerance  Σ|F_i| <= tolerance × heat moved per time
   EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
                  const parallel::GhostExchange& ghosts, double tolerance);
 
@@ -46,20 +46,32 @@ class EnthalpyNewton {
   /// Makes δΘ [owned node] zero where it is none.
   void hold(std::span<double> step_t) const;
   /// Sets out along the δH that follows from δΘ with its ghosts.
-  /// @param further  change of F by the further unknowns [W], [owned node]; may be empty
+  /// plateaus_aram further  change of F by the further unknowns [W], [owned node]; may be empty
   void enthalpy_step(std::span<const double> step_t, std::span<const double> further);
   /// Moves heats and temperatures [owned node] from `start` by α δH; prescribed ones stay.
   void move(std::span<const double> start, double alpha, std::span<double> temperature);
-  double unbalanced() const { return norm_; }  ///< Σ|F_i| at the last evaluate(), all processes [W]
-
   /// F at the last evaluate(), [owned node] [W]: where the temperature is prescribed, the heat that holds it.
   std::span<const double> residual() const { return r_; }
-  double moved() const { return moved_; }  ///< heat moved per time in the last residual, all processes [W]
+  /// Of the last residual, over all processes [W].
+  struct Sums {
+    double unbalanced = 0;   ///< Σ|F_i| where free
+    double moved = 0;        ///< heat moved per time
+    double round_off = 0;    ///< F that is rounding
+    double conductance = 0;  ///< Σ|A_ii Θ_i|
+  };
+  const Sums& sums() const { return sums_; }
 
  private:
-  double tilt(std::size_t i) const { return tilt_ * per_latent_[i]; }
+  double tilt(std::size_t i) const { return plateaus_.tilt * plateaus_.per_latent[i]; }
   double temperature_of(std::size_t i, double heat) const;
   void set_tilt(double tilt, std::span<double> temperature);
+
+  struct Plateaus {
+    std::vector<double> per_latent;  ///< 1/latent heat, zero without, [owned node] [1/J]
+    int tilted = 0;                  ///< iterations with the tilt of now
+    double tilt = 0;                 ///< temperature difference over the latent heat now [K]
+    bool any = false;                ///< on any process
+  };
 
   HeatSystem& system_;
   const NodalEnthalpy& storage_;
@@ -71,11 +83,8 @@ class EnthalpyNewton {
   std::span<double> heat_;
   std::vector<double> r_, b_, step_h_;  ///< [owned node]
   std::vector<double> inverse_;         ///< dΘ/dH, [owned node] [K/J]
-  std::vector<double> per_latent_;      ///< 1/latent heat, zero without, [owned node] [1/J]
-  int tilted_ = 0;                      ///< iterations with the tilt of now
-  double tilt_ = 0;                     ///< temperature difference over the latent heat now [K]
-  bool has_plateaus_ = false;           ///< on any process
-  double norm_ = 0, moved_ = 0, round_off_ = 0, conductance_ = 0;
+  Plateaus plateaus_;
+  Sums sums_;
 };
 
 }  // namespace solidus::heat

@@ -32,7 +32,6 @@ bool HeatLimits::find(std::span<const double> temperature, double negligible) {
   std::vector<LimitedFlow*> flows;
   for (SurfaceHeat& surface : parts_.surfaces.each()) {
     surface.add_supply(temperature, gain, loss);
-    surface.update_flows(temperature);
     for (LimitedFlow& limited : surface.flows()) flows.push_back(&limited);
   }
   parts_.sources.add_supply(gain, loss);
@@ -71,7 +70,8 @@ void HeatLimits::release() {
 TemperatureRange HeatLimits::surroundings() const {
   TemperatureRange range = parts_.prescribed.range();
   for (const SurfaceHeat& surface : parts_.surfaces.each())
-    if (const std::optional<TemperatureRange> ambient = surface.ambient()) range = united(range, *ambient);
+    if (const std::optional<TemperatureRange> ambient = surface.law().ambient())
+      range = united(range, *ambient);
   return over_processes(range);
 }
 
@@ -80,7 +80,7 @@ TemperatureRange HeatLimits::ambient(bool with_contributions) const {
   // and radiation have surroundings, which are the bounds otherwise.
   auto [cooling, heating] = parts_.sources.heat_range();
   for (const SurfaceHeat& surface : parts_.surfaces.each()) {
-    if (surface.ambient()) continue;
+    if (surface.law().ambient()) continue;
     const auto [least, greatest] = surface.flux_range();
     cooling = std::min(cooling, least);
     heating = std::max(heating, greatest);

@@ -38,33 +38,36 @@ TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, con
       relaxed_(std::move(relaxed)) {}
 
 void TruncatedNewton::allocate() {
-  r_.resize(static_cast<std::size_t>(mesh_.n_owned_nodes));
-  for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_}) v->resize(r_.size());
-  step_.resize(mesh_.x.size());
+  work_.r.resize(static_cast<std::size_t>(mesh_.n_owned_nodes));
+  for (auto* v : {&work_.diagonal, &work_.product, &work_.potential, &work_.curve_slope})
+    v->resize(work_.r.size());
+  work_.step.resize(mesh_.x.size());
 }
 
 void TruncatedNewton::release() {
-  for (auto* v : {&diagonal_, &product_, &potential_, &curve_slope_, &step_}) std::vector<double>().swap(*v);
+  for (auto* v : {&work_.diagonal, &work_.product, &work_.potential, &work_.curve_slope, &work_.step})
+    std::vector<double>().swap(*v);
   solver_.release();
   system_.parts().conduction.release_work();
 }
 
 void TruncatedNewton::evaluate() {
   const profile::Part part("residual");
-  double moved = system_.residual(temperature_, r_), norm = 0, contents = 0;
+  double moved = system_.residual(of_step_.temperature, work_.r), norm = 0, contents = 0;
   const std::vector<char>& fixed = system_.parts().prescribed.fixed();
   // Stored heat joins the flows; at prescribed temperatures the residual is a reaction, elsewhere it must
   // vanish.
-  for (std::size_t i = 0; i < r_.size(); ++i) {
-    const double stored = (heat_[i] - old_heat_[i]) / dt_;
-    r_[i] += stored;
+  for (std::size_t i = 0; i < work_.r.size(); ++i) {
+    const double stored = (of_step_.heat[i] - of_step_.old_heat[i]) / of_step_.dt;
+    work_.r[i] += stored;
     moved += std::abs(stored);
-    contents += std::abs(heat_[i]) / dt_;
-    (fixed[i] ? moved : norm) += std::abs(r_[i]);
+    contents += std::abs(of_step_.heat[i]) / of_step_.dt;
+    (fixed[i] ? moved : norm) += std::abs(work_.r[i]);
   }
-  norm_ = parallel::global_sum(norm);
-  moved_ = 0.5 * parallel::global_sum(moved);  // what enters somewhere is stored or leaves somewhere else
-  round_off_ = k_round_off * (parallel::global_sum(contents) + conductance_);
+  sums_.unbalanced = parallel::global_sum(norm);
+  sums_.moved =
+      0.5 * parallel::global_sum(moved);  // what enters somewhere is stored or leaves somewhere else
+  sums_.round_off = k_round_off * (parallel::global_sum(contents) + sums_.conductance);
 }
 
 /// A at the temperatures of now.
@@ -73,44 +76,45 @@ void TruncatedNewton::assemble() {
   const NodalPotential& potential = system_.parts().elements.nodal();
   std::vector<double> slope(mesh_.x.size(), 1.0);  // c = dv/dΘ
   if (!potential.identity()) {
-    for (std::size_t i = 0; i < r_.size(); ++i)
-      slope[i] = potential.slope(static_cast<Index>(i), temperature_[i]);
+    for (std::size_t i = 0; i < work_.r.size(); ++i)
+      slope[i] = potential.slope(static_cast<Index>(i), of_step_.temperature[i]);
     ghosts_.update(slope, 1);
   }
-  system_.assemble_symmetric(temperature_, slope);
+  system_.assemble_symmetric(of_step_.temperature, slope);
   linear::BlockMatrix& a = system_.matrix();
   // Σ |A_ii Θ_i|: the scale against which rounding of the residual is judged.
   double conductance = 0;
-  for (std::size_t i = 0; i < r_.size(); ++i) {
-    diagonal_[i] = *a.diagonal_block(static_cast<Index>(i));
-    conductance += std::abs(diagonal_[i] * slope[i] * temperature_[i]);
+  for (std::size_t i = 0; i < work_.r.size(); ++i) {
+    work_.diagonal[i] = *a.diagonal_block(static_cast<Index>(i));
+    conductance += std::abs(work_.diagonal[i] * slope[i] * of_step_.temperature[i]);
   }
-  conductance_ = parallel::global_sum(conductance);
+  sums_.conductance = parallel::global_sum(conductance);
   // With one process the rows are complete; otherwise couplings to ghosts are noted.
-  if (r_.size() == mesh_.x.size()) return;
+  if (work_.r.size() == mesh_.x.size()) return;
   const std::span<const std::int64_t> start = a.row_start();
   const std::span<const Index> columns = a.columns();
   const double* values = a.block(0);
-  for (std::size_t i = 0; i < r_.size(); ++i)
+  for (std::size_t i = 0; i < work_.r.size(); ++i)
     for (std::int64_t s = start[i]; s < start[i + 1]; ++s)
-      if (columns[static_cast<std::size_t>(s)] >= mesh_.n_owned_nodes) diagonal_[i] += std::abs(values[s]);
+      if (columns[static_cast<std::size_t>(s)] >= mesh_.n_owned_nodes)
+        work_.diagonal[i] += std::abs(values[s]);
 }
 
 /// Looks at the limits of conduction at the temperatures reached. Returns whether the iteration has to go on
 /// with others: when flows change too much, and then when temperatures are out of range.
 bool TruncatedNewton::revise_limits(const ConductionBounds& bounds) {
-  if (!bounds.kept && revisions_ < k_revisions &&
-      system_.limits().find(temperature_, k_limit_change * moved_)) {
-    ++revisions_;
+  if (!bounds.kept && progress_.revisions < k_revisions &&
+      system_.limits().find(of_step_.temperature, k_limit_change * sums_.moved)) {
+    ++progress_.revisions;
     return true;
   }
-  if (revisions_ >= k_revisions + k_holds) return false;
+  if (progress_.revisions >= k_revisions + k_holds) return false;
   using Held = ConductionLimiter::Held;
-  const Held held =
-      system_.limits().hold(temperature_, system_.limits().closed(bounds.range, bounds.start, temperature_));
-  if (held == Held::none || (held == Held::as_before && ++idle_ > k_idle)) return false;
-  revisions_ = std::max(revisions_, k_revisions) + 1;
-  system_.limits().find(temperature_);
+  const Held held = system_.limits().hold(
+      of_step_.temperature, system_.limits().closed(bounds.range, bounds.start, of_step_.temperature));
+  if (held == Held::none || (held == Held::as_before && ++progress_.idle > k_idle)) return false;
+  progress_.revisions = std::max(progress_.revisions, k_revisions) + 1;
+  system_.limits().find(of_step_.temperature);
   return true;
 }
 
@@ -118,27 +122,28 @@ bool TruncatedNewton::revise_limits(const ConductionBounds& bounds) {
 /// left at the front, so that what the linear solver leaves would cost one more iteration: there it goes on
 /// to what ends the iteration.
 double TruncatedNewton::forcing_term(linear::Forcing& forcing) const {
-  const double goal = options_.tolerance * moved_ / norm_, usual = forcing.next(norm_, goal);
-  return norm_ <= k_nearly * moved_ ? std::min(usual, std::max(goal, k_strictest)) : usual;
+  const double goal = options_.tolerance * sums_.moved / sums_.unbalanced,
+               usual = forcing.next(sums_.unbalanced, goal);
+  return sums_.unbalanced <= k_nearly * sums_.moved ? std::min(usual, std::max(goal, k_strictest)) : usual;
 }
 
 linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, double dt,
                                             std::span<double> temperature, std::span<double> heat,
                                             const ConductionBounds& bounds, int newton_steps) {
   // The step's data are kept for its duration, so that its parts need no arguments of their own.
-  old_heat_ = old_heat;
-  heat_ = heat;
-  temperature_ = temperature;
-  dt_ = dt;
-  rate_ = 1.0 / dt;
-  conductance_ = 0;
-  revisions_ = idle_ = 0;
-  linear_ = true;
-  looked_up_ = false;
+  of_step_.old_heat = old_heat;
+  of_step_.heat = heat;
+  of_step_.temperature = temperature;
+  of_step_.dt = dt;
+  of_step_.rate = 1.0 / dt;
+  sums_.conductance = 0;
+  progress_.revisions = progress_.idle = 0;
+  progress_.linear = true;
+  progress_.looked_up = false;
   // Whether the front has passed nodes in depth says if chords are worth trying.
   allocate();
   PlateauWatch watch(mesh_, storage_, system_.matrix(), ghosts_);
-  watch.passed_in_depth(heat_, temperature_);
+  watch.passed_in_depth(of_step_.heat, of_step_.temperature);
   bool by_chords = false;
   double norm_before = 0;
   const int most = newton_steps > 0 ? newton_steps : options_.max_iterations;
@@ -149,17 +154,17 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
   // along it.
   evaluate();
   while (true) {
-    report.residuals.push_back(moved_ > 0 ? norm_ / moved_ : norm_);
-    if (std::isfinite(norm_) && (!converged() || revised)) relax_nodes(revised);
+    report.residuals.push_back(sums_.moved > 0 ? sums_.unbalanced / sums_.moved : sums_.unbalanced);
+    if (std::isfinite(sums_.unbalanced) && (!converged() || revised)) relax_nodes(revised);
     revised = false;
-    if (!std::isfinite(norm_)) {
+    if (!std::isfinite(sums_.unbalanced)) {
       report.reason = "the residual is not a number";
       break;
     }
     // At convergence the limits of conduction are found again; if that changes flows, the iteration
     // goes on.
     if (converged()) {
-      report.residuals.back() = moved_ > 0 ? norm_ / moved_ : norm_;
+      report.residuals.back() = sums_.moved > 0 ? sums_.unbalanced / sums_.moved : sums_.unbalanced;
       report.converged = true;
       if (newton_steps > 0 || !revise_limits(bounds)) break;
       report.converged = false;
@@ -169,7 +174,7 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
     }
     // Limits that are found again where the solution is nearly known need hardly be looked at again at its
     // end.
-    if (!looked_ahead && newton_steps == 0 && norm_ <= k_nearly * moved_) {
+    if (!looked_ahead && newton_steps == 0 && sums_.unbalanced <= k_nearly * sums_.moved) {
       looked_ahead = true;
       revised = revise_limits(bounds);
       if (revised) {
@@ -184,15 +189,16 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
       break;
     }
     ++report.iterations;
-    if (norm_ > std::max(options_.tolerance, options_.effort_tolerance) * moved_) ++report.effort;
+    if (sums_.unbalanced > std::max(options_.tolerance, options_.effort_tolerance) * sums_.moved)
+      ++report.effort;
     // The linear solver's tolerance follows the nonlinear convergence (Eisenstat and Walker).
     const double to = forcing_term(forcing);
-    const bool in_depth = watch.passed_in_depth(heat_, temperature_);
+    const bool in_depth = watch.passed_in_depth(of_step_.heat, of_step_.temperature);
     // Chords were no help last time if the residual has not fallen by k_chord_worth: then Newton's
     // step again.
     const bool may_use_chords =
-        storage_.has_plateaus() && !(by_chords && norm_ > k_chord_worth * norm_before);
-    norm_before = norm_;
+        storage_.has_plateaus() && !(by_chords && sums_.unbalanced > k_chord_worth * norm_before);
+    norm_before = sums_.unbalanced;
     by_chords = may_use_chords && in_depth;
     linear::LinearReport linear = by_chords ? correct_by_chords(to) : correct(to);
     report.linear_iterations += linear.iterations;

@@ -81,8 +81,9 @@ class TruncatedNewton {
                              int newton_steps = 0);
   /// Takes away F at the end of the last solve, [owned node] [W]: where the temperature is prescribed, the
   /// heat that holds it.
-  std::vector<double> take_residual() { return std::move(r_); }
-  double moved() const { return moved_; }  ///< heat moved per time in the last residual, all processes [W]
+  std::vector<double> take_residual() { return std::move(work_.r); }
+  /// Heat moved per time in the last residual, all processes [W].
+  double moved() const { return sums_.moved; }
 
  private:
   static constexpr double k_short_step = 0.2;   ///< length below which a step is found again by chords
@@ -92,7 +93,9 @@ class TruncatedNewton {
   void allocate();
   void release();
   void evaluate();
-  bool converged() const { return norm_ <= options_.tolerance * moved_ || norm_ <= round_off_; }
+  bool converged() const {
+    return sums_.unbalanced <= options_.tolerance * sums_.moved || sums_.unbalanced <= sums_.round_off;
+  }
   double forcing_term(linear::Forcing& forcing) const;
   void assemble();
   void relax_nodes(bool all);
@@ -119,6 +122,37 @@ class TruncatedNewton {
   void move(double alpha);
   void take(double alpha);
 
+  /// All are empty between solves, F when it has been taken away.
+  struct Work {
+    std::vector<double> r;            ///< F, during sweeps that of the linear A, [owned node]
+    std::vector<double> diagonal;     ///< of A, with the magnitudes of couplings to other processes' nodes
+    std::vector<double> step;         ///< change of v, [local node]
+    std::vector<double> product;      ///< A times it; before that the right-hand side, [owned node]
+    std::vector<double> potential;    ///< v of the heats, but for the trials of a search, [owned node]
+    std::vector<double> curve_slope;  ///< dv/dH there, zero on a plateau
+    std::vector<double> from_heat;    ///< H where a search begins, within it alone
+  };
+  /// What the step is given: H*, and the start values, which become the solution.
+  struct OfStep {
+    double dt = 1, rate = 1;  ///< Δt, 1/Δt
+    std::span<const double> old_heat;
+    std::span<double> heat, temperature;
+  };
+  /// Over all processes [W].
+  struct Sums {
+    double unbalanced = 0;   ///< Σ|F_i| where free
+    double moved = 0;        ///< heat moved per time
+    double round_off = 0;    ///< F that is rounding
+    double conductance = 0;  ///< Σ|A_ii Θ_i|
+  };
+  struct Progress {
+    bool looked_up = false;  ///< whether v and dv/dH are those of the heats
+    bool linear = true;      ///< whether sweeps with A have brought F down, in this solve
+    int idle = 0;            ///< revisions that have found nothing new
+    int revisions = 0;       ///< of the limits of conduction, in this step
+    double negligible = 0;   ///< |F_i| for which no node is relaxed
+  };
+
   const mesh::Mesh& mesh_;
   HeatSystem& system_;
   const NodalEnthalpy& storage_;
@@ -128,23 +162,10 @@ class TruncatedNewton {
   TruncatedNewtonOptions options_;
   std::vector<char> relaxed_;
 
-  double dt_ = 1, rate_ = 1;  ///< Δt, 1/Δt
-  std::span<const double> old_heat_;
-  std::span<double> heat_, temperature_;
-  // All are empty between solves, F when it has been taken away.
-  std::vector<double> r_;            ///< F, during sweeps that of the linear A, [owned node]
-  std::vector<double> diagonal_;     ///< of A, with the magnitudes of the couplings to other processes' nodes
-  std::vector<double> step_;         ///< change of v, [local node]
-  std::vector<double> product_;      ///< A times it; before that the right-hand side, [owned node]
-  std::vector<double> potential_;    ///< v of the heats, but for the trials of a search, [owned node]
-  std::vector<double> curve_slope_;  ///< dv/dH there, zero on a plateau
-  std::vector<double> from_heat_;    ///< H where a search begins, within it alone
-  double norm_ = 0, moved_ = 0, round_off_ = 0, conductance_ = 0;
-  bool looked_up_ = false;  ///< whether v and dv/dH are those of the heats
-  bool linear_ = true;      ///< whether sweeps with A have brought F down, in this solve
-  int idle_ = 0;            ///< revisions that have found nothing new
-  int revisions_ = 0;       ///< of the limits of conduction, in this step
-  double negligible_ = 0;   ///< |F_i| for which no node is relaxed
+  OfStep of_step_;
+  Work work_;
+  Sums sums_;
+  Progress progress_;
 };
 
 }  // namespace solidus::heat

@@ -18,22 +18,22 @@ constexpr int k_search_trials = 20;
 
 /// Takes the nodes to v + α δ from where the search begins.
 void TruncatedNewton::move(double alpha) {
-  for (std::size_t i = 0; i < r_.size(); ++i) {
-    if (step_[i] == 0) continue;
-    const StorageCurve::AtPotential at =
-        curves_.at_potential(static_cast<Index>(i), potential_[i] + alpha * step_[i], temperature_[i]);
-    temperature_[i] = at.temperature;
-    heat_[i] = step_[i] < 0 ? at.upper : at.lower;
-    curve_slope_[i] = at.slope;
+  for (std::size_t i = 0; i < work_.r.size(); ++i) {
+    if (work_.step[i] == 0) continue;
+    const StorageCurve::AtPotential at = curves_.at_potential(
+        static_cast<Index>(i), work_.potential[i] + alpha * work_.step[i], of_step_.temperature[i]);
+    of_step_.temperature[i] = at.temperature;
+    of_step_.heat[i] = work_.step[i] < 0 ? at.upper : at.lower;
+    work_.curve_slope[i] = at.slope;
   }
 }
 
 /// Ends the search where move() has taken the nodes.
 void TruncatedNewton::take(double alpha) {
-  for (std::size_t i = 0; i < r_.size(); ++i) {
-    if (step_[i] == 0) continue;
-    if (const auto node = static_cast<Index>(i); curve_slope_[i] > 0)
-      potential_[i] += alpha * step_[i];
+  for (std::size_t i = 0; i < work_.r.size(); ++i) {
+    if (work_.step[i] == 0) continue;
+    if (const auto node = static_cast<Index>(i); work_.curve_slope[i] > 0)
+      work_.potential[i] += alpha * work_.step[i];
     else
       look_up(node);
   }
@@ -43,8 +43,10 @@ void TruncatedNewton::take(double alpha) {
 double TruncatedNewton::linear_slope(double alpha) {
   move(alpha);
   double sum = 0;
-  for (std::size_t i = 0; i < r_.size(); ++i)
-    if (step_[i] != 0) sum += step_[i] * (r_[i] + (heat_[i] - from_heat_[i]) / dt_ + alpha * product_[i]);
+  for (std::size_t i = 0; i < work_.r.size(); ++i)
+    if (work_.step[i] != 0)
+      sum += work_.step[i] *
+             (work_.r[i] + (of_step_.heat[i] - work_.from_heat[i]) / of_step_.dt + alpha * work_.product[i]);
   return parallel::global_sum(sum);
 }
 
@@ -56,14 +58,14 @@ double TruncatedNewton::true_slope(double alpha) {
 
 /// dE/dα for F itself where move() has taken the nodes.
 double TruncatedNewton::true_slope_here() {
-  ghosts_.update(temperature_, 1);
+  ghosts_.update(of_step_.temperature, 1);
   evaluate();
   return slope_along_step();
 }
 
 double TruncatedNewton::slope_along_step() const {
   double sum = 0;
-  for (std::size_t i = 0; i < r_.size(); ++i) sum += step_[i] * r_[i];
+  for (std::size_t i = 0; i < work_.r.size(); ++i) sum += work_.step[i] * work_.r[i];
   return parallel::global_sum(sum);
 }
 
@@ -72,9 +74,10 @@ double TruncatedNewton::slope_along_step() const {
 /// @return whether the step was taken
 bool TruncatedNewton::search(double least) {
   const profile::Part part("line search");
-  from_heat_.assign(heat_.begin(), heat_.begin() + static_cast<std::ptrdiff_t>(r_.size()));
+  work_.from_heat.assign(of_step_.heat.begin(),
+                         of_step_.heat.begin() + static_cast<std::ptrdiff_t>(work_.r.size()));
   const bool taken = find_length(least);
-  std::vector<double>().swap(from_heat_);
+  std::vector<double>().swap(work_.from_heat);
   return taken;
 }
 
@@ -82,10 +85,10 @@ bool TruncatedNewton::find_length(double least) {
   const double start = slope_along_step();
   double alpha = minimise(start, 1.0, &TruncatedNewton::linear_slope);
   if (alpha < least) {
-    for (std::size_t i = 0; i < r_.size(); ++i) {
-      if (step_[i] == 0) continue;
-      heat_[i] = from_heat_[i];
-      temperature_[i] = look_up(static_cast<Index>(i));
+    for (std::size_t i = 0; i < work_.r.size(); ++i) {
+      if (work_.step[i] == 0) continue;
+      of_step_.heat[i] = work_.from_heat[i];
+      of_step_.temperature[i] = look_up(static_cast<Index>(i));
     }
     return false;
   }

@@ -23,12 +23,13 @@ constexpr int k_relaxations = 60;      ///< evaluations of a node's curve in one
 /// of v. The left-hand side rises with H, at 1/Δt at least: Newton's method, within a bracket as soon as
 /// there is one. The neighbours wait for the result: what does not depend on the residual is divided first.
 double TruncatedNewton::relax(std::size_t i, double residual) {
-  if (std::abs(residual) <= negligible_ || system_.parts().prescribed.fixed()[i] ||
+  if (std::abs(residual) <= progress_.negligible || system_.parts().prescribed.fixed()[i] ||
       (!relaxed_.empty() && relaxed_[i] == 0))
     return 0;
   const auto node = static_cast<Index>(i);
-  const double a = std::max(diagonal_[i], 0.0), h0 = heat_[i], v0 = potential_[i], rate = rate_;
-  StorageCurve::AtHeat at{temperature_[i], v0, curve_slope_[i]};
+  const double a = std::max(work_.diagonal[i], 0.0), h0 = of_step_.heat[i], v0 = work_.potential[i],
+               rate = of_step_.rate;
+  StorageCurve::AtHeat at{of_step_.temperature[i], v0, work_.curve_slope[i]};
   double low = -HUGE_VAL, high = HUGE_VAL, h = h0, defect = residual;
   for (int trial = 0; trial < k_relaxations; ++trial) {
     (defect > 0 ? high : low) = h;
@@ -40,15 +41,15 @@ double TruncatedNewton::relax(std::size_t i, double residual) {
     defect = residual + (h - h0) * rate + a * (at.potential - v0);
     if (std::abs(defect) <= k_relaxed * std::abs(residual)) break;
   }
-  heat_[i] = h;
-  temperature_[i] = at.temperature;
-  potential_[i] = at.potential;
-  curve_slope_[i] = at.slope;
+  of_step_.heat[i] = h;
+  of_step_.temperature[i] = at.temperature;
+  work_.potential[i] = at.potential;
+  work_.curve_slope[i] = at.slope;
   return at.potential - v0;
 }
 
-/// Visits all nodes in rising and then in falling order, with F of the linear A carried on in r_. A row has
-/// its later columns in either storage: going forward, what a change makes of their residuals is added to
+/// Visits all nodes in rising and then in falling order, with F of the linear A carried on in work_.r. A row
+/// has its later columns in either storage: going forward, what a change makes of their residuals is added to
 /// them; going backward a row first takes what all changes of later nodes have made of its own. So each way
 /// goes through the matrix once.
 void TruncatedNewton::sweep() {
@@ -56,53 +57,53 @@ void TruncatedNewton::sweep() {
   const std::span<const std::int64_t> start = a.row_start();
   const std::span<const Index> columns = a.columns();
   const double* values = a.block(0);
-  const auto n = r_.size();
+  const auto n = work_.r.size();
   const auto for_later = [&](std::size_t i, const auto& take) {
     for (std::int64_t s = start[i]; s < start[i + 1]; ++s)
       if (const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]); j > i && j < n)
         take(j, values[s]);
   };
   const auto visit = [&](std::size_t i) {
-    const double heat = heat_[i], change = relax(i, r_[i]);
-    r_[i] += (heat_[i] - heat) * rate_ + diagonal_[i] * change;
-    step_[i] += change;
-    if (change != 0) for_later(i, [&](std::size_t j, double entry) { r_[j] += entry * change; });
+    const double heat = of_step_.heat[i], change = relax(i, work_.r[i]);
+    work_.r[i] += (of_step_.heat[i] - heat) * of_step_.rate + work_.diagonal[i] * change;
+    work_.step[i] += change;
+    if (change != 0) for_later(i, [&](std::size_t j, double entry) { work_.r[j] += entry * change; });
   };
-  std::fill(step_.begin(), step_.end(), 0.0);
+  std::fill(work_.step.begin(), work_.step.end(), 0.0);
   for (std::size_t i = 0; i < n; ++i) visit(i);
   std::vector<double> forward;
-  if (parallel::any_process(n < step_.size())) {
+  if (parallel::any_process(n < work_.step.size())) {
     follow_other_processes();
-    forward = step_;
+    forward = work_.step;
   }
   for (std::size_t i = n; i-- > 0;) {
-    for_later(i, [&](std::size_t j, double entry) { r_[i] += entry * step_[j]; });
+    for_later(i, [&](std::size_t j, double entry) { work_.r[i] += entry * work_.step[j]; });
     visit(i);
   }
   if (forward.empty()) return;
-  for (std::size_t i = 0; i < n; ++i) step_[i] -= forward[i];
+  for (std::size_t i = 0; i < n; ++i) work_.step[i] -= forward[i];
   follow_other_processes();
 }
 
 /// The changes of other processes' nodes, in place of the magnitudes that stood on the diagonal for them.
 void TruncatedNewton::follow_other_processes() {
-  ghosts_.update(step_, 1);
+  ghosts_.update(work_.step, 1);
   const linear::BlockMatrix& a = system_.matrix();
   const std::span<const std::int64_t> start = a.row_start();
   const std::span<const Index> columns = a.columns();
   const double* values = a.block(0);
-  for (std::size_t i = 0; i < r_.size(); ++i)
+  for (std::size_t i = 0; i < work_.r.size(); ++i)
     for (std::int64_t s = start[i]; s < start[i + 1]; ++s)
-      if (const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]); j >= r_.size())
-        r_[i] += values[s] * step_[j] - std::abs(values[s]) * step_[i];
+      if (const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]); j >= work_.r.size())
+        work_.r[i] += values[s] * work_.step[j] - std::abs(values[s]) * work_.step[i];
 }
 
 /// Finds v and dv/dH of a node at its heat; returns Θ. From then on sweeps and steps carry them along.
 double TruncatedNewton::look_up(Index node) {
   const auto i = static_cast<std::size_t>(node);
-  const StorageCurve::AtHeat at = curves_.at_heat(node, heat_[i]);
-  potential_[i] = at.potential;
-  curve_slope_[i] = at.slope;
+  const StorageCurve::AtHeat at = curves_.at_heat(node, of_step_.heat[i]);
+  work_.potential[i] = at.potential;
+  work_.curve_slope[i] = at.slope;
   return at.temperature;
 }
 
@@ -115,28 +116,28 @@ void TruncatedNewton::relax_nodes(bool all) {
   assemble();
   {
     const profile::Part part("sweeps");
-    negligible_ =
-        all ? 0 : k_negligible * options_.tolerance * moved_ / static_cast<double>(mesh_.n_global_nodes);
-    if (!looked_up_)
-      for (std::size_t i = 0; i < r_.size(); ++i) look_up(static_cast<Index>(i));
-    looked_up_ = true;
+    progress_.negligible =
+        all ? 0 : k_negligible * options_.tolerance * sums_.moved / static_cast<double>(mesh_.n_global_nodes);
+    if (!progress_.looked_up)
+      for (std::size_t i = 0; i < work_.r.size(); ++i) look_up(static_cast<Index>(i));
+    progress_.looked_up = true;
     sweep();
   }
-  const double swept = linear_ ? relax_locally() : HUGE_VAL;
-  ghosts_.update(temperature_, 1);
+  const double swept = progress_.linear ? relax_locally() : HUGE_VAL;
+  ghosts_.update(of_step_.temperature, 1);
   evaluate();
-  if (norm_ > swept) linear_ = false;
+  if (sums_.unbalanced > swept) progress_.linear = false;
 }
 
 /// Sweeps on over the nodes where F is concentrated; returns Σ|F_i| before that. Where F is found to be
 /// larger afterwards, A tells too little of it: such sweeps are then left out for the rest of the step.
 double TruncatedNewton::relax_locally() {
   const profile::Part part("sweeps");
-  LocalSweeps local(system_.matrix(), r_, system_.parts().prescribed.fixed(), ghosts_);
-  negligible_ = 0;
+  LocalSweeps local(system_.matrix(), work_.r, system_.parts().prescribed.fixed(), ghosts_);
+  progress_.negligible = 0;
   local.run([this](std::size_t i, double residual) {
-    const double heat = heat_[i], change = relax(i, residual);
-    return NodeChange{change, (heat_[i] - heat) * rate_};
+    const double heat = of_step_.heat[i], change = relax(i, residual);
+    return NodeChange{change, (of_step_.heat[i] - heat) * of_step_.rate};
   });
   return local.sum();
 }

@@ -53,8 +53,7 @@ PlacedLoad::PlacedLoad(const mesh::Mesh& mesh, AnalysisKind kind, std::string na
       name_(std::move(name)),
       law_(std::move(law)),
       cells_(mesh, kind, std::move(cells)),
-      points_(std::move(points)),
-      shares_(std::move(shares)) {
+      samples_{.points = std::move(points), .x = {}, .shares = std::move(shares), .kept = {}} {
   // A power that is a product of a distribution and a factor without place is split, so that the distribution
   // is integrated once.
   if (splits(law_)) {
@@ -65,10 +64,10 @@ PlacedLoad::PlacedLoad(const mesh::Mesh& mesh, AnalysisKind kind, std::string na
     });
   }
   // Points that lie on no node are evaluated one by one.
-  for (const Point& p : points_)
-    if (p.node < 0) x_.push_back(p.x);
+  for (const Point& p : samples_.points)
+    if (p.node < 0) samples_.x.push_back(p.x);
   heat_.resize(at(mesh.n_owned_nodes));
-  kept_.resize(law_.functions.size());
+  samples_.kept.resize(law_.functions.size());
   // The extent of the load's cells is known to every process.
   for (std::size_t i = 0; i < 3; ++i) {
     double low = HUGE_VAL, high = -HUGE_VAL;
@@ -92,7 +91,7 @@ void PlacedLoad::average(const LoadLaw& law, std::span<const TimePoint> times, s
   for (std::size_t f = 0; f < n; ++f) {
     const PlaceFunction& function = law.functions[f];
     if (!function.steady()) continue;
-    std::vector<double>& kept = kept_[f];
+    std::vector<double>& kept = samples_.kept[f];
     if (fixed && !function.uniform() && !kept.empty()) {
       now[f] = kept;
       continue;
@@ -163,11 +162,13 @@ void PlacedLoad::set(const LoadWindow& window) {
     // heat.
     const std::vector<TimePoint> times = time_points(window, law_.pointers(), k_points, parts);
     const CellIntegrals::Result integrals = integrate(law_, times, false);
-    std::vector<LoadValues> apart(x_.size()), at_points(points_.size());
-    if (parallel::any_process(!x_.empty())) run_collectively([&] { average(law_, times, x_, false, apart); });
-    for (std::size_t p = 0, i = 0; p < points_.size(); ++p)
-      at_points[p] =
-          points_[p].node >= 0 ? integrals.of_points[at(cells_.point_of_node(points_[p].node))] : apart[i++];
+    std::vector<LoadValues> apart(samples_.x.size()), at_points(samples_.points.size());
+    if (parallel::any_process(!samples_.x.empty()))
+      run_collectively([&] { average(law_, times, samples_.x, false, apart); });
+    for (std::size_t p = 0, i = 0; p < samples_.points.size(); ++p)
+      at_points[p] = samples_.points[p].node >= 0
+                         ? integrals.of_points[at(cells_.point_of_node(samples_.points[p].node))]
+                         : apart[i++];
     if (law_.kind == LoadLaw::Kind::power)
       set_power(integrals, at_points);
     else
@@ -190,13 +191,13 @@ void PlacedLoad::set_power(const CellIntegrals::Result& integrals, std::span<con
     const double sign = k == 0 ? 1 : -1;
     // The total by points against the integral over cells tells how far points can be trusted.
     double sum = 0;
-    for (const Share& share : shares_) sum += share.weight * at_points[at(share.point)][k];
+    for (const Share& share : samples_.shares) sum += share.weight * at_points[at(share.point)][k];
     const double by_points = parallel::global_sum(sum), integral = integrals.total[k];
     const double alpha = share_of_points(by_points, integral);
     least = std::min(least, alpha);
     // Values at points, scaled so that their total is the integral.
     if (alpha > 0 && by_points != 0)
-      for (const Share& share : shares_)
+      for (const Share& share : samples_.shares)
         heat_[at(share.node)] +=
             sign * alpha * (integral / by_points) * share.weight * at_points[at(share.point)][k];
     // What is left goes by the integrals of the nodes.
@@ -212,8 +213,8 @@ void PlacedLoad::set_exchange(const CellIntegrals::Result& integrals, std::span<
   double coldest = HUGE_VAL;
   // Index 0 is the coefficient, index 1 the coefficient times the ambient temperature.
   LoadValues sum{};
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    for (std::size_t k = 0; k < 2; ++k) sum[k] += points_[p].weight * at_points[p][k];
+  for (std::size_t p = 0; p < samples_.points.size(); ++p) {
+    for (std::size_t k = 0; k < 2; ++k) sum[k] += samples_.points[p].weight * at_points[p][k];
     if (at_points[p][0] > 0) coldest = std::min(coldest, at_points[p][1] / at_points[p][0]);
   }
   // Means over processes, so that all of them take the same mixture.
@@ -229,7 +230,7 @@ void PlacedLoad::set_exchange(const CellIntegrals::Result& integrals, std::span<
                                     ? share_of_points(by_points[1] - coldest * by_points[0], excess)
                                     : 1.0);
   const double scale = by_points[0] > 0 ? integrals.total[0] / by_points[0] : 1;
-  means_.assign(points_.size(), {});
+  means_.assign(samples_.points.size(), {});
   std::vector<double> around;  // means around nodes, ghosts too
   if (alpha < 1) {
     around.resize(2 * mesh_.x.size());
@@ -239,11 +240,11 @@ void PlacedLoad::set_exchange(const CellIntegrals::Result& integrals, std::span<
     parallel::GhostExchange(mesh_).update(around, 2);
   }
   // At each point the mixture of its own value and the mean around its node or in its cell.
-  for (std::size_t p = 0; p < points_.size(); ++p)
+  for (std::size_t p = 0; p < samples_.points.size(); ++p)
     for (std::size_t k = 0; k < 2; ++k) {
       means_[p][k] = alpha * scale * at_points[p][k];
       if (alpha == 1) continue;
-      const Point& point = points_[p];
+      const Point& point = samples_.points[p];
       means_[p][k] += (1 - alpha) *
                       (point.node >= 0 ? around[2 * at(point.node) + k]
                                        : integrals.of_cells[at(point.cell)][k] / cells_.of_cell(point.cell));
@@ -325,7 +326,8 @@ double PlacedLoad::lasting(double from, double to) const {
 }
 
 std::size_t PlacedLoad::bytes() const {
-  return cells_.bytes() + points_.capacity() * sizeof(Point) + shares_.capacity() * sizeof(Share);
+  return cells_.bytes() + samples_.points.capacity() * sizeof(Point) +
+         samples_.shares.capacity() * sizeof(Share);
 }
 
 }  // namespace solidus::heat

@@ -70,20 +70,25 @@ class PlacedLoad {
   void set_exchange(const CellIntegrals::Result& integrals, std::span<const LoadValues> at_points);
   void check(const CellIntegrals::Result& integrals, double by_points);
 
+  /// Where values are taken, and what they count for.
+  struct Samples {
+    std::vector<Point> points;
+    std::vector<Position> x;  ///< of points that are no nodes
+    std::vector<Share> shares;
+    std::vector<std::vector<double>> kept;  ///< values of steady functions at the fixed points
+  };
+
   const mesh::Mesh& mesh_;
   std::string name_;
   LoadLaw law_;                   ///< without the functions of scale_
   std::optional<LoadLaw> scale_;  ///< of a power whose distribution is steady: what is the same everywhere
   CellIntegrals cells_;
-  std::vector<Point> points_;
-  std::vector<Position> x_;  ///< of points that are no nodes
-  std::vector<Share> shares_;
+  mutable Samples samples_;
   std::vector<double> heat_, steady_heat_;
   std::vector<LoadValues> means_;
   std::optional<LoadWindow> window_;  ///< that is set
   bool told_coarse_ = false, told_uncertain_ = false;
-  std::array<double, 3> low_{}, high_{};           ///< the box of the cells
-  mutable std::vector<std::vector<double>> kept_;  ///< values of steady functions at the fixed points
+  std::array<double, 3> low_{}, high_{};  ///< the box of the cells
 };
 
 }  // namespace solidus::heat

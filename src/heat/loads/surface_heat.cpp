@@ -364,7 +364,8 @@ double SurfaceHeat::flow(std::span<const double> temperature, std::size_t i) con
 }
 
 void SurfaceHeat::add_supply(std::span<const double> temperature, std::span<double> gain,
-                             std::span<double> loss) const {
+                             std::span<double> loss) {
+  update_flows(temperature);
   if (is_placed_flux()) {
     const std::span<const double> heat = load_->heat();
     for (std::size_t i = 0; i < heat.size(); ++i) (heat[i] > 0 ? gain : loss)[i] += std::abs(heat[i]);

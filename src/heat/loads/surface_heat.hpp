@@ -39,7 +39,6 @@ class SurfaceLaw {
   bool placed() const { return !law_.uniform(); }
   /// The points that at() will be asked for; needed where it is placed.
   void set_points(std::vector<Position> points) { points_ = std::move(points); }
-  std::span<const Position> points() const { return points_; }
   /// Throws InputError where a function of position has no value that is allowed. Not collective.
   void set_time(double time) { set_window(LoadWindow::at(time)); }
   void set_window(const LoadWindow& window);
@@ -91,13 +90,12 @@ class SurfaceHeat {
   SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface, std::string name,
               SurfaceLaw law, bool closed);
   const std::string& name() const { return name_; }
-  bool placed() const { return law_.placed(); }
+  const SurfaceLaw& law() const { return law_; }
   /// Collective where it is placed. Throws InputError, on every process, where a function of position has no
   /// value that is allowed.
   void set_window(const LoadWindow& window);
   /// The longest time after which a load that moves still overlaps with itself; collective (PlacedLoad).
   double lasting(double from, double to) const { return load_ ? load_->lasting(from, to) : HUGE_VAL; }
-  std::optional<TemperatureRange> ambient() const { return law_.ambient(); }  ///< as of its law
   /// The least and the greatest flux into the body at the time set, at a temperature of zero [W/m²].
   std::pair<double, double> flux_range() const;
   /// The nodes of a face are nodes of one element: its graph holds them.
@@ -108,18 +106,18 @@ class SurfaceHeat {
   void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const;
   /// Whether add_tangent() adds to the diagonal alone.
   bool diagonal() const;
-  /// The flows from corners with negative weights; `left` is set by the limiter. Not of a flux, which has no
-  /// ambient temperature to stay within.
+  /// The flows from corners with negative weights, at the last add_supply(); `left` is set by the limiter.
+  /// Not of a flux, which has no ambient temperature to stay within.
   std::span<LimitedFlow> flows() { return flows_; }
-  void update_flows(std::span<const double> temperature);
   /// Heat that comes to owned nodes and leaves them [W], both positive, spread with positive weights: a node
-  /// gains only where its film or the radiation around it is hotter than it is.
-  void add_supply(std::span<const double> temperature, std::span<double> gain, std::span<double> loss) const;
+  /// gains only where its film or the radiation around it is hotter than it is. Updates flows().
+  void add_supply(std::span<const double> temperature, std::span<double> gain, std::span<double> loss);
 
  private:
   /// Quadratic faces with negative weights.
   void add_corners(const mesh::ElementBlock& faces, const mesh::FaceGeometry& g);
   double flow(std::span<const double> temperature, std::size_t i) const;
+  void update_flows(std::span<const double> temperature);
   SurfaceFlux at_node(std::span<const double> temperature, Index node) const;
 
   /// Points with the values of the nodes they see; a lumped node is a face of one node and one point.

@@ -26,7 +26,7 @@ void SurfaceHeats::bind(const linear::BlockMatrix& matrix) {
 }
 
 bool SurfaceHeats::placed() const {
-  return std::ranges::any_of(surfaces_, [](const SurfaceHeat& s) { return s.placed(); });
+  return std::ranges::any_of(surfaces_, [](const SurfaceHeat& s) { return s.law().placed(); });
 }
 
 bool SurfaceHeats::diagonal() const {

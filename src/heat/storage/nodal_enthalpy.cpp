@@ -14,6 +14,21 @@
 
 namespace solidus::heat {
 
+namespace {
+
+/// The temperatures between pieces of any of the curves, rising.
+template <class Curve>
+std::vector<double> breaks_of(const std::vector<Curve>& curves) {
+  std::vector<double> breaks;
+  for (const Curve& curve : curves)
+    for (const auto& piece : curve.pieces()) breaks.insert(breaks.end(), {piece.t0, piece.t1});
+  std::sort(breaks.begin(), breaks.end());
+  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+  return breaks;
+}
+
+}  // namespace
+
 NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
                              const std::vector<material::Material>& materials)
     : materials_(materials) {
@@ -21,14 +36,9 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
   for (const material::Material& m : materials_) {
     curves_.push_back(m.enthalpy());
     starts_.emplace_back();
-    for (const auto& piece : curves_.back().pieces()) {
-      starts_.back().push_back(piece.h0);
-      breaks_.push_back(piece.t0);
-      breaks_.push_back(piece.t1);
-    }
+    for (const auto& piece : curves_.back().pieces()) starts_.back().push_back(piece.h0);
   }
-  std::sort(breaks_.begin(), breaks_.end());
-  breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
+  breaks_ = breaks_of(curves_);
 
   // Nearly all nodes belong to one body: what others have of a node is kept apart.
   constexpr int k_none = -1;

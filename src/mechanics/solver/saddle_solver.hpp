@@ -58,8 +58,8 @@ class SaddleSolver final : public linear::TangentSolver {
   linear::LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing) override;
   void forget() override;
   void reset() override;
-  double seconds_setup() const override { return seconds_setup_; }
-  double seconds_solve() const override { return seconds_solve_; }
+  double seconds_setup() const override { return seconds_.setup; }
+  double seconds_solve() const override { return seconds_.solve; }
   std::size_t bytes() const;
 
  private:
@@ -79,6 +79,26 @@ class SaddleSolver final : public linear::TangentSolver {
   void multiply(std::span<const double> x, std::span<double> y);
   void precondition(std::span<const double> r, std::span<double> z);
 
+  /// Which of the two solvers it is.
+  struct Choice {
+    bool settled = false;  ///< `direct` is
+    bool made = false;     ///< there is a solver for this pattern
+    bool direct = true;
+  };
+  /// The solver of the whole, and what it multiplies by.
+  struct Outer {
+    std::unique_ptr<linear::FunctionMatrix> matrix;
+    std::optional<linear::KrylovSolver> factorised;   ///< where few are unknown
+    std::optional<linear::RecyclingGmres> iterative;  ///< where many are
+  };
+  struct Seconds {
+    double setup = 0, solve = 0;
+  };
+  struct Work {
+    std::vector<double> right, solution;  ///< [unknown]
+    std::vector<double> whole, product, local_u, local_p;
+  };
+
   const mesh::Mesh& mesh_;
   linear::BlockMatrix& displacement_;
   NodalPressure& pressure_;
@@ -87,18 +107,13 @@ class SaddleSolver final : public linear::TangentSolver {
   linear::SaddleMatrix matrix_;
   std::optional<linear::SaddleUnknowns> unknowns_;
   linear::SaddleCopy copy_;
-  bool chosen_ = false;  ///< direct_ is settled
-  bool made_ = false;    ///< there is a solver for this pattern
-  bool direct_ = true;
-  std::unique_ptr<linear::FunctionMatrix> operator_;
-  std::optional<linear::KrylovSolver> factorised_;   ///< where few are unknown
-  std::optional<linear::RecyclingGmres> iterative_;  ///< where many are
+  Outer outer_;
   std::optional<SaddlePreconditioner> preconditioner_;
   linear::HierarchyAge hierarchy_;
   linear::FactorAge factors_;
-  double seconds_setup_ = 0, seconds_solve_ = 0;
-  std::vector<double> right_, solution_;                     ///< [unknown]
-  std::vector<double> whole_, product_, local_u_, local_p_;  ///< scratch
+  Choice choice_;
+  Seconds seconds_;
+  Work work_;
 };
 
 }  // namespace solidus::mechanics

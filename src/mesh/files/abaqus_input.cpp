@@ -30,7 +30,7 @@ class Reader {
   explicit Reader(double unit) : unit_(unit) { scopes_.emplace_back(); }
 
   RawMesh mesh(const std::string& path) {
-    read(path, 0, false);
+    read(path, false);
     end_keyword();
     end_scope();
     use_parts();
@@ -47,14 +47,23 @@ class Reader {
   [[noreturn]] void fail(const std::string& what, const std::string& allowed = {}) const {
     throw InputError(at_, what, allowed);
   }
-  AbaqusScope& scope() { return part_ ? *part_ : scopes_[instance_]; }
+  AbaqusScope& scope() { return parts_.open ? *parts_.open : scopes_[instance_]; }
   /// The file beside the one that names it.
   std::string beside(const std::string& name) const {
     return (std::filesystem::path(at_.file).parent_path() / name).string();
   }
 
-  void read(const std::string& path, int depth, bool only_data);
-  void begin(int depth);
+  struct Handling;
+  /// Of the present keyword; null where it is none of those that are read.
+  const Handling* handling() const;
+  void read(const std::string& path, bool only_data);
+  void read_input();
+  void begin();
+  void include();
+  void begin_nodes();
+  void begin_elements();
+  void begin_surface();
+  void begin_set();
   void begin_scope();
   void end_scope();
   void use_parts();
@@ -67,7 +76,10 @@ class Reader {
   }
   void node_line(const AbaqusLine& line);
   void element_line(const AbaqusLine& line);
-  void set_line(const AbaqusLine& line, AbaqusSet& set, bool nodes);
+  void set_line(const AbaqusLine& line);
+  void keep_line(const AbaqusLine& line);
+  void end_generation();
+  AbaqusSet& set_of_keyword();
   void nodes_of_elements(AbaqusSet& set);
   void surface_line(const AbaqusLine& line);
   void place_instance();
@@ -78,27 +90,39 @@ class Reader {
   std::vector<NumberRange> members(const std::string& text, AbaqusSets AbaqusScope::*sets,
                                    const AbaqusLine& line);
 
+  struct Files {
+    int count = 0, depth = 0;
+  };
+  /// Lines of data that are kept until the keyword ends.
+  struct Kept {
+    std::deque<SourceLocation> places;
+    std::vector<AbaqusLine> lines;
+  };
+  /// The parts of a deck, and the one that is being read.
+  struct Parts {
+    std::map<std::string, AbaqusScope> all;
+    std::set<std::string> used;
+    std::optional<AbaqusScope> open;
+  };
+
   double unit_;
-  int n_files_ = 0;
+  Files files_;
   SourceLocation at_;
   AbaqusKeyword keyword_;
-  std::deque<SourceLocation> places_;  ///< of the lines of data that are kept until the keyword ends
-  std::vector<AbaqusLine> lines_;
+  Kept kept_;
   Shape shape_ = Shape::point1;       ///< of the *ELEMENT being read
   std::vector<GlobalIndex> pending_;  ///< number and nodes of an element that is not complete
 
   std::deque<AbaqusScope> scopes_;  ///< the deck or its assembly, and its instances
   std::size_t instance_ = 0;        ///< the scope being read
-  std::map<std::string, AbaqusScope> parts_;
-  std::set<std::string> used_parts_;
-  std::optional<AbaqusScope> part_;  ///< the part being read
-  bool moved_ = false;               ///< whether the instance being read is not where its part is
-  LocalSystem system_;               ///< of *SYSTEM
+  Parts parts_;
+  bool moved_ = false;  ///< whether the instance being read is not where its part is
+  LocalSystem system_;  ///< of *SYSTEM
   std::map<std::string, SourceLocation> unread_;
   std::vector<std::string> notes_;
 };
 
-void Reader::read(const std::string& path, int depth, bool only_data) {
+void Reader::read(const std::string& path, bool only_data) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     throw InputError({at_.file.empty() ? path : at_.file, at_.line}, at_.file.empty()
@@ -106,9 +130,10 @@ void Reader::read(const std::string& path, int depth, bool only_data) {
                                                                          : "there is no file '" + path + "'");
   std::ifstream file(path);
   if (!file) throw InputError({path}, "the mesh file cannot be read");
-  if (depth > 20) throw InputError({path}, "*INCLUDE goes around in circles");
-  if (++n_files_ > 1000) throw InputError({path}, "*INCLUDE asks for more than 1 000 files");
+  if (files_.depth > 20) throw InputError({path}, "*INCLUDE goes around in circles");
+  if (++files_.count > 1000) throw InputError({path}, "*INCLUDE asks for more than 1 000 files");
   const SourceLocation outer = at_;
+  ++files_.depth;
   at_ = {path, 0, 0};
   std::string line;
   while (std::getline(file, line)) {
@@ -130,83 +155,128 @@ void Reader::read(const std::string& path, int depth, bool only_data) {
       whole += std::string(trimmed(line));
     }
     keyword_ = parse_abaqus_keyword(whole, first);
-    begin(depth);
+    begin();
   }
   at_ = outer;
+  --files_.depth;
 }
 
-void Reader::begin(int depth) {
-  // A keyword line decides how the data lines that follow are read. Included files and parts are entered at
-  // once.
-  const std::string& name = keyword_.name;
-  if (name == "INCLUDE") {
-    read(beside(keyword_.required("INPUT")), depth + 1, false);
+/// What is done at the line of a keyword, with each line of its data, and at its end; null: nothing.
+struct Reader::Handling {
+  std::string_view keyword;
+  void (Reader::*begin)() = nullptr;
+  void (Reader::*data)(const AbaqusLine& line) = nullptr;
+  void (Reader::*end)() = nullptr;
+};
+
+const Reader::Handling* Reader::handling() const {
+  static constexpr Handling k_handlings[] = {
+      {"INCLUDE", &Reader::include},
+      {"PART", &Reader::begin_scope},
+      {"INSTANCE", &Reader::begin_scope, &Reader::keep_line, &Reader::place_instance},
+      {"END PART", &Reader::end_scope},
+      {"END INSTANCE", &Reader::end_scope},
+      {"NODE", &Reader::begin_nodes, &Reader::node_line},
+      {"ELEMENT", &Reader::begin_elements, &Reader::element_line},
+      {"NSET", &Reader::begin_set, &Reader::set_line},
+      {"ELSET", &Reader::begin_set, &Reader::set_line},
+      {"SURFACE", &Reader::begin_surface, &Reader::surface_line},
+      {"SYSTEM", nullptr, &Reader::keep_line, &Reader::read_system},
+  };
+  static constexpr Handling k_generation{"", nullptr, &Reader::keep_line, &Reader::end_generation};
+  for (const Handling& one : k_handlings)
+    if (one.keyword == keyword_.name) return &one;
+  return is_generation(keyword_.name) ? &k_generation : nullptr;
+}
+
+void Reader::begin() {
+  if (const Handling* known = handling()) {
+    if (known->begin != nullptr) (this->*known->begin)();
     return;
   }
-  if (name == "PART" || name == "INSTANCE") return begin_scope();
-  if (name == "END PART" || name == "END INSTANCE") return end_scope();
-  // Elements need a known type; surfaces of nodes are read as sets, and combined surfaces are remembered as
-  // unread.
-  if (name == "ELEMENT") {
-    const std::string type = upper(keyword_.required("TYPE"));
-    const auto shape = shape_of_abaqus_type(type);
-    if (!shape)
-      fail("elements of the type '" + type + "' are not supported",
-           "triangles, quads, tetrahedra and hexahedra of first and second order, trusses and beams");
-    shape_ = *shape;
-  } else if (name == "SURFACE") {
-    keyword_.required("NAME");
-    const std::string* type = keyword_.find("TYPE");
-    const std::string kind = type == nullptr ? "ELEMENT" : upper(*type);
-    if (kind == "NODE")
-      set_of(scope().node_sets, keyword_.required("NAME"), at_);
-    else if (kind != "ELEMENT" || keyword_.has("COMBINE") || keyword_.has("CROP"))
-      unread_.try_emplace("SURFACE, NAME=" + keyword_.required("NAME"), at_);
-    // Sets may be added to by several lines, and nodes may come from a set of elements.
-  } else if (name == "NSET" || name == "ELSET") {
-    AbaqusSet& set =
-        set_of(name == "NSET" ? scope().node_sets : scope().element_sets, keyword_.required(name), at_);
-    set.internal = set.internal || keyword_.has("INTERNAL");
-    set.unsorted = set.unsorted || keyword_.has("UNSORTED");
-    if (name == "NSET" && keyword_.has("ELSET")) nodes_of_elements(set);
-    // What would make or move nodes cannot be left out without another mesh, so it is refused; anything else
-    // that is not about the mesh is noted.
-  } else if (makes_mesh_unread(name)) {
-    fail("*" + name + " makes or moves nodes or elements in a way that is not read here",
+  // What would make or move nodes cannot be left out without another mesh, so it is refused; anything else
+  // that is not about the mesh is noted.
+  if (makes_mesh_unread(keyword_.name))
+    fail("*" + keyword_.name + " makes or moves nodes or elements in a way that is not read here",
          "a deck with the nodes and elements themselves, as a mesher or a pre-processor writes it");
-  } else if (name != "NODE" && name != "SYSTEM" && !is_generation(name) && !says_nothing_of_mesh(name)) {
-    unread_.try_emplace(name, at_);
-  }
-  // Coordinates in another system than Cartesian or cylindrical ones are refused.
+  if (!says_nothing_of_mesh(keyword_.name)) unread_.try_emplace(keyword_.name, at_);
+}
+
+void Reader::include() {
+  read(beside(keyword_.required("INPUT")), false);
+}
+
+/// Lines of data may stand in a file of their own.
+void Reader::read_input() {
+  if (keyword_.has("INPUT")) read(beside(keyword_.required("INPUT")), true);
+}
+
+/// Coordinates in another system than Cartesian or cylindrical ones are refused.
+void Reader::begin_nodes() {
   if (const std::string* system = keyword_.find("SYSTEM");
-      name == "NODE" && system != nullptr && upper(*system) != "R" && upper(*system) != "C")
+      system != nullptr && upper(*system) != "R" && upper(*system) != "C")
     fail("*NODE with SYSTEM=" + *system + " is not read here",
          "SYSTEM=R, or SYSTEM=C with angles in degrees");
-  if ((name == "NODE" || name == "ELEMENT" || name == "NSET" || name == "ELSET") && keyword_.has("INPUT"))
-    read(beside(keyword_.required("INPUT")), depth + 1, true);
+  read_input();
+}
+
+void Reader::begin_elements() {
+  const std::string type = upper(keyword_.required("TYPE"));
+  const auto shape = shape_of_abaqus_type(type);
+  if (!shape)
+    fail("elements of the type '" + type + "' are not supported",
+         "triangles, quads, tetrahedra and hexahedra of first and second order, trusses and beams");
+  shape_ = *shape;
+  read_input();
+}
+
+/// Surfaces of nodes are read as sets, and combined surfaces are remembered as unread.
+void Reader::begin_surface() {
+  keyword_.required("NAME");
+  const std::string* type = keyword_.find("TYPE");
+  const std::string kind = type == nullptr ? "ELEMENT" : upper(*type);
+  if (kind == "NODE")
+    set_of(scope().node_sets, keyword_.required("NAME"), at_);
+  else if (kind != "ELEMENT" || keyword_.has("COMBINE") || keyword_.has("CROP"))
+    unread_.try_emplace("SURFACE, NAME=" + keyword_.required("NAME"), at_);
+}
+
+AbaqusSet& Reader::set_of_keyword() {
+  const std::string& name = keyword_.name;
+  return set_of(name == "NSET" ? scope().node_sets : scope().element_sets, keyword_.required(name), at_);
+}
+
+/// Sets may be added to by several lines, and nodes may come from a set of elements.
+void Reader::begin_set() {
+  AbaqusSet& set = set_of_keyword();
+  set.internal = set.internal || keyword_.has("INTERNAL");
+  set.unsorted = set.unsorted || keyword_.has("UNSORTED");
+  if (keyword_.name == "NSET" && keyword_.has("ELSET")) nodes_of_elements(set);
+  read_input();
 }
 
 void Reader::begin_scope() {
-  if (part_ || instance_ != 0) fail("*" + keyword_.name + " stands inside of another part or instance");
+  if (parts_.open || instance_ != 0) fail("*" + keyword_.name + " stands inside of another part or instance");
   // A part is kept until instances ask for it; an instance begins as a copy of its part, which is moved at
   // its end.
   system_ = {};
   moved_ = false;
   if (keyword_.name == "PART") {
-    part_.emplace();
-    part_->name = keyword_.required("NAME");
-    part_->at = at_;
-    if (parts_.contains(upper(part_->name))) fail("there are two parts '" + part_->name + "'");
+    parts_.open.emplace();
+    parts_.open->name = keyword_.required("NAME");
+    parts_.open->at = at_;
+    if (parts_.all.contains(upper(parts_.open->name)))
+      fail("there are two parts '" + parts_.open->name + "'");
     return;
   }
   if (keyword_.has("LIBRARY"))
     fail("an *INSTANCE of a library cannot be read", "a deck that holds the part itself");
   const std::string& name = keyword_.required("NAME");
-  const auto part = parts_.find(upper(keyword_.required("PART")));
-  if (part == parts_.end()) fail("there is no part '" + keyword_.required("PART") + "' up to here");
+  const auto part = parts_.all.find(upper(keyword_.required("PART")));
+  if (part == parts_.all.end()) fail("there is no part '" + keyword_.required("PART") + "' up to here");
   for (const AbaqusScope& other : scopes_)
     if (upper(other.name) == upper(name)) fail("there are two instances '" + name + "'");
-  used_parts_.insert(part->first);
+  parts_.used.insert(part->first);
   instance_ = scopes_.size();
   scopes_.push_back(part->second);
   scopes_.back().name = name;
@@ -214,10 +284,10 @@ void Reader::begin_scope() {
 }
 
 void Reader::end_scope() {
-  if (part_) {
-    std::string key = upper(part_->name);
-    parts_.emplace(std::move(key), std::move(*part_));
-    part_.reset();
+  if (parts_.open) {
+    std::string key = upper(parts_.open->name);
+    parts_.all.emplace(std::move(key), std::move(*parts_.open));
+    parts_.open.reset();
   }
   instance_ = 0;
   system_ = {};
@@ -225,9 +295,9 @@ void Reader::end_scope() {
 
 // Parts of which there is no instance: in a deck without an assembly each is there once.
 void Reader::use_parts() {
-  for (const auto& [key, part] : parts_) {
-    if (used_parts_.contains(key)) continue;
-    if (used_parts_.empty())
+  for (const auto& [key, part] : parts_.all) {
+    if (parts_.used.contains(key)) continue;
+    if (parts_.used.empty())
       scopes_.push_back(part);
     else if (!part.elements.empty())
       notes_.push_back(part.at.text() + ": the part '" + part.name +
@@ -237,35 +307,24 @@ void Reader::use_parts() {
 
 void Reader::data(std::string_view text) {
   const AbaqusLine line{at_, pieces(text)};
-  if (line.parts.empty()) return;
-  const std::string& name = keyword_.name;
-  if (name == "NODE") {
-    node_line(line);
-  } else if (name == "ELEMENT") {
-    element_line(line);
-  } else if (name == "NSET") {
-    set_line(line, set_of(scope().node_sets, keyword_.required("NSET"), at_), true);
-  } else if (name == "ELSET") {
-    set_line(line, set_of(scope().element_sets, keyword_.required("ELSET"), at_), false);
-  } else if (name == "SURFACE") {
-    surface_line(line);
-  } else if (name == "INSTANCE" || name == "SYSTEM" || is_generation(name)) {
-    places_.push_back(at_);
-    lines_.push_back({places_.back(), line.parts});
-  }  // the data of other keywords say nothing of the mesh, or begin() has said it
+  // The data of other keywords say nothing of the mesh, or begin() has said it.
+  const Handling* known = handling();
+  if (!line.parts.empty() && known != nullptr && known->data != nullptr) (this->*known->data)(line);
+}
+
+void Reader::keep_line(const AbaqusLine& line) {
+  kept_.places.push_back(at_);
+  kept_.lines.push_back({kept_.places.back(), line.parts});
+}
+
+void Reader::end_generation() {
+  generate(keyword_, kept_.lines, unit_, scope());
 }
 
 void Reader::end_keyword() {
   end_element();
-  const std::string name = keyword_.name;
-  if (is_generation(name))
-    generate(keyword_, lines_, unit_, scope());
-  else if (name == "INSTANCE")
-    place_instance();
-  else if (name == "SYSTEM")
-    read_system();
-  lines_.clear();
-  places_.clear();
+  if (const Handling* known = handling(); known != nullptr && known->end != nullptr) (this->*known->end)();
+  kept_ = {};
   keyword_ = {};
 }
 
@@ -345,7 +404,9 @@ std::vector<NumberRange> Reader::members(const std::string& text, AbaqusSets Aba
   return ranges;
 }
 
-void Reader::set_line(const AbaqusLine& line, AbaqusSet& set, bool nodes) {
+void Reader::set_line(const AbaqusLine& line) {
+  AbaqusSet& set = set_of_keyword();
+  const bool nodes = keyword_.name == "NSET";
   if (keyword_.has("GENERATE")) {
     if (line.parts.size() < 2) line.fail("GENERATE needs the first and the last number");
     const GlobalIndex first = line.integer(0), last = line.integer(1), step = line.integer(2, 1);
@@ -397,13 +458,13 @@ void Reader::surface_line(const AbaqusLine& line) {
 
 // Abaqus Keywords Reference Guide, *INSTANCE: first the translation, then the rotation about the line ab.
 void Reader::place_instance() {
-  if (lines_.empty()) return;
-  const AbaqusLine& move = lines_[0];
+  if (kept_.lines.empty()) return;
+  const AbaqusLine& move = kept_.lines[0];
   const Point shift{unit_ * move.real(0), unit_ * move.real(1), unit_ * move.real(2)};
   Point a{}, b{};
   double angle = 0;
-  if (lines_.size() > 1) {
-    const AbaqusLine& rotation = lines_[1];
+  if (kept_.lines.size() > 1) {
+    const AbaqusLine& rotation = kept_.lines[1];
     for (std::size_t i = 0; i < 3; ++i) {
       a[i] = unit_ * rotation.real(i);
       b[i] = unit_ * rotation.real(3 + i);
@@ -422,8 +483,8 @@ void Reader::place_instance() {
 // An origin a, a point b on the first axis and a point c in the plane of the first two.
 void Reader::read_system() {
   system_ = {};
-  if (lines_.empty()) return;
-  const AbaqusLine& first = lines_[0];
+  if (kept_.lines.empty()) return;
+  const AbaqusLine& first = kept_.lines[0];
   Point a{}, b{}, c{};
   for (std::size_t i = 0; i < 3; ++i) {
     a[i] = unit_ * first.real(i);
@@ -431,11 +492,11 @@ void Reader::read_system() {
   }
   system_.origin = a;
   if (!first.has(3) && !first.has(4) && !first.has(5)) return;
-  if (lines_.size() > 1)
-    for (std::size_t i = 0; i < 3; ++i) c[i] = unit_ * lines_[1].real(i);
+  if (kept_.lines.size() > 1)
+    for (std::size_t i = 0; i < 3; ++i) c[i] = unit_ * kept_.lines[1].real(i);
   const Point along = difference(b, a);
   // Without c the system is turned around the third global axis.
-  const Point towards = lines_.size() > 1 ? difference(c, a) : cross_product({0, 0, 1}, along);
+  const Point towards = kept_.lines.size() > 1 ? difference(c, a) : cross_product({0, 0, 1}, along);
   const auto axes = axes_along(along, towards);
   if (!axes) first.fail("the points of *SYSTEM lie on one line", "three points that span a plane");
   system_.axes = *axes;
