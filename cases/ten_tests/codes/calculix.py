@@ -13,7 +13,8 @@ import score
 
 TESTS = ["stefan", "alloy", "corner", "clamped_cube", "weiner_boley", "ring_on_core"]
 WITHOUT = {
-    "closing_gap": "its conductance depends on pressure alone; one over the width of an open gap needs a subroutine and a compiler",
+    "closing_gap": "`*GAP CONDUCTANCE` knows pressure and temperature; one over the width of an open gap needs a subroutine "
+                   "(`gapcon.f`) and a compiler",
     "plastic_work": "plastic work does not become heat",
     "pipe": "no feeding",
     "rubbing": "heat of friction takes a sliding speed that is given (`*GAP HEAT GENERATION`), not that of bodies that slide; no deck"}
