@@ -118,12 +118,14 @@ TEST(SolidificationPath, LeavesMagnesiumToTheTernaryEutectic) {
 
 // The cards whose source names a command hold its curve.
 TEST(SolidificationPath, IsWhatTheCardsOfTheLibraryHold) {
-  const std::array<std::pair<const char*, const char*>, 8> cards{
+  const std::array<std::pair<const char*, const char*>, 10> cards{
       {{"aluminium_alsi9cu3", "Al-8.5Si-3.2Cu-0.8Fe"},
        {"aluminium_alsi10mg", "Al-9.5Si-0.35Mg"},
        {"aluminium_alsi6cu4", "Al-6Si-3.5Cu"},
        {"aluminium_alcu4mgti", "Al-4.6Cu-0.25Mg-0.35Mn"},
        {"aluminium_almg5", "Al-5Mg"},
+       {"aluminium_6061", "Al-1Mg-0.6Si-0.28Cu"},
+       {"aluminium_7075", "Al-5.6Zn-2.5Mg-1.6Cu"},
        {"magnesium_az91", "Mg-9Al-0.7Zn"},
        {"tin_bronze", "Cu-10Sn-2Zn"},
        {"zinc_zamak5", "Zn-4Al-1Cu"}}};
