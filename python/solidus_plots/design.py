@@ -26,9 +26,10 @@ from solidus_plots.verb import sentence
 from solidus_plots.vtu import ResultError, read_collection, read_fields
 
 MOST_RUNS = 25
+INPUT_ERROR = 1  # of a run: what the case says is at fault
 CHECKS = 5  # of the runs, that are kept for the finer mesh
 COARSE = 0.5  # fineness of the search where none is asked for; the check has twice as much
-LARGER = (1.08, 1.18, 1.35, 1.6)  # sizes that are tried on the finer mesh where the design is not sound there
+LARGER = (1.04, 1.09, 1.18, 1.35)  # sizes that are tried on the finer mesh where the design is not sound there
 
 
 RECORD = "new.json"  # in the folder of a case: what it was made with
@@ -107,13 +108,13 @@ class Workshop:
         try:
             if self._stopped:
                 return row
-            runner = Runner(self._base(trial.design, row["fineness"]), self._restart)
-            with self._lock:
-                self._runners.add(runner)
             sizes = [word for change in trial.design.settings() for word in ("--set", change)]
-            record = runner.run(folder, ["--heat-only", "--set", 'output.every="1e9 s"', *sizes])
-            with self._lock:
-                self._runners.discard(runner)
+            record = self._run_case(self._base(trial.design, row["fineness"]), folder, sizes)
+            if record is not None and record["code"] == INPUT_ERROR:
+                # With other sizes other skins touch, a sleeve the wall of the part, and contacts change with them.
+                own = self._folder / "cases" / f"of_{folder.name}"
+                self.new_case(own, row["fineness"], *self._feeders(own, trial.design))
+                record = self._run_case(own, folder, [])
             if record is None:
                 self._stopped = True
             elif record["code"] != 0:
@@ -124,6 +125,16 @@ class Workshop:
             trial.failure = str(error)
         row["seconds"] = time.monotonic() - start
         return row
+
+    def _run_case(self, case, folder, words):
+        """The record of the run (many_runs.py); nothing where it was stopped."""
+        runner = Runner(case, self._restart)
+        with self._lock:
+            self._runners.add(runner)
+        record = runner.run(folder, ["--heat-only", "--set", 'output.every="1e9 s"', *words])
+        with self._lock:
+            self._runners.discard(runner)
+        return record
 
     def final_case(self, folder, design, fineness):
         """The case of a design on its own."""
@@ -285,15 +296,16 @@ def run(options):
     workshop.new_case(folder / "first_guess", fineness, "--riser", "auto")
     risers = chosen_risers(folder / "first_guess" / "case.toml")
 
-    def surface(place):
+    def surface():
         first = next(row for row in workshop.rows if row["trial"].judgement is not None)
         grid = read_fields(read_collection(first["folder"] / "fields.pvd")[1][-1])
         summary = json.loads((first["folder"] / "summary.json").read_text())
         answers, bodies = summary["answers"]["castings"], list(summary["mesh"]["bodies"])
-        return Surface(grid, [bodies.index(name) for name, a in answers.items() if not a["riser"] and not a["gating"]])(place)
+        return Surface(grid, [bodies.index(name) for name, a in answers.items() if not a["riser"] and not a["gating"]])
 
     try:
-        search = Search(lambda trials: workshop.evaluate(trials, fineness), surface, jobs, most - CHECKS)
+        search = Search(lambda trials: workshop.evaluate(trials, fineness), lambda place: surface()(place), jobs, most - CHECKS,
+                        lambda *where: surface().beside(*where))
         best = search.run(risers, not options.no_sleeves)
         chosen = None if best is None else checked(workshop, best, most - len(search.trials), 2 * fineness, jobs)
     except Interrupted:

@@ -11,19 +11,42 @@ SLEEVE = 0.2  # thickness of a sleeve, of the diameter: what makers of insulatin
 LEAST_SLEEVE = 6.0  # [mm]
 NECK_HEIGHT = 0.1  # of a narrower neck above the part, of the diameter
 LONGER = 1.5  # a riser that would have to be so many times as high to end where the highest does is closed
+SIDE_NECK = 0.7  # width of the neck of a riser beside the part, of the diameter
+SIDE_GAP = 0.15  # sand between such a riser and the part, of the diameter: a short neck stays warm
+BELOW_NECK = 0.1  # its metal below the neck, of the diameter
 
 
 @dataclass(frozen=True)
 class Riser:
-    """Lengths in mm. It stands upright on the part."""
+    """Lengths in mm. It stands upright on the part, or beside it with a level neck."""
 
     name: str
-    foot: tuple  # x, y, z of the centre of its foot
+    foot: tuple  # x, y, z of the centre of its foot; of a riser beside the part the place in it that its neck leads to
     sunk: float  # so far the foot lies below the skin of the part
     diameter: float
     slender: float = SLENDER
     neck: float = 1.0  # width of its neck, of the diameter
     sleeve: bool = False
+    beside: tuple = ()  # x and y of the level direction from that place to the riser, and the way there to the skin
+
+    def stands_at(self):
+        """x, y, z of the centre of its foot, wherever it stands."""
+        if not self.beside:
+            return self.foot
+        along = self.beside[2] + (SIDE_GAP + 0.5) * self.diameter
+        return (self.foot[0] + along * self.beside[0], self.foot[1] + along * self.beside[1],
+                self.foot[2] - (0.5 * self.neck + BELOW_NECK) * self.diameter)
+
+    def metal(self, height):
+        """Volume outside of the part [mm3] with a height above its foot."""
+        disc = 0.25 * math.pi * self.diameter ** 2
+        if self.beside:
+            return disc * (height + self.neck ** 2 * SIDE_GAP * self.diameter)
+        return disc * (height - self.sunk - self.neck_height() * (1 - self.neck ** 2))
+
+    def neck_height(self):
+        """Of a narrower neck above the part."""
+        return NECK_HEIGHT * self.diameter if self.neck < 1 and not self.beside else 0.0
 
     def height(self):
         """Above its foot, where it ends at its own height."""
@@ -58,17 +81,14 @@ class Design:
     def heights(self):
         """Of each riser above its foot [mm]: all end where the highest does but for those that are far below, which
         are closed."""
-        top = round(max((riser.foot[2] + riser.height() for riser in self.risers), default=0.0), 3)
-        return [top - riser.foot[2] if top - riser.foot[2] < LONGER * riser.height() else riser.height()
-                for riser in self.risers]
+        feet = [riser.stands_at()[2] for riser in self.risers]
+        top = round(max((foot + riser.height() for foot, riser in zip(feet, self.risers)), default=0.0), 3)
+        return [top - foot if top - foot < LONGER * riser.height() else riser.height()
+                for foot, riser in zip(feet, self.risers)]
 
     def metal(self):
         """Of the risers [mm3]."""
-        total = 0.0
-        for riser, height in zip(self.risers, self.heights()):
-            neck = NECK_HEIGHT * riser.diameter if riser.neck < 1 else 0.0
-            total += 0.25 * math.pi * riser.diameter ** 2 * (height - riser.sunk - neck * (1 - riser.neck ** 2))
-        return total
+        return sum(riser.metal(height) for riser, height in zip(self.risers, self.heights()))
 
     def scaled(self, factor):
         return replace(self, risers=tuple(riser.scaled(factor) for riser in self.risers))
@@ -82,6 +102,7 @@ class Design:
     def text(self):
         """As one reads it in a table."""
         risers = [f"{riser.name} {riser.diameter:.1f} x {height - riser.sunk:.1f} mm"
+                  + (" beside the part" if riser.beside else "")
                   + (f" in {riser.sleeve_thickness():.0f} mm of sleeve" if riser.sleeve else "")
                   + (f", neck {riser.neck * riser.diameter:.1f} mm" if riser.neck < 1 else "")
                   for riser, height in zip(self.risers, self.heights())]
@@ -89,7 +110,7 @@ class Design:
 
     def kinds(self):
         """What two designs that differ in sizes alone have in common."""
-        return tuple((riser.name, riser.foot, riser.sleeve, riser.neck < 1) for riser in self.risers), self.chills
+        return tuple((riser.name, riser.foot, riser.beside, riser.sleeve, riser.neck < 1) for riser in self.risers), self.chills
 
     def settings(self):
         """The sizes of the risers as `--set` takes them."""
@@ -99,8 +120,12 @@ class Design:
     def _sizes(self):
         """Of each riser the keys of its sizes with their values."""
         for riser, height in zip(self.risers, self.heights()):
-            neck = NECK_HEIGHT * riser.diameter if riser.neck < 1 else 0.0
-            sizes = {"diameter": _mm(riser.diameter), "height": _mm(height), "neck_height": _mm(riser.sunk + neck)}
+            sizes = {"diameter": _mm(riser.diameter), "height": _mm(height)}
+            if riser.beside:
+                # Its place moves with its diameter, as the sand between it and the part does.
+                sizes["foot"] = _place(riser.stands_at())
+            else:
+                sizes["neck_height"] = _mm(riser.sunk + riser.neck_height())
             if riser.neck < 1:
                 sizes["neck_diameter"] = _mm(riser.neck * riser.diameter)
             if riser.sleeve:
@@ -111,8 +136,8 @@ class Design:
         """The file for `solidus new --riser`."""
         lines = []
         for riser, sizes in zip(self.risers, self._sizes()):
-            lines += ["[[riser]]", f'name = "{riser.name}"', f"foot = {_place(riser.foot)}",
-                      *(f"{key} = {value}" for key, value in sizes.items()), ""]
+            where = [f"neck_to = {_place(riser.foot)}"] if riser.beside else [f"foot = {_place(riser.foot)}"]
+            lines += ["[[riser]]", f'name = "{riser.name}"', *where, *(f"{key} = {value}" for key, value in sizes.items()), ""]
         for chill in self.chills:
             lines += ["[[chill]]", f'name = "{chill.name}"', f"lowest = {_place(chill.lowest)}",
                       f"highest = {_place(chill.highest)}", ""]

@@ -11,12 +11,16 @@ import math
 
 import numpy as np
 
-from solidus_plots.design_feeders import Chill, Design, Riser
+from solidus_plots.design_feeders import SIDE_NECK, Chill, Design, Riser
 
 CLOSE = 1.035  # sizes that differ by less are one
 LEAST, MOST = 0.3, 2.3  # of the sizes that `solidus new` chooses
 NARROW = 0.7  # width of a neck that is tried, of the diameter
 CHILL = 0.6  # thickness of a chill over the diameter of the place that it cools
+SLIMMER = 1.25  # times as high over their diameter are risers of the next shape
+STOUTEST, SLIMMEST = 0.8, 2.6  # heights over diameters that are tried
+LESS = (0.8, 0.9, 0.955)  # of the metal, with which other shapes are tried
+STAYS = 0.85  # holes that are still so large after risers grew by a third do not go away with their size
 
 
 @dataclass
@@ -35,10 +39,12 @@ class Stopped(Exception):
 
 
 class Search:
-    def __init__(self, evaluate, surface, jobs, most):
+    def __init__(self, evaluate, surface, jobs, most, beside=lambda place, taken: None):
         """evaluate: fills the judgements of trials, which may run at a time; surface: of a place [mm] the heights of the
-        part below and above it [mm] and the radius of the largest ball there; most: runs in all."""
+        part below and above it [mm] and the radius of the largest ball there; most: runs in all; beside: where a riser may
+        stand beside the part (Surface.beside)."""
         self._evaluate, self._surface, self._jobs, self._left = evaluate, surface, jobs, most
+        self._beside = beside
         self.trials = []
 
     def tried(self, wanted):
@@ -72,20 +78,27 @@ class Search:
                 largest = self._common_size(start)
                 if self.best():
                     break
-                start = self._fed_elsewhere(start, largest)
-                if start is None:
-                    return None
+                changed = self._fed_elsewhere(start, largest)
+                if changed is None:
+                    # Nothing beside the risers helps: what is left is their size.
+                    self._common_size(start, to_the_end=True)
+                    break
+                start = changed
+            if not self.best():
+                return None
             self._fewer()
             self._each_smaller()
-            self._shorter()
+            self._shapes()
             self._narrow_necks()
         except Stopped:
             pass
         return self.best()
 
-    def _common_size(self, design):
-        """Finds the smallest sound size by one factor for all risers; the trial with the largest factor."""
-        first = (0.62, 0.82) if any(riser.sleeve for riser in design.risers) else (0.85, 1.05)
+    def _common_size(self, design, to_the_end=False):
+        """Finds the smallest sound size by one factor for all risers; the trial with the largest factor.
+
+        to_the_end: grows also where holes stay as they are"""
+        first = first_factors(design)
         tried = {}
 
         def run(factors):
@@ -101,7 +114,8 @@ class Search:
         while smallest_sound() is None and max(tried) < MOST:
             largest = tried[max(tried)]
             # A hole that lies beside every riser does not go away with their size.
-            if largest.judgement and largest.judgement.defects and self._far_from_all(largest) and len(tried) >= 2:
+            if largest.judgement and largest.judgement.defects and len(tried) >= 2 and not to_the_end and (
+                    self._far_from_all(largest) or self._stays(tried)):
                 return largest
             run([min(MOST, max(tried) * 1.3), min(MOST, max(tried) * 1.7)][:max(1, min(2, self._jobs))])
         while smallest_sound() is not None and smallest_sound() == min(tried) and min(tried) > LEAST:
@@ -114,6 +128,12 @@ class Search:
             number = max(1, min(3, self._jobs))
             run([low * (high / low) ** ((i + 1) / (number + 1)) for i in range(number)])
         return tried[max(tried)]
+
+    @staticmethod
+    def _stays(tried):
+        """Whether the two largest of {factor: trial} leave holes alike."""
+        smaller, larger = (tried[factor].judgement for factor in sorted(tried)[-2:])
+        return smaller is not None and larger.holes > STAYS * smaller.holes
 
     def _far_from_all(self, trial):
         place = 1e3 * trial.judgement.defects[0].place
@@ -136,10 +156,38 @@ class Search:
             added = Riser(f"riser_{len(start.risers) + 1}", foot, sunk, diameter, sleeve=sleeve)
             named = tuple(replace(riser, name=f"riser_{i + 1}") for i, riser in enumerate(start.risers))
             return replace(start, risers=(*named, added))
-        if any(chill.lowest[0] < place[0] < chill.highest[0] and chill.lowest[1] < place[1] < chill.highest[1]
-               for chill in start.chills):
+        return self._helped(start, trial, place, low, radius)
+
+    def _helped(self, start, trial, place, low, radius):
+        """The design with a chill below a place over which a riser stands, or with a riser beside it: of those that can be,
+        the one with which a run leaves less; nothing where none can."""
+        added = []
+        if not any(chill.lowest[0] < place[0] < chill.highest[0] and chill.lowest[1] < place[1] < chill.highest[1]
+                   for chill in start.chills):
+            chill = chill_below(place, low, radius, len(start.chills) + 1)
+            added.append(("a chill below", lambda design: replace(design, chills=(*design.chills, chill))))
+        taken = [(*riser.stands_at()[:2], 0.5 * riser.diameter + riser.sleeve_thickness(), riser.stands_at()[2])
+                 for riser in trial.design.risers]
+        found = self._beside(place, taken)
+        if found and not any(riser.beside and math.dist(riser.foot, found[0]) < riser.diameter for riser in start.risers):
+            foot = tuple(round(float(x), 3) for x in found[0])
+
+            def with_riser(design):
+                # In the design whose sizes are found by one factor it is so large that the second factor tried gives it this
+                # size.
+                factor = first_factors(design)[1] if design is start else 1.0
+                named = tuple(replace(riser, name=f"riser_{i + 1}") for i, riser in enumerate(design.risers))
+                beside = Riser(f"riser_{len(named) + 1}", foot, 0.0, round(found[1] / factor, 1), neck=SIDE_NECK,
+                               beside=found[2])
+                return replace(design, risers=(*named, beside))
+            added.append(("a riser beside", with_riser))
+        # The risers that stand already are as large as they were, which feeds what can be fed from above.
+        if not added:
             return None
-        return replace(start, chills=(*start.chills, chill_below(place, low, radius, len(start.chills) + 1)))
+        trials = self.tried([(f"{what} the hole", add(trial.design)) for what, add in added])
+        judged = [(not one.sound(), one.judgement.holes, i) for i, one in enumerate(trials)
+                  if one.sound() or one.judgement and one.judgement.holes < STAYS * trial.judgement.holes]
+        return added[min(judged)[2]][1](start) if judged else None
 
     def _fewer(self):
         """Leaves out risers, or cools their places by chills in their stead."""
@@ -172,21 +220,37 @@ class Search:
                     together = together.with_riser(i, design.risers[i].scaled(factor))
                 self.tried([(f"{len(could)} risers x {factor:g}", together)])
 
-    def _shorter(self):
-        design = self.best().design
-
-        def slender(value, factor=1.0):
-            return (f"{value:g} diameters high" + (f", x {factor:g}" if factor != 1 else ""),
-                    replace(design, risers=tuple(replace(riser.scaled(factor), slender=value) for riser in design.risers)))
-
-        trials = self.tried([slender(1.2), slender(1.0)])
-        if not trials[-1].sound():
-            self.tried([slender(1.0, 1.06)] if trials[0].sound() else [slender(1.2, 1.05), slender(1.0, 1.1)])
+    def _shapes(self):
+        """Slimmer and stouter risers with less metal, for as long as one of them is sound: a slim one stands deeper over its
+        pipe, a stout one keeps its heat longer, and which counts depends on the part."""
+        left, changed = list(LESS), False
+        while left:
+            less = left[0]
+            design = self.best().design
+            if not design.risers:  # a chill alone was enough
+                return
+            wanted = []
+            for ratio in (SLIMMER, 1 / SLIMMER, *((1.0,) if changed else ())):
+                # With the same height over diameter, metal goes with the third power of the diameter.
+                factor = (less / ratio) ** (1 / 3)
+                risers = tuple(replace(riser.scaled(factor), slender=round(riser.slender * ratio, 3)) for riser in design.risers)
+                if all(STOUTEST <= riser.slender <= SLIMMEST for riser in risers):
+                    wanted.append((f"{risers[0].slender:.3g} diameters high, metal x {less:g}", replace(design, risers=risers)))
+            if any(trial.sound() for trial in self.tried(wanted)):
+                changed = True
+            else:
+                del left[0]
 
     def _narrow_necks(self):
         """Narrow necks save metal and work, and are kept where the part stays sound."""
         design = self.best().design
-        self.tried([("narrow necks", replace(design, risers=tuple(replace(riser, neck=NARROW) for riser in design.risers)))])
+        narrow = tuple(riser if riser.beside else replace(riser, neck=NARROW) for riser in design.risers)
+        self.tried([("narrow necks", replace(design, risers=narrow))])
+
+
+def first_factors(design):
+    """Sizes that are tried first, of those that `solidus new` chooses: in a sleeve a riser lasts longer."""
+    return (0.62, 0.82) if any(riser.sleeve for riser in design.risers) else (0.85, 1.05)
 
 
 def chill_below(place, low, radius, number):

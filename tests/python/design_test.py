@@ -32,6 +32,35 @@ class HotSpot:
                    and riser.diameter * (1.4 if riser.sleeve else 1.0) >= self.diameter for riser in design.risers)
 
 
+@dataclass
+class DeepPipe:
+    """Sound where a riser over it is high enough, if it is as wide as it must be."""
+
+    x: float
+    diameter: float
+    height: float
+
+    def fed(self, design):
+        return any(riser.diameter >= self.diameter and riser.slender * riser.diameter >= self.height for riser in design.risers)
+
+
+@dataclass
+class LowSpot:
+    """Below a thin wall: only a riser beside it that is wide enough feeds it, whatever stands above."""
+
+    x: float
+    diameter: float
+
+    def fed(self, design):
+        return any(riser.beside and abs(riser.foot[0] - self.x) < 5 and riser.diameter >= self.diameter
+                   for riser in design.risers)
+
+
+def beside(place, taken):
+    """There is room in the direction of y, for a riser of 30 mm."""
+    return place, 30.0, (0.0, 1.0, 20.0)
+
+
 def search(spots, risers, *, sleeves=False, jobs=2, most=22):
     """The trial that is found in a part with these hot spots, and the search."""
     def evaluate(trials):
@@ -41,7 +70,7 @@ def search(spots, risers, *, sleeves=False, jobs=2, most=22):
             trial.judgement = Judgement(not bad, ["a hole"] if bad else [], 1e-6 * len(bad), 0.0, 1e-3, 1e-3, 1.0, 1000,
                                         defects)
 
-    found = Search(evaluate, lambda place: (-10.0, 10.0, 10.0), jobs, most)
+    found = Search(evaluate, lambda place: (-10.0, 10.0, 10.0), jobs, most, beside)
     return found.run(risers, sleeves), found
 
 
@@ -71,6 +100,13 @@ class SearchTest(unittest.TestCase):
         best, _ = search([HotSpot(0, 44.0)], (riser("riser", 0, 60),))
         self.assertEqual(best.design.risers[0].slender, 1.2)
 
+    def test_risers_are_slim_where_their_height_counts(self):
+        best, all_of = search([DeepPipe(0, 30.0, 75.0)], (riser("riser", 0, 60),))
+        self.assertGreater(best.design.risers[0].slender, 2)
+        # 30 mm would do with a height of 75 mm: 53 cm3.
+        self.assertLess(best.design.metal(), 1.25 * math.pi / 4 * 30 ** 2 * 75)
+        self.assertLessEqual(len(all_of.trials), 22)
+
     def test_sleeves_save_metal(self):
         spots, risers = [HotSpot(0, 44.0)], (riser("riser", 0, 60),)
         self.assertLess(search(spots, risers, sleeves=True)[0].design.metal(), 0.5 * search(spots, risers)[0].design.metal())
@@ -96,6 +132,14 @@ class SearchTest(unittest.TestCase):
         self.assertTrue(best.sound())
         self.assertEqual(len(best.design.risers), 2)
         self.assertAlmostEqual(best.design.risers[1].foot[0], 300)
+
+    def test_what_no_riser_above_feeds_gets_one_beside_it(self):
+        for needed in (20.0, 28.0):
+            best, all_of = search([HotSpot(0, 50.0), LowSpot(0, needed)], (riser("riser", 0, 60),))
+            self.assertTrue(best.sound())
+            self.assertEqual([bool(one.beside) for one in best.design.risers], [False, True])
+            self.assertLess(best.design.risers[1].diameter, 1.25 * needed)
+            self.assertLessEqual(len(all_of.trials), 22)
 
     def test_what_nothing_feeds_is_told(self):
         best, all_of = search([HotSpot(0, 1e6)], (riser("riser", 0, 60),))
@@ -135,6 +179,21 @@ class FeedersTest(unittest.TestCase):
         self.assertAlmostEqual(Design((riser("riser", 0, 40.0),)).metal(), math.pi * 400 * 60)
         narrow = Riser("riser", (0, 0, 8.0), 2.0, 40.0, neck=0.5)
         self.assertAlmostEqual(Design((narrow,)).metal(), math.pi * 400 * 56 + math.pi * 100 * 4)
+
+    def test_a_riser_beside_the_part_stands_off_by_its_own_size(self):
+        one = Riser("side", (10.0, 0.0, 5.0), 0.0, 40.0, neck=0.5, beside=(1.0, 0.0, 20.0))
+        for size in (1.0, 0.5):
+            design = Design((one,)).scaled(size)
+            entry = tomllib.loads(design.toml())["riser"][0]
+            self.assertEqual(entry["neck_to"], ["10 mm", "0 mm", "5 mm"])
+            x, y, z = (float(value.removesuffix(" mm")) for value in entry["foot"])
+            self.assertAlmostEqual(x, 10 + 20 + 0.65 * 40 * size)
+            self.assertEqual(y, 0)
+            self.assertAlmostEqual(z, 5 - 0.35 * 40 * size)
+            self.assertEqual(entry["neck_diameter"], f"{20 * size:g} mm")
+            self.assertNotIn("neck_height", entry)
+            self.assertAlmostEqual(design.metal(), math.pi * (20 * size) ** 2 * (1.5 + 0.15 / 4) * 40 * size)
+            self.assertTrue(any(change.startswith("mesh.riser.side.foot=") for change in design.settings()))
 
     def test_the_risers_of_a_new_case_are_read(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -206,7 +265,19 @@ class JudgementTest(unittest.TestCase):
 
     def test_the_skin_over_and_below_a_place(self):
         low, high, radius = Surface(two_cubes(), [0])([0.0, 0.0, 4.0])
-        self.assertEqual((low, high, radius), (0.0, 10.0, 4.0))
+        self.assertEqual((low, high), (0.0, 10.0))
+        self.assertAlmostEqual(radius, math.sqrt(75))  # of the middle of the cube, whose skin has nodes at its corners alone
+
+    def test_a_place_beside_the_part_is_the_nearest_that_is_free(self):
+        surface = Surface(two_cubes(), [0])
+        place, diameter, where = surface.beside([4.0, 4.0, 6.0], [])
+        np.testing.assert_allclose(place, [5, 5, 5])
+        self.assertAlmostEqual(diameter, 1.2 * 0.45 * math.sqrt(75) / 0.214)
+        self.assertEqual(where, (1.0, 0.0, 5.0))
+        self.assertEqual(surface.beside([5, 5, 5], [(25.0, 5.0, 5.0, 0.0)])[2], (0.0, 1.0, 5.0))
+        # A riser that begins above it is in no way.
+        self.assertEqual(surface.beside([5, 5, 5], [(25.0, 5.0, 5.0, 100.0)])[2], (1.0, 0.0, 5.0))
+        self.assertIsNone(surface.beside([5, 5, 5], [(5.0, 5.0, 500.0, 0.0)]))
 
 
 class OptionsTest(unittest.TestCase):
