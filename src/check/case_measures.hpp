@@ -10,6 +10,7 @@
 
 #include "check/body_measures.hpp"
 #include "check/freezing_estimate.hpp"
+#include "criteria/plate_times.hpp"
 #include "setup/assembly.hpp"
 #include "setup/skin_measures.hpp"
 
@@ -27,6 +28,7 @@ struct Pour {
   std::string no_estimate;
   FreezingEstimate freezing;         ///< with the heat of what is poured with it
   std::optional<double> alone_time;  ///< until it would be solid without that heat [s]
+  criteria::PlateTimes plates;       ///< of its metal in its mould
 };
 
 /// Estimate of time and memory of a run, from the number of its steps and nodes (docs/guide/findings.md
@@ -46,6 +48,12 @@ struct CaseMeasures {
 
   bool is_poured(std::size_t body) const {
     return std::ranges::any_of(pours, [&](const Pour& pour) { return pour.body == body; });
+  }
+  /// Of each body how long plates of it take in its mould; empty where it is not poured.
+  std::vector<criteria::PlateTimes> plates() const {
+    std::vector<criteria::PlateTimes> by_body(bodies.size());
+    for (const Pour& pour : pours) by_body[pour.body] = pour.plates;
+    return by_body;
   }
 };
 

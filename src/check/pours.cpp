@@ -8,6 +8,7 @@
 #include "check/cooled_skin.hpp"
 #include "check/deepest.hpp"
 #include "check/local_shape.hpp"
+#include "check/plate_estimate.hpp"
 
 namespace solidus::check {
 
@@ -228,6 +229,7 @@ void estimate_alone(const cases::CaseSpec& spec, const setup::Assembly& a, const
   pour.freezing = estimate_freezing(problem);
   by_thickest_place(around, deepest.places, k_least_share_of_cooling * most, estimated);
   pour.alone_time = pour.freezing.time;
+  pour.plates = plate_times(problem);
   if (pour.freezing.gave_up)
     pour.no_estimate = "it comes to no end: the conductance jumps where the gap opens";
 }

@@ -67,6 +67,10 @@ std::vector<CriterionResult> Criteria::findings(const CriteriaState& state) cons
   return all;
 }
 
+void Criteria::know_plates(std::span<const PlateTimes> plates) {
+  for (const auto& criterion : list_) criterion->know_plates(plates);
+}
+
 std::size_t Criteria::bytes() const {
   std::size_t bytes = 0;
   for (const auto& criterion : list_) bytes += criterion->bytes();

@@ -16,6 +16,8 @@ class Criteria {
   explicit Criteria(const heat::ThermalPhase* phase) : phase_(phase) {}
   void add(std::unique_ptr<Criterion> criterion) { list_.push_back(std::move(criterion)); }
   bool empty() const { return list_.empty(); }
+  /// Hands on to each criterion how long plates take in the moulds (Criterion::know_plates).
+  void know_plates(std::span<const PlateTimes> plates);
 
   CriteriaState initial(const CriterionInput& start) const;
   /// The same where other castings come while some stay (Criterion::restart).

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "criteria/criteria_state.hpp"
+#include "criteria/plate_times.hpp"
 #include "heat/loads/thermal_state.hpp"
 #include "mechanics/state/mechanical_state.hpp"
 #include "quantities/quantity.hpp"
@@ -72,6 +73,9 @@ class Criterion {
                     std::span<const std::span<double>> values) const = 0;
   /// Returns the findings for the summary at the end; the same on every process. Collective.
   virtual std::vector<CriterionResult> findings(const CriterionRecord& /*record*/) const { return {}; }
+  /// Tells how long plates take in the moulds of a run, before its first step. Most criteria need not know.
+  /// @param plates  [body]
+  virtual void know_plates(std::span<const PlateTimes> /*plates*/) {}
   virtual std::size_t bytes() const { return 0; }
 };
 

@@ -70,6 +70,10 @@ class Freezing : public Criterion {
             std::span<const std::span<double>> values) const override;
   /// The last node to freeze, and least and greatest values of the criteria.
   std::vector<CriterionResult> findings(const CriterionRecord& record) const override;
+  /// Without it nothing is said of plate_thickness.
+  void know_plates(std::span<const PlateTimes> plates) override {
+    plates_.assign(plates.begin(), plates.end());
+  }
   std::size_t bytes() const override;
 
  private:
@@ -102,7 +106,7 @@ class Freezing : public Criterion {
   /// The body by which an owned node is told: that of which it holds most; −1: none that freezes.
   int body_of(Index node, const std::vector<char>& chosen) const;
   std::vector<double> front_speeds(std::span<const double> history) const;
-  static constexpr std::size_t k_fields = 13;
+  static constexpr std::size_t k_fields = 14;
   std::vector<CriterionResult> shares_beyond(const CriterionRecord& record,
                                              std::span<const double> speeds) const;
   static std::array<double, k_fields> nothing_known();
@@ -120,6 +124,7 @@ class Freezing : public Criterion {
   std::vector<std::optional<TearingLaw>> tearing_;  ///< per body
   std::vector<double> kou_;                         ///< per body: Kou's index [K]
   std::vector<double> held_;  ///< per body: strain rate of its mush, if its ends were held, over G Ṫ [m/K²]
+  std::vector<PlateTimes> plates_;   ///< per body; empty: not known
   std::vector<FreezingNode> nodes_;  ///< owned
   Patches patches_;                  ///< lists of nodes within step() alone
   parallel::GhostExchange ghosts_;

@@ -122,8 +122,10 @@ std::vector<Pool> Pools::pools(const CriterionRecord& record) {
 }
 
 CriterionRecord Pools::initial(const CriterionInput& start) const {
-  CriterionRecord record{
-      k_name, {make_column(mesh_, "pool", mesh::FieldPlace::node)}, {{"pools", k_row, {}}}};
+  CriterionRecord record{k_name,
+                         {make_column(mesh_, "pool", mesh::FieldPlace::node),
+                          make_column(mesh_, "zone", mesh::FieldPlace::node)},
+                         {{"pools", k_row, {}}}};
   track(nullptr, start, record);
   return record;
 }
@@ -194,6 +196,10 @@ void Pools::track(const CriterionInput* old, const CriterionInput& next, Criteri
   for (std::size_t k = 0; k < all.parts.size(); ++k) of_label[all.parts[k].label] = numbers[k];
   for (std::size_t i = 0; i < number.size(); ++i)
     number[i] = inside[i] != 0 ? of_label.at(parts.label[i]) : 0;
+  // A place keeps the number of the pool that it was in last: that fed it until it passed the limit.
+  std::vector<double>& zone = record.columns[1].values;
+  for (std::size_t i = 0; i < number.size(); ++i)
+    if (number[i] > 0) zone[i] = number[i];
   std::vector<double>& rows = record.tables[0].values;
   rows.clear();
   for (const Pool& pool : pools) {
@@ -213,6 +219,7 @@ void Pools::fill(const CriterionInput& /*now*/, const CriterionRecord& record,
   const std::vector<double>& number = record.columns[0].values;
   std::copy(number.begin(), number.end(), values[0].begin());
   for (std::size_t i = 0; i < number.size(); ++i) values[1][i] = volume.at(static_cast<int>(number[i]));
+  std::ranges::copy(record.columns[1].values, values[2].begin());
 }
 
 std::vector<CriterionResult> Pools::findings(const CriterionRecord& record) const {

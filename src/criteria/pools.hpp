@@ -48,7 +48,8 @@ class Pools : public Criterion {
 
   CriterionRecord initial(const CriterionInput& start) const override;
   void step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) override;
-  /// liquid_pool (number, 0: none) and pool_volume [m³].
+  /// liquid_pool (number, 0: none), pool_volume [m³] and feeding_zone (number of the pool that a node was in
+  /// last).
   std::span<const quantities::Quantity* const> fields() const override;
   void fill(const CriterionInput& now, const CriterionRecord& record,
             std::span<const std::span<double>> values) const override;

@@ -129,6 +129,7 @@ inline constexpr Quantity k_critical_strain_rate{
     .kept = quantities::Kept::last,
     .worst = quantities::Extreme::least,
     .compared = true,
+    .pictured = true,
     .shown_as = {"1/s", "1/s"}};
 
 inline constexpr Quantity k_tearing_tendency{
@@ -158,7 +159,24 @@ inline constexpr Quantity k_vulnerable_share{
     .needs = {.heat = true, .melting = true},
     .no_value = -1,
     .kept = quantities::Kept::last,
-    .worst = quantities::Extreme::greatest};
+    .worst = quantities::Extreme::greatest,
+    .answer = "Clyne and Davies' ratio"};
+
+inline constexpr Quantity k_plate_thickness{.name = "plate_thickness",
+                                            .unit = "m",
+                                            .label = "Thickness by freezing time",
+                                            .doc =
+                                                "Thickness of the plate that would freeze in the same time "
+                                                "in the same mould: twice the modulus of the place",
+                                            .group = quantities::Group::criteria,
+                                            .needs = {.heat = true, .melting = true},
+                                            .no_value = 0,
+                                            .kept = quantities::Kept::last,
+                                            .worst = quantities::Extreme::greatest,
+                                            .answer = "thickest place by its freezing time",
+                                            .compared = true,
+                                            .pictured = true,
+                                            .shown_as = {"mm", "mm", 1e3}};
 
 inline constexpr Quantity k_liquid_pool{.name = "liquid_pool",
                                         .unit = "1",
@@ -177,6 +195,18 @@ inline constexpr Quantity k_pool_volume{.name = "pool_volume",
                                         .needs = {.heat = true, .melting = true},
                                         .no_value = 0,
                                         .kept = quantities::Kept::none};
+
+inline constexpr Quantity k_feeding_zone{
+    .name = "feeding_zone",
+    .unit = "1",
+    .label = "Feeding zone",
+    .doc =
+        "Number of the pool of melt that fed the place last, before its solid fraction passed "
+        "criteria.feeding_limit; 0: it has been in none",
+    .group = quantities::Group::criteria,
+    .needs = {.heat = true, .melting = true},
+    .no_value = 0,
+    .kept = quantities::Kept::last};
 
 inline constexpr Quantity k_strain_in_liquid{.name = "strain_in_liquid",
                                              .unit = "1",
@@ -322,14 +352,23 @@ inline constexpr Quantity k_cracking_index{.name = "cracking_index",
                                            .pictured = true};
 
 /// Fields of Freezing, in their order.
-inline constexpr std::array k_of_freezing = {
-    &k_solidified_at,      &k_local_solidification_time, &k_cooling_rate,     &k_thermal_gradient,
-    &k_front_speed,        &k_secondary_arm_spacing,     &k_niyama,           &k_dimensionless_niyama,
-    &k_shrinkage_porosity, &k_critical_strain_rate,      &k_tearing_tendency, &k_vulnerable_share,
-    &k_kou_index};
+inline constexpr std::array k_of_freezing = {&k_solidified_at,
+                                             &k_local_solidification_time,
+                                             &k_cooling_rate,
+                                             &k_thermal_gradient,
+                                             &k_front_speed,
+                                             &k_secondary_arm_spacing,
+                                             &k_niyama,
+                                             &k_dimensionless_niyama,
+                                             &k_shrinkage_porosity,
+                                             &k_critical_strain_rate,
+                                             &k_tearing_tendency,
+                                             &k_vulnerable_share,
+                                             &k_kou_index,
+                                             &k_plate_thickness};
 
 /// Fields of Pools, in their order.
-inline constexpr std::array k_of_pools = {&k_liquid_pool, &k_pool_volume};
+inline constexpr std::array k_of_pools = {&k_liquid_pool, &k_pool_volume, &k_feeding_zone};
 
 /// Fields of Feeding, in their order.
 inline constexpr std::array k_of_feeding = {&k_emptied, &k_unfed_pores};

@@ -133,6 +133,7 @@ Session::Session(setup::Case given, RunOptions options) : parts_(std::make_uniqu
   part.emplace("findings");
   const check::CaseMeasures measures = check::measure(c.spec, a);
   check::report(check::findings(c.spec, a, measures));
+  if (a.criteria != nullptr) a.criteria->know_plates(measures.plates());
   setup::require_sound_mesh(c.spec);
   part.emplace("set-up");
   if (a.phases.audits_stability())

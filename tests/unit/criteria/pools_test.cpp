@@ -60,6 +60,9 @@ TEST(Pools, KeepTheirNumbersWhenTheySplit) {
                                                      : 0;
     EXPECT_EQ(fields["liquid_pool"][i], expected) << x;
     EXPECT_EQ(fields["pool_volume"][i] > 0, expected > 0) << x;
+    // What has passed the limit keeps the pool that it was in last; pool 1 was all of the bar at first.
+    const double zone = expected > 0 ? expected : x > 0.019 && x < 0.051 ? 2 : 1;
+    EXPECT_EQ(fields["feeding_zone"][i], zone) << x;
   }
 }
 
