@@ -131,7 +131,7 @@ def plan(run, times, summary, history, results, wishes):
         remark="averaged at the nodes; the largest and least values are those of elements")
     # Zones are worth a picture where more than one pool fed the castings.
     add("feeding_zone", when=lambda: np.unique(grid.point_data["feeding_zone"][nodes_of(grid, mask)]).size > 1,
-        title="Feeding zones: pools of melt that fed a place last", quantity="Pool", above=0, timeless=True, levels=[])
+        title="Feeding zones: pools of melt that fed a place last", quantity="Pool", above=0, timeless=True, contours=0)
     for field in fields.known():
         if field.group == "criteria" and field.pictured and field.name not in considered and field.name in written:
             _add_criterion(field, grid, mask, add)
