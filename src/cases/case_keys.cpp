@@ -28,6 +28,45 @@ Section<AnalysisSpec> analysis_keys() {
   return s;
 }
 
+namespace {
+
+/// Keys of [body.initial_stress].
+Section<InitialStressSpec> initial_stress_keys() {
+  using S = InitialStressSpec;
+  Section<S> s("initial_stress",
+               "Stress of the body at the start: the field of a file, or its components as functions of "
+               "position. Solid metal only; it finds its equilibrium in the first step.");
+  s.key("file", &S::file)
+      .initially("")
+      .doc("A .vtu or .pvtu file of another run or program, relative to this file.");
+  s.key("field", &S::field)
+      .initially("stress")
+      .doc(
+          "Field of its cells or points, with six components: xx, yy, zz, xy, yz, xz; about an axis rr, zz, "
+          "hoop, rz, 0, 0.");
+  s.key("unit", &S::unit)
+      .initially("")
+      .doc("Unit of the file's numbers; empty: what the file says, else Pa.");
+  s.key("length_unit", &S::length_unit).initially("").doc("Unit of the file's coordinates; empty: m.");
+  s.key("body", &S::body)
+      .initially(-1)
+      .at_least(-1)
+      .doc("Only cells of the file whose cell data `body` is this; -1: all.");
+  const auto component = [&s](const char* name, std::optional<Function> S::*member, const char* doc) {
+    s.function(name, member, "Pa").anywhere(Key::Place::position).doc(doc);
+  };
+  component("xx", &S::xx, "Stress along x; about an axis the radial one. Components left out are zero.");
+  component("yy", &S::yy, "Stress along y; about an axis the axial one.");
+  component("zz", &S::zz, "Stress along z; about an axis the hoop stress.");
+  component("xy", &S::xy, "Shear stress in the plane of x and y.");
+  component("yz", &S::yz, "Shear stress in the plane of y and z, in a solid.");
+  component("xz", &S::xz, "Shear stress in the plane of x and z, in a solid.");
+  s.place(&S::where);
+  return s;
+}
+
+}  // namespace
+
 /// Keys of [[body]]: what it is made of and starts from, its role, what physics it takes part in, and up to
 /// which stage it is there.
 Section<BodySpec> body_keys() {
@@ -41,6 +80,7 @@ Section<BodySpec> body_keys() {
       .anywhere(Key::Place::position)
       .positive()
       .doc("At the start; the body is free of thermal strain there.");
+  s.section("initial_stress", &BodySpec::initial_stress, initial_stress_keys());
   s.choice("role", &BodySpec::role,
            {{"automatic", std::nullopt, "a casting where the material can melt, else what its name says"},
             {"casting", Role::casting, "what is poured"},
@@ -101,6 +141,7 @@ const Section<CaseSpec>& case_keys() {
     s.sections("body", &CaseSpec::bodies, body_keys());
     s.sections("thermal_condition", &CaseSpec::thermal_conditions, thermal_condition_keys());
     s.sections("mechanical_condition", &CaseSpec::mechanical_conditions, mechanical_condition_keys());
+    s.section("rotation", &CaseSpec::rotation, rotation_keys());
     s.sections("contact", &CaseSpec::contacts, contact_keys());
     s.sections("interface", &CaseSpec::interfaces, body_interface_keys());
     s.sections("rigid_surface", &CaseSpec::rigid_surfaces, rigid_surface_keys());

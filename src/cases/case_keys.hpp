@@ -18,6 +18,7 @@ Section<CycleSpec> cycle_keys();
 Section<BodySpec> body_keys();
 Section<ThermalConditionSpec> thermal_condition_keys();
 Section<MechanicalConditionSpec> mechanical_condition_keys();
+Section<RotationSpec> rotation_keys();
 Section<ContactSpec> contact_keys();
 /// [contact.heat] and [interface.heat].
 Section<contact::HeatTransferSpec> contact_heat_keys();

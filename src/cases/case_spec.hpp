@@ -11,6 +11,7 @@
 #include "cases/feeder_spec.hpp"
 #include "cases/feeding_spec.hpp"
 #include "cases/friction_spec.hpp"
+#include "cases/load_spec.hpp"
 #include "cases/variation.hpp"
 #include "contact/points/parameters.hpp"
 #include "coupling/scheme_kind.hpp"
@@ -192,9 +193,6 @@ struct CycleSpec {
   SourceLocation where;
 };
 
-/// Origin of the time of functions: the start of the run, or that of the stage.
-enum class TimeOrigin { run, stage };
-
 /// Role of a body in the foundry. Criteria, solid fraction and summary are of castings and risers.
 enum class Role { casting, riser, mould, core, chill, sleeve, die, insulation, gating };
 
@@ -203,7 +201,8 @@ struct BodySpec {
   std::optional<std::string> group;  ///< of the mesh; absent: as `name`
   std::string material;              ///< name in the library, or a file
   Function initial_temperature;      ///< [K], of position
-  std::optional<Role> role;          ///< absent: deduced (cases/roles.hpp)
+  std::optional<InitialStressSpec> initial_stress;
+  std::optional<Role> role;  ///< absent: deduced (cases/roles.hpp)
   /// automatic: heat where it is no casting and its material has no elastic properties, else all
   enum class ActivePhysics { automatic, all, heat };
   ActivePhysics physics = ActivePhysics::all;
@@ -231,19 +230,6 @@ struct ThermalConditionSpec {
   double duration = 0;              ///< of burning [s]
   Function factor;                  ///< of flux, coefficient, emissivity or power [1]
   std::vector<std::string> stages;  ///< in which it holds; empty: all
-  TimeOrigin clock = TimeOrigin::run;
-  SourceLocation where;
-};
-
-struct MechanicalConditionSpec {
-  enum class Kind { displacement, pressure, traction, plane };
-  std::string name, group;
-  Kind kind = Kind::displacement;
-  std::optional<Function> ux, uy, uz, ur;  ///< [m] of time
-  Function pressure;                       ///< on the surface, positive inward [Pa] of time
-  std::vector<Function> traction;          ///< one per direction [Pa] of time
-  bool relative = false;                   ///< displacements from where nodes are at the start of the stage
-  std::vector<std::string> stages;         ///< in which it holds; empty: all
   TimeOrigin clock = TimeOrigin::run;
   SourceLocation where;
 };
@@ -398,7 +384,8 @@ struct CaseSpec {
   std::vector<BodySpec> bodies;
   std::vector<ThermalConditionSpec> thermal_conditions;
   std::vector<MechanicalConditionSpec> mechanical_conditions;
-  std::vector<ContactSpec> contacts;  ///< with those of the interfaces, once the mesh is loaded
+  std::optional<RotationSpec> rotation;  ///< absent: nothing turns
+  std::vector<ContactSpec> contacts;     ///< with those of the interfaces, once the mesh is loaded
   std::vector<BodyInterfaceSpec> interfaces;
   std::vector<RigidSurfaceSpec> rigid_surfaces;
   heat::HeatOptions heat;

@@ -112,44 +112,18 @@ Section<ThermalConditionSpec> thermal_condition_keys() {
   return s;
 }
 
-/// Keys of [[mechanical_condition]]. Components of the displacement that are left out stay free.
-Section<MechanicalConditionSpec> mechanical_condition_keys() {
+namespace {
+
+/// Declares what moves a surface, a point or a body.
+void displacement_keys(Section<MechanicalConditionSpec>& s) {
   using C = MechanicalConditionSpec;
-  Section<C> s("mechanical_condition", "Supports and loads. Where nothing is said, a surface is free.");
-  s.key("name", &C::name).doc("A name of your choice; a variant refers to it.");
-  s.key("group", &C::group)
-      .doc("Group of the mesh: a surface; for kind = \"displacement\" also a point or a body.");
-  s.choice("kind", &C::kind,
-           {{"displacement", C::Kind::displacement, "prescribed displacement components"},
-            {"pressure", C::Kind::pressure, "normal to the surface"},
-            {"traction", C::Kind::traction, "in fixed directions"},
-            {"plane", C::Kind::plane,
-             "the face stays plane and parallel to itself; without loads on it its net force is zero"}})
-      .doc("What acts there.");
-  s.function("ux", &C::ux, "m")
-      .of({Argument::time})
-      .when("kind", {"displacement"})
-      .doc("Displacement along x.");
-  s.function("uy", &C::uy, "m")
-      .of({Argument::time})
-      .when("kind", {"displacement"})
-      .doc("Displacement along y.");
-  s.function("uz", &C::uz, "m")
-      .of({Argument::time})
-      .when("kind", {"displacement"})
-      .doc("Displacement along z; in axisymmetry along the axis.");
-  s.function("ur", &C::ur, "m")
-      .of({Argument::time})
-      .when("kind", {"displacement"})
-      .doc("Radial displacement, in axisymmetry.");
-  s.function("pressure", &C::pressure, "Pa")
-      .of({Argument::time})
-      .when("kind", {"pressure"})
-      .doc("Positive pushes on the body.");
-  s.function("traction", &C::traction, "Pa")
-      .of({Argument::time})
-      .when("kind", {"traction"})
-      .doc("Force per area, one value per direction of the mesh: [\"1 MPa\", \"0 MPa\"].");
+  const auto component = [&s](const char* name, std::optional<Function> C::*member, const char* doc) {
+    s.function(name, member, "m").of({Argument::time}).anywhere().when("kind", {"displacement"}).doc(doc);
+  };
+  component("ux", &C::ux, "Displacement along x.");
+  component("uy", &C::uy, "Displacement along y.");
+  component("uz", &C::uz, "Displacement along z; in axisymmetry along the axis.");
+  component("ur", &C::ur, "Radial displacement, in axisymmetry.");
   s.key("relative", &C::relative)
       .initially(false)
       .when("kind", {"displacement"})
@@ -157,8 +131,92 @@ Section<MechanicalConditionSpec> mechanical_condition_keys() {
           "Count displacements from where each node is when the stage begins: 0 holds it there. Otherwise "
           "from "
           "the mesh.");
+}
+
+/// Declares what loads a surface or the volume of a body.
+void load_keys(Section<MechanicalConditionSpec>& s) {
+  using C = MechanicalConditionSpec;
+  s.function("pressure", &C::pressure, "Pa")
+      .of({Argument::time})
+      .anywhere()
+      .when("kind", {"pressure"})
+      .doc("Positive pushes on the body.");
+  s.function("traction", &C::traction, "Pa")
+      .of({Argument::time})
+      .anywhere()
+      .when("kind", {"traction"})
+      .doc("Force per area, one value per direction of the mesh: [\"1 MPa\", \"0 MPa\"].");
+  s.function("force", &C::force, "N/m3")
+      .of({Argument::time})
+      .anywhere()
+      .when("kind", {"body_force"})
+      .doc("Force per volume besides the weight, one value per direction of the mesh.");
+  s.function("level", &C::level, "m")
+      .of({Argument::time})
+      .when("kind", {"metallostatic"})
+      .doc("How high the melt stands, as a coordinate against gravity; what lies above it is not pressed.");
+  s.quantity("density", &C::density, "kg/m3")
+      .positive()
+      .when("kind", {"metallostatic"})
+      .doc("Density of the melt.");
+  s.function("squeeze", &C::squeeze, "Pa")
+      .of({Argument::time})
+      .initially("0 Pa")
+      .when("kind", {"metallostatic"})
+      .doc("Pressure on the level of the melt, of gas or of a piston, which acts below it everywhere.");
+}
+
+}  // namespace
+
+/// Keys of [[mechanical_condition]]. Components of the displacement that are left out stay free.
+Section<MechanicalConditionSpec> mechanical_condition_keys() {
+  using C = MechanicalConditionSpec;
+  Section<C> s("mechanical_condition", "Supports and loads. Where nothing is said, a surface is free.");
+  s.key("name", &C::name).doc("A name of your choice; a variant refers to it.");
+  s.key("group", &C::group)
+      .doc(
+          "Group of the mesh: a surface; for kind = \"displacement\" also a point or a body, for kind = "
+          "\"body_force\" a body.");
+  s.choice("kind", &C::kind,
+           {{"displacement", C::Kind::displacement, "prescribed displacement components"},
+            {"pressure", C::Kind::pressure, "normal to the surface"},
+            {"traction", C::Kind::traction, "in fixed directions"},
+            {"metallostatic", C::Kind::metallostatic,
+             "the pressure of a melt that is no part of the mesh: density x gravity x depth below its level"},
+            {"body_force", C::Kind::body_force, "in the volume of a body, in fixed directions"},
+            {"plane", C::Kind::plane,
+             "the face stays plane and parallel to itself; without loads on it its net force is zero"}})
+      .doc("What acts there.");
+  displacement_keys(s);
+  load_keys(s);
   add_stage_keys(s);
   s.place(&C::where);
+  return s;
+}
+
+/// Keys of [rotation].
+Section<RotationSpec> rotation_keys() {
+  Section<RotationSpec> s(
+      "rotation",
+      "Bodies that turn about an axis, as a pipe that is cast by rotation: seen by who "
+      "turns with them, a centrifugal force. Coriolis' force and that of a changing speed "
+      "are left out.");
+  s.function("omega", &RotationSpec::omega, "rad/s")
+      .of({Argument::time})
+      .at_least(0)
+      .doc("Angular velocity; \"900 rpm\" is 94.2 rad/s.");
+  s.key("axis", &RotationSpec::axis)
+      .initially(Value::list())
+      .doc(
+          "Direction of the axis, of any length; empty: the last axis of a solid, the normal of a plane, the "
+          "axis of revolution.");
+  s.quantity("point", &RotationSpec::point, "m")
+      .initially(Value::list())
+      .doc("A point of the axis; empty: the origin.");
+  s.key("bodies", &RotationSpec::bodies)
+      .initially(Value::list())
+      .doc("Names of the bodies that turn; empty: all.");
+  s.place(&RotationSpec::where);
   return s;
 }
 

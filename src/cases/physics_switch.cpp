@@ -138,6 +138,7 @@ std::string switch_physics(Value& document, Physics physics) {
       const std::string of = fmt::format("body '{}'", text_of(body, "name"));
       Removal::erase(body, "physics");  // all conduct heat: there is nothing to say
       removal.key(body, "initial_velocity", of);
+      removal.key(body, "initial_stress", of);
     }
   if (Value* time = document.find("time"); time != nullptr)
     for (const char* key : {"displacement_error", "stress_error", "skin_change"})

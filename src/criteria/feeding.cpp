@@ -38,7 +38,7 @@ Feeding::Feeding(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalEnt
     : mesh_(mesh),
       storage_(storage),
       followed_(options.bodies),
-      up_(options.up),
+      up_(options.upward()),
       ghosts_(mesh),
       connectivity_(mesh, ghosts_, options.bodies),
       graph_(mesh, kind, options),

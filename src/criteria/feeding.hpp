@@ -135,7 +135,7 @@ class Feeding : public Criterion {
   const mesh::Mesh& mesh_;
   const heat::NodalEnthalpy& storage_;
   std::vector<char> followed_;  ///< [body]
-  std::array<double, 3> up_;
+  Upward up_;
   parallel::GhostExchange ghosts_;
   Connectivity connectivity_;
   FeedingGraph graph_;

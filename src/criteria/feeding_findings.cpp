@@ -92,8 +92,9 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
       if (kind == Kind::pipe) {
         const double drained = std::clamp(rows(i, k_drained), 0.0, 1.0);
         const double bottom = graph_.high(i) - drained * (graph_.high(i) - graph_.low(i));
-        const double height = mesh_.x[i][0] * up_[0] + mesh_.x[i][1] * up_[1] + mesh_.x[i][2] * up_[2];
-        for (std::size_t d = 0; d < 3; ++d) part.place[d] += (bottom - height) * up_[d];
+        const double height = up_.height(mesh_.x[i]);
+        const std::array<double, 3> direction = up_.direction(mesh_.x[i]);
+        for (std::size_t d = 0; d < 3; ++d) part.place[d] += (bottom - height) * direction[d];
         part.rank = -bottom;
       }
       add(own, part);
@@ -123,8 +124,7 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
 double Feeding::lowest_of(int body) const {
   double low = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i)
-    if (body_[i] == body)
-      low = std::min(low, mesh_.x[i][0] * up_[0] + mesh_.x[i][1] * up_[1] + mesh_.x[i][2] * up_[2]);
+    if (body_[i] == body) low = std::min(low, up_.height(mesh_.x[i]));
   return parallel::global_min(low);
 }
 

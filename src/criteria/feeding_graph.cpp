@@ -17,8 +17,16 @@ namespace solidus::criteria {
 
 namespace {
 
-double along(const mesh::Point& x, const std::array<double, 3>& up) {
-  return x[0] * up[0] + x[1] * up[1] + x[2] * up[2];
+double dot(const mesh::Point& a, const std::array<double, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+mesh::Point middle_of(const mesh::Mesh& mesh, std::span<const Index> vertices) {
+  mesh::Point middle{};
+  for (const Index v : vertices)
+    for (std::size_t i = 0; i < 3; ++i)
+      middle[i] += mesh.x[static_cast<std::size_t>(v)][i] / static_cast<double>(vertices.size());
+  return middle;
 }
 
 /// The area of a face times its outward normal, of its first vertices.
@@ -134,8 +142,9 @@ void FeedingGraph::connect(const mesh::Mesh& mesh, AnalysisKind kind, const std:
 }
 
 void FeedingGraph::measure(const mesh::Mesh& mesh, const FeedingOptions& options) {
-  // Low and high end of each node's share along `up`, widened by each of its elements.
-  for (std::size_t i = 0; i < mesh.x.size(); ++i) low_[i] = high_[i] = along(mesh.x[i], options.up);
+  // Low and high end of each node's share, widened by each of its elements.
+  const Upward up = options.upward();
+  for (std::size_t i = 0; i < mesh.x.size(); ++i) low_[i] = high_[i] = up.height(mesh.x[i]);
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (options.bodies[static_cast<std::size_t>(block.body)] == 0) continue;
     const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
@@ -146,13 +155,13 @@ void FeedingGraph::measure(const mesh::Mesh& mesh, const FeedingOptions& options
       double low = std::numeric_limits<double>::infinity(), high = -low;
       const std::span<const Index> nodes{block.element(e), n};
       for (const Index node : nodes.first(n_vertices)) {
-        const double height = along(mesh.x[static_cast<std::size_t>(node)], options.up);
+        const double height = up.height(mesh.x[static_cast<std::size_t>(node)]);
         low = std::min(low, height);
         high = std::max(high, height);
       }
       for (std::size_t a = 0; a < n; ++a) {
         const auto i = static_cast<std::size_t>(nodes[a]);
-        const double height = along(mesh.x[i], options.up);
+        const double height = up.height(mesh.x[i]);
         const double part = n > n_vertices && a < n_vertices ? 0.25 : 0.5;
         low_[i] = std::min(low_[i], height - part * (height - low));
         high_[i] = std::max(high_[i], height + part * (high - height));
@@ -170,6 +179,7 @@ void FeedingGraph::mark(const mesh::Mesh& mesh, const FeedingOptions& options) {
                           covered = nodes_of(mesh, options.covered, "covered");
   const auto touched = mesh::body_face_keys(mesh, options.touched),
              cooled = mesh::body_face_keys(mesh, options.cooled);
+  const Upward up = options.upward();
   const bool risers = std::ranges::find(options.risers, 1) != options.risers.end();
   const auto is_followed = [&](const mesh::BodyFace& face) {
     return options.bodies[static_cast<std::size_t>(face.body)] != 0;
@@ -183,7 +193,8 @@ void FeedingGraph::mark(const mesh::Mesh& mesh, const FeedingOptions& options) {
     // Another body on the same face, or a contact with one, is a wall: neither air nor skin moves
     // there.
     const bool against_wall = same.size() > 1 || touched.contains(face.key);
-    const bool upward = along(area, options.up) > k_upward * size && !against_wall &&
+    const bool upward = dot(area, up.direction(middle_of(mesh, face.vertices()))) > k_upward * size &&
+                        !against_wall &&
                         (!risers || options.risers[static_cast<std::size_t>(face.body)] != 0);
     // A group marks a face only if all of its nodes are in it.
     const auto all = [&](const std::vector<char>& marked) {

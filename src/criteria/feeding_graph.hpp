@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "criteria/gas_law.hpp"
+#include "criteria/upward.hpp"
 #include "mesh/mesh.hpp"
 #include "numbers/types.hpp"
 
@@ -27,12 +28,14 @@ struct FeedingOptions {
   std::vector<char> bodies = {};      ///< [body] that are followed
   std::vector<char> risers = {};      ///< [body] whose skin is open where it faces up; none: of all followed
   std::array<double, 3> up{0, 1, 0};  ///< of length one
-  std::vector<std::string> vented = {};   ///< groups of the mesh that are open; empty: what faces up
-  std::vector<std::string> covered = {};  ///< groups of the mesh that are not open
-  double mould_rigidity = 1;              ///< share of the expansion of graphite that feeds
+  std::optional<AxisOfTurning> turning = {};  ///< what is cast turns about it, and melt feeds away from it
+  std::vector<std::string> vented = {};       ///< groups of the mesh that are open; empty: what faces up
+  std::vector<std::string> covered = {};      ///< groups of the mesh that are not open
+  double mould_rigidity = 1;                  ///< share of the expansion of graphite that feeds
   GasOptions gas = {};
   std::set<std::string> touched = {};  ///< surfaces in contact with a mould
   std::set<std::string> cooled = {};   ///< surfaces with a condition of heat
+  Upward upward() const { return {up, turning}; }
 };
 
 class FeedingGraph {

@@ -8,14 +8,12 @@ namespace solidus {
 namespace {
 
 constexpr std::string_view k_stress_instead =
-    "bodies start free of stress: make the stress in a [[stage]] before the one that matters, by a load, a "
-    "displacement that is held or a cooling";
+    "[body.initial_stress] with the file of another run, or a [[stage]] before the one that matters";
 
 constexpr std::array k_missing = {
     MissingKey{"heat", "exact_conductivity", "is gone",
                "leave it out: conduction is that of the conductivity's integral over the temperature, whose "
                "tangent is exact"},
-    MissingKey{"body", "initial_stress", "is not there", k_stress_instead},
     MissingKey{"body", "residual_stress", "is not there", k_stress_instead},
     MissingKey{"body", "prestress", "is not there", k_stress_instead},
 };

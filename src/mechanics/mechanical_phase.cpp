@@ -10,11 +10,13 @@
 #include "material/external_law.hpp"
 #include "mechanics/elements/absent_block.hpp"
 #include "mechanics/elements/block_kernel.hpp"
+#include "mechanics/elements/mixed_kernel.hpp"
 #include "mechanics/loads/loads.hpp"
 #include "mechanics/loads/melt_stiffness.hpp"
 #include "mechanics/solver/nodal_pressure.hpp"
 #include "mechanics/solver/saddle_solver.hpp"
 #include "mechanics/state/stress_history.hpp"
+#include "system/common_failure.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mechanics {
@@ -29,6 +31,12 @@ linear::LinearSolverOptions linear_options(const MechanicsOptions& options) {
           .kind = options.solver,
           .symmetric = options.symmetric,
           .relative_tolerance = options.linear_tolerance};
+}
+
+std::vector<double> densities(const std::vector<material::Material>& materials) {
+  std::vector<double> density;
+  for (const material::Material& material : materials) density.push_back(material.density);
+  return density;
 }
 
 std::unique_ptr<BlockKernel> make_kernel(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
@@ -52,7 +60,8 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       options_(std::move(options)),
       contributions_(std::move(contributions)),
       active_(mesh, conditions.absent_bodies),
-      loads_(std::make_unique<Loads>(mesh, kind, std::move(conditions), active_)),
+      loads_(std::make_unique<Loads>(mesh, kind, std::move(conditions), active_, std::span<const double>{},
+                                     densities(materials))),
       ghosts_(mesh),
       balance_(mesh, active_, components_),
       initial_temperature_(initial_temperature.begin(), initial_temperature.end()),
@@ -96,8 +105,55 @@ void MechanicalPhase::create_blocks(const std::vector<material::Material>& mater
       continue;
     }
     plastic_ = plastic_ || material.flow.has_value() || external_law(material) != nullptr;
-    blocks_.push_back(make_kernel(mesh_, block, kind_, material, options_));
+    blocks_.push_back(make_block(blocks_.size()));
   }
+}
+
+/// The kernel of a block with the stress that it starts with.
+std::unique_ptr<BlockKernel> MechanicalPhase::make_block(std::size_t b) {
+  const mesh::ElementBlock& block = mesh_.blocks[b];
+  const material::Material& material = materials_[static_cast<std::size_t>(block.body)];
+  auto kernel = make_kernel(mesh_, block, kind_, material, options_);
+  if (options_.initial_stress.empty() || options_.initial_stress[b].empty()) return kernel;
+  const StepStart start{.temperature = initial_temperature_,
+                        .pass_temperature = initial_temperature_,
+                        .initial_temperature = initial_temperature_,
+                        .old_displacement = {},
+                        .held_displacement = {},
+                        .held_history = nullptr,
+                        .old_history = nullptr,
+                        .start_history = nullptr,
+                        .dt = 1,
+                        .effective = material::TimeStep::backward_euler(1),
+                        .phases = nodal_phases_.evaluate(b, {initial_temperature_, {}}, {})};
+  if (!kernel->set_initial_stress(start, options_.initial_stress[b]))
+    throw InputError({}, "the law of '" + material.name + "' cannot start with a stress",
+                     "a material of the built-in laws");
+  return kernel;
+}
+
+/// The mean stress around each node, [local node][field].
+std::vector<double> MechanicalPhase::initial_pressure() {
+  std::vector<double> sum(pressure_->absent().size(), 0.0), weight(sum.size(), 0.0);
+  if (options_.initial_stress.empty()) return sum;
+  const BodyFields& fields = pressure_->fields_of_bodies();
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const std::vector<double>& stress = options_.initial_stress[b];
+    if (stress.empty() || dynamic_cast<MixedKernel*>(blocks_[b].get()) == nullptr) continue;
+    const mesh::ElementBlock& block = mesh_.blocks[b];
+    const int field = fields.of_body[static_cast<std::size_t>(block.body)];
+    for (Index e = 0; e < block.size(); ++e)
+      for (int a = 0; a < mesh::node_count(block.shape); ++a) {
+        const auto at = static_cast<std::size_t>(block.element(e)[a] * pressure_->fields() + field);
+        const double* s = stress.data() + 6 * static_cast<std::size_t>(e);
+        sum[at] += (s[0] + s[1] + s[2]) / 3;
+        weight[at] += 1;
+      }
+  }
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    if (weight[i] > 0) sum[i] /= weight[i];
+  ghosts_.update(sum, pressure_->fields());
+  return sum;
 }
 
 std::vector<double> MechanicalPhase::nodal_mass() const {
@@ -128,8 +184,7 @@ void MechanicalPhase::remove_bodies(const linear::ActiveSet& active) {
     const mesh::ElementBlock& block = mesh_.blocks[b];
     if (active.body(block.body) == active_.body(block.body)) continue;
     if (active.body(block.body)) {
-      blocks_[b] =
-          make_kernel(mesh_, block, kind_, materials_[static_cast<std::size_t>(block.body)], options_);
+      blocks_[b] = make_block(b);
       continue;
     }
     blocks_[b] = std::make_unique<AbsentBlock>();
@@ -194,14 +249,26 @@ void MechanicalPhase::create_pressure() {
                      "\"automatic\", \"direct\" or \"multigrid\", or simplices = \"displacement\"");
   const bool orthogonal = options_.stabilisation == Stabilisation::orthogonal;
   if (!orthogonal && inertia_) throw std::invalid_argument("algebraic sub-scales are for quasi-statics");
-  std::vector<std::array<double, 3>> body_force;
-  for (const material::Material& material : materials_) {
-    body_force.push_back(loads_->conditions().gravity);
-    for (double& f : body_force.back()) f *= material.density;
-  }
   if (!fields) fields = body_fields(mesh_, materials_, mixed_blocks(blocks_));
-  pressure_ = std::make_unique<NodalPressure>(mesh_, std::move(*fields), blocks_, orthogonal, body_force);
+  pressure_ = std::make_unique<NodalPressure>(mesh_, std::move(*fields), blocks_, orthogonal);
   fields_.push_back(pressure_->fields());
+  set_body_force(0);
+}
+
+/// Mixed elements need the force per volume itself, beside the nodal forces that it makes.
+void MechanicalPhase::set_body_force(double time) {
+  run_collectively([&] {
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      auto* const kernel = dynamic_cast<MixedKernel*>(blocks_[b].get());
+      if (kernel == nullptr) continue;
+      const mesh::ElementBlock& block = mesh_.blocks[b];
+      const double density = materials_[static_cast<std::size_t>(block.body)].density;
+      std::vector<double> force(3 * static_cast<std::size_t>(block.size()));
+      for (std::size_t i = 0; i < force.size(); ++i) force[i] = density * loads_->conditions().gravity[i % 3];
+      loads_->add_body_forces(block, time, force);
+      kernel->set_body_force(force);
+    }
+  });
 }
 
 std::size_t MechanicalPhase::n_unknowns() const {
@@ -235,7 +302,8 @@ void MechanicalPhase::set_conditions(MechanicalConditions conditions, std::span<
   // New conditions may change which bodies are active and which unknowns are tied: only then the matrix has
   // to be made again.
   const linear::ActiveSet active(mesh_, conditions.absent_bodies);
-  auto loads = std::make_unique<Loads>(mesh_, kind_, std::move(conditions), active, start);
+  auto loads =
+      std::make_unique<Loads>(mesh_, kind_, std::move(conditions), active, start, densities(materials_));
   const bool same_matrix =
       active == active_ && !parallel::any_process(loads->constraint_groups() != loads_->constraint_groups());
   // Bodies that have gone take their weight along.
@@ -261,7 +329,7 @@ MechanicalState MechanicalPhase::initial_state() {
   MechanicalState state;
   state.displacement.assign(forces_.size(), 0.0);
   for (const auto& block : blocks_) state.history.push_back(block->initial_history());
-  if (pressure_) state.pressure.assign(pressure_->absent().size(), 0.0);
+  if (pressure_) state.pressure = initial_pressure();
   state.solid_fraction = nodal_phases_.initial_solid_fraction();
   if (options_.integration == TimeIntegration::two_step) state.before = state.history;
   if (inertia_) set_in_motion(state);

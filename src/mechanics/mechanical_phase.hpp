@@ -63,6 +63,9 @@ struct MechanicsOptions {
   /// (Armstrong–Frederick).
   bool symmetric = true;
   std::optional<DynamicsOptions> dynamics;  ///< absent: no inertia
+  /// Stress of each block at the start, [block][element][6]: xx, yy, zz, xy, yz, xz [Pa]. A block without any
+  /// has an empty list; all empty: no stress. Solid metal of the built-in laws, in quasi-statics.
+  std::vector<std::vector<double>> initial_stress = {};
 };
 
 class MechanicalPhase {
@@ -206,6 +209,8 @@ class MechanicalPhase {
  private:
   linear::NodeGraph graph() const;
   void create_blocks(const std::vector<material::Material>& materials);
+  std::unique_ptr<BlockKernel> make_block(std::size_t block);
+  std::vector<double> initial_pressure();
   void remove_bodies(const linear::ActiveSet& active);
   /// Mass of the active bodies.
   std::vector<double> nodal_mass() const;
@@ -214,6 +219,7 @@ class MechanicalPhase {
   void bind();
   void create_solver();
   void create_pressure();
+  void set_body_force(double time);
   /// Entries of the displacement in the residuals, which are on owned nodes.
   std::size_t n_forces() const {
     return static_cast<std::size_t>(mesh_.n_owned_nodes) * static_cast<std::size_t>(components_);

@@ -270,6 +270,7 @@ bool MechanicalPhase::try_guess(const MechanicalPass& pass, std::vector<double>&
 void MechanicalPhase::begin(const MechanicalState& old, const MechanicalPass& pass) {
   assert(old.displacement.size() == forces_.size() && old.history.size() == blocks_.size() && pass.dt > 0);
   loads_->evaluate(pass.time, external_);
+  if (pressure_ && loads_->has_body_forces()) set_body_force(pass.time);
   if (inertia_) inertia_->begin(old, pass.dt);
   prepare(old, pass);
 }

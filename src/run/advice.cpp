@@ -15,8 +15,7 @@ namespace {
 
 bool carries_loads(const cases::CaseSpec& spec) {
   return std::any_of(spec.mechanical_conditions.begin(), spec.mechanical_conditions.end(), [](const auto& c) {
-    return c.kind == cases::MechanicalConditionSpec::Kind::pressure ||
-           c.kind == cases::MechanicalConditionSpec::Kind::traction;
+    return c.on_faces() || c.kind == cases::MechanicalConditionSpec::Kind::body_force;
   });
 }
 

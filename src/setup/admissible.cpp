@@ -117,12 +117,15 @@ void check_mechanics(const cases::CaseSpec& spec, Admissibility& a) {
     else if (begins_later(spec, c))
       a.violations.push_back(fmt::format("the support '{}' is put on in a later stage", c.name));
     // A load of one number that holds at all times has a potential, and its work is counted there.
-    const bool varies =
-        c.kind == Kind::pressure
-            ? !steady(c.pressure)
-            : c.kind == Kind::traction && !std::all_of(c.traction.begin(), c.traction.end(), steady);
+    const auto all_steady = [](const std::vector<Function>& of) { return std::ranges::all_of(of, steady); };
+    const bool varies = (c.kind == Kind::pressure && !steady(c.pressure)) ||
+                        (c.kind == Kind::traction && !all_steady(c.traction)) ||
+                        (c.kind == Kind::body_force && !all_steady(c.force)) ||
+                        (c.kind == Kind::metallostatic && !(steady(c.level) && steady(c.squeeze)));
     if (varies) a.violations.push_back(fmt::format("the load '{}' varies", c.name));
   }
+  if (spec.rotation && !steady(spec.rotation->omega))
+    a.violations.emplace_back("the speed of rotation varies");
   for (const auto& s : spec.rigid_surfaces)
     if (moves(s.ux) || moves(s.uy) || moves(s.uz) || moves(s.rotation))
       a.violations.push_back(fmt::format("the rigid surface '{}' moves", s.name));

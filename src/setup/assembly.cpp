@@ -18,6 +18,7 @@
 #include "setup/contact_input.hpp"
 #include "setup/criteria_input.hpp"
 #include "setup/heat_input.hpp"
+#include "setup/initial_stress.hpp"
 #include "setup/mechanics_input.hpp"
 #include "setup/scheme_input.hpp"
 #include "setup/skin_measures.hpp"
@@ -103,6 +104,7 @@ void build_mechanics(const cases::CaseSpec& spec, const std::vector<double>& ini
   std::vector<linear::Contribution*> contributions;
   // Each pair of surfaces adds forces and stiffness; the matrix is symmetric if that of all of them is.
   mechanics::MechanicsOptions options = mechanics_options(spec);
+  options.initial_stress = initial_stress(spec, a.mesh, a.materials, a.start);
   for (const auto& pair : a.contacts) {
     contributions.push_back(&pair->mechanics());
     options.symmetric = options.symmetric && pair->forces().symmetric();

@@ -205,9 +205,8 @@ std::vector<std::string> without_body(const cases::CaseSpec& spec, const mesh::M
     idle.push_back(c.name);
   }
   for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
-    using Kind = cases::MechanicalConditionSpec::Kind;
     if (!holds(c.stages, stage)) continue;
-    const bool needs_faces = c.kind == Kind::pressure || c.kind == Kind::traction;
+    const bool needs_faces = c.on_faces();
     if (stands(mesh, deforms, c.group, needs_faces)) continue;
     if (named(c.stages, stage) && !stands(mesh, there, c.group, needs_faces))
       refuse(c.where, "the mechanical condition '" + c.name + "'", *stage);

@@ -16,6 +16,7 @@
 #include "setup/heat_input.hpp"
 #include "setup/mesh_section.hpp"
 #include "setup/rigid_surface_input.hpp"
+#include "setup/rotation_input.hpp"
 #include "setup/run_input.hpp"
 #include "setup/scheme_input.hpp"
 #include "setup/section_names.hpp"
@@ -92,6 +93,7 @@ void check_displacement(const cases::MechanicalConditionSpec& c, AnalysisKind ki
 }
 
 void check_conditions(const cases::CaseSpec& spec) {
+  // Names first, then that the analysis has the physics that a condition or a stress belongs to.
   check_names(spec.thermal_conditions, "[[thermal_condition]]");
   check_names(spec.mechanical_conditions, "[[mechanical_condition]]");
   if (!spec.has_heat() && !spec.thermal_conditions.empty())
@@ -100,13 +102,26 @@ void check_conditions(const cases::CaseSpec& spec) {
   if (!spec.has_mechanics() && !spec.mechanical_conditions.empty())
     throw InputError(spec.mechanical_conditions.front().where, "there is no mechanics in this analysis",
                      "physics = \"mechanics\" or \"thermomechanical\"");
+  for (const cases::BodySpec& body : spec.bodies)
+    if (!spec.has_mechanics() && body.initial_stress)
+      throw InputError(body.initial_stress->where, "there is no mechanics in this analysis",
+                       "physics = \"mechanics\" or \"thermomechanical\", or no initial_stress");
+  // What a mechanical condition gives, it gives for each direction of the mesh.
   for (const auto& c : spec.mechanical_conditions) {
     if (c.kind == cases::MechanicalConditionSpec::Kind::displacement)
       check_displacement(c, spec.analysis.kind);
-    if (c.kind == cases::MechanicalConditionSpec::Kind::traction &&
-        c.traction.size() != static_cast<std::size_t>(spec.dimension()))
-      throw InputError(c.where, fmt::format("the traction '{}' has {} components", c.name, c.traction.size()),
-                       fmt::format("{} in this analysis", spec.dimension()));
+    using Kind = cases::MechanicalConditionSpec::Kind;
+    const auto n_directions = static_cast<std::size_t>(spec.dimension());
+    const std::vector<Function>& directions = c.kind == Kind::traction ? c.traction : c.force;
+    if ((c.kind == Kind::traction || c.kind == Kind::body_force) && directions.size() != n_directions)
+      throw InputError(
+          c.where,
+          fmt::format("the {} '{}' has {} components", c.kind == Kind::traction ? "traction" : "force",
+                      c.name, directions.size()),
+          fmt::format("{} in this analysis", n_directions));
+    if (c.kind == Kind::metallostatic && spec.analysis.gravity == 0)
+      throw InputError(c.where, fmt::format("'{}' is the pressure of a melt, but gravity is 0", c.name),
+                       "gravity = \"9.81 m/s2\" in [analysis]");
   }
 }
 
@@ -286,6 +301,7 @@ void check_case(const cases::CaseSpec& spec) {
     throw InputError(spec.mesh.where, "the case has no body", "at least one [[body]] section");
   check_names(spec.bodies, "[[body]]");
   check_conditions(spec);
+  check_rotation(spec);
   check_contacts(spec);
   check_interfaces(spec);
   cases::check_stage_names(spec);

@@ -33,21 +33,29 @@ void resolve(Value& path) {
 /// Files of quantities that vary from place to place: { file = "points.csv" }.
 void resolve_places(Value& section) {
   if (!section.is_table()) return;
-  for (auto& entry : section.entries())
-    if (entry.value.is_table())
-      if (Value* file = entry.value.find("file"); file && file->is_text()) resolve(*file);
+  const auto resolve_one = [](Value& quantity) {
+    if (!quantity.is_table()) return;
+    if (Value* file = quantity.find("file"); file && file->is_text()) resolve(*file);
+  };
+  for (auto& entry : section.entries()) {
+    resolve_one(entry.value);
+    if (entry.value.is_list())
+      for (Value& component : entry.value.items()) resolve_one(component);
+  }
 }
 
 void resolve_paths(Value& document) {
   // Paths count from the folder of the file that names them.
   if (Value* mesh = document.find("mesh"); mesh && mesh->is_table())
     if (Value* file = mesh->find("file"); file && file->is_text()) resolve(*file);
-  if (Value* conditions = document.find("thermal_condition"); conditions && conditions->is_list())
-    for (Value& condition : conditions->items()) resolve_places(condition);
+  for (const char* kind : {"thermal_condition", "mechanical_condition"})
+    if (Value* conditions = document.find(kind); conditions && conditions->is_list())
+      for (Value& condition : conditions->items()) resolve_places(condition);
   Value* bodies = document.find("body");
   if (!bodies || !bodies->is_list()) return;
   for (Value& body : bodies->items()) {
     resolve_places(body);
+    if (Value* stress = body.find("initial_stress")) resolve_places(*stress);
     Value* material = body.find("material");
     if (material && material->is_text() && names_a_file(material->text())) resolve(*material);
   }

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "criteria/criteria.hpp"
 #include "criteria/criterion_kind.hpp"
+#include "parallel/parallel.hpp"
 #include "setup/cast_bodies.hpp"
 #include "setup/mechanics_input.hpp"
+#include "setup/rotation_input.hpp"
 
 namespace solidus::setup {
 
@@ -21,6 +24,18 @@ std::array<double, 3> upward(const cases::AnalysisSpec& analysis) {
   std::array<double, 3> up = gravity(unit);
   for (double& component : up) component = -component;
   return up;
+}
+
+/// The axis of what turns so fast that its weight does not matter: at its rim it weighs twice and more what
+/// it does at rest. Collective.
+std::optional<criteria::AxisOfTurning> axis_of_turning(const cases::CaseSpec& spec, const mesh::Mesh& mesh) {
+  constexpr double k_weight = 9.81, k_fast = 2;
+  const mechanics::Turning about = turning(spec);
+  double squared_radius = 0;
+  for (const mesh::Point& x : mesh.x) squared_radius = std::max(squared_radius, about.squared_radius(x));
+  const double at_rim = about.omega * about.omega * std::sqrt(parallel::global_max(squared_radius));
+  if (at_rim < k_fast * (spec.analysis.gravity > 0 ? spec.analysis.gravity : k_weight)) return std::nullopt;
+  return criteria::AxisOfTurning{about.axis, about.point};
 }
 
 /// That of the case, else of the mould that gives way most.
@@ -39,6 +54,7 @@ criteria::FeedingOptions feeding_options(const cases::CaseSpec& spec, const mesh
   criteria::FeedingOptions options{.bodies = followed_bodies(spec, materials, start),
                                    .risers = std::vector<char>(spec.bodies.size(), 0),
                                    .up = upward(spec.analysis),
+                                   .turning = axis_of_turning(spec, mesh),
                                    .vented = spec.feeding.vented,
                                    .covered = spec.feeding.covered,
                                    .mould_rigidity = mould_rigidity(spec, materials),

@@ -128,10 +128,15 @@ std::vector<TimeEvent> time_events(const cases::CaseSpec& spec, const cases::Sta
       if (c.kind == Kind::pressure) list.add(c.pressure, c.clock, true);
       if (c.kind == Kind::traction)
         for (const Function& f : c.traction) list.add(f, c.clock, true);
+      if (c.kind == Kind::body_force)
+        for (const Function& f : c.force) list.add(f, c.clock, true);
+      if (c.kind == Kind::metallostatic)
+        for (const Function* f : {&c.level, &c.squeeze}) list.add(*f, c.clock, true);
       if (c.kind == Kind::displacement)
         for (const auto* u : {&c.ux, &c.uy, &c.uz, &c.ur})
           if (*u) list.add(**u, c.clock, true);
     }
+    if (spec.rotation) list.add(spec.rotation->omega, cases::TimeOrigin::run, true);
     for (const cases::RigidSurfaceSpec& s : spec.rigid_surfaces) {
       for (const auto* motion : {&s.ux, &s.uy, &s.uz, &s.rotation})
         if (*motion) list.add(**motion, cases::TimeOrigin::run, true);

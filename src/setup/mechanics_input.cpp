@@ -7,6 +7,9 @@
 #include "mechanics/loads/section.hpp"
 #include "setup/body_input.hpp"
 #include "setup/dynamics_input.hpp"
+#include "setup/load_laws.hpp"
+#include "setup/place_input.hpp"
+#include "setup/rotation_input.hpp"
 
 namespace solidus::setup {
 
@@ -30,14 +33,24 @@ mechanics::MechanicalConditions mechanical_conditions(const cases::CaseSpec& spe
   // displacements are: r and z take 0 and 1 around an axis.
   mechanics::MechanicalConditions conditions;
   conditions.gravity = gravity(spec.analysis);
+  conditions.turning = turning(spec);
+  conditions.body_forces = centrifugal_forces(spec);
   conditions.absent_bodies = absent_from_mechanics(spec, stage);
   const bool axisymmetric = spec.analysis.kind == AnalysisKind::axisymmetric;
   for (const auto& c : spec.mechanical_conditions) {
     if (!cases::holds(c.stages, stage)) continue;
-    // Loads are functions of time on the clock of the condition.
-    const auto of_time = [&](const Function& f) { return cases::on_clock(f, c.clock, stage); };
+    // Loads are functions of place and time on the clock of the condition.
+    const auto placed = [&](const Function& f) {
+      return place_function(f, c.clock, stage, spec.analysis.kind);
+    };
+    // One function for each direction of the mesh.
+    const auto directions = [&](const std::vector<Function>& of) {
+      std::array<PlaceFunction, 3> all{0.0, 0.0, 0.0};
+      for (std::size_t i = 0; i < of.size(); ++i) all[i] = placed(of[i]);
+      return all;
+    };
     const auto prescribe = [&](const std::optional<Function>& value, int component) {
-      if (value) conditions.displacements.push_back({c.group, component, of_time(*value), c.relative});
+      if (value) conditions.displacements.push_back({c.group, component, placed(*value), c.relative});
     };
     // Components are listed one by one, since each may be held or left free.
     switch (c.kind) {
@@ -48,14 +61,20 @@ mechanics::MechanicalConditions mechanical_conditions(const cases::CaseSpec& spe
         prescribe(c.uz, axisymmetric ? 1 : 2);
         break;
       case Kind::pressure:
-        conditions.pressures.push_back({c.group, of_time(c.pressure)});
+        conditions.pressures.push_back({c.group, placed(c.pressure)});
         break;
-      case Kind::traction: {
-        mechanics::Traction traction{c.group, {0.0, 0.0, 0.0}};
-        for (std::size_t i = 0; i < c.traction.size(); ++i) traction.value[i] = of_time(c.traction[i]);
-        conditions.tractions.push_back(std::move(traction));
+      case Kind::metallostatic:
+        conditions.pressures.push_back(
+            {c.group,
+             metallostatic_pressure(conditions.gravity, c.density, cases::on_clock(c.level, c.clock, stage),
+                                    cases::on_clock(c.squeeze, c.clock, stage))});
         break;
-      }
+      case Kind::traction:
+        conditions.tractions.push_back({c.group, directions(c.traction)});
+        break;
+      case Kind::body_force:
+        conditions.body_forces.push_back({c.group, directions(c.force)});
+        break;
       case Kind::plane:
         conditions.plane_faces.push_back({c.group});
         break;

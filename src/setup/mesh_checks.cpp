@@ -207,9 +207,14 @@ void check_groups(const cases::CaseSpec& spec, const RawMesh& mesh) {
       require(mesh, c.group, c.kind == cases::ThermalConditionSpec::Kind::temperature ? -1 : surface, c.where,
               user);
   }
-  for (const auto& c : spec.mechanical_conditions)
-    require(mesh, c.group, c.kind == cases::MechanicalConditionSpec::Kind::displacement ? -1 : surface,
-            c.where, "mechanical condition '" + c.name + "'");
+  for (const auto& c : spec.mechanical_conditions) {
+    using Kind = cases::MechanicalConditionSpec::Kind;
+    const std::string user = "mechanical condition '" + c.name + "'";
+    if (c.kind == Kind::body_force)
+      require_body(spec, c.group, c.where, user);
+    else
+      require(mesh, c.group, c.kind == Kind::displacement ? -1 : surface, c.where, user);
+  }
   // The master of a contact may be a rigid surface instead of a group.
   std::vector<std::string> tools;
   for (const auto& s : spec.rigid_surfaces) tools.push_back(s.name);

@@ -67,7 +67,8 @@ std::map<std::string, SourceLocation> wanted_surfaces(const cases::CaseSpec& spe
     if (!c.in_volume() && c.kind != cases::ThermalConditionSpec::Kind::temperature)
       wanted.try_emplace(c.group, c.where);
   for (const auto& c : spec.mechanical_conditions)
-    if (c.kind != cases::MechanicalConditionSpec::Kind::displacement) wanted.try_emplace(c.group, c.where);
+    if (c.on_faces() || c.kind == cases::MechanicalConditionSpec::Kind::plane)
+      wanted.try_emplace(c.group, c.where);
   for (const auto& c : spec.contacts)
     for (const std::string& side : c.sides())
       if (spec.rigid_surface(side) == nullptr) wanted.try_emplace(side, c.where);

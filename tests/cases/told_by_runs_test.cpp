@@ -170,18 +170,19 @@ TEST(WhatIsNotComputed, IsRefusedWithTheWayRound) {
   const std::string plain = between_fluxes("steady = true", 1, -1);
   k_here.write("plain.toml", k_plain);
   std::string stressed = plain;
-  stressed.insert(stressed.find("[[thermal_condition]]"), "initial_stress = \"1 MPa\"\n");
+  stressed.insert(stressed.find("[[thermal_condition]]"), "prestress = \"1 MPa\"\n");
   const std::string of_stress = k_here.refusal("stressed", stressed);
-  EXPECT_THAT(of_stress, HasSubstr("the key 'initial_stress' of [[body]] is not there"));
+  EXPECT_THAT(of_stress, HasSubstr("the key 'prestress' of [[body]] is not there"));
   EXPECT_THAT(of_stress, HasSubstr("[[stage]]"));
   const std::string load = R"([[mechanical_condition]]
 name = "load"
 group = "y_max"
-kind = "pressure"
-pressure = { formula = "1e6*x", unit = "Pa" }
+kind = "metallostatic"
+density = "2400 kg/m3"
+level = { formula = "0.1 + x" }
 )";
   const std::string of_load = k_here.refusal("placed", plain + load);
-  EXPECT_THAT(of_load, HasSubstr("'pressure' is a formula or a file, which this key does not take"));
+  EXPECT_THAT(of_load, HasSubstr("'level' is a formula or a file, which this key does not take"));
   EXPECT_THAT(of_load, HasSubstr("[[mesh.group]]"));
 }
 

@@ -86,8 +86,7 @@ void surroundings(const cases::CaseSpec& spec, Findings& findings) {
       findings.push_back({false, t.where,
                           fmt::format("the source '{}' has {:g} W/m3", t.name, t.power.table.value(0)),
                           "usual are 1e3 to 1e9 W/m3, under a laser 1e11"});
-    // A number below polished metal is almost always one that was meant in percent or as a
-    // reflectivity.
+    // A number below polished metal is almost always meant in percent or as a reflectivity.
     if (t.kind == Kind::radiation && is_number(t.emissivity) && is_number(t.factor) &&
         t.emissivity.table.value(0) < k_least_emissivity)
       findings.push_back({false, t.where,
@@ -274,8 +273,7 @@ void tables_of_other_times(const cases::CaseSpec& spec, Findings& findings) {
   const auto compare = [&](const std::string& what, const Function& f, const SourceLocation& where,
                            bool may_end) {
     if (f.place != nullptr || f.of != Argument::time || f.table.constant()) return;
-    // Two points describe a ramp that holds its last value on purpose, so that three and more are
-    // asked for below.
+    // Two points are a ramp that holds its last value on purpose: three and more are asked for below.
     constexpr std::size_t k_ramp = 2;  // points
     const double end = *spec.time.end;
     const auto say = [&](const char* what_it_does, double at) {
@@ -295,8 +293,7 @@ void tables_of_other_times(const cases::CaseSpec& spec, Findings& findings) {
     else if (!may_end && x.size() > k_ramp && x[x.size() - 1] < k_over * end)
       say("ends at", x[x.size() - 1]);
   };
-  // A clock of the stage begins with it, so that its table is compared with the length of the stage
-  // elsewhere.
+  // A clock of the stage begins with it: its table is compared with the length of the stage elsewhere.
   for (const cases::ThermalConditionSpec& c : spec.thermal_conditions) {
     if (c.clock == cases::TimeOrigin::stage) continue;  // find_in_stage_times
     for (const Function* f : {&c.coefficient, &c.ambient, &c.temperature, &c.flux, &c.emissivity, &c.power})
@@ -304,16 +301,17 @@ void tables_of_other_times(const cases::CaseSpec& spec, Findings& findings) {
   }
   for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
     if (c.clock == cases::TimeOrigin::stage) continue;
-    compare("'" + c.name + "'", c.pressure, c.where, true);
+    const auto tell = [&](const Function& f) { compare("'" + c.name + "'", f, c.where, true); };
+    for (const Function* f : {&c.pressure, &c.level, &c.squeeze}) tell(*f);
+    for (const auto* all : {&c.traction, &c.force}) std::for_each(all->begin(), all->end(), tell);
     for (const auto* u : {&c.ux, &c.uy, &c.uz, &c.ur})
-      if (*u) compare("'" + c.name + "'", **u, c.where, true);
+      if (*u) tell(**u);
   }
 }
 
 /// Compares the error allowed per step with the range of temperatures of the run.
 void tolerance(const cases::CaseSpec& spec, const setup::Assembly& a, Findings& findings) {
-  // The bodies' starts span the range in which the run moves; an allowed error is judged as a share
-  // of it.
+  // The bodies' starts span the range of the run; an allowed error is judged as a share of it.
   double high = 0, low = std::numeric_limits<double>::max();
   for (const setup::InitialTemperatureRange& r : a.start)
     high = std::max(high, r.high), low = std::min(low, r.low);

@@ -45,10 +45,10 @@ std::vector<Condition> conditions_of_surfaces(const cases::CaseSpec& spec) {
                               c.name, c.group, &c.stages, c.where, true});
   if (spec.has_mechanics())
     for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions)
-      if (c.kind != Motion::plane)
+      if (c.kind != Motion::plane && c.kind != Motion::body_force)
         conditions.push_back({c.kind == Motion::displacement ? "support"
-                              : c.kind == Motion::pressure   ? "pressure"
-                                                             : "traction",
+                              : c.kind == Motion::traction   ? "traction"
+                                                             : "pressure",
                               c.name, c.group, &c.stages, c.where, false});
   return conditions;
 }

@@ -268,7 +268,7 @@ void pressed_sand(const cases::CaseSpec& spec, const setup::Assembly& a, const C
     });
   };
   for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
-    if (c.kind != cases::MechanicalConditionSpec::Kind::pressure) continue;
+    if (c.kind != cases::MechanicalConditionSpec::Kind::pressure || c.pressure.place != nullptr) continue;
     // Pressures of tables count by their largest value.
     const double pressure = c.pressure.table.max_value();
     if (!(pressure > k_on_riser)) continue;

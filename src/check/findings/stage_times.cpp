@@ -112,7 +112,9 @@ std::vector<TimeTable> time_tables(const cases::CaseSpec& spec) {
          {&c.coefficient, &c.ambient, &c.temperature, &c.flux, &c.emissivity, &c.power, &c.factor})
       add(c, *f);
   for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
-    add(c, c.pressure);
+    for (const Function* f : {&c.pressure, &c.level, &c.squeeze}) add(c, *f);
+    for (const std::vector<Function>* all : {&c.traction, &c.force})
+      for (const Function& f : *all) add(c, f);
     for (const auto* u : {&c.ux, &c.uy, &c.uz, &c.ur})
       if (*u) add(c, **u);
   }

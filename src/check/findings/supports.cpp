@@ -332,9 +332,8 @@ void lifted_bodies(const cases::CaseSpec& spec, const setup::Assembly& a, const 
                  (sides.slave_body == static_cast<int>(b) || sides.master_body == static_cast<int>(b));
     }
     // A load may press it against what it touches.
-    using Kind = cases::MechanicalConditionSpec::Kind;
     for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions)
-      held |= c.kind == Kind::pressure || c.kind == Kind::traction;
+      held |= c.on_faces() || c.kind == cases::MechanicalConditionSpec::Kind::body_force;
     if (held || !touches) continue;
     findings.push_back(
         {false, spec.bodies[b].where,

@@ -11,6 +11,7 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
  public:
   bool symmetric() const override { return true; }
   void bind(const linear::BlockMatrix&) override {}
+  bool set_initial_stress(const StepStart&, std::span<const double>) override { return true; }
   BlockHistory initial_history() const override { return {}; }
   double prepare(const StepStart&) override { return 0; }
   double add_forces(std::span<const double>, std::span<double>) override { return 0; }

@@ -119,6 +119,11 @@ class BlockKernel {
   /// Looks up matrix slots.
   virtual void bind(const linear::BlockMatrix& matrix) = 0;
   virtual BlockHistory initial_history() const = 0;
+  /// From now on the points carry this stress where the displacement is zero and the temperatures and phases
+  /// are those of `start`: they have the strain C⁻¹ σ_0 besides that of the displacement.
+  /// @param stress  xx, yy, zz, xy, yz, xz of each element, [element][6] [Pa]
+  /// Returns whether the law can: a law from outside finds its stress by its own rules.
+  virtual bool set_initial_stress(const StepStart& start, std::span<const double> stress) = 0;
   /// Properties at the quadrature points for the temperature of this step, and the entropy that an isentropic
   /// law holds. Returns the square of the nodal
   /// forces that a strain of 1 would cause, counted elements only: the scale of round-off.

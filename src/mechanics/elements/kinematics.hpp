@@ -35,6 +35,7 @@ struct Kinematics {
   Vectors gradient;                      ///< ∂N_a/∂x_i
   std::array<Lane, n_nodes> hoop_value;  ///< N_a/r, axisymmetric only
   Vectors excess;                        ///< (b̄_a − b_a)/3, B-bar only
+  const Sym<Lane>* initial = nullptr;    ///< a strain besides that of the displacement; null: none
 
   /// @param g       ∂N_a/∂x_i, [node][dim]
   /// @param values  N_a, [node]
@@ -63,6 +64,7 @@ struct Kinematics {
       return divergence(a, i);
   }
 
+  /// ε(u), with the initial strain where there is one.
   Sym<Lane> strain(const Vectors& u) const {
     std::array<std::array<Lane, dim>, dim> h{};
     Lane hoop_strain(0.0), correction(0.0);
@@ -85,6 +87,8 @@ struct Kinematics {
     }
     if constexpr (b_bar)
       for (int i = 0; i < 3; ++i) e[i] += correction;
+    if (initial != nullptr)
+      for (int k = 0; k < 6; ++k) e[k] += (*initial)[k];
     return e;
   }
 

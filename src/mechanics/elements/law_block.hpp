@@ -217,8 +217,10 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
   using NodalValues = std::array<Lane, n_values>;  ///< [node][dim]
 
   Operator operator_at(Index batch, int point, const Lane* mean) const {
-    return Operator(geometry_.gradients_at(batch, point), this->values_at(point),
-                    this->inverse_radius(batch, point), mean);
+    Operator b(geometry_.gradients_at(batch, point), this->values_at(point),
+               this->inverse_radius(batch, point), mean);
+    b.initial = this->initial_strain(batch, point);
+    return b;
   }
   /// Ψ_k at a point.
   double mode_at(int point, std::size_t k) const {

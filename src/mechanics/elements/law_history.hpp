@@ -13,6 +13,7 @@
 #include "mechanics/elements/element_transfer.hpp"
 #include "mechanics/elements/law_parts.hpp"
 #include "mechanics/elements/law_traits.hpp"
+#include "mechanics/elements/padding.hpp"
 #include "mechanics/elements/structural_points.hpp"
 #include "mesh/block_geometry.hpp"
 #include "numbers/common_packs.hpp"
@@ -54,6 +55,30 @@ class LawHistory : public BlockKernel {
     return history;
   }
 
+  bool set_initial_stress(const StepStart& start, std::span<const double> stress) override {
+    if constexpr (KeepsStateInPlace<Law>) {
+      return false;
+    } else {
+      initial_strain_.assign(properties_.size(), Sym<Lane>());
+      for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+        Sym<Lane> of_batch;
+        for (int k = 0; k < 6; ++k)
+          of_batch[k] = lane_of_elements(batch, geometry_.n_elements, stress.data() + k, 6);
+        // The strain that the elastic law answers with this stress, thermal strain being zero.
+        for (int q = 0; q < geometry_.n_points; ++q) {
+          const auto p = elastic_part(
+              law_, law_.properties_at(temperature_at(geometry_, batch, q, start.temperature),
+                                       temperature_at(geometry_, batch, q, start.initial_temperature),
+                                       phase_at(start, batch, q)));
+          Sym<Lane> strain = (Lane(0.5) / p.shear) * dev(of_batch);
+          for (int k = 0; k < 3; ++k) strain[k] += Lane(1.0 / 9.0) * trace(of_batch) / p.bulk;
+          initial_strain_[index(batch, q)] = strain;
+        }
+      }
+      return true;
+    }
+  }
+
   void add_nodal_volume(double weight, std::span<double> out) const override {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Index* nodes = nodes_of(batch);
@@ -77,7 +102,8 @@ class LawHistory : public BlockKernel {
   }
 
   std::size_t bytes() const override {
-    return geometry_.bytes() + points_->bytes() + properties_.bytes() + slots_.bytes();
+    return geometry_.bytes() + points_->bytes() + properties_.bytes() + slots_.bytes() +
+           initial_strain_.capacity() * sizeof(Sym<Lane>);
   }
 
  protected:
@@ -95,6 +121,10 @@ class LawHistory : public BlockKernel {
       return geometry_.inverse_radius[index(batch, point)];
     else
       return Lane(0.0);
+  }
+  /// Null where none has been set.
+  const Sym<Lane>* initial_strain(Index batch, int point) const {
+    return initial_strain_.empty() ? nullptr : &initial_strain_[index(batch, point)];
   }
   const linear::BlockMatrix::Slot* slots_of(Index batch) const { return slots_.of(batch); }
 
@@ -248,6 +278,7 @@ class LawHistory : public BlockKernel {
   CommonPacks<Properties> properties_;  ///< at Θ_n: [batch][point]
   linear::LaneSlots slots_;
   bool keeps_base_ = false;                      ///< histories hold a StructuralBase
+  PackVector<Sym<Lane>> initial_strain_;         ///< C⁻¹ σ_0, [batch][point]; empty: none
   std::span<const double> temperature_;          ///< Θ_n of the step, [local node]
   std::span<const double> initial_temperature_;  ///< Θ_0, [local node]
   std::span<const double> old_displacement_;     ///< at t_n [m], [local node][component]

@@ -2,24 +2,12 @@
 #pragma once
 
 #include "mechanics/elements/compaction.hpp"
-#include "mechanics/elements/element_matrix.hpp"
 #include "mechanics/elements/mixed_parts.hpp"
 #include "mechanics/elements/point_block.hpp"
 #include "mechanics/elements/pores.hpp"
 #include "mechanics/elements/pressure_nodes.hpp"
 
 namespace solidus::mechanics {
-
-/// Volumetric strain that may be wrong where it is found by iteration; the stress has its mean anyway.
-inline constexpr double k_volume_tolerance = 1e-11;
-inline constexpr int k_max_volumes = 30;
-/// Largest volumetric strain of one step of that iteration: beyond it no law holds.
-inline constexpr double k_largest_volume_step = 0.05;
-/// Behind the law's state at a point: e_v, the pore fraction, in axisymmetry p_a − p̄ of its nodes, and where
-/// melt flows between dendrites its q (liquid_flow.hpp), the mean stress of compaction and e^θ
-/// (compaction.hpp).
-template <int n_nodes, AnalysisKind kind>
-inline constexpr int k_mixed_extra = kind == AnalysisKind::axisymmetric ? 2 + n_nodes : 2;
 
 template <class Law, int n_nodes, AnalysisKind kind>
 class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_nodes, kind>>,
@@ -50,6 +38,19 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     old_divergence_.resize(n, Lane(0.0));
     if constexpr (adiabatic) tangent_.resize(n);
     if (this->flow_.flows()) n_kept_ += dim + 2;
+  }
+
+  bool set_initial_stress(const StepStart& start, std::span<const double> stress) override {
+    const bool can = Base::set_initial_stress(start, stress);
+    this->strain_at_start_ = this->initial_strain_;
+    return can;
+  }
+  BlockHistory initial_history() const override {
+    BlockHistory history = Base::initial_history();
+    for (Index batch = 0; batch < n_batches(); ++batch)
+      if (const Sym<Lane>* strain = this->initial_strain(batch, 0))
+        keep_volume(history, batch, trace(*strain));
+    return history;
   }
 
   double prepare(const StepStart& start) override {

@@ -16,7 +16,7 @@
 /// With g = ∇p of an element and the lumped projection Π_b = Σ_e w_e g_e / Σ_e w_e over the elements at a
 /// node b, w = τV/n:
 ///   orthogonal sub-scales   qᵀ S p = Σ_e τ V ∇q·(g − 1/n Σ_b Π_b)
-///   algebraic sub-scales    qᵀ S p = Σ_e τ V ∇q·(g + ρ g_0)             the body force ρ g_0 of the element
+///   algebraic sub-scales    qᵀ S p = Σ_e τ V ∇q·(g + ρ g_0)             the body force of the element
 /// Both are symmetric: S p is the slope of Σ_e ½ τ V ‖g − Π‖² or ‖g + ρ g_0‖².
 ///
 /// τ = c h²/(2Ĝ) with the secant modulus 2Ĝ at the start of the step. R. Codina, CMAME 190 (2000) 1579; M.
@@ -57,8 +57,9 @@ class MixedKernel {
   virtual int field() const = 0;
   /// Looks up the slots of a scalar matrix of this field's pressures.
   virtual void bind_pressure(const linear::BlockMatrix& matrix) = 0;
-  /// Sets the body force ρ g_0 [N/m³] of the algebraic sub-scales and of the flow of melt (liquid_flow.hpp).
-  virtual void set_body_force(const std::array<double, 3>& force) = 0;
+  /// Sets the body force of the algebraic sub-scales and of the flow of melt (liquid_flow.hpp).
+  /// @param force  weight and other loads of each element, [element][3] [N/m³]
+  virtual void set_body_force(std::span<const double> force) = 0;
 
   /// Whether melt flows between dendrites in some step (liquid_flow.hpp).
   virtual bool flows() const = 0;

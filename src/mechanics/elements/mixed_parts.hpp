@@ -6,6 +6,17 @@
 
 namespace solidus::mechanics {
 
+/// Volumetric strain that may be wrong where it is found by iteration; the stress has its mean anyway.
+inline constexpr double k_volume_tolerance = 1e-11;
+inline constexpr int k_max_volumes = 30;
+/// Largest volumetric strain of one step of that iteration: beyond it no law holds.
+inline constexpr double k_largest_volume_step = 0.05;
+/// Behind the law's state at a point: e_v, the pore fraction, in axisymmetry p_a − p̄ of its nodes, and where
+/// melt flows between dendrites its q (liquid_flow.hpp), the mean stress of compaction and e^θ
+/// (compaction.hpp).
+template <int n_nodes, AnalysisKind kind>
+inline constexpr int k_mixed_extra = kind == AnalysisKind::axisymmetric ? 2 + n_nodes : 2;
+
 /// The stabilisation works with at least this share of the bulk modulus: a melt that has no shear stiffness
 /// at all would leave the pressure without a scale.
 inline constexpr double k_least_shear = 1e-7;

@@ -59,7 +59,12 @@ class PressureNodes : public MixedKernel {
   void bind_pressure(const linear::BlockMatrix& matrix) override {
     pressure_slots_ = {matrix, geometry_.nodes, n_nodes, geometry_.n_elements};
   }
-  void set_body_force(const std::array<double, 3>& force) override { body_force_ = force; }
+  void set_body_force(std::span<const double> force) override {
+    body_force_.resize(static_cast<std::size_t>(geometry_.n_batches) * dim);
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch)
+      for (std::size_t i = 0; i < dim; ++i)
+        body_force_[at(batch) * dim + i] = lane_of_elements(batch, geometry_.n_elements, force.data() + i, 3);
+  }
   std::array<double, 2> mean_stiffness() const override {
     Lane volume(0.0), stiffness(0.0);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
@@ -156,8 +161,9 @@ class PressureNodes : public MixedKernel {
       return Lane(0.0);
   }
   Operator at_point(Index batch) const {
-    return Operator(geometry_.gradients_at(batch, 0), geometry_.values.data(), inverse_radius(batch),
-                    nullptr);
+    Operator b(geometry_.gradients_at(batch, 0), geometry_.values.data(), inverse_radius(batch), nullptr);
+    if (!strain_at_start_.empty()) b.initial = &strain_at_start_[at(batch)];
+    return b;
   }
   /// Sets the moduli of the stabilisation, 2Ĝ and κ at the start of a step, and 1/κ_v.
   void set_step(Index batch, const Operator& b, const Lane& twice_shear, const Lane& bulk,
@@ -190,6 +196,9 @@ class PressureNodes : public MixedKernel {
     return g;
   }
 
+  Lane body_force(Index batch, std::size_t i) const {
+    return body_force_.empty() ? Lane(0.0) : body_force_[at(batch) * dim + i];
+  }
   /// ∫ N_a dV.
   Nodal masses(Index batch) const {
     Nodal mass;
@@ -247,10 +256,12 @@ class PressureNodes : public MixedKernel {
       for (std::size_t c = 0; c < n_nodes; ++c)
         for (std::size_t i = 0; i < dim; ++i) f[a][i] += divergence(b, batch, a, i, c, mass) * p[c];
   }
-  /// ∫ N_c div u dV.
+  /// ∫ N_c div u dV, with that of the initial strain.
   Nodal volume_change(const Operator& b, Index batch, const Vectors& u) const {
     const Nodal mass = masses(batch);
     Nodal change{};
+    if (b.initial != nullptr)
+      for (std::size_t c = 0; c < n_nodes; ++c) change[c] = mass[c] * trace(*b.initial);
     for (std::size_t a = 0; a < n_nodes; ++a)
       for (std::size_t c = 0; c < n_nodes; ++c)
         for (std::size_t i = 0; i < dim; ++i) change[c] += divergence(b, batch, a, i, c, mass) * u[a][i];
@@ -300,7 +311,7 @@ class PressureNodes : public MixedKernel {
     const auto g = pressure_gradient(p, batch);
     const auto q = liquid_flow(g, batch);
     for (std::size_t i = 0; i < dim; ++i) {
-      const Lane unresolved = orthogonal_ ? g[i] : g[i] + Lane(body_force_[i]);
+      const Lane unresolved = orthogonal_ ? g[i] : g[i] + body_force(batch, i);
       const Lane flux = weight(batch) * (stabilised * unresolved + q[i]);
       for (std::size_t a = 0; a < n_nodes; ++a) rows[a] -= flux * b.gradient[a][i];
     }
@@ -308,18 +319,19 @@ class PressureNodes : public MixedKernel {
   /// q where the pressure has this gradient [m].
   std::array<Lane, dim> liquid_flow(const std::array<Lane, dim>& gradient, Index batch) const {
     std::array<Lane, dim> drive;
-    for (std::size_t i = 0; i < dim; ++i) drive[i] = gradient[i] + Lane(body_force_[i]);
+    for (std::size_t i = 0; i < dim; ++i) drive[i] = gradient[i] + body_force(batch, i);
     return flow_.total(batch, drive);
   }
   std::size_t bytes_of_nodes() const {
     return (compliance_.capacity() + twice_shear_.capacity() + tangent_shear_.capacity() +
-            pore_compliance_.capacity() + tau_.capacity() + masses_.capacity()) *
+            pore_compliance_.capacity() + tau_.capacity() + masses_.capacity() + body_force_.capacity()) *
                sizeof(Lane) +
            pressure_slots_.bytes() + flow_.bytes();
   }
 
   bool orthogonal_;
-  std::array<double, 3> body_force_{};  ///< ρ g_0 [N/m³]
+  PackVector<Lane> body_force_;                 ///< of each element [N/m³], [batch][direction]; empty: none
+  std::span<const Sym<Lane>> strain_at_start_;  ///< of each batch; empty: none
   PressureField field_;
   PackVector<Lane> compliance_;   ///< 1/κ_v at the start of the step [1/Pa]
   PackVector<Lane> twice_shear_;  ///< 2Ĝ of the stabilisation [Pa]

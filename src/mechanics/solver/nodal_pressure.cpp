@@ -35,8 +35,7 @@ std::vector<char> mixed_blocks(std::span<const std::unique_ptr<BlockKernel>> blo
 }
 
 NodalPressure::NodalPressure(const mesh::Mesh& mesh, BodyFields fields_of_bodies,
-                             std::span<const std::unique_ptr<BlockKernel>> blocks, bool orthogonal,
-                             std::span<const std::array<double, 3>> body_force)
+                             std::span<const std::unique_ptr<BlockKernel>> blocks, bool orthogonal)
     : mesh_(mesh),
       orthogonal_(orthogonal),
       ghosts_(mesh),
@@ -56,7 +55,6 @@ NodalPressure::NodalPressure(const mesh::Mesh& mesh, BodyFields fields_of_bodies
     const auto body = static_cast<std::size_t>(mesh.blocks[b].body);
     const int field = fields_of_body_.of_body[body];
     kernel->use_pressure({pressure_, volume_residual_, volume_change_, fields(), field});
-    kernel->set_body_force(body_force[body]);
     kernels_.push_back(kernel);
     for (const Index node : mesh.blocks[b].nodes)
       absent[static_cast<std::size_t>(node * fields() + field)] = 0;

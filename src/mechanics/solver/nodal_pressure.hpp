@@ -29,11 +29,9 @@ class NodalPressure {
   /// @param blocks      kernels of the phase; those that are no MixedKernel have no pressure
   /// @param fields      those of a phase stay as they are when bodies leave: states hold them
   /// @param orthogonal  sub-scales; else algebraic ones
-  /// @param body_force  ρ g_0 of each body [N/m³]
   /// Collective.
   NodalPressure(const mesh::Mesh& mesh, BodyFields fields,
-                std::span<const std::unique_ptr<BlockKernel>> blocks, bool orthogonal,
-                std::span<const std::array<double, 3>> body_force);
+                std::span<const std::unique_ptr<BlockKernel>> blocks, bool orthogonal);
 
   int fields() const { return fields_of_body_.n_fields; }
   const BodyFields& fields_of_bodies() const { return fields_of_body_; }

@@ -7,6 +7,7 @@
 #include "mechanics/solver/balance.hpp"
 #include "mechanics/solver/saddle_solver.hpp"
 #include "plastic_material.hpp"
+#include "weight.hpp"
 
 namespace solidus {
 namespace {
@@ -76,7 +77,8 @@ struct Mixed {
           mechanics::make_mixed_kernel(mesh, block, s.kind, materials[0], s.mapping, stabilisation));
     pressure = std::make_unique<mechanics::NodalPressure>(
         mesh, mechanics::body_fields(mesh, materials, mechanics::mixed_blocks(blocks)), blocks,
-        stabilisation == Stabilisation::orthogonal, std::vector<std::array<double, 3>>{{0, -7e4, 0}});
+        stabilisation == Stabilisation::orthogonal);
+    test::set_weight(mesh, *pressure, {0, -7e4, 0});
     linear::NodeGraph graph(mesh);
     for (const auto& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
     matrix = std::make_unique<linear::BlockMatrix>(mesh, components, std::move(graph));

@@ -7,6 +7,7 @@
 #include "../../late_messages.hpp"
 #include "mechanics/solver/saddle_solver.hpp"
 #include "plastic_material.hpp"
+#include "weight.hpp"
 
 namespace solidus {
 namespace {
@@ -50,8 +51,8 @@ struct Casting {
       blocks.push_back(mechanics::make_mixed_kernel(mesh, block, AnalysisKind::solid, materials[0],
                                                     Mapping::isothermal, Stabilisation::algebraic));
     pressure = std::make_unique<mechanics::NodalPressure>(
-        mesh, mechanics::body_fields(mesh, materials, mechanics::mixed_blocks(blocks)), blocks, false,
-        std::vector<std::array<double, 3>>{{0, 0, -7e4}});
+        mesh, mechanics::body_fields(mesh, materials, mechanics::mixed_blocks(blocks)), blocks, false);
+    test::set_weight(mesh, *pressure, {0, 0, -7e4});
     linear::NodeGraph graph(mesh);
     for (const auto& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
     matrix =

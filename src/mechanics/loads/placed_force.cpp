@@ -1,0 +1,15 @@
+/// The function is evaluated at all points at once; a steady one only the first time.
+#include "mechanics/loads/placed_force.hpp"
+
+namespace solidus::mechanics {
+
+void PlacedForce::add(double time, std::span<double> force) const {
+  if (at_points_.empty() || !value_.steady()) {
+    at_points_.resize(points_.size());
+    value_.values(points_, time, at_points_);
+  }
+  for (const Share& share : shares_)
+    force[static_cast<std::size_t>(share.entry)] += share.weight * at_points_[share.point];
+}
+
+}  // namespace solidus::mechanics
