@@ -58,6 +58,7 @@ TASKS = {
     "heat_through_contact": ["heat through an air gap", "heat transfer coefficient between casting and mould", "heat transfer coefficient of a die coating"],
     "install": ["install on Debian", "install the Debian package", "how to install on Ubuntu"],
     "interfaces": ["find the faces between casting and mould", "interface between bodies of a STEP file", "interfaces found automatically"],
+    "loads": ["load that changes over place and time", "centrifugal casting of a pipe", "metallostatic pressure on a core"],
     "material_import": ["import a material from JMatPro", "Thermo-Calc table", "material from pycalphad"],
     "materials": ["write a material card", "alloy is not in the library", "add an alloy"],
     "melt": ["how the melt is described", "viscosity of the melt", "stress in liquid metal"],
