@@ -23,6 +23,7 @@ std::unique_ptr<Verb> study_verb(CLI::App& program);
 std::unique_ptr<Verb> uncertain_verb(CLI::App& program);
 std::unique_ptr<Verb> calibrate_verb(CLI::App& program);
 std::unique_ptr<Verb> design_verb(CLI::App& program);
+std::unique_ptr<Verb> fill_verb(CLI::App& program);
 std::unique_ptr<Verb> mcp_verb(CLI::App& program);
 std::unique_ptr<Verb> init_editor_verb(CLI::App& program);
 std::unique_ptr<Verb> completion_verb(CLI::App& program);
@@ -31,11 +32,11 @@ std::unique_ptr<Verb> help_verb(CLI::App& program);
 
 std::vector<MakeVerb>& verbs() {
   static std::vector<MakeVerb> all = {
-      &run_verb,      &check_verb,       &resolve_verb,    &variants_verb,  &explain_verb,
-      &schema_verb,   &point_verb,       &mesh_info_verb,  &materials_verb, &export_verb,
-      &new_case_verb, &report_verb,      &version_verb,    &doctor_verb,    &plot_verb,
-      &compare_verb,  &study_verb,       &uncertain_verb,  &calibrate_verb, &design_verb,
-      &mcp_verb,      &init_editor_verb, &completion_verb, &man_verb,       &help_verb};
+      &run_verb,       &check_verb,     &resolve_verb,   &variants_verb, &explain_verb,     &schema_verb,
+      &point_verb,     &mesh_info_verb, &materials_verb, &export_verb,   &new_case_verb,    &report_verb,
+      &version_verb,   &doctor_verb,    &plot_verb,      &compare_verb,  &study_verb,       &uncertain_verb,
+      &calibrate_verb, &design_verb,    &fill_verb,      &mcp_verb,      &init_editor_verb, &completion_verb,
+      &man_verb,       &help_verb};
   return all;
 }
 

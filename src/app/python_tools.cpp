@@ -25,6 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The code of a module whose computation could not go on; 2 is that of a command line that Python cannot
+/// parse.
+constexpr int k_python_cannot_continue = 22;
+
 /// Returns the folder of the Python modules.
 fs::path modules() {
   const auto holds_modules = [](const fs::path& folder) {
@@ -69,8 +73,12 @@ ExitCode run_python(const std::string& module, const std::vector<std::string>& a
   inherited.push_back("SOLIDUS_PROGRAM=" + program_path().string());
   inherited.push_back("SOLIDUS_CORES=" + std::to_string(usable_cores()));
   std::vector<char*> argv = pointers_to(command), envp = pointers_to(inherited);
-  // Ctrl-C is for the child, which may have runs to stop first: this program waits for it.
-  std::signal(SIGINT, SIG_IGN);
+  // Ctrl-C is for the child, which may have runs to stop first: this program waits for it. What it did at
+  // Ctrl-C before it does again afterwards, since a run may follow.
+  using Action = struct sigaction;
+  Action ignored{}, before{};
+  ignored.sa_handler = SIG_IGN;
+  sigaction(SIGINT, &ignored, &before);
   // Signals that are ignored here are not for the child.
   sigset_t by_default;
   sigemptyset(&by_default);
@@ -90,12 +98,15 @@ ExitCode run_python(const std::string& module, const std::vector<std::string>& a
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return k_our_bug;
+  sigaction(SIGINT, &before, nullptr);
   if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGINT ? k_interrupted : k_cannot_continue;
   switch (WEXITSTATUS(status)) {
     case 0:
       return k_done;
     case k_interrupted:
       return k_interrupted;
+    case k_python_cannot_continue:
+      return k_cannot_continue;
     default:
       return k_bad_input;
   }

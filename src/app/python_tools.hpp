@@ -14,8 +14,8 @@ namespace solidus::app {
 std::string python_program();
 
 /// Runs a module with that Python and waits for it; what it prints goes where ours goes. The module's exit
-/// code is the program's: 0 or 1, and 130 after Ctrl-C. Throws InputError where there is no such Python or no
-/// module.
+/// code is the program's: 0 or 1, 2 for its 22, and 130 after Ctrl-C. Throws InputError where there is no
+/// such Python or no module.
 ExitCode run_python(const std::string& module, const std::vector<std::string>& arguments);
 
 /// The arguments of a module: those that were given.

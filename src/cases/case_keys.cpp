@@ -154,6 +154,7 @@ const Section<CaseSpec>& case_keys() {
     s.section("criteria", &CaseSpec::criteria, criteria_keys());
     s.section("feeding", &CaseSpec::feeding, feeding_keys());
     s.section("gas", &CaseSpec::gas, gas_keys());
+    s.section("filling", &CaseSpec::filling, filling_keys());
     s.section("output", &CaseSpec::output, output_keys());
     s.section("vary", &CaseSpec::vary, vary_keys());
     s.section("spread", &CaseSpec::spread, spread_keys_of_case());

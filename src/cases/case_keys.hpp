@@ -33,6 +33,7 @@ Section<ProfileSpec> profile_keys();
 Section<CriteriaSpec> criteria_keys();
 Section<FeedingSpec> feeding_keys();
 Section<GasSpec> gas_keys();
+Section<FillingSpec> filling_keys();
 Section<OutputSpec> output_keys();
 
 }  // namespace solidus::cases

@@ -10,6 +10,7 @@
 
 #include "cases/feeder_spec.hpp"
 #include "cases/feeding_spec.hpp"
+#include "cases/filling_spec.hpp"
 #include "cases/friction_spec.hpp"
 #include "cases/load_spec.hpp"
 #include "cases/variation.hpp"
@@ -397,6 +398,7 @@ struct CaseSpec {
   CriteriaSpec criteria;
   FeedingSpec feeding;
   GasSpec gas;
+  std::optional<FillingSpec> filling;  ///< absent: the mould is full at the start
   OutputSpec output;
   VarySpec vary;
   SpreadSpec spread;

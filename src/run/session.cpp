@@ -118,6 +118,9 @@ Session::Session(setup::Case given, RunOptions options) : parts_(std::make_uniqu
   setup::Case& c = parts_->c;
   const RunOptions& o = parts_->options;
   // In the order of the data: materials, mesh, phases, and then findings, since these need all of it.
+  if (c.spec.filling && !c.spec.filling->result)
+    throw InputError(c.spec.filling->where, "the mould has not been filled yet",
+                     "`solidus run`, which fills it first, or filling.result of `solidus fill`");
   check_restart(c.spec, o);
   setup::Assembly& a = parts_->a;
   std::optional<profile::Part> part;

@@ -290,6 +290,29 @@ void check_output(const cases::OutputSpec& o) {
   check(o.stress_unit, "Pa", "stress_unit", "\"MPa\", \"ksi\", ...");
 }
 
+/// What the keys of [filling] say together and of the analysis.
+void check_filling(const cases::CaseSpec& spec) {
+  if (!spec.filling) return;
+  const cases::FillingSpec& filling = *spec.filling;
+  if (spec.analysis.kind != AnalysisKind::solid)
+    throw InputError(filling.where, "the mould is filled in three dimensions only",
+                     "kind = \"solid\" in [analysis]");
+  if (!spec.has_heat())
+    throw InputError(filling.where, "filling gives temperatures to start from, and no heat is computed",
+                     "no [filling], or an analysis with heat");
+  // Of two keys that say the same only one may be given.
+  if (filling.gate && !filling.gate_at.empty())
+    throw InputError(filling.where, "the gate is given twice", "gate or gate_at");
+  if (!filling.gate_at.empty() && filling.gate_at.size() != 3)
+    throw InputError(filling.where, fmt::format("'gate_at' has {} coordinates", filling.gate_at.size()),
+                     "three");
+  if (filling.gate && filling.gate_width)
+    throw InputError(filling.where, "'gate_width' is that of a square at gate_at, and `gate` names its faces",
+                     "one of both");
+  if (filling.time && filling.rate)
+    throw InputError(filling.where, "the time of filling and the rate say the same", "time or rate");
+}
+
 }  // namespace
 
 void check_case(const cases::CaseSpec& spec) {
@@ -312,6 +335,7 @@ void check_case(const cases::CaseSpec& spec) {
   check_probes(spec);
   check_profiles(spec);
   check_output(spec.output);
+  check_filling(spec);
   probes(spec), profiles(spec);  // components that their fields do not have
   if (!spec.time.steady && spec.output.every && *spec.time.end / *spec.output.every > 1e6)
     throw InputError(spec.time.where, "more than a million outputs are asked for",

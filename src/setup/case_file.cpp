@@ -48,6 +48,8 @@ void resolve_paths(Value& document) {
   // Paths count from the folder of the file that names them.
   if (Value* mesh = document.find("mesh"); mesh && mesh->is_table())
     if (Value* file = mesh->find("file"); file && file->is_text()) resolve(*file);
+  if (Value* filling = document.find("filling"); filling && filling->is_table())
+    if (Value* result = filling->find("result"); result && result->is_text()) resolve(*result);
   for (const char* kind : {"thermal_condition", "mechanical_condition"})
     if (Value* conditions = document.find(kind); conditions && conditions->is_list())
       for (Value& condition : conditions->items()) resolve_places(condition);

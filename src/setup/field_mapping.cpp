@@ -33,10 +33,11 @@ struct Source {
 };
 
 /// The solid fraction of the file where a material changes isothermally: the temperature does not tell it.
-std::vector<double> solid_fractions(const PlaceSpec& place, const material::EnthalpyCurve& curve) {
+/// Of the file's points, and of its cells where it has values of cells.
+results::ReadField solid_fractions(const PlaceSpec& place, const material::EnthalpyCurve& curve) {
   if (curve.jumps().empty()) return {};
   try {
-    return results::read_field(place.file, "solid_fraction", place.body, place.length, place.where).values;
+    return results::read_field(place.file, "solid_fraction", place.body, place.length, place.where);
   } catch (const InputError&) {
     logging::warn(
         "'{}' has no field solid_fraction: what is at the temperature of an isothermal change counts as "
@@ -84,7 +85,8 @@ Source read_source(const PlaceSpec& place, AnalysisKind kind, const material::En
   const std::vector<double> cell_values = std::move(field.cell_values),
                             cell_volumes = std::move(field.cell_volumes);
   Source source{std::move(field.mesh), std::move(field.values)};
-  const std::vector<double> fractions = solid_fractions(place, curve);
+  const results::ReadField solid = solid_fractions(place, curve);
+  const std::vector<double>& fractions = solid.values;
   // Temperatures become enthalpies per volume, with the solid fraction of the file where there is one; volume
   // and content of the field follow by its closed weights.
   const std::vector<double> weight = closed_weights(source.mesh, 0, kind);
@@ -111,7 +113,8 @@ Source read_source(const PlaceSpec& place, AnalysisKind kind, const material::En
   source.volume = source.total = 0;
   for (std::size_t c = 0; c < cell_values.size(); ++c) {
     source.volume += cell_volumes[c];
-    source.total += cell_volumes[c] * enthalpy(curve, to_kelvin(cell_values[c]), 0.0);
+    source.total += cell_volumes[c] * enthalpy(curve, to_kelvin(cell_values[c]),
+                                               solid.cell_values.empty() ? 0.0 : solid.cell_values[c]);
   }
   return source;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ struct InitialTemperatureRange {
 /// another shape: nothing is moved then, and a warning says so.
 class InitialTemperatures {
  public:
-  /// Reads the files that the case names. Collective. Throws InputError on every process.
+  /// Reads the files that the case names; where [filling] names a result, what is poured and its moulds
+  /// start as the filling has left them. Collective. Throws InputError on every process.
   InitialTemperatures(const cases::CaseSpec& spec, const std::vector<material::Material>& materials,
                       const mesh::Mesh& mesh);
   /// Returns the initial temperature of a body at one of its nodes [K]; at the temperature of an isothermal
@@ -45,6 +47,12 @@ class InitialTemperatures {
     std::vector<double> temperatures, enthalpies;  ///< [local node], of the body's nodes; else empty
     InitialTemperatureRange range;
   };
+  /// The body whose nodes have these enthalpies. Collective.
+  static Body at_nodes(const mesh::Mesh& mesh, std::span<const Index> nodes,
+                       std::span<const double> enthalpies, const material::EnthalpyCurve& curve);
+  /// Gives the bodies around a mould that was filled the heat that they have taken (setup/filled_mould.hpp).
+  void heat_moulds(const cases::CaseSpec& spec, const std::vector<material::Material>& materials,
+                   const mesh::Mesh& mesh);
   Body evaluated(const PlaceSpec& place, const mesh::Mesh& mesh, int body, AnalysisKind kind,
                  const material::Material& material, const std::string& name) const;
 

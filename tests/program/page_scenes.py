@@ -38,6 +38,7 @@ SCENES = {
              "j2_generic.c", "j2_umat.f90", "steel.toml", "steel_generic.toml", "steel_umat.toml")}},
         lines=["cc -O2 -shared -fPIC -o libj2_generic.so j2_generic.c -lm",
                "gfortran -O2 -shared -fPIC -o libj2_umat.so j2_umat.f90"]),
+    "filling.md": Scene(texts={"case.toml": 'title = "A plate on a die"'}),
     "findings.md": Scene(BRACKET, words={"CASE": "bracket"}),
     "getting_started.md": Scene({"bracket.geo": "cases/bracket/bracket.geo", "case.toml": "cases/bracket/case.toml"},
                                 lines=["solidus run case.toml -o results/case/default"]),
@@ -83,5 +84,6 @@ ELSEWHERE = {
     "PYTHONPATH=python /usr/bin/python3": "opens an interpreter; its blocks are run by tests/program/python_simulations_test.py",
     "cmake --install build/release --component program --prefix ~/.local": "tests/program/install_test.py",
     "solidus design part.step --alloy medium_carbon_steel --process sand": "tests/program/design_test.py, with fewer runs",
+    "solidus fill case.toml": "tests/program/fill_test.py, where OpenFOAM is installed",
     "solidus design bracket": "the same; that a case stands for its part: tests/python/design_test.py",
 }

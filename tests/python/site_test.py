@@ -51,6 +51,7 @@ TASKS = {
     "export": ["residual stress for a structural analysis", "export to Abaqus or CalculiX", "take residual stress to Ansys"],
     "external_laws": ["use my own constitutive law", "MFront law", "my UMAT subroutine"],
     "feeding": ["is the riser large enough", "riser pipe and shrinkage cavity", "does the feeder reach the hot spot"],
+    "filling": ["how does the metal fill the mould", "misrun and cold shut", "simulate mould filling with OpenFOAM"],
     "findings": ["what does the warning of check mean", "check finds mistakes in my case", "what does check look at"],
     "formats": ["read a mesh of another program", "Abaqus, Nastran or UNV mesh", "import a Nastran mesh"],
     "gas": ["gas pores from hydrogen", "hydrogen porosity in aluminium", "nitrogen blowholes in steel"],

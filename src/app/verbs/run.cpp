@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "app/case_arguments.hpp"
 #include "app/launched.hpp"
+#include "app/mould_filling.hpp"
 #include "app/places.hpp"
 #include "app/process_choice.hpp"
 #include "app/report_page.hpp"
@@ -104,10 +107,29 @@ setup::Case read_case(const RunArguments& arguments) {
   return c;
 }
 
-ExitCode run_case(const RunArguments& arguments) {
+/// The case with the mould filled, in the folder `filling` beside the results. Processes that a launcher has
+/// started find it filled.
+/// Returns how filling ended where it did not end well.
+std::optional<ExitCode> fill_first(RunArguments& arguments, setup::Case& c) {
+  if (!c.spec.filling || c.spec.filling->result) return {};
+  const fs::path folder = fs::absolute(results_folder(arguments, c) / "filling").lexically_normal();
+  if (!started_by_launcher()) {
+    const ExitCode code = fill_mould(c, folder, {arguments.processes, arguments.restart});
+    if (code != k_done) return code;
+  }
+  // The key says where the run starts from, so that the case among its results is complete.
+  std::ostringstream assignment;
+  assignment << "filling.result=" << std::quoted(folder.string());
+  arguments.set.push_back(assignment.str());
+  c = read_case(arguments);
+  return {};
+}
+
+ExitCode run_case(RunArguments arguments) {
   // The order of a run at the command line: case, options, the page that watches it, the run itself, and what
   // is said at its end.
-  const setup::Case c = read_case(arguments);
+  setup::Case c = read_case(arguments);
+  if (const std::optional<ExitCode> ended = fill_first(arguments, c)) return *ended;
   if (arguments.sure && c.spec.time.steady)
     throw InputError(c.spec.time.where, "--sure compares answers of a transient run, and this case is steady",
                      "a run without --sure");

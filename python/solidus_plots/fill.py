@@ -1,0 +1,263 @@
+"""Fills the mould of a case by OpenFOAM: python3 -m solidus_plots.fill FOLDER, as `solidus fill` and `solidus run` do.
+
+FOLDER/cavity holds what the program has written of the case. docs/guide/filling.md describes what comes out.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+from pathlib import Path
+import shutil
+import sys
+import time
+
+import numpy as np
+
+from solidus_plots import filling_dictionaries as dictionaries, filling_results
+from solidus_plots.filling_cavity import cavity_of, edge_for
+from solidus_plots.filling_flow import FlowError, FoamRun, version
+from solidus_plots.filling_gates import FEW, GOOD_SPEED, gate_of, vents_of, walls_of
+from solidus_plots.filling_history import History
+from solidus_plots.filling_mesh import write_mesh
+from solidus_plots.filling_walls import walls_for
+from solidus_plots.many_runs import INTERRUPTED
+from solidus_plots.verb import sentence
+from solidus_plots.vtu import ResultError, read_fields
+
+TESTED = "1912"
+CANNOT_CONTINUE = 22  # the program's 2
+FRAMES = 100  # moments that are looked at while the mould fills
+STRETCH = 2  # of them between two changes of what walls take
+FULL = 0.99  # of the cavity at which filling ends
+LATEST = 1.0  # times of the time of filling after which it ends anyway: what comes then leaves by the vents
+TENSION = 1.0  # [N/m] of metals whose card says none: aluminium has 0.9, iron 1.8
+VISCOSITY = 2e-3  # [Pa s] likewise
+WORK_OF_A_PROCESS = 15000  # cubes from which a second process pays
+
+
+class Mould:
+    """What is filled, from the files of the program."""
+
+    def __init__(self, folder):
+        text = (folder / "cavity" / "cavity.json").read_text()
+        self.file = json.loads(text)
+        grid = read_fields(folder / "cavity" / "mesh.vtu")
+        self.filling, bodies = self.file["filling"], self.file["bodies"]
+        self.poured = [b for b, body in enumerate(bodies) if body["poured"]]
+        self.gravity = np.array(self.file["gravity"])
+        self.up = -self.gravity / np.linalg.norm(self.gravity)
+        edge = self.filling.get("cell_size") or edge_for(grid, self.poured, self.filling["cells"])
+        self.cavity = cavity_of(grid, self.poured, edge)
+        self.pouring = self.filling.get("temperature") or max(bodies[b]["hottest"] for b in self.poured)
+        self.material = bodies[max(self.poured, key=lambda b: self.cavity.volumes[b])]["material"]
+        self._set_rate()
+        gating = [b for b in self.poured if bodies[b]["role"] == "gating"]
+        self.gate = gate_of(self.cavity, self.filling, gating, self.up, self.flow)
+        self.speed = self.flow / (len(self.gate.faces) * self.cavity.cubes.edge ** 2)
+        self.vents, self.vents_chosen = vents_of(self.cavity, self.filling, self.up, self.gate)
+        self.walls = walls_for(self.cavity, walls_of(self.cavity, self.gate, self.vents), self.file)
+        self.air = min((wall.mould for wall in self.walls if not wall.insulating()), default=293.15)
+
+    def _set_rate(self):
+        volume, density = self.cavity.cubes.volume(), self.material["density"]
+        self.wall = 2 * volume / self.cavity.true_area
+        if "rate" in self.filling:
+            self.flow = self.filling["rate"] / density
+        else:
+            # The usual rule of a foundry for the time of pouring; thickness in mm, mass in kg.
+            self.flow = volume / self.filling.get("time", 1.6 * (1e3 * self.wall * density * volume) ** (1 / 3))
+        self.time = volume / self.flow
+
+    def melt(self):
+        """Constants of the metal between its liquidus and the gate."""
+        m = self.material
+        if "liquidus" not in m:
+            raise ResultError(f"the material '{m['name']}' has no solidification: what fills a mould freezes")
+        if self.pouring <= m["half_solid"]:
+            raise ResultError(f"the metal comes at {self.pouring - 273.15:.0f} degC, below {m['half_solid'] - 273.15:.0f} degC at which "
+                              "it is half solid: a higher temperature in [filling], or initial_temperature of what is cast")
+        temperature, enthalpy = np.array(m["temperature"]), np.array(m["enthalpy"])
+        low, high = m["liquidus"] + 0.5, max(self.pouring, m["liquidus"] + 20)
+        heat = (np.interp(high, temperature, enthalpy) - np.interp(low, temperature, enthalpy)) / (high - low) / m["density"]
+        return dictionaries.Melt(m["density"], heat, m["latent_heat"], m["half_solid"],
+                                 np.interp(self.pouring, temperature, m["conductivity"]),
+                                 np.interp(m["solidus"] - 1, temperature, m["conductivity"]),
+                                 m.get("melt_viscosity", VISCOSITY), m.get("surface_tension", TENSION))
+
+    def described(self):
+        cubes, edge = self.cavity.cubes, 1e3 * self.cavity.cubes.edge
+        across = self.gate.width / self.cavity.cubes.edge
+        lines = [f"{len(cubes.cells)} cubes of {edge:.3g} mm, {1e3 * self.wall / edge:.1f} across the mean wall of "
+                 f"{1e3 * self.wall:.3g} mm; their edge was changed by {100 * (self.cavity.scale - 1):+.1f} % for the volume of the drawing",
+                 f"gate {self.gate.chosen}: {len(self.gate.faces)} faces of cubes, {1e3 * self.gate.width:.3g} mm wide, at "
+                 f"{self.speed:.2f} m/s; {len(self.vents)} vent{'s' * (len(self.vents) > 1)} {self.vents_chosen}",
+                 f"{1e6 * cubes.volume():.4g} cm3, {self.material['density'] * cubes.volume():.4g} kg of "
+                 f"{self.pouring - 273.15:.0f} degC in {self.time:.3g} s"]
+        if self.wall < 3 * self.cavity.cubes.edge:
+            lines.append("  less than three cubes across the wall: times and temperatures are a first answer; more cells give better ones")
+        if across < FEW:
+            lines.append(f"  the gate is {across:.1f} cubes wide, less than {FEW}: its jet is coarse")
+        if self.speed > GOOD_SPEED:
+            lines.append(f"  the metal enters faster than {GOOD_SPEED} m/s, at which aluminium folds oxide films in (Campbell 2003)")
+        return "\n".join(lines)
+
+
+def flow_of(mould, melt):
+    """Steps short enough for the heat of the walls and the change of phase to be followed."""
+    edge = mould.cavity.cubes.edge
+    hardest = max((wall.conductance * (mould.pouring - wall.mould) for wall in mould.walls), default=0.0)
+    cooling = max(3 * hardest / (edge * melt.density * melt.heat), 1.0)  # of a cube in a corner [K/s]
+    step = min(mould.time / FRAMES / 4, 2.5 / cooling)
+    # The change of phase relaxes within two of the longest steps: then mush is 2 steps times the cooling rate off, 5 K at most.
+    rate = 0.5 * melt.heat * melt.freezing / (melt.latent * step)
+    direction = mould.gate.direction * mould.speed
+    return dictionaries.Flow(tuple(mould.gravity), tuple(direction), mould.pouring, mould.air, rate, step)
+
+
+def write_case(folder, mould, melt, flow, processes):
+    """Everything that OpenFOAM reads."""
+    shutil.rmtree(folder, ignore_errors=True)
+    cavity = mould.cavity
+    patches = [("gate", "patch", mould.gate.faces)]
+    patches += [(f"vent_{i}", "patch", faces) for i, faces in enumerate(mould.vents)]
+    patches += [(wall.name, "wall", wall.faces) for wall in mould.walls]
+    write_mesh(folder, cavity.cubes, [(name, kind, cavity.faces[faces], cavity.directions[faces]) for name, kind, faces in patches])
+    dictionaries.write_fields(folder, flow, {wall.name: dictionaries.wall_entry(wall.begin(mould.time / FRAMES), wall.mould, flow.air)
+                                             for wall in mould.walls})
+    dictionaries.write_materials(folder, melt, flow)
+    dictionaries.write_numerics(folder, processes)
+    dictionaries.write_control(folder, flow, mould.time / FRAMES, mould.time / FRAMES)
+
+
+class Watch:
+    """Prints how full the mould is, and how long it will take."""
+
+    def __init__(self, history, goal):
+        self._history, self._goal, self._begin, self._shown = history, goal, time.monotonic(), -1
+        self._terminal = sys.stdout.isatty()
+        self._first = None
+
+    def __call__(self, line):
+        if not line.startswith("Time = "):
+            return
+        now = float(line.split()[2])
+        part = min(now / self._goal, 1.0)
+        if self._first is None:
+            self._first = part
+        spent = time.monotonic() - self._begin
+        left = spent * (1 - part) / (part - self._first) if part > self._first + 0.01 else None
+        text = f"  {100 * part:3.0f} % of the time of filling, {now:.3g} s" + (f", {left:.0f} s to go" if left is not None else "")
+        if self._terminal:
+            print(f"\r{text}   ", end="", flush=True)
+        elif int(10 * part) > self._shown:
+            self._shown = int(10 * part)
+            print(text, flush=True)
+
+    def done(self):
+        if self._terminal:
+            print()
+
+
+def stretch_end(at):
+    """The number of the frame at which the next stretch ends: short ones at the start, where the gate is, and at the end."""
+    return at + (STRETCH if 1 <= at < FRAMES - 6 else 1)
+
+
+def fill(mould, run, flow, history, watch):
+    """Computes until the mould is full; the reason why it ended."""
+    frame = mould.time / FRAMES
+    while True:
+        at = history.frame
+        if history.full >= FULL:
+            return "full"
+        if at >= LATEST * FRAMES:
+            return "late"
+        until = stretch_end(at)
+        duration = (until - at) * frame
+        for wall in mould.walls:
+            conductance = wall.begin(duration)
+            if at > 0:
+                run.change_patch(history.name, "T", wall.name, lambda faces, w=wall, h=conductance: dictionaries.wall_entry(
+                    h[faces], w.mould, flow.air))
+        if at > 0:
+            history.set_vents(run)
+        dictionaries.write_control(run.folder, flow, until * frame, frame)
+        run.run(watch)
+        history.take(run, at, until)
+
+
+def processes_for(option, cells):
+    if option:
+        return int(option)
+    asked = os.environ.get("SOLIDUS_PROCESSES", "")
+    if asked.isdigit() and int(asked) > 0:
+        return int(asked)
+    cores = int(os.environ.get("SOLIDUS_CORES") or len(os.sched_getaffinity(0)))
+    return max(1, min(cores, 1 + cells // WORK_OF_A_PROCESS)) if shutil.which("mpirun") else 1
+
+
+def fingerprint(folder):
+    """What the filling follows from."""
+    digest = hashlib.sha256()
+    for name in ("cavity.json", "mesh.vtu"):
+        digest.update((folder / "cavity" / name).read_bytes())
+    return digest.hexdigest()
+
+
+def parser():
+    made = argparse.ArgumentParser(prog="solidus fill", description=__doc__.splitlines()[0])
+    made.add_argument("folder", type=Path, metavar="FOLDER")
+    made.add_argument("--processes", default="")
+    made.add_argument("--restart", action="store_true")
+    return made
+
+
+def run(options):
+    """The exit code."""
+    folder, made_of = options.folder, fingerprint(options.folder)
+    summary = folder / "filling.json"
+    if summary.exists() and json.loads(summary.read_text()).get("made_of") == made_of:
+        print(f"The mould is filled already: {folder}")
+        return 0
+    found = version()
+    mould = Mould(folder)
+    print(mould.described())
+    if found != TESTED:
+        print(f"OpenFOAM {found} is not the version that was tested, {TESTED}: what it gives is not known to be right", file=sys.stderr)
+    processes = processes_for(options.processes, len(mould.cavity.cubes.cells))
+    melt = mould.melt()
+    flow = flow_of(mould, melt)
+    history = History(folder, mould, melt, made_of)
+    foam = folder / "openfoam"
+    if not (options.restart and history.resume(foam)):
+        summary.unlink(missing_ok=True)
+        write_case(foam, mould, melt, flow, processes)
+    print(f"OpenFOAM {found} on {processes} process{'es' * (processes > 1)}; {foam / 'log.txt'} holds what it says", flush=True)
+    watch = Watch(history, mould.time)
+    try:
+        flow_run = FoamRun(foam, len(mould.cavity.cubes.cells), history.processes(foam, processes))
+        ended = fill(mould, flow_run, flow, history, watch)
+    except KeyboardInterrupt:
+        watch.done()
+        print("solidus fill: stopped; what has been computed is kept, --restart goes on", file=sys.stderr)
+        return INTERRUPTED
+    watch.done()
+    print(filling_results.write(folder, mould, melt, history, ended, flow_run.seconds))
+    return 0
+
+
+def main(given=None):
+    options = parser().parse_args(given)
+    try:
+        return run(options)
+    except FlowError as error:
+        print(f"solidus fill: {error}", file=sys.stderr)
+        return CANNOT_CONTINUE
+    except (ResultError, OSError) as error:
+        print(f"solidus fill: {sentence(error)}", file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

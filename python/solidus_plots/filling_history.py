@@ -1,0 +1,127 @@
+"""What is kept of a filling while it is computed: when and how hot metal came to each cube, and the balances."""
+
+import json
+import shutil
+
+import numpy as np
+
+from solidus_plots import filling_dictionaries as dictionaries
+
+WET, DRY = 0.9, 0.7  # shares of metal at which a vent shuts and opens again
+STATE = "state.npz"  # of a filling that has not come to its end
+
+
+class History:
+    def __init__(self, folder, mould, melt, made_of):
+        n = len(mould.cavity.cubes.cells)
+        self._folder, self._mould, self._melt, self.made_of = folder, mould, melt, made_of
+        self.frame, self.name, self.time, self.full = 0, "0", 0.0, 0.0
+        self.fill_time, self.arrival = np.full(n, np.nan), np.full(n, np.nan)
+        self.front_velocity = np.full((n, 3), np.nan)
+        self.temperature, self.metal, self.solid = np.zeros(n), np.zeros(n), np.zeros(n)
+        self.rows, self.closed, self.levels = [], [], []
+
+    # --- what the flow has computed --------------------------------------------------------------------------
+
+    def take(self, run, begin, until):
+        """Reads the frames of a stretch, which the walls have seen as one."""
+        frames = [(time, name) for time, name in run.times() if time > self.time * (1 + 1e-9) + 1e-15]
+        start = self.time
+        for time, name in frames:
+            self._see(run, time, name)
+        last = frames[-1][1]
+        for wall in self._mould.walls:
+            if not wall.insulating() and len(wall.faces):
+                wall.end(self.time - start, run.read_patch(last, "TMean", wall.name, len(wall.faces)), self.metal[wall.cells])
+        self.frame = until
+        self._save()
+        for time, name in run.times():
+            if 0 < time < self.time * (1 - 1e-9):
+                run.forget(name)
+
+    def _see(self, run, time, name):
+        """One frame: fronts are where the share of metal passes a half since the frame before."""
+        temperature, melt, solid = (run.read(name, field) for field in ("T", "alpha.melt", "alpha.solid"))
+        metal = np.clip(melt + solid, 0, 1)
+        new = np.flatnonzero(np.isnan(self.fill_time) & (metal >= 0.5))
+        if len(new):
+            velocity = run.read(name, "U")
+            part = (0.5 - self.metal[new]) / np.maximum(metal[new] - self.metal[new], 1e-9)
+            self.fill_time[new] = self.time + np.clip(part, 0, 1) * (time - self.time)
+            self.arrival[new], self.front_velocity[new] = temperature[new], velocity[new]
+        self.temperature, self.metal, self.solid = temperature, metal, np.clip(solid, 0, 1)
+        self.time, self.name, self.full = time, name, float(metal.mean())
+        self.levels.append(np.round(255 * metal).astype(np.uint8))
+        self.rows.append([time, 100 * self.full, self._flowed(time), self.heat_of_walls(),
+                          float(temperature[metal > 0.5].min()) if (metal > 0.5).any() else np.nan])
+
+    def _flowed(self, time):
+        """The volume that has come through the gate [m3]."""
+        return self._mould.flow * time
+
+    def heat_of_walls(self):
+        return float(sum(wall.heat.sum() for wall in self._mould.walls))
+
+    def heat_lost(self):
+        """What each kilogram of the metal in a cube has given off since the gate [J/kg]."""
+        share = np.divide(self.solid, self.metal, out=np.zeros_like(self.solid), where=self.metal > 1e-6)
+        return self._melt.heat * (self._mould.pouring - self.temperature) + self._melt.latent * np.clip(share, 0, 1)
+
+    # --- vents -----------------------------------------------------------------------------------------------
+
+    def set_vents(self, run):
+        """Shuts vents whose cubes are full of metal, and opens them again when it has left; the one with most air stays open."""
+        cavity = self._mould.cavity
+        metal = [float(self.metal[cavity.faces[faces]].mean()) for faces in self._mould.vents]
+        shut = [i for i, share in enumerate(metal) if share > (DRY if i in self.closed else WET) and i != int(np.argmin(metal))]
+        for i in set(shut) ^ set(self.closed):
+            entries = dictionaries.SHUT if i in shut else dictionaries.open_vent(self._mould.air)
+            for field, entry in entries.items():
+                run.change_patch(self.name, field, f"vent_{i}", lambda faces, text=entry: text)
+        self.closed = shut
+
+    # --- stopping and going on -------------------------------------------------------------------------------
+
+    def _save(self):
+        walls = {f"{wall.name}.{what}": getattr(wall, what) for wall in self._mould.walls for what in ("contact", "heat")}
+        numbers = {"frame": self.frame, "name": self.name, "time": self.time, "full": self.full, "closed": self.closed,
+                   "made_of": self.made_of, "rows": self.rows}
+        target = self._folder / STATE
+        with target.with_suffix(".part").open("wb") as out:
+            np.savez(out, numbers=json.dumps(numbers), levels=np.array(self.levels), fill_time=self.fill_time, arrival=self.arrival,
+                     front_velocity=self.front_velocity, temperature=self.temperature, metal=self.metal, solid=self.solid, **walls)
+        target.with_suffix(".part").rename(target)
+
+    def resume(self, foam):
+        """Takes up the state of a filling of the same cavity; whether there was one."""
+        file = self._folder / STATE
+        if not file.exists() or not foam.is_dir():
+            return False
+        with np.load(file) as kept:
+            numbers = json.loads(str(kept["numbers"]))
+            if numbers["made_of"] != self.made_of:
+                return False
+            self.frame, self.name, self.time, self.full = (numbers[key] for key in ("frame", "name", "time", "full"))
+            self.closed, self.rows, self.levels = numbers["closed"], numbers["rows"], list(kept["levels"])
+            for what in ("fill_time", "arrival", "front_velocity", "temperature", "metal", "solid"):
+                setattr(self, what, kept[what])
+            for wall in self._mould.walls:
+                wall.contact, wall.heat = kept[f"{wall.name}.contact"], kept[f"{wall.name}.heat"]
+        # Times beyond the state are of a stretch that was not finished.
+        for part in self._parts(foam):
+            for entry in part.iterdir():
+                try:
+                    later = float(entry.name) > self.time * (1 + 1e-9)
+                except ValueError:
+                    continue
+                if later:
+                    shutil.rmtree(entry)
+        return True
+
+    @staticmethod
+    def _parts(foam):
+        return sorted(foam.glob("processor*")) or [foam]
+
+    def processes(self, foam, wanted):
+        """On as many as it began with."""
+        return len(list(foam.glob("processor*"))) or (wanted if self.frame == 0 else 1)

@@ -1,0 +1,98 @@
+"""Heat from the metal into the walls of a cavity while it fills.
+
+A wall of the effusivity e = sqrt(k rho c) behind a conductance h takes from metal of a temperature T, t after it has touched it,
+
+    q = h erfcx(h sqrt(t)/e) (T - T0),   erfcx(x) = exp(x^2) erfc(x)
+
+(H. S. Carslaw, J. C. Jaeger, Conduction of Heat in Solids, 2nd ed. 1959, section 2.7): the flow gets the mean of h erfcx over the time
+that it computes at a stretch, which is how the mould warms up.
+"""
+
+from math import erf, exp, sqrt, pi
+
+import numpy as np
+
+PERFECT = 2e4  # conductance of bodies that share their faces [W/(m2 K)]
+
+
+def erfcx(x):
+    """exp(x^2) erfc(x): by the functions themselves where they do not overflow, else by the continued fraction of erfc."""
+    if x < 5:
+        return exp(x * x) * (1 - erf(x))
+    tail = x
+    for k in range(30, 0, -1):
+        tail = x + 0.5 * k / tail
+    return 1 / (tail * sqrt(pi))
+
+
+_X = np.concatenate([[0], np.geomspace(1e-4, 1e4, 1601)])
+_TAKEN = np.array([erfcx(x) - 1 + 2 * x / sqrt(pi) for x in _X])
+
+
+def taken(x):
+    """The integral of erfcx(sqrt(s)) from 0 to x^2: erfcx(x) - 1 + 2 x/sqrt(pi)."""
+    small = x < 1e-3
+    return np.where(small, x ** 2 * (1 - 4 / (3 * sqrt(pi)) * x), np.interp(x, _X, _TAKEN))
+
+
+def mean_conductance(conductance, effusivity, begin, end):
+    """The mean of h erfcx(h sqrt(t)/e) between two times since the metal came [W/(m2 K)]. Arrays or numbers."""
+    begin, end = np.maximum(begin, 0.0), np.asarray(end, float)
+    scale = effusivity ** 2 / conductance
+    x0, x1 = conductance * np.sqrt(begin) / effusivity, conductance * np.sqrt(end) / effusivity
+    short = (x1 - x0) * x1 < 1e-6
+    step = np.where(end > begin, end - begin, 1.0)
+    mean = scale * (taken(x1) - taken(x0)) / step
+    return np.where(short, conductance * np.interp(x0, _X, [erfcx(x) for x in _X]), mean)
+
+
+class Wall:
+    """The faces of one body around the cavity, and what they have taken."""
+
+    def __init__(self, name, body, faces, conductance, effusivity, mould, cavity):
+        """body: its number, -1 for faces that touch nothing; mould: its temperature [K]."""
+        self.name, self.body, self.faces, self.mould = name, body, faces, mould
+        self.conductance, self.effusivity = conductance, effusivity
+        self.cells = cavity.faces[faces]
+        # The faces of cubes stand for another area than they have.
+        self.share = cavity.area[faces] / cavity.cubes.edge ** 2
+        self.area = cavity.cubes.edge ** 2
+        self.contact = np.zeros(len(faces))  # since metal touched them [s]
+        self.heat = np.zeros(len(faces))  # [J]
+        self.present = np.zeros(len(faces))  # conductance of the present stretch [W/(m2 K)] of the faces of cubes
+
+    def insulating(self):
+        return self.conductance == 0
+
+    def begin(self, duration):
+        """Sets the conductance of a stretch of time."""
+        if not self.insulating():
+            self.present = self.share * mean_conductance(self.conductance, self.effusivity, self.contact, self.contact + duration)
+        return self.present
+
+    def end(self, duration, temperature, metal):
+        """Adds the heat of a stretch. temperature: the mean of the wall's [face]; metal: share of metal in the cubes [face]."""
+        self.heat += self.present * self.area * (temperature - self.mould) * duration
+        self.contact = np.where(metal >= 0.5, self.contact + duration, self.contact)
+
+
+def walls_for(cavity, faces_of, cavity_file):
+    """The walls of a cavity. faces_of: {body: faces}; cavity_file: what the program wrote of the case."""
+    bodies, conductances = cavity_file["bodies"], {}
+    for entry in cavity_file["interfaces"]:
+        for a, b in (entry["bodies"], entry["bodies"][::-1]):
+            conductances[a, b] = entry["conductance"]
+    walls = []
+    for body, faces in faces_of.items():
+        if body < 0:
+            walls.append(Wall("free", body, faces, 0.0, 1.0, 293.15, cavity))
+            continue
+        # The law between this body and the one that is cast and has most of the faces.
+        cast, counts = np.unique(cavity.body[cavity.faces[faces]], return_counts=True)
+        conductance = conductances.get((int(cast[counts.argmax()]), body), PERFECT)
+        start, material = 0.5 * (bodies[body]["coldest"] + bodies[body]["hottest"]), bodies[body]["material"]
+        temperature, enthalpy = np.array(material["temperature"]), np.array(material["enthalpy"])
+        capacity = (np.interp(start + 1, temperature, enthalpy) - np.interp(start - 1, temperature, enthalpy)) / 2
+        effusivity = (np.interp(start, temperature, material["conductivity"]) * capacity) ** 0.5
+        walls.append(Wall(f"wall_{body}", body, faces, conductance, effusivity, start, cavity))
+    return walls

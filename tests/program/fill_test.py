@@ -1,0 +1,64 @@
+"""`solidus fill` and `solidus run` with [filling]: a cavity of some hundred cubes is filled by OpenFOAM and freezes then."""
+
+import json
+import os
+import shutil
+import subprocess
+import unittest
+
+from pages import blocks
+from program import PROGRAM, SOURCES, ProgramTest, solidus
+
+FOUND = shutil.which("icoReactingMultiphaseInterFoam")
+MISSING = "OpenFOAM is not installed (Debian's openfoam)"
+
+
+class FillTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        page = (SOURCES / "docs/guide/filling.md").read_text()
+        text = next(block.text for block in blocks(page) if block.text.startswith('title = "A plate on a die"'))
+        (self.folder / "case.toml").write_text(text)
+
+    def refusal(self, *arguments, **environment):
+        result = subprocess.run([str(PROGRAM), "fill", "case.toml", "-o", "filled", *arguments], cwd=self.folder, capture_output=True,
+                                text=True, stdin=subprocess.DEVNULL, env={**os.environ, **environment})
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        return result.stderr
+
+    @unittest.skipUnless(FOUND, MISSING)
+    def test_a_mould_is_filled_and_freezing_starts_from_it(self):
+        text = self.done("fill", "case.toml", "-o", "filled", "--processes", "1", timeout=600)
+        filled = self.folder / "filled"
+        summary = json.loads((filled / "filling.json").read_text())
+        self.assertIn("filled after", text)
+        self.assertGreater(summary["full"], 0.93)
+        # Volume and heat: what came against what is there, what the metal has lost against what walls have taken.
+        balance = summary["balance"]
+        self.assertAlmostEqual(balance["there"] / balance["came"], 1, delta=0.08)
+        self.assertAlmostEqual(balance["lost"] / balance["brought"], balance["walls"] / balance["brought"], delta=0.02)
+        for line in (filled / "filling.csv").read_text().splitlines()[2:60]:
+            time, full = map(float, line.split(",")[:2])
+            self.assertAlmostEqual(full / 100, time / 0.5, delta=2e-3)  # before metal reaches a vent
+        # The same again is not computed again, and the run starts with the heat of the filling.
+        self.assertIn("is filled already", self.done("fill", "case.toml", "-o", "filled", timeout=100))
+        run = solidus("run", "case.toml", "--set", "filling.result='filled'", "-o", "run", "--processes", "1", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        taken = sum(float(row.split(",")[4]) for row in (filled / "mould_heat.csv").read_text().splitlines()[1:])
+        self.assertAlmostEqual(taken, balance["walls"], delta=1e-9 * abs(taken))
+        self.assertIn("from the metal while the mould filled", run.stderr)
+
+    def test_bad_input_is_refused_in_one_sentence(self):
+        self.assertIn("the gate is given twice", self.refusal("--set", "filling.gate='upper_x_min'"))
+        self.assertIn("time or rate", self.refusal("--set", "filling.rate='1 kg/s'"))
+        self.assertIn("no group of faces 'nowhere'", self.refusal("--set", "filling.gate_at=[]", "--set", "filling.gate='nowhere'"))
+        case = (self.folder / "case.toml").read_text()
+        (self.folder / "case.toml").write_text(case[:case.index("[filling]")])
+        self.assertIn("does not say how the mould is filled", self.refusal())
+
+    def test_without_openfoam_the_package_is_named(self):
+        self.assertIn("openfoam, version 1912", self.refusal(PATH=str(self.folder)))
+
+
+if __name__ == "__main__":
+    unittest.main()

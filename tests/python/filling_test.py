@@ -1,0 +1,171 @@
+"""Cubes of a cavity, gates, vents, walls and the start of freezing, without a flow: `solidus fill`."""
+
+from math import exp, sqrt
+from pathlib import Path
+import tempfile
+import unittest
+
+import numpy as np
+
+from solidus_plots import filling_dictionaries as dictionaries
+from solidus_plots import filling_flow, filling_gates, filling_walls
+from solidus_plots.filling_cavity import cavity_of
+from solidus_plots.filling_mesh import Cubes, inner_faces, write_mesh
+from solidus_plots.filling_results import start_of, state_at
+from solidus_plots.vtu import Grid
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+def blocks(size, counts, inside):
+    """A grid of bricks over a box: body 0 where inside(centre) holds, else body 1."""
+    axes = [np.linspace(0, length, n + 1) for length, n in zip(size, counts)]
+    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    i, j, k = (a.ravel() for a in np.meshgrid(*map(np.arange, counts), indexing="ij"))
+
+    def node(x, y, z):
+        return (x * (counts[1] + 1) + y) * (counts[2] + 1) + z
+
+    corners = np.stack([node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1),
+                        node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)], axis=1)
+    grid = Grid(points, np.full(len(corners), 12), 8 * np.arange(1, len(corners) + 1), corners.ravel())
+    grid.cell_data = {"body": np.where(inside(points[corners].mean(axis=1)), 0, 1)}
+    return grid
+
+
+def plate(edge=0.005):
+    """A plate of 100 x 20 x 60 mm in the middle of a block of sand."""
+    low, high = np.array([0.03, 0.03, 0.03]), np.array([0.13, 0.05, 0.09])
+    return cavity_of(blocks((0.16, 0.08, 0.12), (32, 16, 24), lambda x: ((x > low) & (x < high)).all(axis=1)), [0], edge)
+
+
+class Cavities(unittest.TestCase):
+    def test_a_plate_has_its_volume_and_its_skin_whatever_the_cubes(self):
+        for edge in (0.005, 0.0043, 0.0062):
+            cavity = plate(edge)
+            self.assertAlmostEqual(cavity.cubes.volume(), 0.1 * 0.02 * 0.06, delta=1e-12)
+            self.assertAlmostEqual(cavity.area.sum(), 2 * (0.1 * 0.02 + 0.1 * 0.06 + 0.02 * 0.06), delta=1e-12)
+            self.assertAlmostEqual(cavity.scale, 1, delta=0.1)
+            self.assertTrue((cavity.touches == 1).all())
+
+    def test_stairs_give_off_heat_for_the_slope_that_they_stand_for(self):
+        """A wedge: of a slope of 0.8 in 1 the stairs have 1.8 times the area of its foot, the slope 1.28 times."""
+        grid = blocks((0.08, 0.02, 0.08), (16, 4, 16), lambda x: x[:, 0] > -1)
+        grid.points[:, 2] *= 1 - grid.points[:, 0] / 0.1  # the top falls by 0.8 m a metre
+        cavity = cavity_of(grid, [0], 0.002)
+        centres = cavity.face_centres()
+        slope = (np.abs(centres[:, 2] - 0.08 * (1 - centres[:, 0] / 0.1)) < 0.003) & (centres[:, 0] > 0.01) & (centres[:, 0] < 0.06) \
+            & (np.abs(centres[:, 1] - 0.01) < 0.006)
+        share = cavity.area[slope].sum() / (slope.sum() * cavity.cubes.edge ** 2)
+        self.assertAlmostEqual(share, 1.2806 / 1.8, delta=0.05)  # sqrt(1 + 0.8^2)/(1 + 0.8)
+
+    def test_a_mesh_of_cubes_is_closed_and_in_the_order_of_openfoam(self):
+        cubes = Cubes(np.zeros(3), 0.01, np.argwhere(np.ones((3, 2, 2))))
+        owners, neighbours, _ = inner_faces(cubes)
+        self.assertTrue((owners < neighbours).all())
+        self.assertEqual(sorted(zip(owners, neighbours)), list(zip(owners, neighbours)))
+        faces, directions = cubes.skin()
+        self.assertEqual(len(owners) * 2 + len(faces), 6 * 12)
+        self.assertEqual(np.abs(directions.sum(axis=0)).sum(), 0)
+        with tempfile.TemporaryDirectory() as folder:
+            write_mesh(Path(folder), cubes, [("skin", "wall", faces, directions)])
+            self.assertEqual(filling_flow.boundary_of(Path(folder)), {"skin": (len(faces), len(owners))})
+            self.assertEqual(len(filling_flow.numbers_of(Path(folder) / "constant/polyMesh/owner")), len(owners) + len(faces))
+
+
+class Gates(unittest.TestCase):
+    def test_the_chosen_gate_lies_low_and_vents_on_the_highest_places(self):
+        cavity = plate()
+        gate = filling_gates.gate_of(cavity, {"gate_at": []}, [], UP, 1e-4)
+        heights = cavity.face_centres()[:, 2]
+        self.assertLess(heights[gate.faces].max(), 0.06)
+        self.assertGreaterEqual(len(gate.faces), filling_gates.FEW)
+        vents, _ = filling_gates.vents_of(cavity, {"vents": []}, UP, gate)
+        for faces in vents:
+            self.assertTrue((heights[faces] > 0.0895).all())
+        walls = filling_gates.walls_of(cavity, gate, vents)
+        self.assertEqual(len(gate.faces) + sum(map(len, vents)) + sum(map(len, walls.values())), len(cavity.faces))
+
+    def test_every_horn_has_a_vent(self):
+        """Two legs that rise from a bar: air would be caught in both."""
+        cavity = cavity_of(blocks((0.06, 0.02, 0.06), (12, 4, 12), lambda x: (x[:, 2] < 0.02) | (np.abs(x[:, 0] - 0.03) > 0.015)), [0], 0.005)
+        tops = filling_gates.tops(cavity, UP)
+        self.assertEqual(sorted(round(100 * cavity.face_centres()[faces][:, 0].mean()) for faces in tops), [1, 5])
+
+    def test_a_gate_at_a_point_is_a_square_there(self):
+        cavity = plate()
+        gate = filling_gates.gate_of(cavity, {"gate_at": [0.03, 0.04, 0.06], "gate_width": 0.02}, [], UP, 1e-4)
+        self.assertEqual(gate.direction.tolist(), [1, 0, 0])
+        self.assertAlmostEqual(cavity.face_centres()[gate.faces][:, 2].mean(), 0.06, delta=0.003)
+
+
+class Walls(unittest.TestCase):
+    def test_heat_into_a_half_space_behind_a_film(self):
+        """The mean of h erfcx(h sqrt(t)/e) against Simpson's rule; h at the start, e/sqrt(pi t) in the end."""
+        h, e = 1000.0, 1200.0
+        times = np.linspace(0.5, 1.5, 2001)
+        values = np.array([h * filling_walls.erfcx(h * sqrt(t) / e) for t in times])
+        simpson = (values[0] + values[-1] + 4 * values[1:-1:2].sum() + 2 * values[2:-2:2].sum()) / 6000
+        self.assertAlmostEqual(float(filling_walls.mean_conductance(h, e, np.array([0.5]), np.array([1.5]))[0]), simpson, delta=1e-4 * simpson)
+        self.assertAlmostEqual(float(filling_walls.mean_conductance(h, e, np.array([0.0]), np.array([1e-9]))[0]), h, delta=1e-3 * h)
+        self.assertAlmostEqual(float(filling_walls.mean_conductance(h, e, np.array([1e5]), np.array([1.001e5]))[0]),
+                               e / sqrt(np.pi * 1.0005e5), delta=0.01)
+        self.assertAlmostEqual(filling_walls.erfcx(1), exp(1) * 0.15729920705, delta=1e-9)
+
+
+class Files(unittest.TestCase):
+    def test_fields_of_openfoam_are_read_in_all_their_forms(self):
+        read = filling_flow.values_in
+        self.assertEqual(read(" uniform 3;", 2).tolist(), [3, 3])
+        self.assertEqual(read(" uniform (1 2 3);", 2).tolist(), [[1, 2, 3]] * 2)
+        self.assertEqual(read(" nonuniform List<scalar> \n2\n(\n1.5\n2.5\n)\n;", 2).tolist(), [1.5, 2.5])
+        self.assertEqual(read(" nonuniform List<scalar> 2(1.5 2.5);", 2).tolist(), [1.5, 2.5])
+        self.assertEqual(read(" nonuniform List<scalar> 3{7};", 3).tolist(), [7, 7, 7])
+        self.assertEqual(read(" nonuniform List<vector> \n2\n(\n(1 2 3)\n(4 5 6)\n)\n;", 2).tolist(), [[1, 2, 3], [4, 5, 6]])
+        self.assertEqual(read(" nonuniform List<vector> 1((1 2 3));", 1).tolist(), [[1, 2, 3]])
+
+    def test_what_openfoam_says_is_told_in_a_sentence(self):
+        self.assertEqual(filling_flow.reason_in("--> FOAM FATAL ERROR : \n    Could not find entry\n    'x'\n\n    From f"),
+                         "OpenFOAM stopped: Could not find entry 'x'")
+        self.assertIn("blew up at 0.2 s", filling_flow.reason_in("Time = 0.2\n#0 Foam::sigFpe::sigHandler"))
+
+    def test_only_gas_leaves_by_a_vent(self):
+        entries = dictionaries.open_vent(300)
+        self.assertIn("uniform 1", entries["alpha.gas"])
+        self.assertIn("uniform 0", entries["alpha.melt"])
+
+
+class Start(unittest.TestCase):
+    def test_freezing_starts_with_the_heat_of_the_flow(self):
+        """To rounding of the mean, with air that is left and a freezing range that the flow does not have."""
+        temperature = np.arange(800.0, 1000.0, 0.25)
+        solid = np.clip((880 - temperature) / 30, 0, 1)
+        enthalpy = 2500 * (1100 * (temperature - 800) + 4e5 * (1 - solid))
+
+        class Mould:
+            cavity = plate()
+            pouring = 973.0
+            material = {"temperature": temperature.tolist(), "enthalpy": enthalpy.tolist(), "density": 2500.0}
+
+        class History:
+            metal = np.where(np.arange(len(Mould.cavity.body)) % 50 == 0, 0.1, 1.0)
+
+            @staticmethod
+            def heat_lost():
+                return np.linspace(0, 3e5, len(Mould.cavity.body))
+
+        h, t, _ = start_of(Mould, History)
+        lost = np.average(History.heat_lost(), weights=History.metal)
+        self.assertAlmostEqual((np.interp(973.0, temperature, enthalpy) - h.mean()) / 2500 / lost, 1, delta=1e-10)
+        self.assertAlmostEqual(np.abs(np.interp(t, temperature, enthalpy) / h - 1).max(), 0, delta=1e-9)
+
+    def test_at_one_temperature_the_solid_fraction_tells(self):
+        temperature, enthalpy = np.array([900.0, 933, 933, 960]), np.array([0.0, 30, 130, 160])
+        t, solid = state_at(np.array([15.0, 55.0, 145.0]), temperature, enthalpy)
+        self.assertEqual(t[1], 933)
+        self.assertAlmostEqual(solid[1], 0.75)
+        self.assertEqual((solid[0], solid[2]), (0, 0))
+
+
+if __name__ == "__main__":
+    unittest.main()
