@@ -49,7 +49,7 @@ class Mould:
         self.up = -self.gravity / np.linalg.norm(self.gravity)
         edge = self.filling.get("cell_size") or edge_for(grid, self.poured, self.filling["cells"])
         self.cavity = cavity_of(grid, self.poured, edge)
-        self.pouring = self.filling.get("temperature") or max(bodies[b]["hottest"] for b in self.poured)
+        self.pouring = self.filling.get("pouring") or max(bodies[b]["hottest"] for b in self.poured)
         self.material = bodies[max(self.poured, key=lambda b: self.cavity.volumes[b])]["material"]
         self._set_rate()
         gating = [b for b in self.poured if bodies[b]["role"] == "gating"]
@@ -77,7 +77,7 @@ class Mould:
         if self.pouring <= m["half_solid"]:
             raise ResultError(f"the metal comes at {self.pouring - 273.15:.0f} degC, below {m['half_solid'] - 273.15:.0f} degC at which "
                               "it is half solid: a higher temperature in [filling], or initial_temperature of what is cast")
-        temperature, enthalpy = np.array(m["temperature"]), np.array(m["enthalpy"])
+        temperature, enthalpy = np.array(m["temperatures"]), np.array(m["enthalpy"])
         low, high = m["liquidus"] + 0.5, max(self.pouring, m["liquidus"] + 20)
         heat = (np.interp(high, temperature, enthalpy) - np.interp(low, temperature, enthalpy)) / (high - low) / m["density"]
         return dictionaries.Melt(m["density"], heat, m["latent_heat"], m["half_solid"],

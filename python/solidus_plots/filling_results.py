@@ -36,7 +36,7 @@ def start_of(mould, history):
     """The enthalpy per volume of each cube by the card [J/m3], and the temperature and solid fraction that follow from it. Air that is
     left counts as metal of its surroundings; the mean is that of the metal of the flow."""
     material = mould.material
-    temperature, enthalpy = np.array(material["temperature"]), np.array(material["enthalpy"])
+    temperature, enthalpy = np.array(material["temperatures"]), np.array(material["enthalpy"])
     lost, metal = history.heat_lost(), history.metal
     mean = np.average(lost, weights=metal)
     lost = spread_into_air(mould.cavity.cubes, lost, metal > 0.5)
@@ -207,9 +207,9 @@ def write(folder, mould, melt, history, ended, seconds):
     last_air = 1 - history.metal
     grid.cell_data = {"fill_time": np.nan_to_num(history.fill_time, nan=history.time),
                       "temperature_at_arrival": np.where(np.isnan(history.arrival), temperature, history.arrival),
-                      "front_speed": np.nan_to_num(np.linalg.norm(history.front_velocity, axis=1)),
+                      "speed_of_front": np.nan_to_num(np.linalg.norm(history.front_velocity, axis=1)),
                       "last_air": last_air, "temperature": temperature, "body": mould.cavity.body.astype("i4")}
-    grid.units = {"fill_time": "s", "temperature_at_arrival": "K", "front_speed": "m/s", "last_air": "1", "temperature": "K"}
+    grid.units = {"fill_time": "s", "temperature_at_arrival": "K", "speed_of_front": "m/s", "last_air": "1", "temperature": "K"}
     grid.time = history.time
     write_grid(folder / "filling.vtu", grid)
     write_csv(folder / "filling.csv", ["t[s]", "full[%]", "through the gate[m3]", "heat of the walls[J]", "coldest metal[K]"], history.rows)

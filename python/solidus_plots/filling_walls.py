@@ -81,7 +81,7 @@ def walls_for(cavity, faces_of, cavity_file):
     bodies, conductances = cavity_file["bodies"], {}
     for entry in cavity_file["interfaces"]:
         for a, b in (entry["bodies"], entry["bodies"][::-1]):
-            conductances[a, b] = entry["conductance"]
+            conductances[a, b] = entry["heat_transfer"]
     walls = []
     for body, faces in faces_of.items():
         if body < 0:
@@ -91,7 +91,7 @@ def walls_for(cavity, faces_of, cavity_file):
         cast, counts = np.unique(cavity.body[cavity.faces[faces]], return_counts=True)
         conductance = conductances.get((int(cast[counts.argmax()]), body), PERFECT)
         start, material = 0.5 * (bodies[body]["coldest"] + bodies[body]["hottest"]), bodies[body]["material"]
-        temperature, enthalpy = np.array(material["temperature"]), np.array(material["enthalpy"])
+        temperature, enthalpy = np.array(material["temperatures"]), np.array(material["enthalpy"])
         capacity = (np.interp(start + 1, temperature, enthalpy) - np.interp(start - 1, temperature, enthalpy)) / 2
         effusivity = (np.interp(start, temperature, material["conductivity"]) * capacity) ** 0.5
         walls.append(Wall(f"wall_{body}", body, faces, conductance, effusivity, start, cavity))

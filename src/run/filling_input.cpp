@@ -55,7 +55,7 @@ Json material_json(const material::Material& m, double hottest) {
   }
   Json json;
   json.add("name", m.name).add("density", m.density);
-  json.add("temperature", list(temperature)).add("enthalpy", list(enthalpy));
+  json.add("temperatures", list(temperature)).add("enthalpy", list(enthalpy));
   json.add("conductivity", list(conductivity));
   if (const material::PhaseChange* freezing = m.solidification()) {
     // Half solid is where the fraction passes a half on cooling.
@@ -109,7 +109,7 @@ Json interfaces_json(const setup::Assembly& a, double temperature) {
     for (const int slave : bodies_of(a.mesh, p.slave))
       for (const int master : bodies_of(a.mesh, p.master)) {
         Json entry;
-        entry.add("bodies", Json::Array{Json(slave), Json(master)}).add("conductance", conductance);
+        entry.add("bodies", Json::Array{Json(slave), Json(master)}).add("heat_transfer", conductance);
         interfaces.push_back(std::move(entry));
       }
   }
@@ -147,7 +147,7 @@ Json filling_json(const cases::FillingSpec& f, const mesh::Mesh& mesh) {
   if (f.gate_width) json.add("gate_width", *f.gate_width);
   if (f.time) json.add("time", *f.time);
   if (f.rate) json.add("rate", *f.rate);
-  if (f.temperature) json.add("temperature", *f.temperature);
+  if (f.temperature) json.add("pouring", *f.temperature);
   Json::Array vents;
   for (const std::string& vent : f.vents) vents.push_back(triangles_of(mesh, vent, f.where));
   json.add("vents", std::move(vents));

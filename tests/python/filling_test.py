@@ -145,7 +145,7 @@ class Start(unittest.TestCase):
         class Mould:
             cavity = plate()
             pouring = 973.0
-            material = {"temperature": temperature.tolist(), "enthalpy": enthalpy.tolist(), "density": 2500.0}
+            material = {"temperatures": temperature.tolist(), "enthalpy": enthalpy.tolist(), "density": 2500.0}
 
         class History:
             metal = np.where(np.arange(len(Mould.cavity.body)) % 50 == 0, 0.1, 1.0)
