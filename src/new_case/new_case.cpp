@@ -44,6 +44,9 @@ material::Material alloy_of(const NewCaseOptions& options, const CastingProcess&
     throw InputError({"--shots"},
                      fmt::format("the mould of the process '{}' is lost with its casting", process.name),
                      "--process gravity_die or high_pressure, or no --shots");
+  if (options.fill && options.process == "high_pressure")
+    throw InputError({"--fill"}, "the speed of a shot is not known to the program",
+                     "sand, shell or gravity_die; or a section [filling] with its time in the case");
   if (options.shell > 0 && process.shell <= 0)
     throw InputError({"--shell"}, fmt::format("the process '{}' has no shell", process.name),
                      "--process shell, or no --shell and --coats");
@@ -65,6 +68,7 @@ NewCaseReport make_new_case(const NewCaseOptions& options) {
   const PartMeasures part = measure_part(options);
   Draft draft = choose_draft(options, process, alloy, part);
   draft.folder = folder;
+  if (options.fill) draft.filling = {options.gate};
   write_draft(draft);
   const DraftEstimate estimate =
       refine_draft(draft, process, alloy, options.fineness, part.time_of_direct_ways);

@@ -328,6 +328,11 @@ std::string case_text(const Draft& d) {
         t += fmt::format("{}{}", first ? "" : ", ", quoted(b.group)), first = false;
     t += "]\n\n";
   }
+  if (d.filling) {
+    t += "[filling]   # `solidus run` fills the mould first, by OpenFOAM: docs/guide/filling.md\n";
+    if (d.filling->gate) t += fmt::format("gate_at = {}\n", place_text(*d.filling->gate));
+    t += "cells = 10000   # a first answer; more for thin walls\n\n";
+  }
   t += fmt::format("[output]\nevery = \"{:g} s\"\n", d.every);
   return t;
 }

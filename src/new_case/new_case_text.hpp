@@ -77,6 +77,11 @@ struct DraftSymmetry {
   double at = 0;  ///< [m]
 };
 
+/// How the mould is filled, [filling].
+struct DraftFilling {
+  std::optional<mesh::Point> gate = {};  ///< [m]; none: the program chooses
+};
+
 /// Draft of a new case, from measured and chosen values; SI but for temperatures in °C.
 struct Draft {
   std::filesystem::path folder, geometry;
@@ -100,6 +105,7 @@ struct Draft {
   std::vector<mesh::InscribedSphere> hot_spots;
   double end = 0, step = 0, every = 0;  ///< latest end, first step, between outputs [s]
   std::optional<DraftShots> shots;
+  std::optional<DraftFilling> filling;
   std::vector<DieChannel> channels;
   std::vector<std::string> cavity;  ///< surfaces of the die that are free when the casting has left
 };

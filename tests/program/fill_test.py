@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import subprocess
+import tomllib
 import unittest
 
 from pages import blocks
@@ -55,6 +56,16 @@ class FillTest(ProgramTest):
         case = (self.folder / "case.toml").read_text()
         (self.folder / "case.toml").write_text(case[:case.index("[filling]")])
         self.assertIn("does not say how the mould is filled", self.refusal())
+
+    def test_a_new_case_gets_a_gate(self):
+        part = SOURCES / "tests/parts/dumbbell.step"
+        self.done("new", str(part), "--alloy", "aluminium_alsi7mg", "--fineness", "0.3", "--gate", "-40, 0, 5 mm", "-o", "new", timeout=300)
+        filling = tomllib.loads((self.folder / "new/case.toml").read_text())["filling"]
+        self.assertEqual(filling["gate_at"], ["-40 mm", "0 mm", "5 mm"])
+        for words, refused in ((("--gate", "1, 2 mm"), "is no place"), (("--fill", "--process", "high_pressure"), "the speed of a shot")):
+            result = solidus("new", str(part), "--alloy", "aluminium_alsi9cu3", *words, "-o", "other", cwd=self.folder)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(refused, result.stderr)
 
     def test_without_openfoam_the_package_is_named(self):
         self.assertIn("openfoam, version 1912", self.refusal(PATH=str(self.folder)))

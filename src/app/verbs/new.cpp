@@ -1,6 +1,11 @@
 /// The verb `new`: from a geometry to a case.
 #include <fmt/format.h>
 
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
 #include "app/case_arguments.hpp"
 #include "app/verb.hpp"
 #include "input/units.hpp"
@@ -19,7 +24,34 @@ struct NewArguments {
   int shots = 0;      ///< zero: not given
   std::string shell;  ///< thickness, with its unit
   int coats = 0;      ///< zero: not given
+  bool fill = false;
+  std::string gate;  ///< "X,Y,Z" with a unit
 };
+
+/// The place of the gate [m]; nothing where none is given. Throws InputError.
+std::optional<mesh::Point> gate_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  // Each coordinate may have a unit of its own; those without have that of the last one.
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  const std::size_t unit = parts.back().find_first_not_of("0123456789.+-eE ");
+  mesh::Point gate{};
+  try {
+    if (parts.size() != gate.size() || unit == std::string::npos)
+      throw std::invalid_argument(fmt::format("'{}' is no place", text));
+    for (std::size_t d = 0; d < gate.size(); ++d) {
+      const bool bare = parts[d].find_first_not_of("0123456789.+-eE ") == std::string::npos;
+      gate[d] = units::parse_quantity(bare ? parts[d] + " " + parts.back().substr(unit) : parts[d], "m");
+    }
+  } catch (const std::exception& error) {
+    throw InputError({"--gate"}, error.what(), "three coordinates with their unit, \"0, 12, 30 mm\"");
+  }
+  return gate;
+}
 
 /// Thickness of the shell [m]; zero where none is asked for. Throws InputError.
 double shell_of(const NewArguments& arguments) {
@@ -51,6 +83,8 @@ ExitCode new_case(const NewArguments& arguments) {
   options.fineness = arguments.fineness;
   options.shots = arguments.shots;
   options.shell = shell_of(arguments);
+  options.gate = gate_of(arguments.gate);
+  options.fill = arguments.fill || options.gate;
   // Options that only some values make sense of are checked before the geometry is read.
   options.riser = arguments.riser == "auto";
   if (!arguments.riser.empty() && !options.riser) options.feeders = arguments.riser;
@@ -96,6 +130,11 @@ class New final : public Verb {
                          "Unit of length of the file; default what STEP and IGES files say, else mm");
     command().add_option("--fineness", a.fineness,
                          "So many times as many elements along each edge; default 1");
+    command().add_flag("--fill", a.fill,
+                       "Runs of the case fill the mould first, by OpenFOAM, through a gate that is chosen");
+    command()
+        .add_option("--gate", a.gate, "As --fill, with the gate at this place of the skin: \"0, 12, 30 mm\"")
+        ->type_name("X,Y,Z");
     command().add_option("-o,--output", a.folder, "Folder for the case; default the file's name, here");
   }
   ExitCode run() override { return new_case(arguments_); }
