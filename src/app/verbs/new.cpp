@@ -106,6 +106,7 @@ class New final : public Verb {
   explicit New(CLI::App& program)
       : Verb(program, "new", "Make a case that runs from the geometry of a casting") {
     NewArguments& a = arguments_;
+    // What is cast and by which process, then what is added to the part, then how the case is made of it.
     command().add_option("PART", a.geometry, "A STEP, BREP, IGES or STL file, or a mesh")->required();
     command().add_option("--alloy", a.alloy,
                          "What is cast, always needed: an alloy of `solidus materials`, or a file");
@@ -120,6 +121,7 @@ class New final : public Verb {
         .add_option("--coats", a.coats, "With --process shell: its thickness as dipped coats of 1.1 mm each")
         ->check(CLI::Range(1, 40))
         ->type_name("N");
+    // Risers, gates and parts of the drawing.
     command().add_option("--riser", a.riser,
                          "auto: put risers on the thick places; or a file of [[riser]] and [[chill]]");
     command().add_option("--symmetry", a.symmetry, "x, y or z: keep half of the part, below its middle");
