@@ -140,6 +140,8 @@ const Section<CaseSpec>& case_keys() {
     s.sections("cycle", &CaseSpec::cycles, cycle_keys());
     s.sections("body", &CaseSpec::bodies, body_keys());
     s.sections("thermal_condition", &CaseSpec::thermal_conditions, thermal_condition_keys());
+    s.sections("source", &CaseSpec::sources, source_keys());
+    s.sections("deposition", &CaseSpec::depositions, deposition_keys());
     s.sections("mechanical_condition", &CaseSpec::mechanical_conditions, mechanical_condition_keys());
     s.section("rotation", &CaseSpec::rotation, rotation_keys());
     s.sections("contact", &CaseSpec::contacts, contact_keys());

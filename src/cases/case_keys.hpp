@@ -17,6 +17,8 @@ Section<StageSpec> stage_keys();
 Section<CycleSpec> cycle_keys();
 Section<BodySpec> body_keys();
 Section<ThermalConditionSpec> thermal_condition_keys();
+Section<SourceSpec> source_keys();
+Section<DepositionSpec> deposition_keys();
 Section<MechanicalConditionSpec> mechanical_condition_keys();
 Section<RotationSpec> rotation_keys();
 Section<ContactSpec> contact_keys();

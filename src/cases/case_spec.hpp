@@ -13,6 +13,7 @@
 #include "cases/filling_spec.hpp"
 #include "cases/friction_spec.hpp"
 #include "cases/load_spec.hpp"
+#include "cases/travel_spec.hpp"
 #include "cases/variation.hpp"
 #include "contact/points/parameters.hpp"
 #include "coupling/scheme_kind.hpp"
@@ -384,6 +385,8 @@ struct CaseSpec {
   std::vector<CycleSpec> cycles;
   std::vector<BodySpec> bodies;
   std::vector<ThermalConditionSpec> thermal_conditions;
+  std::vector<SourceSpec> sources;          ///< that travel
+  std::vector<DepositionSpec> depositions;  ///< bodies that grow
   std::vector<MechanicalConditionSpec> mechanical_conditions;
   std::optional<RotationSpec> rotation;  ///< absent: nothing turns
   std::vector<ContactSpec> contacts;     ///< with those of the interfaces, once the mesh is loaded

@@ -288,7 +288,10 @@ std::vector<Pour> pours(const cases::CaseSpec& spec, const setup::Assembly& a, c
     pour.body = b;
     const bool heated =
         std::any_of(spec.thermal_conditions.begin(), spec.thermal_conditions.end(),
-                    [&](const auto& c) { return c.in_volume() && c.group == spec.bodies[b].mesh_group(); });
+                    [&](const auto& c) { return c.in_volume() && c.group == spec.bodies[b].mesh_group(); }) ||
+        std::ranges::any_of(spec.sources, [&](const cases::SourceSpec& s) {
+          return std::ranges::find(s.groups, spec.bodies[b].mesh_group()) != s.groups.end();
+        });
     if (heated)
       pour.no_estimate = "a source heats it";
     else if (spec.time.steady)

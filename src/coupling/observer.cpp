@@ -74,9 +74,21 @@ StepEffort& StepEffort::operator+=(const StepEffort& next) {
   coupling_iterations = std::max(coupling_iterations, first.coupling_iterations);
   energy += first.energy;
   stability += first.stability;
+  // Conditions are the same ones in both parts.
+  if (conditions.size() == first.conditions.size()) {
+    for (std::size_t i = 0; i < conditions.size(); ++i) conditions[i].heat += first.conditions[i].heat;
+    conditions_time += first.conditions_time;
+  }
   least_dissipation = std::min(least_dissipation, first.least_dissipation);
   largest_dissipation = std::max(largest_dissipation, first.largest_dissipation);
   return *this;
+}
+
+double StepEffort::power_of(const std::string& condition) const {
+  double sum = 0;
+  for (const heat::ConditionHeat& c : conditions)
+    if (c.name == condition) sum += c.heat;
+  return conditions_time > 0 ? sum / conditions_time : 0;
 }
 
 }  // namespace solidus::coupling

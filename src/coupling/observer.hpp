@@ -7,6 +7,7 @@
 
 #include "contact/pair.hpp"
 #include "coupling/restart_data.hpp"
+#include "heat/loads/thermal_state.hpp"
 #include "heat/loads/time_error.hpp"
 
 namespace solidus::coupling {
@@ -104,6 +105,12 @@ struct StepEffort {
   EnergyAudit energy;
   StabilityAudit stability;
   std::vector<ContactSummary> contacts;
+  /// Heat by each thermal condition [J], several of one name one after the other, and the time in which it
+  /// came [s].
+  std::vector<heat::ConditionHeat> conditions;
+  double conditions_time = 0;
+  /// The power of the conditions of a name, their mean over the step [W].
+  double power_of(const std::string& condition) const;
   /// The heat that passed through other gaps than the mean ones of the step, [contact], in schemes that
   /// conduct heat before they solve deformation; else empty.
   std::vector<contact::GapHeat> gap_heat;

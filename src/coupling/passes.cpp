@@ -135,6 +135,10 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial,
   for (const heat::ConditionHeat& condition : report.balance.conditions)
     effort.energy.heat_in += condition.heat;
   effort.energy.heat_exchanged = report.balance.exchanged;
+  if (!pass.adiabatic) {
+    effort.conditions = std::move(report.balance.conditions);
+    effort.conditions_time = pass.dt;
+  }
   if (phases.structural != nullptr) {
     effort.energy.structural = mechanics::structural_change(deformation, trial.heat.temperature).energy;
   } else {

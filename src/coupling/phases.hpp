@@ -6,6 +6,7 @@
 
 #include "contact/pair.hpp"
 #include "coupling/coherency.hpp"
+#include "coupling/growth.hpp"
 #include "coupling/observer.hpp"
 #include "coupling/skin_share.hpp"
 #include "coupling/state.hpp"
@@ -24,6 +25,7 @@ struct Phases {
   const criteria::Criteria* criteria = nullptr;  ///< criteria that State::criteria belongs to; null: none
   const Coherency* coherency = nullptr;          ///< null: nothing that deforms melts
   const SkinShare* skin = nullptr;               ///< null: no surface in contact melts
+  const Growth* growth = nullptr;                ///< null: nothing grows
   std::vector<double> temperature;               ///< [K], [local node]: of a mechanical phase alone
   std::optional<double> ambient_temperature;     ///< Θ_a of 2.24 [K]; absent: 𝓛 is not followed
 

@@ -58,18 +58,6 @@ Simulation::Simulation(std::unique_ptr<CouplingScheme> scheme, TimeOptions optio
 
 Simulation::~Simulation() = default;
 
-bool Simulation::measures_error(const StepOptions& step) {
-  return step.adaptive && step.limits.control != ErrorControl::none;
-}
-
-bool Simulation::checkpoint_due(const StepRecord& record) const {
-  return record.output || (options_.checkpoint_every > 0 && record.number % options_.checkpoint_every == 0);
-}
-
-bool Simulation::stop_asked() const {
-  return stop_asked_ && parallel::any_process(stop_asked_());
-}
-
 void Simulation::save(Progress& p, const ControlState& control) {
   scheme_->forget();
   const RestartData continuation{
@@ -136,7 +124,9 @@ void Simulation::enter_stage(Progress& p, const std::optional<RestartData>& from
 }
 
 std::vector<TimeEvent> Simulation::events(const Progress& p) const {
-  return options_.events ? options_.events(p.stage) : std::vector<TimeEvent>{};
+  std::vector<TimeEvent> all = options_.events ? options_.events(p.stage) : std::vector<TimeEvent>{};
+  if (growth_ != nullptr) add_births(*growth_, all);
+  return all;
 }
 
 /// Gives the phases the conditions of the stage.
@@ -165,7 +155,14 @@ void Simulation::begin_bodies(Progress& p, bool anew, bool changed_before) {
                                                            : criteria_->restart(p.committed.criteria, start);
 }
 
+void Simulation::grow(Progress& p) {
+  if (growth_ == nullptr || !growth_->due(p.committed.time)) return;
+  p.carried += let_grow(*growth_, *scheme_, internal_energy_, p.committed);
+  p.solid_fraction = p.solid_fraction_of(p.committed);
+}
+
 bool Simulation::solid(const Progress& p) const {
+  if (growth_ != nullptr && growth_->goes_on(p.committed.time)) return false;
   return options_.until_solid && p.record.number > 0 && p.solid_fraction >= k_solid;
 }
 
@@ -207,6 +204,8 @@ void Simulation::begin(State initial, SolidFraction solid_fraction, const std::o
   p.saved = from ? from->steps : -1;
   p.record.number = from ? from->steps : 0;
   p.record.time = p.committed.time;
+  // A run that goes on has a state with all that was born before.
+  if (from && growth_ != nullptr && growth_->due(p.committed.time)) growth_->grow(p.committed.time, nullptr);
   if (from) {
     p.shots = from->shots;
     p.carried = from->pending;
@@ -277,6 +276,7 @@ void Simulation::commit_step() {
   p.pending.reset();
   p.record = pending.record;
   commit(p, pending.step, pending.measure);
+  grow(p);
   if (checkpoint_due(p.record)) save(p, p.control->state());
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "coupling/error_estimate.hpp"
+#include "coupling/growth.hpp"
 #include "coupling/measured_step.hpp"
 #include "coupling/observer.hpp"
 #include "coupling/scheme.hpp"
@@ -73,6 +74,8 @@ class Simulation {
   /// Keeps adaptive steps so short that loads of this phase that move overlap with themselves from step to
   /// step; must outlive the simulation.
   void follow_loads(const heat::ThermalPhase& heat) { loads_ = &heat; }
+  /// Lets bodies grow between steps; adaptive steps end where elements are born. Must outlive the simulation.
+  void follow_growth(Growth& growth) { growth_ = &growth; }
   /// Asked before each step, on every process; the run stops when one of them says so.
   void stop_when(std::function<bool()> asked) { stop_asked_ = std::move(asked); }
   /// Called when a stage of the run begins, also where a run goes on inside it: gives the phases its
@@ -142,6 +145,8 @@ class Simulation {
   void end_at_once(Progress& p, const StageStart& stage_start);
   void begin_bodies(Progress& p, bool anew, bool changed_before);
   void end_shot(Progress& p);
+  /// Adds what is born until the committed time.
+  void grow(Progress& p);
   /// Whether a run that lasts until all is solid has come to its end.
   bool solid(const Progress& p) const;
   /// Whether a run stands at the end of a shot that left the die as it found it.
@@ -167,6 +172,7 @@ class Simulation {
   criteria::Criteria* criteria_ = nullptr;
   heat::ThermalPhase* heat_ = nullptr;
   const heat::ThermalPhase* loads_ = nullptr;
+  Growth* growth_ = nullptr;
   std::function<bool()> stop_asked_;
   StageBegins stage_begins_;
   InternalEnergy internal_energy_;

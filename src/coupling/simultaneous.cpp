@@ -295,6 +295,8 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
   commit_contact_heat(phases_, trial.heat.temperature, balance.contributions, energy);
   trial.contacts = contact_states(phases_);
   energy.heat_exchanged = balance.exchanged;
+  effort.conditions = balance.conditions;
+  effort.conditions_time = pass.dt;
   const CoupledResidual& end = report_.residuals.back();
   // One iteration for both fields, booked with the mechanical phase.
   effort.mechanics = {iterations, linear_iterations, end.force, processes::wall_time() - start};

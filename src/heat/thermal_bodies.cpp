@@ -130,7 +130,9 @@ ThermalState ThermalPhase::initial_state_of(const std::function<double(Index, in
   state.enthalpy.resize(mesh_.x.size());
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
     state.enthalpy[at(i)] = storage_->sum_of_bodies(i, [&](int body) { return enthalpy(i, body); });
-    state.temperature[at(i)] = storage_->temperature(i, state.enthalpy[at(i)]);
+    // A node at which nothing has grown yet has no heat, and a temperature that nothing reads.
+    const bool bare = storage_->sum_of_bodies(i, [](int) { return 1.0; }) == 0;
+    state.temperature[at(i)] = bare ? k_counted_from : storage_->temperature(i, state.enthalpy[at(i)]);
   }
   ghosts_.update(state.temperature, 1);
   ghosts_.update(state.enthalpy, 1);

@@ -36,11 +36,15 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       materials_(materials),
       contributions_(std::move(contributions)),
       ghosts_(mesh) {
+  build(conditions);
+}
+
+void ThermalPhase::build(const ThermalConditions& conditions) {
   // Where heat is stored is decided body by body: at the nodes under the closed rule, and under the open rule
   // for materials with a change at one temperature, whose heat a Gauss point could not follow.
-  assert(materials.size() == mesh.bodies.size());
+  assert(materials_.size() == mesh_.bodies.size());
   const bool closed = options_.integration == HeatIntegration::closed;
-  storage_ = std::make_unique<NodalEnthalpy>(mesh, kind, materials_);
+  storage_ = std::make_unique<NodalEnthalpy>(mesh_, kind_, materials_);
   const bool nodal = closed || storage_->has_plateaus();
   // Bodies that store at nodes and those that do not are kept apart, because both may share nodes of an
   // interface.
@@ -54,7 +58,7 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
     at_nodes_->keep_bodies(kept);
     NodalEnthalpy of_others = *storage_;
     of_others.keep_bodies(others);
-    consistent_ = std::make_unique<ConsistentHeat>(mesh, points_, std::move(of_others));
+    consistent_ = std::make_unique<ConsistentHeat>(mesh_, points_, std::move(of_others));
   }
   // The printed forms of sensible heat (4.43a) are a contribution in addition to the enthalpy of the nodes.
   if (nodal && options_.sensible != SensibleForm::enthalpy) {
@@ -65,12 +69,12 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
   // The system of equations is made with all contributions. Half of the matrix is stored where no other field
   // shares it and the solver does not need the whole.
   system_ = std::make_unique<HeatSystem>(
-      mesh, kind, materials_, conditions, closed, contributions_,
-      options_.alone ? HeatSolver::storage_for(mesh, options_.solver, options_.symmetric)
+      mesh_, kind_, materials_, conditions, closed, contributions_,
+      options_.alone ? HeatSolver::storage_for(mesh_, options_.solver, options_.symmetric)
                      : linear::BlockMatrix::Storage::whole,
       options_.edges);
   solver_ =
-      std::make_unique<HeatSolver>(mesh, options_.solver, options_.symmetric, options_.linear_tolerance);
+      std::make_unique<HeatSolver>(mesh_, options_.solver, options_.symmetric, options_.linear_tolerance);
   // Nodes that hold heat are solved for by the truncated Newton method. Its sweeps change a node only where
   // the node's own curve is all of its storage, and none of its volume belongs to bodies that store at
   // points.
@@ -78,22 +82,22 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
     std::vector<char> relaxed;
     const auto one = [](const material::Material&) { return 1.0; };
     if (at_nodes_)
-      for (Index i = 0; i < mesh.n_owned_nodes; ++i)
+      for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
         relaxed.push_back(at_nodes_->sum(i, one) == storage_->sum(i, one) ? 1 : 0);
     truncated_newton_ = std::make_unique<TruncatedNewton>(
-        mesh, *system_, *storage_, *solver_, ghosts_,
+        mesh_, *system_, *storage_, *solver_, ghosts_,
         TruncatedNewtonOptions{options_.tolerance > 0 ? options_.tolerance : k_nodal_tolerance,
                                options_.max_iterations, k_nodal_tolerance},
         std::move(relaxed));
   }
   // Bodies that store at Gauss points get their kernels at last, once the matrix exists into which they
   // write.
-  for (const mesh::ElementBlock& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh_.blocks) {
     if (at_nodes(block.body)) continue;
     points_.push_back(store_at_points(block));
     points_.back()->bind(system_->matrix());
   }
-  temperature_system_ = std::make_unique<TemperatureSystem>(mesh, *system_, ghosts_, points_);
+  temperature_system_ = std::make_unique<TemperatureSystem>(mesh_, *system_, ghosts_, points_);
   spread_ = std::make_unique<HeatSpread>(*system_, *storage_, ghosts_);
 }
 

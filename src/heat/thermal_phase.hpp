@@ -135,6 +135,13 @@ class ThermalPhase {
   /// @param fresh  h(node, body) [J/m³] of bodies that come back, as of initial_state_of()
   CarriedHeat set_conditions(const ThermalConditions& conditions, ThermalState* state = nullptr,
                              const std::function<double(Index node, int body)>& fresh = {});
+  /// The mesh has got elements that were not there before: all that is made of it is made again. With the
+  /// closed rule and enthalpies alone; std::invalid_argument otherwise. Collective.
+  /// @param state  gets the heat of what is new; null where it has it already
+  /// @param fresh  h(node, body) [J/m³] of what is new, as of initial_state_of()
+  /// Returns that heat, counted from 20 °C [J].
+  double grow(const ThermalConditions& conditions, const std::function<double(Index node, int body)>& fresh,
+              ThermalState* state);
   /// Heat of the active bodies, counted from 20 °C [J]. With the open rule by the weights of the nodes.
   /// Collective.
   double heat_content(const ThermalState& state) const;
@@ -235,6 +242,8 @@ class ThermalPhase {
  private:
   friend class ThermalIteration;
   friend class StepSensitivity;
+  /// Makes everything from the mesh.
+  void build(const ThermalConditions& conditions);
   /// Makes the matrix again where a contribution asks for it; then true. Collective.
   bool follow_graph();
   /// Throws StepRejected like require() unless `newton_steps` limits the iteration.

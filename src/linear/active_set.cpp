@@ -26,7 +26,6 @@ mesh::FaceKey face_of_element(const mesh::ElementBlock& block, Index element, in
 
 ActiveSet::ActiveSet(const mesh::Mesh& mesh, std::span<const std::string> absent)
     : complete_(absent.empty()), bodies_(mesh.bodies.size(), 1), nodes_(mesh.x.size(), 1) {
-  if (complete_) return;
   // Names become flags of bodies; a name that no body has is an error of the caller.
   for (const std::string& name : absent) {
     const auto found = std::find_if(mesh.bodies.begin(), mesh.bodies.end(),
@@ -40,6 +39,13 @@ ActiveSet::ActiveSet(const mesh::Mesh& mesh, std::span<const std::string> absent
   for (const mesh::ElementBlock& block : mesh.blocks)
     if (body(block.body))
       for (const Index node : block.nodes) touched[static_cast<std::size_t>(node)] = 1;
+  // Without bodies that are absent all nodes have elements, but where a body grows (growing_mesh.hpp).
+  const auto owned = static_cast<std::ptrdiff_t>(mesh.n_owned_nodes);
+  if (complete_) {
+    const bool bare = std::any_of(touched.begin(), touched.begin() + owned, [](double t) { return t == 0; });
+    if (!parallel::any_process(bare)) return;
+    complete_ = false;
+  }
   parallel::GhostExchange(mesh).update(touched, 1);
   for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i] = touched[i] > 0 ? 1 : 0;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -15,6 +16,19 @@ namespace solidus {
 
 /// Coordinates [m]; two-dimensional analyses leave the third zero.
 using Position = std::array<double, 3>;
+
+/// A place around which a law has values of note, within a distance of it [m].
+struct PlaceSpot {
+  Position centre{};
+  double radius = 0;  ///< parts of elements there are made no larger than this
+};
+
+/// How a law travels: the time in which it moves by its own length, infinite where it stands, and how much of
+/// that time a step may take.
+struct Crossing {
+  double time = std::numeric_limits<double>::infinity();  ///< [s]
+  double share = 1;
+};
 
 /// f(x, t), in SI.
 class PlaceLaw {
@@ -33,6 +47,17 @@ class PlaceLaw {
   virtual void add_breaks(std::size_t axis, double low, double high, double time,
                           std::vector<double>& coordinates) const {
     (void)axis, (void)low, (void)high, (void)time, (void)coordinates;
+  }
+  /// Adds the place around which it is concentrated at a time, where it is known to be.
+  virtual void add_spots(double time, std::vector<PlaceSpot>& spots) const { (void)time, (void)spots; }
+  /// Adds the times in (from, to) at which it is known to jump or bend everywhere.
+  virtual void add_bends(double from, double to, std::vector<double>& times) const {
+    (void)from, (void)to, (void)times;
+  }
+  /// How it travels between two times; nothing where that is not known beforehand.
+  virtual std::optional<Crossing> crossing(double from, double to) const {
+    (void)from, (void)to;
+    return {};
   }
 };
 
@@ -68,6 +93,15 @@ class PlaceFunction {
   void add_bends(double from, double to, std::vector<double>& times) const {
     if (law_ == nullptr) return uniform_.add_bends(from, to, times);
     if (start_ + duration_ > from && start_ + duration_ < to) times.push_back(start_ + duration_);
+    const std::size_t first = times.size();
+    law_->add_bends(from - start_, std::min(to - start_, duration_), times);
+    for (std::size_t i = first; i < times.size(); ++i) times[i] += start_;
+  }
+  void add_spots(double time, std::vector<PlaceSpot>& spots) const {
+    if (law_ != nullptr) law_->add_spots(on_clock(time), spots);
+  }
+  std::optional<Crossing> crossing(double from, double to) const {
+    return law_ != nullptr ? law_->crossing(on_clock(from), on_clock(to)) : std::nullopt;
   }
   void add_breaks(std::size_t axis, double low, double high, double time,
                   std::vector<double>& coordinates) const {

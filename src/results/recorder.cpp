@@ -39,7 +39,9 @@ GlobalHistory::Options global_columns(const coupling::Phases& phases, const Reco
                                  .stability = phases.audits_stability(),
                                  .heat = phases.heat != nullptr,
                                  .internal_energy = follows_internal_energy(phases, options),
-                                 .bodies = options.shots};
+                                 .grows = phases.growth != nullptr,
+                                 .bodies = options.shots || phases.growth != nullptr};
+  columns.sources = options.sources;
   // Columns of each pair as far as it has friction and heat.
   if (phases.mechanics != nullptr)
     for (const contact::ContactPair* pair : phases.contacts)
@@ -161,7 +163,9 @@ std::vector<Reading> Recorder::readings() const {
 }
 
 double Recorder::heat_of_bodies(const coupling::State& state) const {
-  return options_.shots && phases_.heat != nullptr ? phases_.heat->heat_content(state.heat) : 0.0;
+  return (options_.shots || phases_.growth != nullptr) && phases_.heat != nullptr
+             ? phases_.heat->heat_content(state.heat)
+             : 0.0;
 }
 
 StepTable Recorder::step_table() const {
@@ -200,6 +204,7 @@ void Recorder::begin(const coupling::State& state) {
   // A fresh run starts its balance here.
   coupling::EnergyAudit none;
   none.internal_at_start = initial.internal_energy;
+  if (phases_.growth != nullptr) globals_.deposited(phases_.growth->mass());
   globals_.start(initial, none, {}, heat_content, heat_of_bodies(state));
   if (criteria_probed_) fields_.update_criteria(state);
   add_history_row(state);
@@ -216,6 +221,7 @@ void Recorder::step(const coupling::StepRecord& taken, const coupling::State& st
   // and the times that all this took.
   show_castings(record, state);
   measure_internal_energy(record, state);
+  if (phases_.growth != nullptr) globals_.deposited(phases_.growth->mass());
   globals_.add(record, heat_of_bodies(state));
   last_.stage = record.stage_of_case;
   last_.cycle = record.cycle;

@@ -96,6 +96,9 @@ struct Sensitivities::Built {
 Sensitivities::Sensitivities(const setup::Case& base, const setup::Assembly& a,
                              std::vector<Neighbour> neighbours, const std::filesystem::path& file) {
   check_case(base.spec);
+  if (!base.spec.depositions.empty())
+    throw InputError(base.spec.depositions.front().where, "derivatives of bodies that grow are not there yet",
+                     "a case without [[deposition]]");
   // Columns follow the probes of the base case, and their number decides what is comparable among the
   // neighbours.
   reader_ = std::make_unique<Reader>(base.spec, a);

@@ -125,6 +125,7 @@ Transient::Transient(const cases::CaseSpec& spec, const RunOptions& options, set
   // Criteria, loads and burning are followed by the simulation itself, since their state belongs to it.
   if (a.criteria) simulation_.follow(*a.criteria);
   if (a.heat) simulation_.follow_loads(*a.heat);
+  if (a.growth) simulation_.follow_growth(*a.growth);
   if (!a.initial.burning.lit.empty()) simulation_.follow_burning(*a.heat);
   simulation_.stop_when(options.stop_asked);
   // Failures are explained by diagnose(), stages are set up by apply(): both need the case, which the

@@ -147,10 +147,18 @@ void build_heat(const cases::CaseSpec& spec, const InitialTemperatures& start, A
   heat::ThermalConditions conditions = thermal_conditions(spec, a.first_stage());
   conditions.absent_bodies.clear();  // they leave when the first stage begins
   // The phase keeps references to the mesh and the materials, which the assembly outlives it with.
-  a.heat = std::make_unique<heat::ThermalPhase>(a.mesh, spec.analysis.kind, a.materials, conditions, options,
+  const mesh::Mesh& mesh = a.growth ? a.growth->present() : a.mesh;
+  a.heat = std::make_unique<heat::ThermalPhase>(mesh, spec.analysis.kind, a.materials, conditions, options,
                                                 contributions);
   a.phases.heat = a.heat.get();
   a.initial.heat = a.heat->initial_state_of([&](Index node, int body) { return start.enthalpy(node, body); });
+  // Nodes at which nothing has grown yet show what will come.
+  if (a.growth) {
+    const std::vector<double> to_come = nodal_temperature(spec, start, a.mesh);
+    for (Index i = 0; i < a.mesh.n_nodes(); ++i)
+      if (!a.heat->active().node(i))
+        a.initial.heat.temperature[static_cast<std::size_t>(i)] = to_come[static_cast<std::size_t>(i)];
+  }
   // What has burned is part of the state, where something can burn at all.
   const bool burns = std::ranges::any_of(spec.thermal_conditions, [](const cases::ThermalConditionSpec& c) {
     return c.kind == cases::ThermalConditionSpec::Kind::exothermic;
@@ -305,6 +313,11 @@ void build(const cases::CaseSpec& spec, Assembly& a) {
   for (const InitialTemperatureRange& range : a.start) highest.push_back(range.high);
   cases::check_melts(spec, a.materials, highest);
   build_contacts(spec, a);
+  if (!spec.depositions.empty()) {
+    check_contacts_of_growth(spec, a.mesh);
+    a.growth = std::make_unique<Deposition>(spec, a);
+    a.phases.growth = a.growth.get();
+  }
   // Mechanics is given the initial temperatures even if heat is not solved for.
   if (spec.has_mechanics()) {
     a.phases.temperature = nodal_temperature(spec, start, a.mesh);

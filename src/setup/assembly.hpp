@@ -9,6 +9,7 @@
 #include "contact/pair.hpp"
 #include "coupling/phases.hpp"
 #include "coupling/state.hpp"
+#include "setup/deposition.hpp"
 #include "setup/initial_temperature.hpp"
 
 namespace solidus::setup {
@@ -18,6 +19,7 @@ struct Assembly {
   mesh::Mesh mesh;
   std::vector<material::Material> materials;
   std::vector<std::unique_ptr<contact::ContactPair>> contacts;
+  std::unique_ptr<Deposition> growth;  ///< null: nothing grows
   std::unique_ptr<mechanics::MechanicalPhase> mechanics;
   std::unique_ptr<mechanics::StructuralHeat> structural;
   std::unique_ptr<heat::ThermalPhase> heat;

@@ -12,6 +12,7 @@
 #include "results/output/run_folder.hpp"
 #include "setup/body_input.hpp"
 #include "setup/case_file.hpp"
+#include "setup/deposition.hpp"
 #include "setup/dynamics_input.hpp"
 #include "setup/heat_input.hpp"
 #include "setup/mesh_section.hpp"
@@ -20,6 +21,7 @@
 #include "setup/run_input.hpp"
 #include "setup/scheme_input.hpp"
 #include "setup/section_names.hpp"
+#include "setup/source_input.hpp"
 #include "setup/time_input.hpp"
 
 namespace solidus::setup {
@@ -325,6 +327,8 @@ void check_case(const cases::CaseSpec& spec) {
   check_names(spec.bodies, "[[body]]");
   check_conditions(spec);
   check_rotation(spec);
+  check_sources(spec);
+  check_depositions(spec);
   check_contacts(spec);
   check_interfaces(spec);
   cases::check_stage_names(spec);

@@ -8,6 +8,7 @@
 
 #include "input/place_spec.hpp"
 #include "input/point_table.hpp"
+#include "setup/source_input.hpp"
 
 namespace solidus::setup {
 
@@ -49,6 +50,12 @@ class EventList {
     // Every corner of the table beyond that tolerance is an event that a step should end at.
     for (const double time : corners(f.table, from, to, tolerance))
       events.push_back({start + time, at_ends, false});
+  }
+
+  /// Times in the interval; none where they are too many for steps to end at each.
+  void add(const std::vector<double>& times) {
+    if (static_cast<std::ptrdiff_t>(times.size()) > k_most_events) return;
+    for (const double time : times) events.push_back({time, false, false});
   }
 
   std::vector<TimeEvent> events;
@@ -120,6 +127,12 @@ std::vector<TimeEvent> time_events(const cases::CaseSpec& spec, const cases::Sta
       if (film || radiates) list.add(c.ambient, c.clock, false, k_of_values);
       list.add(c.factor, c.clock, false);
     }
+  // Sources that travel are switched, and turn.
+  for (const cases::SourceSpec& source : spec.sources) {
+    list.add(source.power, cases::TimeOrigin::run, false);
+    list.add(source.efficiency, cases::TimeOrigin::run, false);
+    list.add(source_times(source, spec.dimension(), from, to));
+  }
   // Mechanical conditions and tools follow in the same way.
   if (spec.has_mechanics()) {
     for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {

@@ -3,6 +3,7 @@
 
 #include "setup/body_input.hpp"
 #include "setup/place_input.hpp"
+#include "setup/source_input.hpp"
 
 namespace solidus::setup {
 
@@ -51,6 +52,7 @@ heat::ThermalConditions thermal_conditions(const cases::CaseSpec& spec, const ca
         break;
     }
   }
+  add_sources(spec, conditions);
   return conditions;
 }
 

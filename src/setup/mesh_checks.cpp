@@ -123,6 +123,7 @@ void warn_of_loose_faces(const cases::CaseSpec& spec, const RawMesh& mesh) {
   // Groups that something acts on, of one dimension less than the mesh.
   std::set<std::string> used;
   for (const auto& c : spec.thermal_conditions) used.insert(c.group);
+  for (const auto& s : spec.sources) used.insert(s.groups.begin(), s.groups.end());
   for (const auto& c : spec.mechanical_conditions) used.insert(c.group);
   for (const auto& c : spec.contacts) used.insert({c.sides()[0], c.sides()[1]});
   for (const std::string& name : used) {
@@ -206,6 +207,19 @@ void check_groups(const cases::CaseSpec& spec, const RawMesh& mesh) {
     else
       require(mesh, c.group, c.kind == cases::ThermalConditionSpec::Kind::temperature ? -1 : surface, c.where,
               user);
+  }
+  for (const auto& s : spec.sources)
+    for (const std::string& group : s.groups) {
+      const std::string user = "source '" + s.name + "'";
+      if (s.on_surface())
+        require(mesh, group, surface, s.where, user);
+      else
+        require_body(spec, group, s.where, user);
+    }
+  for (const auto& d : spec.depositions) {
+    const std::string user = "deposition '" + d.name + "'";
+    require_body(spec, d.body, d.where, user);
+    if (!d.bare.empty()) require(mesh, d.bare, surface, d.where, user);
   }
   for (const auto& c : spec.mechanical_conditions) {
     using Kind = cases::MechanicalConditionSpec::Kind;

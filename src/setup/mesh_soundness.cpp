@@ -63,6 +63,9 @@ void refuse_inner_faces(const cases::CaseSpec& spec, const mesh::RawMesh& mesh, 
 
 std::map<std::string, SourceLocation> wanted_surfaces(const cases::CaseSpec& spec) {
   std::map<std::string, SourceLocation> wanted;
+  for (const auto& s : spec.sources)
+    for (const std::string& group : s.groups)
+      if (s.on_surface()) wanted.try_emplace(group, s.where);
   for (const auto& c : spec.thermal_conditions)
     if (!c.in_volume() && c.kind != cases::ThermalConditionSpec::Kind::temperature)
       wanted.try_emplace(c.group, c.where);

@@ -43,6 +43,7 @@ Range temperatures(const cases::CaseSpec& spec, std::span<const InitialTemperatu
   for (const InitialTemperatureRange& range : start) all.see(range.low, range.high);
   for (const cases::RigidSurfaceSpec& tool : spec.rigid_surfaces)
     if (tool.temperature) all.see(*tool.temperature);
+  if (!spec.sources.empty()) all.see(all.low, k_unbounded);
   for (const cases::ThermalConditionSpec& c : spec.thermal_conditions) {
     if ((c.kind == Kind::flux && heats(c.flux)) || (c.kind == Kind::source && heats(c.power)) ||
         c.kind == Kind::exothermic)

@@ -161,6 +161,14 @@ coupling::TimeOptions time_options(const cases::CaseSpec& spec) {
   options.until_solid = t.until == cases::TimeSpec::Until::solid;
   if (spec.stages.empty()) options.step = step_options(t, *t.step);
   for (const cases::StageRun& run : cases::stage_runs(spec)) options.stages.push_back(stage(t, run));
+  // Where bodies grow, hot metal meets cold at every birth: the error of that moment is the mesh's, and no
+  // step is short enough for it.
+  constexpr double k_least_of_growth = 1.0 / 16;
+  if (!spec.depositions.empty() && !t.min_step) {
+    options.step.min_step = k_least_of_growth * options.step.step;
+    for (coupling::Stage& each : options.stages)
+      if (each.step.min_step == 0) each.step.min_step = k_least_of_growth * each.step.step;
+  }
   options.output_at_stage_ends = spec.output.stage_ends;
   options.output_times = spec.output.times;
   options.checkpoint_every = spec.output.checkpoint_every.value_or(0);

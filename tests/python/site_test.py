@@ -78,6 +78,7 @@ TASKS = {
     "stages": ["open the mould after a time", "shake out the casting", "eject the casting after 60 s"],
     "study": ["run many variants of a case", "parameter study", "vary a parameter"],
     "time_steps": ["choose the time step", "run is too slow", "adaptive time steps"],
+    "travelling": ["heat source that moves along a weld", "weld bead that is deposited along a path", "Goldak double ellipsoid"],
     "troubleshooting": ["understand an error message", "step does not converge", "Newton fails"],
     "uncertain": ["how uncertain is the answer", "uncertain material data", "sensitivity to material data"],
     "versions": ["what changes between versions", "compatible with an older version", "will my case run with the next version"],

@@ -21,6 +21,7 @@ struct CellIntegrals::Part {
   LoadValues integral{};
   double measure = 0;
   bool breaks = false;  ///< the load is known to jump in it
+  bool coarse = false;  ///< it is larger than a place in it at which the load is concentrated
 };
 
 /// The rounds of one integration.
@@ -33,6 +34,11 @@ class CellIntegrals::Division {
     result_.of_nodes.resize(cells.mesh_.x.size());
     result_.of_cells.resize(n_cells);
     largest_.resize(n_cells);
+    for (const PlaceSpot& spot : breaks.spots)
+      for (std::size_t i = 0; i < 3; ++i) {
+        spots_low_[i] = std::min(spots_low_[i], spot.centre[i] - spot.radius);
+        spots_high_[i] = std::max(spots_high_[i], spot.centre[i] + spot.radius);
+      }
   }
 
   Result run() {
@@ -109,7 +115,8 @@ class CellIntegrals::Division {
       part.cell = cell;
       begin_shape(part);
       find_breaks(part);
-      bool matters = part.breaks;
+      part.coarse = is_coarse(part);
+      bool matters = part.breaks || part.coarse;
       const LoadValues mean = of_whole(cell).first;
       for (std::size_t k = 0; k < k_values; ++k) largest_[c][k] = 2 * mean[k];
       for (std::size_t k = 0; k < k_values; ++k)
@@ -213,6 +220,35 @@ class CellIntegrals::Division {
       if (last - first > 1 && high - low > 0.5 * breaks_.apart[i]) axis = static_cast<int>(i);
     }
     return axis;
+  }
+  /// Whether a part is larger than the radius of a place near it at which the load is concentrated. Cells far
+  /// from all of them are told by their nodes.
+  bool is_coarse(const Part& part) const {
+    if (breaks_.spots.empty()) return false;
+    Position low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    const auto see = [&](const Position& x) {
+      for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], x[i]), high[i] = std::max(high[i], x[i]);
+    };
+    const auto apart = [&](const Position& from, const Position& to) {
+      for (std::size_t i = 0; i < 3; ++i)
+        if (high[i] < from[i] || low[i] > to[i]) return true;
+      return false;
+    };
+    if (part.level == 0) {
+      const int n = mesh::node_count(cells_.blocks_[cells_.block_of(part.cell)].shape);
+      for (int a = 0; a < n; ++a) see(cells_.mesh_.x[at(cells_.nodes_of(part.cell)[a])]);
+      if (apart(spots_low_, spots_high_)) return false;
+    }
+    // The box of its corners is compared with each place.
+    low.fill(HUGE_VAL), high.fill(-HUGE_VAL);
+    for (const Position& x : corners(part)) see(x);
+    double size = 0;
+    for (std::size_t i = 0; i < 3; ++i) size = std::max(size, high[i] - low[i]);
+    return std::ranges::any_of(breaks_.spots, [&](const PlaceSpot& spot) {
+      Position from = spot.centre, to = spot.centre;
+      for (std::size_t i = 0; i < 3; ++i) from[i] -= spot.radius, to[i] += spot.radius;
+      return size > spot.radius && !apart(from, to);
+    });
   }
   /// Halves a part across the direction of its reference shape that leads farthest along an axis.
   std::vector<Part> halved(const Part& part, int axis) const {
@@ -378,6 +414,10 @@ class CellIntegrals::Division {
             }
           close = close && !more;
         }
+        if (open[p].coarse) {
+          part.coarse = is_coarse(part);
+          close = close && !part.coarse;
+        }
         if (close || last || crowded || part.level >= k_deepest)
           accept(part, of_part);
         else
@@ -394,6 +434,8 @@ class CellIntegrals::Division {
   Result result_;
   std::vector<LoadValues> largest_;  ///< magnitudes seen in each cell
   LoadValues scale_{}, accepted_{}, left_{};
+  /// The box of all places at which the load is concentrated.
+  Position spots_low_{HUGE_VAL, HUGE_VAL, HUGE_VAL}, spots_high_{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 };
 
 }  // namespace solidus::heat

@@ -7,6 +7,8 @@
 /// is all that was seen at first, the parts with the larger values lead to it. Elements are halved first
 /// until no two coordinates at which the load is known to jump lie in one part (`x > 0.03`), so that nothing
 /// between them is missed, and a part with such a coordinate counts as wrong by a quarter of what it holds.
+/// Where the load is known to be concentrated at a place, parts there are divided until they are no larger
+/// than its radius.
 #pragma once
 
 #include <array>
@@ -31,10 +33,11 @@ class CellIntegrals {
   /// @param fixed  they are points()
   using Evaluate = std::function<void(std::span<const Position> x, bool fixed, std::span<LoadValues> values)>;
   /// Coordinates at which the load is known to jump, rising, by component, and the least distance of two of
-  /// them.
+  /// them; places that the load is concentrated at.
   struct Breaks {
     std::array<std::vector<double>, 3> at;
     std::array<double, 3> apart{HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    std::vector<PlaceSpot> spots;
   };
   /// A point of integration of a counted cell.
   struct Sample {

@@ -16,6 +16,9 @@ namespace {
 
 constexpr double k_resolved = 0.01, k_unresolved = 0.05;  ///< |S/I − 1|
 constexpr double k_overlap = 0.6;
+/// Gauss points of the mean over a step are taken for each such share of the time in which a load moves by
+/// its own length: one standard deviation of a normal distribution.
+constexpr double k_apart = 0.2;
 constexpr double k_uncertain = 0.01;
 
 std::size_t at(Index i) {
@@ -135,6 +138,8 @@ CellIntegrals::Breaks PlacedLoad::breaks(const LoadLaw& law, std::span<const Tim
     std::sort(breaks.at[i].begin(), breaks.at[i].end());
     breaks.at[i].erase(std::unique(breaks.at[i].begin(), breaks.at[i].end()), breaks.at[i].end());
   }
+  for (const TimePoint& time : times)
+    for (const PlaceFunction& f : law.functions) f.add_spots(time.time, breaks.spots);
   return breaks;
 }
 
@@ -154,8 +159,9 @@ void PlacedLoad::set(const LoadWindow& window) {
     int parts = 1;
     if (moves() && window.n_parts > 0) {
       const double begin = window.parts[0].begin, end = window.parts[at(window.n_parts - 1)].end;
-      parts =
-          static_cast<int>(std::min<double>(k_most_parts, std::ceil((end - begin) / lasting(begin, end))));
+      const std::optional<Crossing> known = crossing(begin, end);
+      const double apart = known ? k_apart * known->time : lasting(begin, end);
+      parts = static_cast<int>(std::min<double>(k_most_parts, std::ceil((end - begin) / apart)));
       parts = std::max(parts, 1);
     }
     // Cells give the integrals, points the values there; the kind of the load says how both become nodal
@@ -264,10 +270,23 @@ void PlacedLoad::check(const CellIntegrals::Result& integrals, double by_points)
                   100 * integrals.uncertain);
 }
 
+std::optional<Crossing> PlacedLoad::crossing(double from, double to) const {
+  std::optional<Crossing> least;
+  for (const PlaceFunction& f : law_.functions)
+    if (const std::optional<Crossing> one = f.crossing(from, to))
+      if (!least || one->share * one->time < least->share * least->time) least = one;
+  return least;
+}
+
 double PlacedLoad::lasting(double from, double to) const {
   // The result is how long the load takes until it overlaps with itself only by k_overlap: how far it travels
   // over its own size. A load that does not move lasts for ever.
   if (!moves()) return HUGE_VAL;
+  // One that knows its path says it itself.
+  if (const std::optional<Crossing> known = crossing(from, to)) {
+    const double longest = known->share * known->time;
+    return longest < to - from ? longest : HUGE_VAL;
+  }
   // Only the distribution counts, so a power that varies evenly is set to one. Of a flux the value itself is
   // compared, of a film its coefficient.
   LoadLaw law = law_;  // its distribution, whatever its power is

@@ -51,7 +51,8 @@ class PlacedLoad {
   std::span<const LoadValues> means() const { return means_; }
   /// The longest time from `from` on, up to `to`, after which the load overlaps with three fifths of itself,
   /// whatever its power is by then; infinite where that is longer, and of loads that do not move. A normal
-  /// distribution of the deviation σ moves by 1.05 σ in that time, a patch of the length L by 0.4 L.
+  /// distribution of the deviation σ moves by 1.05 σ in that time, a patch of the length L by 0.4 L. Of a
+  /// load that knows its path the share of the time in which it moves by its own length that it allows.
   /// Collective.
   double lasting(double from, double to) const;
   std::size_t bytes() const;
@@ -61,6 +62,8 @@ class PlacedLoad {
     LoadValues points{}, integrals{};
   };
   bool moves() const;
+  /// The one of its functions that knows how it travels and needs the shortest steps.
+  std::optional<Crossing> crossing(double from, double to) const;
   void average(const LoadLaw& law, std::span<const TimePoint> times, std::span<const Position> x, bool fixed,
                std::span<LoadValues> values) const;
   CellIntegrals::Breaks breaks(const LoadLaw& law, std::span<const TimePoint> times) const;

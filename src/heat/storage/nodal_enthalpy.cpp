@@ -67,7 +67,8 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
                 weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
     });
   // A mesh of one body needs no list of shares.
-  if (n_owned > 0 && further.empty() && std::ranges::count(body_of, body_of.front()) == std::ssize(body_of)) {
+  if (n_owned > 0 && further.empty() && body_of.front() != k_none &&
+      std::ranges::count(body_of, body_of.front()) == std::ssize(body_of)) {
     shares_ = NodeShares(body_of.front(), std::move(volume_of));
     return;
   }
@@ -77,8 +78,8 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
   shares_.reserve(n_shares);
   auto more = further.begin();
   for (std::size_t i = 0; i < n_owned; ++i) {
-    assert(body_of[i] != k_none && "every owned node belongs to an element");
-    shares_.add({body_of[i], volume_of[i]});
+    // A node may be without elements until one grows there.
+    if (body_of[i] != k_none) shares_.add({body_of[i], volume_of[i]});
     if (more != further.end() && static_cast<std::size_t>(more->first) == i) {
       for (const NodeShare& share : more->second) shares_.add(share);
       ++more;

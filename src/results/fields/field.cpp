@@ -34,6 +34,7 @@ FieldSet FieldSet::select(const std::vector<std::string>& names) const {
   if (names.empty()) {
     FieldSet usual;
     usual.active_ = active_;
+    usual.there_ = there_;
     for (const Field& field : fields_)
       if (!field.on_request) usual.add(field);
     return usual;
@@ -47,6 +48,7 @@ FieldSet FieldSet::select(const std::vector<std::string>& names) const {
       throw InputError({}, "this analysis has no field '" + name + "'", "fields: " + known);
   FieldSet chosen;
   chosen.active_ = active_;
+  chosen.there_ = there_;
   for (const Field& field : fields_)
     if (std::find(names.begin(), names.end(), field.name) != names.end()) chosen.add(field);
   return chosen;

@@ -2,10 +2,12 @@
 /// own, or are computed whenever they are read, so that they need not be stored.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "linear/active_set.hpp"
@@ -58,11 +60,17 @@ class FieldSet {
   /// all bodies are active. Must outlive the set.
   void set_active(const linear::ActiveSet* active) { active_ = active; }
   const linear::ActiveSet* active() const { return active_; }
+  /// Says of elements, by their numbers in the input, whether they are there; empty: all of active bodies
+  /// are.
+  using There = std::function<bool(std::int64_t input_element)>;
+  void set_there(There there) { there_ = std::move(there); }
+  bool there(std::int64_t input_element) const { return !there_ || there_(input_element); }
 
  private:
   std::vector<Field> fields_;
   bool cylindrical_ = false;
   const linear::ActiveSet* active_ = nullptr;
+  There there_;
 };
 
 /// Number of values a field of this place and number of components has on this process.

@@ -285,6 +285,8 @@ void StateFields::update(const coupling::State& state) {
       phases_.heat != nullptr ? phases_.heat->active() : phases_.mechanics->active();
   const linear::ActiveSet* active = there.complete() ? nullptr : &there;
   bodies_.set_active(active);
+  if (phases_.growth != nullptr)
+    bodies_.set_there([this](std::int64_t element) { return phases_.growth->there(element); });
   for (auto& [name, fields] : surfaces_) fields.set_active(active);
   if (phases_.heat != nullptr) {
     std::ranges::copy(state.heat.temperature, values_of(of_heat::k_temperature).begin());

@@ -204,10 +204,11 @@ void write_part(const std::filesystem::path& path, const Part& part, const Field
       add_of_cells<std::int32_t>(data, part, "process", [rank](const ElementBlock&, Index) { return rank; });
   // Cells of absent bodies are marked, so that viewers hide them.
   if (const linear::ActiveSet* active_set = fields.active())
-    xml +=
-        add_of_cells<std::uint8_t>(data, part, k_ghost_type, [active_set](const ElementBlock& block, Index) {
-          return block.body < 0 || active_set->body(block.body) ? std::uint8_t{0} : k_hidden_cell;
-        });
+    xml += add_of_cells<std::uint8_t>(data, part, k_ghost_type, [&](const ElementBlock& block, Index e) {
+      const bool there = block.body < 0 || (active_set->body(block.body) &&
+                                            fields.there(block.input_element[static_cast<std::size_t>(e)]));
+      return there ? std::uint8_t{0} : k_hidden_cell;
+    });
   xml += "      </CellData>\n";
   xml += "      <Points>\n" + add_points(data, part) + "      </Points>\n";
   xml += "      <Cells>\n" + add_cells(data, part) + "      </Cells>\n";

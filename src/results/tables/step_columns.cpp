@@ -252,7 +252,10 @@ std::vector<Reading> GlobalHistory::all() const {
   if (options_.heat) {
     add("stored_heat", "J", sum_.stored_heat);
     add("heat_in", "J", sum_.heat_in);
+    for (const std::string& source : options_.sources)
+      all.push_back({{source + "_power", "W"}, last_.power_of(source)});
   }
+  if (options_.grows) add("deposited_mass", "kg", mass_);
   if (options_.heat && options_.bodies) {
     add("heat_poured", "J", sum_.bodies.poured);
     add("heat_ejected", "J", sum_.bodies.ejected);

@@ -44,9 +44,11 @@ class GlobalHistory {
     bool dynamics = false;   ///< bodies have inertia
     bool stability = false;  ///< 𝓛 is followed
     std::vector<PairColumns> pairs = {};
-    bool heat = true;              ///< is followed: the first law is audited
-    bool internal_energy = false;  ///< states have one (coupling/internal_energy.hpp)
-    bool bodies = false;           ///< bodies leave and come: their heat is part of the balance
+    bool heat = true;                       ///< is followed: the first law is audited
+    bool internal_energy = false;           ///< states have one (coupling/internal_energy.hpp)
+    std::vector<std::string> sources = {};  ///< names of sources that travel: a column of power for each
+    bool grows = false;                     ///< bodies grow: their mass is a column
+    bool bodies = false;                    ///< bodies leave and come: their heat is part of the balance
   };
   explicit GlobalHistory(Options options) : options_(std::move(options)) {}
 
@@ -59,6 +61,8 @@ class GlobalHistory {
              double heat_of_bodies = 0);
   /// @param heat_of_bodies  heat of the active bodies [J] (ThermalPhase::heat_content), where they change
   void add(const coupling::StepEffort& step, double heat_of_bodies = 0);
+  /// The mass that has been deposited until now [kg].
+  void deposited(double mass) { mass_ = mass; }
   /// In the order of columns().
   std::vector<double> values() const;
   /// All there are, those that probes of the same header give included.
@@ -75,6 +79,7 @@ class GlobalHistory {
   coupling::StepEffort last_;
   coupling::EnergyAudit sum_;
   double heat_content_ = 0;             ///< at the start [J]
+  double mass_ = 0;                     ///< that has been deposited [kg]
   double heat_of_bodies_ = 0;           ///< of the active ones, counted from 20 °C [J]
   coupling::StabilityAudit stability_;  ///< summed
 };

@@ -1,0 +1,19 @@
+/// When a run stops, when it writes a checkpoint, and whether its steps follow their errors.
+#include "coupling/simulation.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::coupling {
+
+bool Simulation::measures_error(const StepOptions& step) {
+  return step.adaptive && step.limits.control != ErrorControl::none;
+}
+
+bool Simulation::checkpoint_due(const StepRecord& record) const {
+  return record.output || (options_.checkpoint_every > 0 && record.number % options_.checkpoint_every == 0);
+}
+
+bool Simulation::stop_asked() const {
+  return stop_asked_ && parallel::any_process(stop_asked_());
+}
+
+}  // namespace solidus::coupling

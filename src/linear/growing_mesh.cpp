@@ -1,0 +1,217 @@
+/// Blocks are filtered by the times of birth; faces are judged by how many of their elements are there.
+#include "linear/growing_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "parallel/parallel.hpp"
+
+namespace solidus::linear {
+
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+void append(mesh::ElementBlock& to, const mesh::ElementBlock& from, Index element) {
+  const Index* nodes = from.element(element);
+  to.nodes.insert(to.nodes.end(), nodes, nodes + mesh::node_count(from.shape));
+  to.input_element.push_back(from.input_element[at(element)]);
+  if (element < from.n_counted) ++to.n_counted;
+}
+
+/// The nodes of an element's face, vertices first.
+std::vector<Index> nodes_of_face(const mesh::ElementBlock& block, Index element, int face) {
+  std::vector<Index> nodes;
+  for (const int a : mesh::face_nodes(block.shape, face)) nodes.push_back(block.element(element)[a]);
+  return nodes;
+}
+
+void find_nodes(mesh::Surface& surface) {
+  surface.nodes.clear();
+  for (const mesh::ElementBlock& faces : surface.faces)
+    surface.nodes.insert(surface.nodes.end(), faces.nodes.begin(), faces.nodes.end());
+  std::sort(surface.nodes.begin(), surface.nodes.end());
+  surface.nodes.erase(std::unique(surface.nodes.begin(), surface.nodes.end()), surface.nodes.end());
+}
+
+}  // namespace
+
+GrowingMesh::GrowingMesh(const mesh::Mesh& whole, std::vector<Births> births, std::vector<std::string> bare,
+                         double interval)
+    : whole_(whole),
+      births_(std::move(births)),
+      bare_(std::move(bare)),
+      time_(-std::numeric_limits<double>::infinity()),
+      present_(whole) {
+  round_times(interval);
+  for (std::size_t b = 0; b < births_.size(); ++b)
+    for (std::size_t e = 0; e < births_[b].size(); ++e)
+      births_of_.emplace_back(whole_.blocks[b].input_element[e], births_[b][e]);
+  std::sort(births_of_.begin(), births_of_.end());
+  find_faces();
+  fill_blocks();
+  fill_surfaces();
+}
+
+/// The different times are found one after the other, since no process knows all of them.
+void GrowingMesh::round_times(double interval) {
+  std::vector<double> own;
+  for (const Births& of_block : births_)
+    for (const double t : of_block)
+      if (std::isfinite(t)) own.push_back(t);
+  std::sort(own.begin(), own.end());
+  const double first = parallel::global_min(own.empty() ? HUGE_VAL : own.front()),
+               last = parallel::global_max(own.empty() ? -HUGE_VAL : own.back());
+  if (!(last >= first)) return;
+  const double same = 1e-9 * std::max(last - first, 1e-9);
+  const auto collect = [&] {
+    times_.clear();
+    for (double time = -HUGE_VAL; std::ssize(times_) <= k_most_times;) {
+      const auto next = std::upper_bound(own.begin(), own.end(), time + same);
+      time = parallel::global_min(next == own.end() ? HUGE_VAL : *next);
+      if (!std::isfinite(time)) break;
+      times_.push_back(time);
+    }
+  };
+  if (interval <= 0) collect();
+  if (std::ssize(times_) > k_most_times) interval = (last - first) / k_most_times;
+  // Each birth moves to the time at which its group is born.
+  const auto rounded = [&](double t) {
+    return interval > 0 ? first + interval * std::ceil((t - first) / interval - 1e-9)
+                        : *(std::upper_bound(times_.begin(), times_.end(), t + same) - 1);
+  };
+  for (Births& of_block : births_)
+    for (double& t : of_block)
+      if (std::isfinite(t)) t = rounded(t);
+  if (interval <= 0) return;
+  for (double& t : own) t = rounded(t);
+  collect();
+}
+
+void GrowingMesh::find_faces() {
+  const auto key_of = [](const mesh::ElementBlock& block, Index e, int k) {
+    return mesh::face_key(nodes_of_face(block, e, k).data(),
+                          mesh::vertex_count(mesh::face_shape(block.shape)));
+  };
+  // Faces of elements that are born come first; of others only those that they share.
+  for (const bool grows : {true, false})
+    for (std::size_t b = 0; b < whole_.blocks.size(); ++b) {
+      const mesh::ElementBlock& block = whole_.blocks[b];
+      if (births_[b].empty() == grows) continue;
+      for (Index e = 0; e < block.size(); ++e)
+        for (int k = 0; k < mesh::face_count(block.shape); ++k) {
+          const mesh::FaceKey key = key_of(block, e, k);
+          auto found = faces_.find(key);
+          if (found == faces_.end()) {
+            if (!grows) continue;
+            found = faces_.try_emplace(key).first;
+            order_.push_back(key);
+          }
+          found->second.sides.push_back({static_cast<std::int32_t>(b), e, k});
+        }
+    }
+  for (const auto& [name, surface] : whole_.surfaces)
+    for (const mesh::ElementBlock& faces : surface.faces)
+      for (Index f = 0; f < faces.size(); ++f)
+        if (const auto found = faces_.find(mesh::face_key(faces.element(f), mesh::vertex_count(faces.shape)));
+            found != faces_.end())
+          found->second.named = true;
+}
+
+bool GrowingMesh::born(const Side& side) const {
+  const Births& of_block = births_[static_cast<std::size_t>(side.block)];
+  return of_block.empty() || of_block[at(side.element)] <= time_;
+}
+
+int GrowingMesh::present_sides(const Face& face) const {
+  return static_cast<int>(std::ranges::count_if(face.sides, [&](const Side& s) { return born(s); }));
+}
+
+bool GrowingMesh::advance(double time) {
+  const auto changes = [&](double t) { return t > time_ && t <= time; };
+  const bool any = std::any_of(times_.begin(), times_.end(), changes);
+  time_ = std::max(time, time_);
+  if (!any) return false;
+  fill_blocks();
+  fill_surfaces();
+  return true;
+}
+
+bool GrowingMesh::there(std::int64_t input_element) const {
+  const auto found = std::lower_bound(births_of_.begin(), births_of_.end(), input_element,
+                                      [](const auto& birth, std::int64_t n) { return birth.first < n; });
+  return found == births_of_.end() || found->first != input_element || found->second <= time_;
+}
+
+void GrowingMesh::fill_blocks() {
+  for (std::size_t b = 0; b < whole_.blocks.size(); ++b) {
+    if (births_[b].empty()) continue;
+    const mesh::ElementBlock& from = whole_.blocks[b];
+    mesh::ElementBlock& to = present_.blocks[b];
+    to.nodes.clear();
+    to.input_element.clear();
+    to.n_counted = 0;
+    for (Index e = 0; e < from.size(); ++e)
+      if (births_[b][at(e)] <= time_) append(to, from, e);
+  }
+}
+
+void GrowingMesh::fill_surfaces() {
+  for (const auto& [name, surface] : whole_.surfaces) {
+    mesh::Surface& to = present_.surfaces.at(name);
+    to.faces.clear();
+    for (const mesh::ElementBlock& faces : surface.faces) {
+      mesh::ElementBlock& left = to.faces.emplace_back();
+      left.shape = faces.shape;
+      left.body = faces.body;
+      for (Index f = 0; f < faces.size(); ++f) {
+        const auto face = faces_.find(mesh::face_key(faces.element(f), mesh::vertex_count(faces.shape)));
+        if (face == faces_.end() || present_sides(face->second) == 1) append(left, faces, f);
+      }
+    }
+  }
+  add_bare_faces();
+  for (auto& [name, surface] : present_.surfaces) find_nodes(surface);
+}
+
+void GrowingMesh::add_bare_faces() {
+  // A face counts on the process that owns the first of its vertices; faces that count come first.
+  for (const bool counted : {true, false})
+    for (const mesh::FaceKey& key : order_) {
+      const Face& face = faces_.at(key);
+      if (face.named || face.sides.size() != 2 || present_sides(face) != 1) continue;
+      const Side& side = born(face.sides[0]) ? face.sides[0] : face.sides[1];
+      const Side& growing =
+          births_[static_cast<std::size_t>(face.sides[0].block)].empty() ? face.sides[1] : face.sides[0];
+      const std::string& joins = bare_[at(whole_.blocks[static_cast<std::size_t>(growing.block)].body)];
+      if (joins.empty()) continue;
+      const mesh::ElementBlock& block = whole_.blocks[static_cast<std::size_t>(side.block)];
+      const std::vector<Index> nodes = nodes_of_face(block, side.element, side.face);
+      GlobalIndex lowest = std::numeric_limits<GlobalIndex>::max();
+      Index first = 0;
+      for (const Index node : nodes)
+        if (whole_.global_node[at(node)] < lowest) lowest = whole_.global_node[at(node)], first = node;
+      if ((first < whole_.n_owned_nodes) != counted) continue;
+      // Blocks of bare faces follow those of the surface itself, one for each shape and body.
+      std::vector<mesh::ElementBlock>& blocks = present_.surfaces.at(joins).faces;
+      const std::size_t own = whole_.surfaces.at(joins).faces.size();
+      auto to =
+          std::find_if(blocks.begin() + static_cast<std::ptrdiff_t>(own), blocks.end(),
+                       [&](const mesh::ElementBlock& faces) {
+                         return faces.shape == mesh::face_shape(block.shape) && faces.body == block.body;
+                       });
+      if (to == blocks.end()) {
+        to = blocks.insert(to, mesh::ElementBlock{});
+        to->shape = mesh::face_shape(block.shape);
+        to->body = block.body;
+      }
+      to->nodes.insert(to->nodes.end(), nodes.begin(), nodes.end());
+      to->input_element.push_back(block.input_element[at(side.element)]);
+      if (counted) ++to->n_counted;
+    }
+}
+
+}  // namespace solidus::linear

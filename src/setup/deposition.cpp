@@ -1,0 +1,252 @@
+/// Times of birth follow from the centres of elements; the thermal phase is told when some are due.
+#include "setup/deposition.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "heat/storage/nodal_enthalpy.hpp"
+#include "parallel/parallel.hpp"
+#include "setup/assembly.hpp"
+#include "setup/heat_input.hpp"
+#include "setup/place_input.hpp"
+#include "setup/section_names.hpp"
+#include "setup/source_input.hpp"
+#include "system/common_failure.hpp"
+#include "system/log.hpp"
+
+namespace solidus::setup {
+
+namespace {
+
+using Kind = cases::DepositionSpec::Kind;
+
+[[noreturn]] void refuse(const cases::DepositionSpec& d, const std::string& what,
+                         const std::string& allowed) {
+  throw InputError(d.where, fmt::format("the deposition '{}' {}", d.name, what), allowed);
+}
+
+Position place(const std::vector<double>& x) {
+  Position position{};
+  std::copy_n(x.begin(), std::min<std::size_t>(x.size(), 3), position.begin());
+  return position;
+}
+
+double dot(const Position& a, const Position& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Position unit(Position d) {
+  const double length = std::sqrt(dot(d, d));
+  for (double& c : d) c /= length;
+  return d;
+}
+
+void check_kind(const cases::DepositionSpec& d, std::size_t dimension) {
+  if (d.kind == Kind::front) {
+    const Position n = place(d.normal);
+    if (d.from.size() != dimension || d.normal.size() != dimension || !d.speed || !(dot(n, n) > 0))
+      refuse(d, "has no complete front",
+             fmt::format("from and normal with {} components, and speed", dimension));
+  } else if (d.kind == Kind::path) {
+    if (!d.width || !d.depth) refuse(d, "has no 'width' and 'depth'", "width = \"6 mm\", depth = \"2 mm\"");
+    if (const Position n = place(d.direction); !d.direction.empty() && !(dot(n, n) > 0))
+      refuse(d, "has a 'direction' without a length", "direction = [0, 0, -1]");
+    check_path(d.path, "the deposition '" + d.name + "'", d.where, static_cast<int>(dimension));
+  } else if (!d.time) {
+    refuse(d, "has no 'time'", "time = { formula = \"z/0.002\" }");
+  }
+}
+
+/// When a plane that moves reaches a place; what is behind it at its start is there from the start.
+double birth_by_front(const cases::DepositionSpec& d, const Position& x) {
+  Position ahead = x;
+  const Position from = place(d.from);
+  for (std::size_t k = 0; k < 3; ++k) ahead[k] -= from[k];
+  const double distance = dot(ahead, unit(place(d.normal)));
+  return distance <= 0 ? -HUGE_VAL : d.start + distance / *d.speed;
+}
+
+/// When the point of a path passes a place that lies in its bead; infinite where it never does.
+double birth_by_path(const cases::DepositionSpec& d, const TravelPath& path, int dimension,
+                     const Position& x) {
+  constexpr double k_margin = 1e-6;  // of the bead
+  Position down{};
+  down[static_cast<std::size_t>(dimension) - 1] = -1;
+  if (!d.direction.empty()) down = unit(place(d.direction));
+  const std::vector<TravelPoint>& points = path.points();
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    if (points[i].on == 0) continue;
+    // Distances from the begin of the move: along it, into the bead, and across.
+    Position move{}, r{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      move[k] = points[i + 1].x[k] - points[i].x[k];
+      r[k] = x[k] - points[i].x[k];
+    }
+    const double length = std::sqrt(dot(move, move));
+    if (length == 0) continue;
+    const double along = dot(r, move) / length, into = dot(r, down);
+    const double across = std::sqrt(std::max(0.0, dot(r, r) - along * along - into * into));
+    if (along < -k_margin * length || along > (1 + k_margin) * length || across > 0.5 * *d.width ||
+        into < -k_margin * *d.depth || into > *d.depth)
+      continue;
+    return points[i].time + std::max(0.0, along) / length * (points[i + 1].time - points[i].time);
+  }
+  return HUGE_VAL;
+}
+
+std::vector<Position> centres(const mesh::Mesh& mesh, const mesh::ElementBlock& block) {
+  const int n = mesh::vertex_count(block.shape);
+  std::vector<Position> all(static_cast<std::size_t>(block.size()));
+  for (Index e = 0; e < block.size(); ++e)
+    for (int a = 0; a < n; ++a)
+      for (std::size_t k = 0; k < 3; ++k)
+        all[static_cast<std::size_t>(e)][k] += mesh.x[static_cast<std::size_t>(block.element(e)[a])][k] / n;
+  return all;
+}
+
+/// Times of birth of a block's elements.
+std::vector<double> births_of(const cases::CaseSpec& spec, const cases::DepositionSpec& d,
+                              const mesh::Mesh& mesh, const mesh::ElementBlock& block) {
+  const std::vector<Position> x = centres(mesh, block);
+  std::vector<double> times(x.size());
+  if (d.kind == Kind::times) {
+    place_function(*d.time, cases::TimeOrigin::run, nullptr, spec.analysis.kind).values(x, 0, times);
+    return times;
+  }
+  if (d.kind == Kind::front) {
+    std::ranges::transform(x, times.begin(), [&](const Position& c) { return birth_by_front(d, c); });
+    return times;
+  }
+  const TravelPath path = travel_path(d.path, spec.dimension(), d.where);
+  std::ranges::transform(x, times.begin(),
+                         [&](const Position& c) { return birth_by_path(d, path, spec.dimension(), c); });
+  return times;
+}
+
+/// The births of all blocks, with warnings of what is never reached. Collective.
+std::vector<linear::GrowingMesh::Births> all_births(const cases::CaseSpec& spec, const mesh::Mesh& mesh) {
+  std::vector<linear::GrowingMesh::Births> births(mesh.blocks.size());
+  for (const cases::DepositionSpec& d : spec.depositions) {
+    double reached = 0, never = 0;
+    run_collectively([&] {
+      for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+        const mesh::ElementBlock& block = mesh.blocks[b];
+        if (mesh.bodies[static_cast<std::size_t>(block.body)].name != d.body) continue;
+        births[b] = births_of(spec, d, mesh, block);
+        for (Index e = 0; e < block.n_counted; ++e)
+          (births[b][static_cast<std::size_t>(e)] < HUGE_VAL ? reached : never) += 1;
+      }
+    });
+    reached = parallel::global_sum(reached);
+    never = parallel::global_sum(never);
+    if (reached == 0)
+      refuse(d, fmt::format("reaches none of the {:.0f} elements of '{}'", never, d.body),
+             "a path through the body, in its unit of length; a width and a depth as those of its elements");
+    if (never > 0)
+      logging::warn("{}: the deposition '{}' never reaches {:.0f} of the {:.0f} elements of '{}'",
+                    d.where.text(), d.name, never, never + reached, d.body);
+  }
+  return births;
+}
+
+std::vector<std::string> bare_surfaces(const cases::CaseSpec& spec, const mesh::Mesh& mesh) {
+  std::vector<std::string> names(mesh.bodies.size());
+  for (const cases::DepositionSpec& d : spec.depositions)
+    for (std::size_t b = 0; b < names.size(); ++b)
+      if (mesh.bodies[b].name == d.body) names[b] = d.bare;
+  return names;
+}
+
+double interval_of(const cases::CaseSpec& spec) {
+  double shortest = 0;
+  for (const cases::DepositionSpec& d : spec.depositions)
+    if (d.interval && (shortest == 0 || *d.interval < shortest)) shortest = *d.interval;
+  return shortest;
+}
+
+}  // namespace
+
+void check_depositions(const cases::CaseSpec& spec) {
+  check_names(spec.depositions, "[[deposition]]");
+  std::set<std::string> bodies;
+  for (const cases::DepositionSpec& d : spec.depositions) {
+    if (spec.analysis.physics != cases::Physics::heat)
+      refuse(d, "grows, which is there in heat alone so far", "physics = \"heat\" in [analysis]");
+    if (spec.time.steady) refuse(d, "grows, and a steady analysis has no time for it", "steady = false");
+    if (spec.heat.integration != heat::HeatIntegration::closed)
+      refuse(d, "grows, which the open rule cannot yet", "heat.integration = \"closed\"");
+    if (!spec.cycles.empty()) refuse(d, "grows, which cycles of stages cannot yet", "no [[cycle]]");
+    if (!bodies.insert(d.body).second)
+      refuse(d, fmt::format("is the second one of the body '{}'", d.body), "one deposition for each body");
+    check_kind(d, static_cast<std::size_t>(spec.dimension()));
+  }
+  for (const cases::BodySpec& body : spec.bodies)
+    if (!spec.depositions.empty() && !body.stages.empty())
+      throw InputError(
+          body.where,
+          fmt::format("the body '{}' leaves while others grow, which is not possible yet", body.name),
+          "no 'stages' of bodies beside a [[deposition]]");
+}
+
+void check_contacts_of_growth(const cases::CaseSpec& spec, const mesh::Mesh& mesh) {
+  std::vector<char> grows(mesh.x.size(), 0);
+  for (const cases::DepositionSpec& d : spec.depositions)
+    for (const mesh::ElementBlock& block : mesh.blocks)
+      if (mesh.bodies[static_cast<std::size_t>(block.body)].name == d.body)
+        for (const Index node : block.nodes) grows[static_cast<std::size_t>(node)] = 1;
+  for (const cases::ContactSpec& c : spec.contacts)
+    for (const std::string& side : c.sides()) {
+      const auto nodes = mesh.node_sets.find(side);
+      const bool any = nodes != mesh.node_sets.end() && std::ranges::any_of(nodes->second, [&](Index i) {
+                         return grows[static_cast<std::size_t>(i)] != 0;
+                       });
+      if (parallel::any_process(any))
+        throw InputError(c.where,
+                         fmt::format("the contact '{}' acts on '{}', of a body that grows: not possible yet",
+                                     c.name, side),
+                         "a mesh whose bodies share nodes there");
+    }
+}
+
+Deposition::Deposition(const cases::CaseSpec& spec, Assembly& a)
+    : spec_(spec),
+      a_(a),
+      mesh_(a.mesh, all_births(spec, a.mesh), bare_surfaces(spec, a.mesh), interval_of(spec)),
+      grows_(a.mesh.bodies.size(), 0) {
+  for (const cases::DepositionSpec& d : spec.depositions)
+    for (std::size_t b = 0; b < grows_.size(); ++b)
+      if (a.mesh.bodies[b].name == d.body) grows_[b] = 1;
+  mesh_.advance(0);
+}
+
+bool Deposition::due(double time) const {
+  return std::ranges::any_of(mesh_.times(), [&](double t) { return t > mesh_.time() && t <= time; });
+}
+
+coupling::BodyHeat Deposition::grow(double time, coupling::State* state) {
+  if (!mesh_.advance(time)) return {};
+  // The conditions are those of the stage in which the step has ended.
+  const cases::StageRun* stage = a_.first_stage();
+  for (const cases::StageRun& run : a_.stages)
+    if (run.start < time) stage = &run;
+  const InitialTemperatures& initial = *a_.initial_temperatures;
+  coupling::BodyHeat heat;
+  heat.poured = a_.heat->grow(
+      thermal_conditions(spec_, stage), [&](Index node, int body) { return initial.enthalpy(node, body); },
+      state != nullptr ? &state->heat : nullptr);
+  return heat;
+}
+
+double Deposition::mass() const {
+  const heat::NodalEnthalpy& storage = a_.heat->storage();
+  double sum = 0;
+  for (Index i = 0; i < storage.n_nodes(); ++i)
+    for (std::size_t b = 0; b < grows_.size(); ++b)
+      if (grows_[b] != 0) sum += storage.volume(i, static_cast<int>(b)) * a_.materials[b].density;
+  return parallel::global_sum(sum);
+}
+
+}  // namespace solidus::setup
