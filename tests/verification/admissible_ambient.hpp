@@ -30,7 +30,7 @@ inline std::optional<double> admissible_ambient(const heat::ThermalConditions& t
   const auto all = [](const auto& list, const auto& holds) {
     return std::all_of(list.begin(), list.end(), holds);
   };
-  const auto steady = [&](const TimeFunction& f) { return stays(f, f.value(0)); };
+  const auto steady = [&](const PlaceFunction& f) { return f.uniform() && stays(f, f.value(0)); };
 
   std::vector<PlaceFunction> surroundings;
   for (const auto& c : thermal.temperatures) surroundings.push_back(c.value);
