@@ -4,11 +4,13 @@ FOLDER/cavity holds what the program has written of the case. docs/guide/filling
 """
 
 import argparse
+import ctypes
 import hashlib
 import json
 import os
 from pathlib import Path
 import shutil
+import signal
 import sys
 import time
 
@@ -26,11 +28,15 @@ from solidus_plots.verb import sentence
 from solidus_plots.vtu import ResultError, read_fields
 
 TESTED = "1912"
+PR_SET_PDEATHSIG = 1  # of Linux, <sys/prctl.h>
 CANNOT_CONTINUE = 22  # the program's 2
 FRAMES = 100  # moments that are looked at while the mould fills
 STRETCH = 2  # of them between two changes of what walls take
 FULL = 0.99  # of the cavity at which filling ends
 LATEST = 1.0  # times of the time of filling after which it ends anyway: what comes then leaves by the vents
+CRAWLS = 15  # times as many steps as stretches took before, after which one is given up: air leaves by the last vents at a speed that no step stands
+FEWEST_STEPS = 1500  # of such a stretch
+NEARLY_FULL = 0.8  # of the cavity, from which on what is there then serves; before it is a fault
 TENSION = 1.0  # [N/m] of metals whose card says none: aluminium has 0.9, iron 1.8
 VISCOSITY = 2e-3  # [Pa s] likewise
 WORK_OF_A_PROCESS = 15000  # cubes from which a second process pays
@@ -130,10 +136,15 @@ def write_case(folder, mould, melt, flow, processes):
     dictionaries.write_control(folder, flow, mould.time / FRAMES, mould.time / FRAMES)
 
 
+class Crawls(Exception):
+    """A stretch takes far more steps than those before it."""
+
+
 class Watch:
-    """Prints how full the mould is, and how long it will take."""
+    """Prints how full the mould is, and how long it will take. Throws Crawls where steps have become far shorter than they were."""
 
     def __init__(self, history, goal):
+        self._steps, self._before, self._stretches = 0, 0, 0
         self._history, self._goal, self._begin, self._shown = history, goal, time.monotonic(), -1
         self._terminal = sys.stdout.isatty()
         self._first = None
@@ -141,6 +152,9 @@ class Watch:
     def __call__(self, line):
         if not line.startswith("Time = "):
             return
+        self._steps += 1
+        if self._stretches > 3 and self._steps > max(FEWEST_STEPS, CRAWLS * self._before / self._stretches):
+            raise Crawls
         now = float(line.split()[2])
         part = min(now / self._goal, 1.0)
         if self._first is None:
@@ -153,6 +167,11 @@ class Watch:
         elif int(10 * part) > self._shown:
             self._shown = int(10 * part)
             print(text, flush=True)
+
+    def next_stretch(self):
+        self._before += self._steps
+        self._stretches += self._steps > 0
+        self._steps = 0
 
     def done(self):
         if self._terminal:
@@ -183,7 +202,14 @@ def fill(mould, run, flow, history, watch):
         if at > 0:
             history.set_vents(run)
         dictionaries.write_control(run.folder, flow, until * frame, frame)
-        run.run(watch)
+        watch.next_stretch()
+        try:
+            run.run(watch)
+        except Crawls:
+            if history.full >= NEARLY_FULL:
+                return "crawls"
+            raise FlowError(f"steps became {CRAWLS} times shorter when {100 * history.full:.0f} % of the mould was full: air leaves too fast "
+                            "for them; a slower rate, more vents, or another gate helps") from None
         history.take(run, at, until)
 
 
@@ -247,8 +273,15 @@ def run(options):
     return 0
 
 
+def end_with_the_program():
+    """A signal that ends the program, or its end for another reason, ends the flow too: it must not write into a folder later on."""
+    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+
+
 def main(given=None):
     options = parser().parse_args(given)
+    end_with_the_program()
     try:
         return run(options)
     except FlowError as error:

@@ -100,7 +100,7 @@ def gate_of(cavity, filling, gating, up, flow):
         faces, direction = one_side(cavity, marked)
         return Gate(faces, direction, "as given", cavity.cubes.edge * len(faces) ** 0.5)
     width = filling.get("gate_width") or max(FEW * cavity.cubes.edge, (flow / GOOD_SPEED) ** 0.5)
-    if filling["gate_at"]:
+    if filling.get("gate_at"):
         place, side, chosen = np.array(filling["gate_at"]), None, "at the given place"
     else:
         free = np.flatnonzero(np.isin(cavity.body[cavity.faces], gating) & (cavity.directions @ up > 0.5))
@@ -162,7 +162,7 @@ def openings(cavity, faces, size):
 
 def vents_of(cavity, filling, up, gate):
     """Faces of each vent, none of them of the gate; and how they came about."""
-    if filling["vents"]:
+    if filling.get("vents"):
         found, words = [np.flatnonzero(near(cavity, group)) for group in filling["vents"]], "as given"
         if not all(len(faces) for faces in found):
             raise ResultError("the faces of a vent do not lie on the skin of what is cast: vents in [filling]")

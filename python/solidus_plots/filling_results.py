@@ -169,7 +169,10 @@ def answers(mould, melt, history, ended, balance):
     degrees, cubes = 273.15, mould.cavity.cubes
     reached = ~np.isnan(history.fill_time)
     lines = []
-    if ended == "full" or history.full >= NEARLY:
+    if ended == "crawls":
+        lines.append(f"{100 * history.full:.1f} % of the cavity are full after {history.time:.3g} s, where the flow was given up: the air that is left "
+                     "goes by the last vents, too fast for its steps; freezing starts from the temperatures there")
+    elif ended == "full" or history.full >= NEARLY:
         lines.append(f"filled after {history.time:.3g} s: {100 * history.full:.1f} % of the cavity"
                      + ("" if ended == "full" else ", the rest is air near vents that these cubes do not part from metal"))
     else:

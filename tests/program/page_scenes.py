@@ -38,7 +38,7 @@ SCENES = {
              "j2_generic.c", "j2_umat.f90", "steel.toml", "steel_generic.toml", "steel_umat.toml")}},
         lines=["cc -O2 -shared -fPIC -o libj2_generic.so j2_generic.c -lm",
                "gfortran -O2 -shared -fPIC -o libj2_umat.so j2_umat.f90"]),
-    "filling.md": Scene(texts={"case.toml": 'title = "A plate on a die"'}),
+    "filling.md": Scene({"part.step": "tests/parts/flange.step"}, texts={"case.toml": 'title = "A plate on a die"'}),
     "findings.md": Scene(BRACKET, words={"CASE": "bracket"}),
     "getting_started.md": Scene({"bracket.geo": "cases/bracket/bracket.geo", "case.toml": "cases/bracket/case.toml"},
                                 lines=["solidus run case.toml -o results/case/default"]),

@@ -76,7 +76,7 @@ class Cavities(unittest.TestCase):
 class Gates(unittest.TestCase):
     def test_the_chosen_gate_lies_low_and_vents_on_the_highest_places(self):
         cavity = plate()
-        gate = filling_gates.gate_of(cavity, {"gate_at": []}, [], UP, 1e-4)
+        gate = filling_gates.gate_of(cavity, {}, [], UP, 1e-4)
         heights = cavity.face_centres()[:, 2]
         self.assertLess(heights[gate.faces].max(), 0.06)
         self.assertGreaterEqual(len(gate.faces), filling_gates.FEW)
