@@ -1,6 +1,7 @@
 /// Any bytes as a file of VTK: as a field of another run, as the temperatures that a run has left, and as
 /// what becomes a file of VTKHDF.
 #include "input.hpp"
+#include "parallel/petsc_session.hpp"
 #include "results/formats/pvd.hpp"
 #include "results/formats/temperature_history.hpp"
 #include "results/formats/vtkhdf.hpp"
@@ -11,7 +12,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace solidus;
   const auto file = fuzz::as_file("a.vtu", data, size);
   const auto collection = fuzz::folder() / "fields.pvd";
-  static const bool listed = [&] {
+  // Which nodes have elements is asked of all processes.
+  static const bool listed = petsc::start({}) && [&] {
     results::PvdCollection(collection).add({{0.0, 0, "a.vtu"}, {1.0, 0, "a.vtu"}});
     return true;
   }();
