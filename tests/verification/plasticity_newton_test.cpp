@@ -12,6 +12,8 @@
 ///          ▒└───────┘▒
 #include <gtest/gtest.h>
 
+#include <string_view>
+
 #include "material/hardening.hpp"
 #include "material/laws/perzyna.hpp"
 #include "plasticity_bodies.hpp"
@@ -115,8 +117,11 @@ TEST(NewtonWithPlasticity, ConvergesAtSecondOrderInEveryElementAndHardening) {
       for (double r : residuals) printf(" %.1e", r);
       printf("\n");
       EXPECT_GT(march.report().work.dissipation, 0);
-      // a factor C of r_{k+1} = C r_k² of about ten moves the measure by log C/log r_k, 0.2 at 1e-5
-      EXPECT_GE(exponent(residuals), 1.7) << element.name << ", " << name(kind);
+      // A factor C of r_{k+1} = C r_k² of about ten moves the measure by log C/log r_k, 0.2 at 1e-5. Where
+      // factors of an iteration before precondition (mixed tetrahedra), linear systems are solved as far as
+      // an iteration gains by, which is of order 1.62 (forcing.hpp).
+      EXPECT_GE(exponent(residuals), std::string_view(element.name) == "tet4" ? 1.55 : 1.7)
+          << element.name << ", " << name(kind);
       sum += exponent(residuals);
       ++n;
     }

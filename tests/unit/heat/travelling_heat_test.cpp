@@ -52,7 +52,8 @@ TEST_P(Shapes, DeliverTheirPowerHoweverCoarseTheMesh) {
     const auto brought = [&](double from, double to) {
       return phase.solve(start, end, to, to - from).balance.conditions[0].heat;
     };
-    const double tolerance = GetParam() == Kind::cylinder ? 0.01 : 5e-3;
+    // A cylinder and a line end with a jump, which the subdivision of elements finds to its smallest part.
+    const double tolerance = GetParam() == Kind::line ? 0.02 : GetParam() == Kind::cylinder ? 0.01 : 5e-3;
     EXPECT_NEAR(brought(4.0, 4.2), 0.2 * 1000 * 0.682, tolerance * 136);
     if (element == mesh::Shape::hex8) EXPECT_NEAR(brought(5, 5.6), 0.6 * 1000 * 0.706, tolerance * 424);
     EXPECT_EQ(brought(10, 11), 0);
