@@ -8,6 +8,7 @@ import numpy as np
 from solidus_plots import filling_dictionaries as dictionaries
 
 WET, DRY = 0.9, 0.7  # shares of metal at which a vent shuts and opens again
+AIR_SPEED = 3.0  # [m/s] of air through vents that hold some of it: more than that would need very short steps
 STATE = "state.npz"  # of a filling that has not come to its end
 
 
@@ -70,10 +71,16 @@ class History:
     # --- vents -----------------------------------------------------------------------------------------------
 
     def set_vents(self, run):
-        """Shuts vents whose cubes are full of metal, and opens them again when it has left; the one with most air stays open."""
+        """Shuts vents whose cubes are full of metal, and opens them again when it has left; those with most air stay open, as many as
+        the metal that comes needs, so that air leaves no faster than AIR_SPEED through what they hold of it."""
         cavity = self._mould.cavity
-        metal = [float(self.metal[cavity.faces[faces]].mean()) for faces in self._mould.vents]
-        shut = [i for i, share in enumerate(metal) if share > (DRY if i in self.closed else WET) and i != int(np.argmin(metal))]
+        metal = np.array([float(self.metal[cavity.faces[faces]].mean()) for faces in self._mould.vents])
+        area = np.array([len(faces) for faces in self._mould.vents]) * cavity.cubes.edge ** 2
+        wet = [i for i, share in enumerate(metal) if share > (DRY if i in self.closed else WET)]
+        order = np.argsort(metal, kind="stable")
+        leaves = np.cumsum((1 - metal[order]) * area[order]) * AIR_SPEED
+        needed = set(order[:1 + int(np.searchsorted(leaves, self._mould.flow))].tolist())
+        shut = [i for i in wet if i not in needed]
         for i in set(shut) ^ set(self.closed):
             entries = dictionaries.SHUT if i in shut else dictionaries.open_vent(self._mould.air)
             for field, entry in entries.items():

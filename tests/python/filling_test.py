@@ -3,6 +3,7 @@
 from math import exp, sqrt
 from pathlib import Path
 import tempfile
+from types import SimpleNamespace
 import unittest
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from solidus_plots import filling_dictionaries as dictionaries
 from solidus_plots import filling_flow, filling_gates, filling_walls
 from solidus_plots.filling_cavity import cavity_of
+from solidus_plots.filling_history import History
 from solidus_plots.filling_mesh import Cubes, inner_faces, write_mesh
 from solidus_plots.filling_results import start_of, state_at
 from solidus_plots.vtu import Grid
@@ -133,6 +135,23 @@ class Files(unittest.TestCase):
         entries = dictionaries.open_vent(300)
         self.assertIn("uniform 1", entries["alpha.gas"])
         self.assertIn("uniform 0", entries["alpha.melt"])
+
+
+    def test_as_many_vents_stay_open_as_the_air_needs(self):
+        """Vents of one cube each, 5 mm wide, that hold 95, 92, 30 and 99 % of metal: a slow flow needs the third alone, which is not
+        wet; through what three of them hold of air 6e-5 m3/s leave at 3 m/s, and a faster flow keeps all."""
+        cavity = plate()
+        vents = [np.array([face]) for face in np.flatnonzero(cavity.directions @ UP > 0.5)[:4]]
+        for flow, shut in ((1e-5, [0, 1, 3]), (5.5e-5, [0, 3]), (6e-5, [3]), (1.0, [])):
+            history = History.__new__(History)
+            history._mould = SimpleNamespace(cavity=cavity, vents=vents, flow=flow, air=300.0)
+            history.metal, history.closed, history.name = np.zeros(len(cavity.cubes.cells)), [], "1"
+            for faces, share in zip(vents, (0.95, 0.92, 0.3, 0.99)):
+                history.metal[cavity.faces[faces]] = share
+            changed = set()
+            history.set_vents(SimpleNamespace(change_patch=lambda name, field, patch, entry: changed.add(patch)))
+            self.assertEqual(history.closed, shut)
+            self.assertEqual(changed, {f"vent_{i}" for i in shut})
 
 
 class Start(unittest.TestCase):
