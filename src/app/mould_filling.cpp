@@ -1,4 +1,4 @@
-/// What the flow needs is written beside it, then Python takes over.
+/// Writes what the flow needs into a folder beside it, and hands over to Python.
 #include "app/mould_filling.hpp"
 
 #include <string>

@@ -49,7 +49,8 @@ struct CaseMeasures {
   bool is_poured(std::size_t body) const {
     return std::ranges::any_of(pours, [&](const Pour& pour) { return pour.body == body; });
   }
-  /// Of each body how long plates of it take in its mould; empty where it is not poured.
+  /// Returns for each body how long plates of it take to freeze in its mould; empty where it is not poured,
+  /// and where the mould was filled.
   std::vector<criteria::PlateTimes> plates() const {
     std::vector<criteria::PlateTimes> by_body(bodies.size());
     for (const Pour& pour : pours) by_body[pour.body] = pour.plates;

@@ -229,7 +229,9 @@ void estimate_alone(const cases::CaseSpec& spec, const setup::Assembly& a, const
   pour.freezing = estimate_freezing(problem);
   by_thickest_place(around, deepest.places, k_least_share_of_cooling * most, estimated);
   pour.alone_time = pour.freezing.time;
-  pour.plates = plate_times(problem);
+  // The skin of a mould that has taken heat while it filled is warm, and says nothing of how long plates
+  // take.
+  if (!spec.filling) pour.plates = plate_times(problem);
   if (pour.freezing.gave_up)
     pour.no_estimate = "it comes to no end: the conductance jumps where the gap opens";
 }

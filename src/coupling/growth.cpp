@@ -10,7 +10,7 @@ BodyHeat let_grow(Growth& growth, CouplingScheme& scheme, const std::function<do
   BodyHeat heat = growth.grow(state.time, &state);
   scheme.conditions_changed();
   scheme.synchronise(state);
-  // What comes changes the internal energy without heat or work, and is booked as carried.
+  // Metal that arrives changes the internal energy without heat or work, and is booked as carried.
   if (energy) heat.energy += energy(state) - before;
   scheme.forget();
   return heat;

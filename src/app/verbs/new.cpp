@@ -106,7 +106,8 @@ class New final : public Verb {
   explicit New(CLI::App& program)
       : Verb(program, "new", "Make a case that runs from the geometry of a casting") {
     NewArguments& a = arguments_;
-    // What is cast and by which process, then what is added to the part, then how the case is made of it.
+    // The options name first the part, its alloy and process, then all that is added to it, then how the case
+    // is made.
     command().add_option("PART", a.geometry, "A STEP, BREP, IGES or STL file, or a mesh")->required();
     command().add_option("--alloy", a.alloy,
                          "What is cast, always needed: an alloy of `solidus materials`, or a file");

@@ -85,6 +85,8 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
   if (spec.has_heat() && spec.criteria.follow) castings_that_do_not_freeze(spec, a, findings);
   // A case that switches the criteria of castings off states that nothing freezes in it.
   if (!spec.has_heat() || !spec.criteria.follow || hottest(a) < 0) return;
+  // Where the mould was filled its skin may begin hotter than the metal, which has cooled on its way.
+  if (spec.filling) return;
   // The hottest body is taken for the casting: its role, then its superheat, then whether it freezes at all.
   const auto poured = static_cast<std::size_t>(hottest(a));
   const cases::BodySpec& body = spec.bodies[poured];

@@ -72,8 +72,8 @@ void SlidingKinematics::add_to_graph(CliqueSink& sink) {
       clique.erase(std::unique(clique.begin(), clique.end()), clique.end());
       sink.add(clique);
     }
-    // What is allowed is kept for each slave face, so that a point that leaves it is noticed and the graph
-    // made again.
+    // The allowed faces are kept for each slave face, so that a point that leaves them is noticed and the
+    // graph made again.
     allowed_.faces.insert(allowed_.faces.end(), faces.begin(), faces.end());
     allowed_.first.push_back(allowed_.faces.size());
   }

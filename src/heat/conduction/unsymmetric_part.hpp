@@ -1,4 +1,4 @@
-/// What a symmetric matrix lacks of a derivative that is not symmetric, by entries.
+/// The entries that a derivative that is not symmetric has besides a symmetric matrix.
 #pragma once
 
 #include <cmath>
