@@ -11,8 +11,11 @@ criteria::PlateTimes plate_times(const FreezingProblem& casting) {
   criteria::PlateTimes plates;
   double size = k_from;
   for (int i = 0; i < k_sizes; ++i, size *= k_growth) {
-    // Metal that is poured with the casting is no mould: a plate of its own has none.
-    FreezingProblem plate{.metal = casting.metal, .start = casting.start, .open = casting.open};
+    // Metal that is poured with the casting is no neighbour of a plate of its own.
+    FreezingProblem plate;
+    plate.metal = casting.metal;
+    plate.start = casting.start;
+    plate.open = casting.open;
     plate.modulus = plate.depth = size * casting.modulus;
     // Behind a skin lies the same thickness of mould, of which a thicker plate has less for its volume. What
     // lies deeper than a thin plate's heat reaches would only make the cells at its skin coarse.

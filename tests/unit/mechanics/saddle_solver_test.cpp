@@ -87,6 +87,8 @@ struct Casting {
   }
 
   void assemble() {
+    mechanics::PhaseFields phases;
+    phases.solid_fraction = solid_fraction;
     for (const auto& block : blocks)
       block->prepare({.temperature = temperature,
                       .pass_temperature = temperature,
@@ -98,7 +100,7 @@ struct Casting {
                       .start_history = &history,
                       .dt = 1,
                       .effective = 1,
-                      .phases = {.solid_fraction = solid_fraction}});
+                      .phases = phases});
     pressure->begin();
     pressure->set(std::vector<double>(mesh.x.size(), 0.0));
     matrix->set_zero();
