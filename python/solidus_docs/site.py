@@ -121,6 +121,16 @@ def with_separated_states(worker):
     return re.sub(r"(TokenSet\.prototype\.toString=function\(\)\{.{0,250}?\+\w+\+\w+\.id)\}", r'\1+","}', worker)
 
 
+def with_whole_stop_words(worker):
+    """The script of the search with stop words that do not stand for all words that begin with them.
+
+    Material for MkDocs 9 takes each word of a query for the beginning of one, so that "a" and "in" find whatever begins so, and lunr drops
+    no stop word that has a wildcard. Version 8 has no such expression, and its script stays as it is.
+    """
+    return re.sub(r"(\[~\^\]\\d\+\$\)/\.test\((\w+)\)\?\2:)(`\$\{\2\}\*`)",
+                  r"\1lunr.stopWordFilter&&!lunr.stopWordFilter(\2.toLowerCase())?\2:\3", worker)
+
+
 def build(folder):
     folder = pathlib.Path(folder).resolve()
     shutil.rmtree(folder, ignore_errors=True)
@@ -150,7 +160,7 @@ def build(folder):
     (folder / "site/search/search_index.js").write_text(
         f"var __search = {{index: Promise.resolve({json.dumps(index, separators=(',', ':'))})}};\n")
     for worker in (folder / "site").glob("assets/javascripts/workers/search.*.min.js"):
-        worker.write_text(with_separated_states(worker.read_text()))
+        worker.write_text(with_whole_stop_words(with_separated_states(worker.read_text())))
     return folder / "site/index.html"
 
 

@@ -43,7 +43,7 @@ void error_control_keys(Section<TimeSpec>& s) {
       .range(1e-3, 1)
       .doc(
           "Share of a skin in contact that may become coherent in an adaptive step, where bodies deform. "
-          "Without it 0.04, and where `displacement_error` is given that times the root of its ratio to the "
+          "Without it 0.03, and where `displacement_error` is given that times the root of its ratio to the "
           "default, from 0.001 to 0.5.");
 }
 

@@ -16,7 +16,7 @@ struct StepLimits {
   bool inertia = false;         ///< displacements are integrated in time, as temperatures are
   double stress = 0.005;        ///< local error per step, as a share of the stress [1]
 
-  double skin = 0.04;  ///< change per step of the coherent share of a skin in contact [1]
+  double skin = 0.03;  ///< change per step of the coherent share of a skin in contact [1]
   double opening = 0;  ///< of a skin that lets go in a step [m]; zero: any
   /// Steps get shorter while the last melt freezes, down to this share of the time since it was poured
   /// (longest_before_solid()); zero: no casting deforms, and they do not.

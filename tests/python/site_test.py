@@ -182,6 +182,12 @@ class Site(unittest.TestCase):
         (worker,) = self.root.glob("assets/javascripts/workers/search.*.min.js")
         self.assertRegex(worker.read_text(), r'\.id\+","\}return')
 
+    def test_a_stop_word_is_not_the_beginning_of_others(self):
+        text = "map(r=>/(^[+-]|[~^]\\d+$)/.test(r)?r:`${r}*`).join"
+        whole = "lunr.stopWordFilter&&!lunr.stopWordFilter(r.toLowerCase())?r:`${r}*`"
+        self.assertEqual(site.with_whole_stop_words(text), text.replace("`${r}*`", whole))
+        self.assertEqual(site.with_whole_stop_words("of another version"), "of another version")
+
     def test_the_search_finds_each_page_of_the_guide_by_its_task_among_the_first_three(self):
         self.assertEqual(set(TASKS), {file.stem for file in (links.ROOT / "docs/guide").glob("*.md")})
         wanted = [(f"docs/guide/{page}.html", task) for page, tasks in TASKS.items() for task in tasks]

@@ -76,7 +76,7 @@ TEST(TimeKeys, WhatIsNotGivenHasItsDefault) {
   EXPECT_EQ(limits.control, coupling::ErrorControl::predictor);
   EXPECT_DOUBLE_EQ(limits.temperature, 1.0);
   EXPECT_DOUBLE_EQ(limits.solid_fraction, 0.1);
-  EXPECT_DOUBLE_EQ(limits.skin, 0.04);
+  EXPECT_DOUBLE_EQ(limits.skin, 0.03);
   EXPECT_DOUBLE_EQ(setup::time_options(spec("adaptive = true\nskin_change = 0.3")).step.limits.skin, 0.3);
   EXPECT_DOUBLE_EQ(setup::displacement_error(c.time, std::vector<double>{0.0, 0.2, 0.5}), 6e-5);
   EXPECT_GT(setup::displacement_error(c.time, std::vector<double>{0.0}), 1);  // heat alone
@@ -90,12 +90,12 @@ TEST(TimeKeys, TheShareOfASkinFollowsTheErrorOfTheDisplacement) {
   const auto share = [&](const std::string& keys) {
     return setup::skin_change(spec("adaptive = true\n" + keys).time, sections);
   };
-  EXPECT_DOUBLE_EQ(share(""), 0.04);
-  EXPECT_DOUBLE_EQ(share("temperature_error = \"9 K\""), 0.04);
-  EXPECT_DOUBLE_EQ(share("displacement_error = \"120 um\""), 0.08);
-  EXPECT_DOUBLE_EQ(share("displacement_error = \"7.5 um\""), 0.02);
+  EXPECT_DOUBLE_EQ(share(""), 0.03);
+  EXPECT_DOUBLE_EQ(share("temperature_error = \"9 K\""), 0.03);
+  EXPECT_DOUBLE_EQ(share("displacement_error = \"120 um\""), 0.06);
+  EXPECT_DOUBLE_EQ(share("displacement_error = \"7.5 um\""), 0.015);
   EXPECT_DOUBLE_EQ(share("displacement_error = \"1 m\""), 0.5);
-  EXPECT_DOUBLE_EQ(share("displacement_error = \"120 um\"\nskin_change = 0.03"), 0.03);
+  EXPECT_DOUBLE_EQ(share("displacement_error = \"120 um\"\nskin_change = 0.05"), 0.05);
 }
 
 }  // namespace
