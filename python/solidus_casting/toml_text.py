@@ -21,8 +21,8 @@ def value_text(value: Any) -> str:
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, int):
         return str(value)
-    if isinstance(value, float):
-        return {"inf": "inf", "-inf": "-inf", "nan": "nan"}.get(str(value), repr(value))
+    if isinstance(value, float):  # those of numpy 2 name their type in repr()
+        return {"inf": "inf", "-inf": "-inf", "nan": "nan"}.get(str(value), repr(float(value)))
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{key_text(k)} = {value_text(v)}" for k, v in value.items()) + "}"
     if hasattr(value, "tolist"):  # numpy's numbers and arrays

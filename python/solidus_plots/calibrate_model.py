@@ -18,7 +18,7 @@ LENGTHS = {"m": 1e3, "cm": 10.0, "mm": 1.0, "um": 1e-3, "µm": 1e-3, "": 1e3}  #
 
 
 def number_text(value, unit):
-    return f"{value!r} {unit}" if unit else repr(value)
+    return f"{float(value)!r} {unit}" if unit else repr(float(value))
 
 
 def assignments(unknown, values):
@@ -37,10 +37,10 @@ def assignments(unknown, values):
     if not unknown.at:
         return [f"{unknown.key}={texts[0]}", *first]
     if unknown.key.endswith(".at"):  # tables of a contact at several temperatures, of one conductance each
-        knots = [f'{{ temperature = "{at!r} {unknown.argument_unit}", contact_conductance = "{text}", '
+        knots = [f'{{ temperature = "{float(at)!r} {unknown.argument_unit}", contact_conductance = "{text}", '
                  f'gap_conductance = "{text}" }}' for at, text in zip(unknown.at, texts)]
         return [f"{unknown.key}=[{', '.join(knots)}]", *first]
-    points = ", ".join(f"[{at!r}, {value!r}]" for at, value in zip(unknown.at, values))
+    points = ", ".join(f"[{float(at)!r}, {value!r}]" for at, value in zip(unknown.at, values))
     return [f'{unknown.key}={{ of = "{unknown.of}", argument_unit = "{unknown.argument_unit}", '
             f'unit = "{unknown.unit or 1}", points = [{points}] }}', *first]
 
@@ -51,7 +51,7 @@ def card_text(unknowns_with_values):
     for unknown, values in unknowns_with_values:
         lines.append(f"[{unknown.of_card}]")
         if unknown.at:
-            points = ", ".join(f"[{at!r}, {float(value)!r}]" for at, value in zip(unknown.at, values))
+            points = ", ".join(f"[{float(at)!r}, {float(value)!r}]" for at, value in zip(unknown.at, values))
             lines += [f'argument_unit = "{unknown.argument_unit}"', f'unit = "{unknown.unit or 1}"', f"points = [{points}]"]
         else:
             lines.append(f'value = "{number_text(float(values[0]), unknown.unit)}"')

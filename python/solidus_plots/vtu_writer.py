@@ -32,7 +32,7 @@ def write_grid(path, grid):
                      for fields in (grid.point_data, grid.cell_data))
     text = ('<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" '
             'header_type="UInt64" compressor="vtkZLibDataCompressor"><UnstructuredGrid><FieldData>'
-            f'<DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="ascii">{grid.time!r}</DataArray>'
+            f'<DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="ascii">{float(grid.time)!r}</DataArray>'
             f'</FieldData><Piece NumberOfPoints="{len(grid.points)}" NumberOfCells="{len(grid.cell_types)}">'
             f'<PointData>{points}</PointData><CellData>{cells}</CellData>'
             f'<Points>{array("Points", grid.points.astype("f8"))}</Points>'

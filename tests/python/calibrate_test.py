@@ -11,7 +11,7 @@ from solidus_plots.calibrate_file import Parameter, read_calibration
 from solidus_plots.calibrate_fit import RunFailed, Search, fit
 from solidus_plots.calibrate_model import Prediction, assignments, lagged
 from solidus_plots.calibrate_readings import Readings, read_readings
-from solidus_plots.calibrate_statistics import evaluate, quantile_of
+from solidus_plots.calibrate_statistics import evaluate, named, quantile_of
 from solidus_plots.logger_table import read_logger
 from solidus_plots.vtu import ResultError
 
@@ -251,6 +251,10 @@ class Fits(unittest.TestCase):
         rate, start = evaluate(found, model.parameters, readings, 0.9).estimates
         self.assertTrue(rate.at_bound and not start.at_bound)
         self.assertAlmostEqual(rate.value, 0.15)
+
+    def test_unknowns_that_weigh_alike_keep_their_order(self):
+        self.assertEqual(list(named(np.array([0.1, 0.7, -0.7 - 1e-12]), ["a", "b", "c"]))[:2], ["b", "c"])
+        self.assertEqual(list(named(np.array([0.1, -0.7 - 1e-12, 0.7]), ["a", "b", "c"]))[:2], ["b", "c"])
 
     def test_quantiles_are_those_of_student(self):
         # Student (1908) as tabulated by Abramowitz and Stegun, table 26.10.
