@@ -37,9 +37,10 @@ class Installed(ProgramTest):
         unpacked = self.folder / "unpacked"
         subprocess.run(["dpkg-deb", "-x", package, unpacked], check=True)
         shutil.rmtree(self.folder / "packages")  # it is large
-        # Debian's Python is told of our package.
+        # Debian's Python is told of our package, and forgets one that is installed here.
         site = unpacked / "usr/lib/python3/dist-packages"
-        code = (f"import site; site.addsitedir({str(site)!r}); import sys, solidus_casting as sc; print(sc.__file__, sc.program());"
+        code = ("import site, sys; sys.path = [path for path in sys.path if '/usr/share/solidus' not in path];"
+                f"site.addsitedir({str(site)!r}); import solidus_casting as sc; print(sc.__file__, sc.program());"
                 "print(sys.modules['solidus_casting._core'].__file__ if sc.has_core() else 'none')")
         environment = {name: value for name, value in os.environ.items() if name not in ("SOLIDUS_PROGRAM", "PYTHONPATH")}
         where = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True, env=environment).stdout.split()
