@@ -35,7 +35,7 @@ def read(file=ROOT / "bench/measured.csv"):
 
 
 def draw(name, curves, folder):
-    """One picture: lines over numbers on logarithmic axes, or bars with names beside each other."""
+    """One picture: lines over numbers on logarithmic axes, or bars with names next to each other."""
     title, abscissa, ordinate = CHARTS[name]
     figure, axes = plt.subplots(figsize=SIZE)
     for number, (curve, points) in enumerate(curves.items()):

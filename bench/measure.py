@@ -128,7 +128,7 @@ def case():
 
 
 def coupling():
-    """Processor time per step by each scheme, the runs of all schemes in turn: the machine may be busy, and not evenly."""
+    """Processor time per step by each scheme, the runs of all schemes in alternation: the machine may be busy, and not evenly."""
     rows = []
     cases = [("aluminium_cylinder, tri3", "cases/aluminium_cylinder", {}, SCHEMES[:2])]
     cases += [(f"casting block 100k, {element}", "bench/casting_block", block(UNKNOWNS["100k"], element, **{"time.end": "6 s"}), SCHEMES)
@@ -162,7 +162,7 @@ def check():
 
 
 def side_by_side(size):
-    """Both programs on the same block in turn. Solidus takes eleven steps: the mechanical phase of the first has nothing to do."""
+    """Both programs on the same block in alternation. Solidus takes eleven steps: the mechanical phase of the first has nothing to do."""
     rows, n = [], NODES[size]
     for element in ("hex8", "tet4"):
         name = f"block {size} nodes, {element}"
@@ -173,7 +173,7 @@ def side_by_side(size):
 
 
 def mixed():
-    """The default tetrahedron of a steel that yields, with a pressure, beside the one of the displacement alone, in turn; and
+    """The default tetrahedron of a steel that yields, with a pressure, along with the one of the displacement alone, in alternation; and
     CalculiX on the second size. Solidus takes eleven steps, as in side_by_side()."""
     rows = []
     for n in MIXED:
@@ -249,7 +249,7 @@ def cube_of_calculix(n):
 
 
 def heat():
-    """The freezing cube of three sizes, on two processes too, and beside other programs with a linear freezing range."""
+    """The freezing cube of three sizes, on two processes too, and along with other programs with a linear freezing range."""
     rows = [freezing_cube(n) for n in CUBE]
     rows += [freezing_cube(CUBE[1], processes=2)]
     for n, programs in OTHERS.items():

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""One process, the default and a fixed count beside each other: what more processes gain, and what they cost where cores are taken.
+"""One process, the default and a fixed count in comparison: what more processes gain, and what they cost where cores are taken.
 
     bench/processes.py                      # everything: free cores, small cases, one core taken by another program
     bench/processes.py free small taken     # or some of it
     bench/processes.py model                # seconds of a step by nodes and physics, for src/run/process_count.cpp
     REPEAT=3 bench/processes.py free        # medians of three
 
-Every row is a pair that is run in turn. It prints wall clock and processor seconds and the load of the machine before, and writes
+Every row is a pair that is run in alternation. It prints wall clock and processor seconds and the load of the machine before, and writes
 build/bench/processes.md. The bars: at most 0.65 of one process on two free cores, 1.02 for small cases, 1.3 where one core is taken.
 """
 
@@ -63,7 +63,7 @@ def one_run(name, words, how):
 
 
 def pair(name, words, one=ONE, other=DEFAULT):
-    """Medians of both, run in turn, and the row of the table."""
+    """Medians of both, run in alternation, and the row of the table."""
     load = os.getloadavg()[0]
     runs = [(one_run(name, words, one), one_run(name, words, other)) for _ in range(REPEAT)]
     first, second = (statistics.median(run[i]["wall"] for run in runs) for i in (0, 1))

@@ -4,7 +4,7 @@
 # Versions:  CalculiX 2.20 (Debian 12)
 # Seen on:   28 November 2026, Debian 12, x86-64
 # Matters:   a casting cools as if it had nothing to solidify, in a run that looks right.
-# Solidus:   has latent heat of its own; beside CalculiX it is put into the table of the specific heat (docs/benchmarks.md).
+# Solidus:   has latent heat of its own; in comparisons with CalculiX it is put into the table of the specific heat (docs/benchmarks.md).
 . "$(dirname "${BASH_SOURCE[0]}")/common/root.sh"
 
 make_root bookworm calculix-ccx=2.20-1

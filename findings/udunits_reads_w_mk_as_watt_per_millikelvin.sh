@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What:      UDUNITS-2 reads W/mK, as data sheets write a thermal conductivity, as watt per millikelvin, and W/m K and W/m2 K as products
-#            with kelvin. All three are valid units of something else. A quantity that nobody checks is wrong without a word:
+#            with kelvin. All three are valid units of something else. A quantity that no one checks is wrong without a word:
 #            "40 W/mK" are 40 000 W/K.
 # Versions:  UDUNITS 2.2.28 (Debian 12)
 # Seen on:   28 November 2026, Debian 12, x86-64

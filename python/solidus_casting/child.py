@@ -167,7 +167,7 @@ class _Child:
 
 
 class _Rows:
-    """Rows that a table grows by; of a table that begins anew, those of the new one."""
+    """Rows that a table grows by; of a table that begins again, those of the new one."""
 
     def __init__(self, file: Path) -> None:
         self._file, self._known = file, self._identity(file)

@@ -31,7 +31,7 @@ def _load() -> ModuleType:
     except ModuleNotFoundError as error:
         if error.name != _NAME:
             raise
-    # Beside the program that was built, or in its prefix.
+    # Next to the program that was built, or in its prefix.
     beside = program().parent
     for file in [*sorted(beside.glob("python/_core*.so")),
                  *sorted(beside.parent.glob("share/solidus/python/solidus_casting/_core*.so"))]:
@@ -56,7 +56,7 @@ def has_core() -> bool:
 
 
 def initialize(communicator: Any = None, options: list[str] | tuple[str, ...] = ()) -> None:
-    """Starts MPI, where nobody has, and PETSc. Called without arguments by everything that needs it.
+    """Starts MPI, unless it is running, and PETSc. Called without arguments by everything that needs it.
 
     Call it yourself, before anything else of this package, to run on several processes or to give PETSc options.
 
@@ -81,7 +81,7 @@ def initialize(communicator: Any = None, options: list[str] | tuple[str, ...] = 
         os.environ.setdefault("OMPI_ALLOW_RUN_AS_ROOT", "1")
         os.environ.setdefault("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")
     try:
-        if version() == core.version:  # the reader of meshes beside it must be of the same build
+        if version() == core.version:  # the reader of meshes next to it must be of the same build
             core.use_program(str(program()))
         else:
             _logger.warning("the program %s is of version %s, this package of %s: no meshes are read from files", program(),

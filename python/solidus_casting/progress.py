@@ -12,7 +12,7 @@ class Progress:
     Attributes
     ----------
     time, end, step:
-        Where the run stands, where it ends (``None`` where the case does not say), and the size of the step [s].
+        How far the run has come, where it ends (``None`` where the case does not say), and the size of the step [s].
     number:
         Of the step, from one.
     row:

@@ -92,7 +92,7 @@ class Results(Sequence[Moment]):
 
     @property
     def criteria(self) -> dict[str, Any]:
-        """The least and the largest value of every criterion and where; the units stand in the names."""
+        """The least and the largest value of every criterion and where; the units are in the names."""
         return self.summary.get("criteria", {})
 
     @property
@@ -201,7 +201,7 @@ class Results(Sequence[Moment]):
         return np.array([moment.probe(field, self._place(moment, given, body)) for moment in self])
 
     def _place(self, moment: Moment, point: np.ndarray, body: str | None) -> Place:
-        # Bodies leave, and the others are numbered anew: the number of cells tells.
+        # Bodies leave, and the others are numbered again: the number of cells tells.
         key = (tuple(point.tolist()), body, len(moment["body"]) if "body" in moment else 0)
         if key not in self._places:
             if len(self._places) >= _LARGEST_PLACES:

@@ -229,7 +229,7 @@ class Sections(list):
         entries = self._given(False) or []
         index = next((i for i, entry in enumerate(entries) if entry is section.given()), None)
         if index is None:
-            raise InputError(f"'{name}' stands in an included file", "leave the include out", key=f"{self._path}.{name}")
+            raise InputError(f"'{name}' is in an included file", "leave the include out", key=f"{self._path}.{name}")
         del entries[index]
         super().__delitem__(index)
         self._case._changed()

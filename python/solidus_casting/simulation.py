@@ -90,7 +90,7 @@ class Simulation:
         self._mesh: tuple[Any, dict[str, Any]] | None = None
         self._ended = False
 
-    # Where it stands
+    # How far it has come
 
     @property
     def time(self) -> float:
@@ -197,7 +197,7 @@ class Simulation:
 
     @property
     def moment(self) -> Moment:
-        """The fields where the simulation stands, with their mesh: arrays, probes and other libraries' objects.
+        """The fields at the present time of the simulation, with their mesh: arrays, probes and other libraries' objects.
 
         It is of this state: read what you need before the simulation goes on.
         """

@@ -45,7 +45,7 @@ def program() -> Path:
 
 
 def launcher() -> str:
-    """Returns the ``mpirun`` by which the program starts several processes: the one beside it, which an archive brings, else
+    """Returns the ``mpirun`` by which the program starts several processes: the one next to it, which an archive brings, else
     that of the ``PATH``. Raises :class:`ProgramMissing`."""
     beside = program().resolve().with_name("mpirun")
     if beside.is_file():

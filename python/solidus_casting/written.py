@@ -30,7 +30,7 @@ def with_keys(message: str) -> str:
 
 
 def key_at(text: str, line: int) -> str | None:
-    """The path of the key that stands on a line of a written case."""
+    """The path of the key that is on a line of a written case."""
     lines = text.splitlines()
     section: list[str] = []
     counts: dict[str, int] = {}

@@ -2,7 +2,7 @@
 
     python3 -m solidus_docs.diary          prints what is found, one a line
 
-Such history stands in docs/log. Left out are pages whose subject are versions, which have dates, and text in code.
+Such history is kept in docs/log. Left out are pages whose subject are versions, which have dates, and text in code.
 """
 import re
 import sys
@@ -19,7 +19,7 @@ HISTORY = re.compile(rf"""\b20\d\d-\d\d-\d\d\b|\b\d{{1,2}}\ (?:{MONTHS})\b  # a 
 
 
 def history(text):
-    """What a page tells of when and beside what something was measured."""
+    """What a page tells of when, and along with what else, something was measured."""
     return HISTORY.findall(re.sub(r"\s+", " ", CODE.sub("``", text)))
 
 

@@ -1,4 +1,4 @@
-"""Where the equations of the monograph stand in the sources and in the theory.
+"""Where the equations of the monograph are in the sources and in the theory.
 
     python3 -m solidus_docs.equations              writes docs/theory/equations.md
     python3 -m solidus_docs.equations 4.97         prints the places of an equation
@@ -65,7 +65,7 @@ def ranges(text):
 
 
 def inside_parentheses(text):
-    """(place, equation) of what stands between two parentheses."""
+    """(place, equation) of what is between two parentheses."""
     # Sections of the monograph ("4.2.3") and quantities with units are no equations.
     text = re.sub(r"\d+\.\d+\.\d+", blank, text)
     yield from ranges(text)
@@ -168,7 +168,7 @@ def order(number):
 
 def page(found):
     lines = [
-        "# Where each equation stands",
+        "# Where each equation is used",
         "The equations of the monograph (Chiumenti, Agelet de Saracibar and Cervera, CIMNE monograph 48, 1999) and where "
         "the sources and these pages cite them; made by `./dev docs` from the comments. `./dev equation 4.97` prints the "
         "lines of one. What is misprinted and what is used instead: [errata](errata.md).",

@@ -3,7 +3,7 @@
 ``./dev house`` prints them. A room is a folder of ``src``, and each folder within it counts by itself, a unit is a header with
 its source, or either alone. The floors of a folder are the units on the longest chain of includes within it. Comments are counted in sources (.cpp)
 as lines that hold nothing else; a function of TOLD lines and more tells its steps by a comment directly above its head or
-within its body. A class that is larger for a reason stands with it in ``large_classes.toml`` beside this file.
+within its body. A class that is larger for a reason is listed with it in ``large_classes.toml`` next to this file.
 Sizes are read by a scanner of braces, not by a compiler: macros and preprocessor branches are text like any
 other.
 """
@@ -43,7 +43,7 @@ class Class:
     name: str
     file: str
     line: int
-    plain: bool = False  #: a struct: its members are data that stand together
+    plain: bool = False  #: a struct: its members are data that belong together
     methods: int = 0  #: public
     members: int = 0
 
@@ -84,7 +84,7 @@ def blanked(text: str) -> str:
 
 
 def head_of(text: str, brace: int) -> tuple[str, int]:
-    """What stands before a brace since the end of the statement before it, and where that begins."""
+    """What is written before a brace since the end of the statement before it, and where that begins."""
     depth = 0
     for i in range(brace - 1, -1, -1):
         c = text[i]
@@ -158,7 +158,7 @@ def comments_of(function: Function, lines: list[str]) -> int:
 
 
 def count(body: str, one: Class) -> None:
-    """Counts public methods and members of a class, by what stands at its own depth."""
+    """Counts public methods and members of a class, by what is at its own depth."""
     flat, depth = [], 0
     for c in body:
         if c == "{":

@@ -1,4 +1,4 @@
-"""What is wrong with the links of the pages: Markdown as it stands in the repository.
+"""What is wrong with the links of the pages: Markdown as it is in the repository.
 
     python3 -m solidus_docs.links          prints what is wrong, one a line
 

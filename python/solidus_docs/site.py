@@ -75,7 +75,7 @@ def listed(entries):
 
 
 def for_python_markdown(text):
-    """What GitHub reads otherwise than Python's Markdown: what belongs to an item of a list stands four columns in, and a list
+    """What GitHub reads otherwise than Python's Markdown: what belongs to an item of a list is indented by four columns, and a list
     needs an empty line in front of it."""
     lines, inside, width, before = [], None, 0, ""
     for line in text.splitlines():

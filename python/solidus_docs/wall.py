@@ -36,7 +36,7 @@ def experiments():
 
 
 def read_experiment(file):
-    """The keys of experiment.toml; what is missing or unknown is said with the file."""
+    """The keys of experiment.toml; what is missing or unknown is reported with the file."""
     spec = tomllib.loads(file.read_text())
     for key, value in spec.items():
         if key not in KEYS or not isinstance(value, KEYS[key]):
@@ -207,7 +207,7 @@ HEAD = """# The wall of experiments
 For whoever asks what the program computes of what was measured: one row an experiment, whether it fits or not, and what was assumed.
 `./dev validate` runs them and writes this page; it is not edited by hand. [How to add one](add_an_experiment.md).
 
-The error of a measurement is that which its source states, or what is said below the table; the error of what is computed is
+The error of a measurement is that which its source states, or what is written below the table; the error of what is computed is
 the difference to a run with the coarser mesh and steps that the experiment names (none where a card or a formula answers).
 
 ![Computed over measured; the bars are both errors together](images/wall.png)

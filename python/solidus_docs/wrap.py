@@ -3,7 +3,7 @@
     python3 -m solidus_docs.wrap           wraps the pages that are written by hand
     python3 -m solidus_docs.wrap --check   prints the lines that would change, and fails if there are any
 
-Paragraphs, list items and quotations are wrapped. Headings, tables, blocks of code, formulas that stand alone, HTML and the
+Paragraphs, list items and quotations are wrapped. Headings, tables, blocks of code, formulas on lines of their own, HTML and the
 head of a page stay as they are. A line never ends inside `code`, $formula$ or the target of a link, and never begins with what
 Markdown would take for a list, a heading or a quotation.
 """
@@ -15,7 +15,7 @@ import sys
 from solidus_docs import links
 
 WIDTH = 120
-GENERATED = ("docs/reference", "docs/theory/equations.md", "docs/verification/defaults.md")  # their programs write them anew
+GENERATED = ("docs/reference", "docs/theory/equations.md", "docs/verification/defaults.md")  # their programs write them again
 
 FENCE = re.compile(r" *(```+|~~~+)")
 LIST = re.compile(r"( *)([-*+]|\d+[.)])( +)(?=\S)")
@@ -26,7 +26,7 @@ STARTS = re.compile(r"([-+*>|=:]|#{1,6}|\d+[.)])$|[<>|]|```|~~~|\$\$")  # words 
 
 
 def words(text):
-    """The words of a text; what stands in code, in a formula or in the target of a link belongs to one word."""
+    """The words of a text; what is in code, in a formula or in the target of a link belongs to one word."""
     found, start, end = [], None, 0
     for atom in ATOM.finditer(text):
         if start is not None and atom.start() > end:
@@ -41,7 +41,7 @@ def words(text):
 
 
 def filled(text, first, further):
-    """Lines of at most 120 columns; `first` and `further` stand before the first line and before the others."""
+    """Lines of at most 120 columns; `first` and `further` are written before the first line and before the others."""
     lines, line = [], first
     empty = True
     for word in words(text):
@@ -58,8 +58,8 @@ class Wrapper:
 
     def __init__(self):
         self.lines = []
-        self.paragraph = []  # its lines as they are read, without what stands before them
-        self.first = self.further = ""  # what stands before its first line, and before the others
+        self.paragraph = []  # its lines as they are read, without what is before them
+        self.first = self.further = ""  # what is before its first line, and before the others
         self.ends = None  # tells of a line whether it ends the block that is left as it is
 
     def read(self, line, number):

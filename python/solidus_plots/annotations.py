@@ -1,4 +1,4 @@
-"""What is written beside bodies in three dimensions: the directions of the axes, and lengths."""
+"""What is written next to bodies in three dimensions: the directions of the axes, and lengths."""
 
 import numpy as np
 
@@ -22,7 +22,7 @@ def triad(figure, camera):
 
 
 def dimensions(axes, camera, low, high):
-    """The lengths of the box between two corners [m], beside its edges that lie outside in the picture."""
+    """The lengths of the box between two corners [m], next to its edges that lie outside in the picture."""
     corners = np.array([[(low, high)[i >> axis & 1][axis] for axis in range(3)] for i in range(8)])
     place = MM * camera.project(corners)[:, :2]
     extent = np.ptp(place, axis=0).max()
@@ -39,7 +39,7 @@ def dimensions(axes, camera, low, high):
 
 
 def _dimension(axes, ends, offset, text):
-    """A line with arrows beside an edge, with what it measures."""
+    """A line with arrows next to an edge, with what it measures."""
     start, end = sorted(ends + offset, key=lambda point: point[0])
     for point in ends:
         axes.plot(*zip(point + 0.25 * offset, point + 1.25 * offset), color=_GREY, linewidth=0.5, clip_on=False)
@@ -51,7 +51,7 @@ def _dimension(axes, ends, offset, text):
 
 
 def mark(axes, places, labels):
-    """Points [point][2] with their names beside them, where these cover other points and names least."""
+    """Points [point][2] with their names next to them, where these cover other points and names least."""
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     point = (right - left) / (72 * axes.figure.get_size_inches()[0] * axes.get_position().width)
     axes.plot(*np.transpose(places), "o", markersize=4.5, color="white", markeredgecolor="black", zorder=8,
@@ -71,7 +71,7 @@ def mark(axes, places, labels):
                       arrowprops={"arrowstyle": "-", "lw": 0.5, "shrinkA": 0, "shrinkB": 2})
 
 
-# Where labels may begin beside their points, right and up [pt].
+# Where labels may begin next to their points, right and up [pt].
 _BESIDE = [(right, up) for reach in (7, 16, 28) for up in (0, reach, -reach) for right in (reach, -reach)]
 
 

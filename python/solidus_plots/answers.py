@@ -28,7 +28,7 @@ def _of_castings(castings):
 
 
 def _error_of(entry, unit, factor=1.0):
-    """The error by step and mesh that stands beside a value, a half width; nothing where there is none."""
+    """The error by step and mesh that is written next to a value, a half width; nothing where there is none."""
     error = entry.get(f"error[{unit}]") if isinstance(entry, dict) else None
     return None if error is None else factor * error
 

@@ -55,7 +55,7 @@ def _while_there(run, times, history, cast):
 
 
 def _levels(summary):
-    """Liquidus and solidus of what is poured [degC], those of one alloy alone; lines stand a little beyond, because on
+    """Liquidus and solidus of what is poured [degC], those of one alloy alone; lines lie a little beyond, because on
     the plateau of an eutectic all temperatures are the solidus but for rounding."""
     pours = summary.get("understood", {}).get("poured", [])
     pairs = {(pour["solidus[K]"], pour["liquidus[K]"]) for pour in pours if "solidus[K]" in pour}

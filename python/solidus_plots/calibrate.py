@@ -1,7 +1,7 @@
 """Finds what of a case is unknown from measurements: python3 -m solidus_plots.calibrate CASE MEASURED.csv, as `solidus
 calibrate` does.
 
-calibrate.toml beside the case says what is unknown. docs/guide/calibrate.md describes the file and what comes out,
+calibrate.toml next to the case says what is unknown. docs/guide/calibrate.md describes the file and what comes out,
 docs/theory/calibration.md the equations.
 """
 

@@ -153,7 +153,7 @@ class Model:
         file.write_text("\n".join(lines) + "\n")
 
     def _run_all(self, wanted):
-        """Runs beside each other. Throws RunFailed with the reason of the first that fails."""
+        """Runs at the same time. Throws RunFailed with the reason of the first that fails."""
         records = self.runner.run_all(wanted, self.jobs, lambda number, record: None)
         if records is None:
             raise KeyboardInterrupt

@@ -28,7 +28,7 @@ def _axes(title, clock, y_label):
     return figure, axes
 
 
-# A legend too long to stand among the lines.
+# A legend too long to fit among the lines.
 BESIDE = {"loc": "upper left", "bbox_to_anchor": (1.01, 1.0), "borderaxespad": 0}
 
 

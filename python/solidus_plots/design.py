@@ -95,7 +95,7 @@ class Workshop:
 
     @staticmethod
     def _feeders(folder, design):
-        """Writes the file of risers and chills beside a folder; the words for `solidus new`."""
+        """Writes the file of risers and chills next to a folder; the words for `solidus new`."""
         text, file = design.toml(), folder.with_suffix(".toml")
         if not text:
             return []

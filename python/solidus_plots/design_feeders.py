@@ -11,17 +11,17 @@ SLEEVE = 0.2  # thickness of a sleeve, of the diameter: what makers of insulatin
 LEAST_SLEEVE = 6.0  # [mm]
 NECK_HEIGHT = 0.1  # of a narrower neck above the part, of the diameter
 LONGER = 1.5  # a riser that would have to be so many times as high to end where the highest does is closed
-SIDE_NECK = 0.7  # width of the neck of a riser beside the part, of the diameter
+SIDE_NECK = 0.7  # width of the neck of a riser next to the part, of the diameter
 SIDE_GAP = 0.15  # sand between such a riser and the part, of the diameter: a short neck stays warm
 BELOW_NECK = 0.1  # its metal below the neck, of the diameter
 
 
 @dataclass(frozen=True)
 class Riser:
-    """Lengths in mm. It stands upright on the part, or beside it with a level neck."""
+    """Lengths in mm. It stands upright on the part, or next to it with a level neck."""
 
     name: str
-    foot: tuple  # x, y, z of the centre of its foot; of a riser beside the part the place in it that its neck leads to
+    foot: tuple  # x, y, z of the centre of its foot; of a riser next to the part the place in it that its neck leads to
     sunk: float  # so far the foot lies below the skin of the part
     diameter: float
     slender: float = SLENDER
@@ -102,7 +102,7 @@ class Design:
     def text(self):
         """As one reads it in a table."""
         risers = [f"{riser.name} {riser.diameter:.1f} x {height - riser.sunk:.1f} mm"
-                  + (" beside the part" if riser.beside else "")
+                  + (" next to the part" if riser.beside else "")
                   + (f" in {riser.sleeve_thickness():.0f} mm of sleeve" if riser.sleeve else "")
                   + (f", neck {riser.neck * riser.diameter:.1f} mm" if riser.neck < 1 else "")
                   for riser, height in zip(self.risers, self.heights())]

@@ -19,7 +19,7 @@ APART = 0.15  # of the extent of the part: defects that are nearer are told as o
 class Limits:
     holes: float  # of the part's volume, what pipes, cavities and sinks may take
     pores: float  # the largest share of pores at a place
-    left: float  # of a riser's height, what has to stand between its pipe and its foot
+    left: float  # of a riser's height, what has to be left between its pipe and its foot
 
 
 @dataclass

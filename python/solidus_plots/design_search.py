@@ -42,7 +42,7 @@ class Search:
     def __init__(self, evaluate, surface, jobs, most, beside=lambda place, taken: None):
         """evaluate: fills the judgements of trials, which may run at a time; surface: of a place [mm] the heights of the
         part below and above it [mm] and the radius of the largest ball there; most: runs in all; beside: where a riser may
-        stand beside the part (Surface.beside)."""
+        stand next to the part (Surface.beside)."""
         self._evaluate, self._surface, self._jobs, self._left = evaluate, surface, jobs, most
         self._beside = beside
         self.trials = []
@@ -80,7 +80,7 @@ class Search:
                     break
                 changed = self._fed_elsewhere(start, largest)
                 if changed is None:
-                    # Nothing beside the risers helps: what is left is their size.
+                    # Nothing besides the risers helps: what is left is their size.
                     self._common_size(start, to_the_end=True)
                     break
                 start = changed
@@ -113,7 +113,7 @@ class Search:
         run(first)
         while smallest_sound() is None and max(tried) < MOST:
             largest = tried[max(tried)]
-            # A hole that lies beside every riser does not go away with their size.
+            # A hole that lies away from every riser does not go away with their size.
             if largest.judgement and largest.judgement.defects and len(tried) >= 2 and not to_the_end and (
                     self._far_from_all(largest) or self._stays(tried)):
                 return largest
@@ -159,7 +159,7 @@ class Search:
         return self._helped(start, trial, place, low, radius)
 
     def _helped(self, start, trial, place, low, radius):
-        """The design with a chill below a place over which a riser stands, or with a riser beside it: of those that can be,
+        """The design with a chill below a place over which a riser stands, or with a riser next to it: of those that can be,
         the one with which a run leaves less; nothing where none can."""
         added = []
         if not any(chill.lowest[0] < place[0] < chill.highest[0] and chill.lowest[1] < place[1] < chill.highest[1]
@@ -181,7 +181,7 @@ class Search:
                                beside=found[2])
                 return replace(design, risers=(*named, beside))
             added.append(("a riser beside", with_riser))
-        # The risers that stand already are as large as they were, which feeds what can be fed from above.
+        # The risers that are there already are as large as they were, which feeds what can be fed from above.
         if not added:
             return None
         trials = self.tried([(f"{what} the hole", add(trial.design)) for what, add in added])

@@ -7,7 +7,7 @@ from solidus_plots.hot_spots import centres
 
 CLIMBS = 8  # at most, from a hole to the middle of the thick place around it
 BLOCK = 0.45  # modulus of a block of metal over the radius of the largest ball in it
-DIRECTIONS = 16  # in which a riser beside the part is looked for
+DIRECTIONS = 16  # in which a riser next to the part is looked for
 FACES = {10: [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)],
          12: [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)],
          13: [(0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)]}
@@ -47,7 +47,7 @@ class Surface:
         return place, float(self._depth(place[None])[0])
 
     def beside(self, place, taken):
-        """A riser beside the part for a place [mm]: the place in the part that its neck leads to, its diameter, x and y of
+        """A riser next to the part for a place [mm]: the place in the part that its neck leads to, its diameter, x and y of
         the level direction to it and the way along it to the skin; nothing where there is no room.
 
         taken: x, y, radius and lowest height of upright cylinders that it must not touch."""

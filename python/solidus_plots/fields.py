@@ -74,7 +74,7 @@ def known():
 
 
 def find(name):
-    """None for a name that nobody declares."""
+    """None for a name that is not declared."""
     return _known.get(name)
 
 

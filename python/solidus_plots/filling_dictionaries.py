@@ -1,4 +1,4 @@
-"""What icoReactingMultiphaseInterFoam of OpenFOAM 1912 reads beside the mesh: fields, materials and numerics.
+"""What icoReactingMultiphaseInterFoam of OpenFOAM 1912 reads besides the mesh: fields, materials and numerics.
 
 The model and the choices that are made here are described in docs/theory/filling.md.
 """
@@ -12,7 +12,7 @@ from solidus_plots.filling_mesh import HEADER
 GAS = {"density": 1.0, "heat": 1000.0, "viscosity": 2e-5, "prandtl": 0.7}  # warm air; it has hardly any heat
 MOLAR_WEIGHT = 50  # of no consequence for what does not react
 AIR_PRESSURE = 1e5  # [Pa] at vents
-DRAG = 1e6  # C of Voller and Prakash's drag [kg/(m3 s)]: metal that is half frozen stands within a millisecond
+DRAG = 1e6  # C of Voller and Prakash's drag [kg/(m3 s)]: metal that is half frozen comes to rest within a millisecond
 COMPRESSION = 1.0  # of interfaces
 PHASES = ("gas", "melt", "solid")
 DIMENSIONS = {"T": "[0 0 0 1 0 0 0]", "U": "[0 1 -1 0 0 0 0]", "p_rgh": "[1 -1 -2 0 0 0 0]"}

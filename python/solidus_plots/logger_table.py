@@ -32,7 +32,7 @@ TEMPERATURES = {"degc": "degC", "°c": "degC", "c": "degC", "celsius": "degC", "
 @dataclass
 class Column:
     name: str
-    unit: str  # as it stands there; empty: the table does not say
+    unit: str  # as it is written there; empty: the table does not say
     values: np.ndarray
     dead: str = ""  # why nothing can be learnt from it
     open_from: int | None = None  # line from which on it has no reading

@@ -1,4 +1,4 @@
-"""Runs of one case beside each other, each with changes of its own and in a folder of its own (study, uncertain)."""
+"""Runs of one case at the same time, each with changes of its own and in a folder of its own (study, uncertain)."""
 
 from concurrent.futures import ThreadPoolExecutor
 import json

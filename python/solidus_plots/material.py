@@ -94,7 +94,7 @@ def draw(folder):
     for axes, panel in zip(places, panels):
         over_temperature(axes, table, panel, mushy)
     if curve_file.exists():
-        flow_curves(places.pop(), read_table(curve_file, "plastic_strain[1]"))  # its legend stands outside
+        flow_curves(places.pop(), read_table(curve_file, "plastic_strain[1]"))  # its legend is outside
     for axes in places[len(panels):]:
         axes.set_visible(False)
     name = folder.resolve().name

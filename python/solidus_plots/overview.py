@@ -222,7 +222,7 @@ def draw(spec, run, case, folder):
                 continue
             view, moment = entry
             view.draw(axes, moment, colours, sheet.pixels(view.size), marks)
-            first = len(times) > 1 and view is views[0]  # the moment stands over the first view of its row
+            first = len(times) > 1 and view is views[0]  # the moment is written over the first view of its row
             axes.set_title(", ".join([view.name] * bool(view.name) + [times[moment]] * first), fontsize=8.5)
     colours.bar(sheet.bar, bool(colours.contours))
     return style.save(sheet.figure, folder, spec["file"], vector=False)

@@ -36,7 +36,7 @@ class Paint:
         name = spec.get("colours", usual)
         if name not in plt.colormaps():
             raise ResultError(f"plots.toml: no colours '{name}'; any of matplotlib's: viridis, inferno, "
-                              "RdBu_r, ... (_r turns them round)")
+                              "RdBu_r, ... (_r reverses them)")
         norm, colours = Normalize(self.low, self.high), plt.get_cmap(name)
         if name in ("inferno", "magma"):  # without the black in which edges vanish
             colours = ListedColormap(colours(np.linspace(0.16, 1.0, 256)))

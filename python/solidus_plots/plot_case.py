@@ -1,7 +1,7 @@
 """Draws the results of a run: python3 -m solidus_plots RESULTS_DIR.
 
 Every case gets curves of history.csv by unit, one picture of its steps and an overview of each field that matters
-(automatic.py). What else is drawn stands in the `plots.toml` beside the case file; docs/guide/plots.md describes it. Pictures go to RESULTS_DIR/plots.
+(automatic.py). What else is drawn is listed in the `plots.toml` next to the case file; docs/guide/plots.md describes it. Pictures go to RESULTS_DIR/plots.
 """
 
 import argparse

@@ -1,4 +1,4 @@
-"""plots.toml, the file beside a case that says what is drawn of it (docs/guide/plots.md)."""
+"""plots.toml, the file next to a case that says what is drawn of it (docs/guide/plots.md)."""
 
 from pathlib import Path
 import tomllib
@@ -24,7 +24,7 @@ KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "mome
 REQUIRED = {"curves": ("file", "lines"), "graphs": ("file", "x", "lines"),
             "measured": ("file", "table", "each", "x", "lines"), "maps": ("file", "field"),
             "deformed": ("file",), "sections": ("file", "field", "planes"), "surfaces": ("file",)}
-AUTOMATIC = {"draw", "niyama"}  # of the section of pictures that nobody asked for
+AUTOMATIC = {"draw", "niyama"}  # of the section of pictures that are drawn unasked
 # Keys of a picture that change nothing without another one.
 NEEDS = {"surfaces": {"clip_bodies": "clip", **dict.fromkeys(FIELD_KEYS - {"field"}, "field")}}
 
@@ -82,7 +82,7 @@ def _check_values(path, section, picture):
 
 
 def find_spec(results, summary):
-    """plots.toml beside the case file the run was made of, else cases/CASE/plots.toml of this repository."""
+    """plots.toml next to the case file the run was made of, else cases/CASE/plots.toml of this repository."""
     repository = Path(__file__).resolve().parents[2]
     case_file = Path(summary.get("case", ""))
     places = [case_file.parent, repository / case_file.parent] if case_file.name else []

@@ -190,7 +190,7 @@ class View:
         return found
 
     def _outline(self, width):
-        """Pixels beside which another surface lies much further away, or nothing."""
+        """Pixels next to which another surface lies much further away, or nothing."""
         depth = np.where(self.picture.seen, self.picture.depth, -1e9)
         far = 0.012 * max(depth.shape)
         edge = np.zeros(depth.shape, bool)

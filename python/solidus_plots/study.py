@@ -1,6 +1,6 @@
 """Many runs of a case with other values: python3 -m solidus_plots.study FILE, as `solidus study` does.
 
-Runs go beside each other, one a core, each into a folder of its own. A run that fails is a row of the table as any other,
+Runs go at the same time, one a core, each into a folder of its own. A run that fails is a row of the table as any other,
 with its reason. docs/guide/study.md describes the file and what comes out.
 """
 
@@ -24,7 +24,7 @@ def assignment(key, value):
 
 
 def arguments(study, values):
-    """What stands behind `run CASE`."""
+    """What follows `run CASE`."""
     changes = [*study.set, *(assignment(parameter.key, value) for parameter, value in zip(study.parameters, values))]
     return [word for change in changes for word in ("--set", change)]
 

@@ -35,7 +35,7 @@ class Parameter:
         return self.written(self.low + share * (self.high - self.low))
 
     def written(self, number):
-        """As it stands in a case file."""
+        """As it is written in a case file."""
         number = float(f"{number:.6g}")
         return f"{number:g} {self.unit}" if self.unit else number
 

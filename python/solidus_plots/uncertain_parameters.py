@@ -28,7 +28,7 @@ class Parameter:
     members: list = field(default_factory=list)  # of parameters that are moved together
 
     def changes(self, u):
-        """What stands behind --set, at the share u of the half width: KEY=VALUE."""
+        """What follows --set, at the share u of the half width: KEY=VALUE."""
         if self.members:
             return [change for member in self.members for change in member.changes(u)]
         return [f"{key}={self._moved(value, u)}" for key, value in self.places]

@@ -9,7 +9,7 @@ from solidus_plots.answers import answers, bands, read_summary
 from solidus_plots.style import unit_text
 from solidus_plots.uncertain_parameters import root_of_squares
 
-BENT = 0.3  # of the part: an answer that bends so much in a parameter is said to
+BENT = 0.3  # of the part: an answer that bends so much in a parameter is reported to
 JUMPS = 0.3  # of the largest part: where half of all parts are above it, an answer has no order of what matters
 MANY = 6  # parameters from which that can be told
 MUCH = 1 / 3  # of the spread of an answer: such a parameter is worth a run at its other end

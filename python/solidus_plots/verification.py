@@ -2,7 +2,7 @@
 
     python3 -m solidus_plots.verification build/release/verification docs/verification/images
 
-What is drawn stands in verification.toml beside this file, one section a picture:
+What is drawn is listed in verification.toml next to this file, one section a picture:
 
     title, x, y        words with units
     table              the table, where it is not called like the picture
@@ -11,14 +11,14 @@ What is drawn stands in verification.toml beside this file, one section a pictur
                        "other:column" is one of another table, "column where name = value" has only those rows
     exact, exact_label column of one closed form for all curves; what closed forms are called in the legend
     level              [value, label] of a horizontal line
-    kind               "lines" (where nothing is said); "order": logarithmic axes and the slope of the last two
-                       points; "newton": residuals over iterations, and counts (label of their axis) beside them
+    kind               "lines" (the default); "order": logarithmic axes and the slope of the last two
+                       points; "newton": residuals over iterations, and counts (label of their axis) next to them
     panels             [low, high] of the ordinate, of panels one above the other
     log                axes that are logarithmic: "x", "y", "xy"
     powers             { x = n }: the column holds a common logarithm, drawn is ten to the power of n times it; y too
     factor, relative   what values are multiplied by; true: values over the first one of each curve
     legend             a place as matplotlib calls it, "beside" or "below"
-    markers, spread    false: lines only; true: points of all curves in turn, where they lie on each other
+    markers, spread    false: lines only; true: points of all curves one after the other, where they lie on each other
     invert, ticks      true: the abscissa falls; its ticks
 
 Closed forms are lines, what Solidus computes is marked; both have the same colour.
@@ -160,7 +160,7 @@ def draw_lines(axes, picture, tables):
 
 
 def draw_newton(axes, picture, tables):
-    """Residuals over iterations, and beside them how many contact points changed their status."""
+    """Residuals over iterations, and next to them how many contact points changed their status."""
     columns = tables.columns(picture.get("table", picture["name"]))
     iterations, residuals, changes = (values.astype(float) for values in columns.values())
     counts = axes.twinx()

@@ -163,7 +163,7 @@ def make_tree(build: Path, prefix: Path, version: str, release: str, epoch: int)
 
 
 def compress(prefix: Path, archive: Path, epoch: int) -> None:
-    """Packs a folder so that the same files give the same bytes: in order of names, of one date, of nobody."""
+    """Packs a folder so that the same files give the same bytes: in order of names, of one date, of no user."""
     tar = ["tar", "--create", "--sort=name", f"--mtime=@{epoch}", "--owner=0", "--group=0", "--numeric-owner", "--mode=u+rw,go+r-w,a+X",
            "--format=gnu", "--directory", prefix.parent, prefix.name]
     with archive.open("wb") as file:

@@ -1,8 +1,8 @@
 """How far the defaults are from converged answers: docs/verification/defaults.md.
 
-The cases of `cases/` (cases.py) are run as they stand, with tolerances so small that they do not matter, and with
+The cases of `cases/` (cases.py) are run as they are, with tolerances so small that they do not matter, and with
 steps (or their error limits) a quarter as large besides. What is compared is what the case itself samples: its
-probes at the times of the run as it stands, its last profile, or the curves of a test at a point. Where steps adapt,
+probes at the times of the run as it is, its last profile, or the curves of a test at a point. Where steps adapt,
 smaller tolerances lead to other steps too.
 
     /usr/bin/python3 tests/defaults PROGRAM [-o docs/verification/defaults.md] [CASE ...]
@@ -79,7 +79,7 @@ def cell(row, reference, default):
 
 
 def answers(row, default, finer):
-    """The answers with the errors that the run states, beside those with shorter steps."""
+    """The answers with the errors that the run states, next to those with shorter steps."""
     others = samples.answers(finer, row.kind)
     return "; ".join(f"{name} {value:.4g} ± {error:.2g} {samples.UNITS[name]} ({others[name][0]:.4g})"
                      for name, (value, error, *_) in samples.answers(default, row.kind).items() if name in others)
@@ -114,7 +114,7 @@ def case_of(line):
 
 
 def kept(page):
-    """Rows of the page as it stands, by case, and its notes, between its table and its last line."""
+    """Rows of the page as it is, by case, and its notes, between its table and its last line."""
     if page is None or not page.exists():
         return {}, []
     lines = page.read_text(encoding="utf-8").splitlines()

@@ -10,7 +10,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "program"))
 import castings_with_errors  # noqa: E402
 
-# Columns of the program's own in history.csv; the probes of a case stand before them.
+# Columns of the program's own in history.csv; the probes of a case come before them.
 OWN = ("T_min", "solid_fraction", "stored_heat", "work", "contact_heat", "contact_force")
 # What is compared where a case has neither probe nor profile.
 INSTEAD = ("T_max", "solid_fraction", "contact_heat", "contact_force")

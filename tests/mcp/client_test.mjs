@@ -75,6 +75,6 @@ check("with a summary of how far it came", JSON.parse(readFileSync(join(folder, 
 await client.close();
 check("nothing came that is no message", strange.length === 0, strange);
 check("and no trace of a mistake", !heard.includes("Traceback"), heard);
-check("nothing was left beside the folder", !existsSync(join(folder, "../plate")));
+check("nothing was left next to the folder", !existsSync(join(folder, "../plate")));
 console.log(`${passed} hold, ${failed} do not`);
 process.exit(failed ? 1 : 0);

@@ -1,4 +1,4 @@
-"""Feeding with heat alone beside the coupled run, and beside itself with half the elements, on four castings."""
+"""Feeding with heat alone compared with the coupled run, and with itself with half the elements, on four castings."""
 
 import csv
 import json

@@ -6,7 +6,7 @@ n = 7;
 blades[] = {};
 For i In {0:n-1}
   a = 2*Pi*i/n;
-  // A blade is a part of a ring: between two circles around a centre beside the axis.
+  // A blade is a part of a ring: between two circles around a centre next to the axis.
   cx = 38*Cos(a) - 30*Sin(a); cy = 38*Sin(a) + 30*Cos(a);
   Cylinder(100+i) = {cx,cy,3, 0,0,27, 42.5};
   Cylinder(200+i) = {cx,cy,3, 0,0,27, 37.5};

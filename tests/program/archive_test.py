@@ -35,7 +35,7 @@ class Archive(ProgramTest):
         """Runs it in an empty environment."""
         return subprocess.run(command, cwd=cwd or self.folder, capture_output=True, text=True, timeout=600,
                               env={"PATH": "/usr/bin:/bin", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                                   # Those that wait leave their core to others: tests run beside each other.
+                                   # Those that wait leave their core to others: tests run at the same time.
                                    "OMPI_MCA_mpi_yield_when_idle": "1", **variables})
 
     def test_it_runs_where_it_lies_with_its_own_libraries_and_processes(self):

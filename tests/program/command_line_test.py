@@ -96,7 +96,7 @@ class CommandLine(ProgramTest):
     def test_one_thread_of_linear_algebra_unless_the_environment_says_otherwise(self):
         if shutil.which("cc") is None:
             self.skipTest("no C compiler")
-        # In front of whichever BLAS the machine has stands one that tells how many threads it was given.
+        # Before whichever BLAS the machine has, one is loaded that tells how many threads it was given.
         self.write("blas.c", '#include <stdio.h>\nvoid openblas_set_num_threads(int n) { printf("threads %d\\n", n); fflush(stdout); }\n')
         subprocess.run(["cc", "-shared", "-fPIC", "-o", "blas.so", "blas.c"], cwd=self.folder, check=True)
         silent = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}

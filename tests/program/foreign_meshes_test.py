@@ -1,4 +1,4 @@
-"""Meshes as other programs write them: which of their sets are bodies and surfaces, and what is said of the rest."""
+"""Meshes as other programs write them: which of their sets are bodies and surfaces, and what is reported of the rest."""
 
 import itertools
 import re
@@ -34,7 +34,7 @@ def lines(numbers):
 
 
 class BlockOfTwoBodies(ProgramTest):
-    """Eight cells of a casting beside eight of a mould."""
+    """Eight cells of a casting next to eight of a mould."""
 
     def setUp(self):
         super().setUp()

@@ -24,7 +24,7 @@ PAGES = [SOURCES / "README.md", *sorted((SOURCES / "docs/guide").glob("*.md")), 
 DEV = {"help"} | set(re.findall(r"^  (\w+) ", subprocess.run([SOURCES / "dev", "help"], capture_output=True, text=True,
                                                   check=True).stdout, re.M))
 WHOLE = "SOLIDUS_WHOLE_PAGES" in os.environ  # every command of the first page, to its end
-# What is typed as it stands: quick, and it writes nothing but into the present folder.
+# What is typed as it is: quick, and it writes nothing but into the present folder.
 TYPED = {"help", "explain", "schema", "version", "materials", "completion", "man", "init-editor", "check"}
 
 
@@ -43,7 +43,7 @@ def options():
     page = solidus("man").stdout.replace("\\-", "-")
     verbs = re.split(r"^\.SS \\fBsolidus ", page, flags=re.M)[1:]
     found = {}
-    for verb in verbs:  # `materials import` has what stands under it and under `materials`
+    for verb in verbs:  # `materials import` has what is listed under it and under `materials`
         found.setdefault(re.match(r"[a-z-]+", verb)[0], set()).update(re.findall(r"\\fB(--?[a-z][a-z-]*)", verb))
     return found
 
@@ -159,7 +159,7 @@ class Guide(ProgramTest):
             shutil.copy(source, folder)
 
     def follow(self, line):
-        """Types a line of a page as it stands, in the folder of the test; `~/solidus` is where the sources lie, and
+        """Types a line of a page as it is, in the folder of the test; `~/solidus` is where the sources lie, and
         `dev run` the program that it would build. @return what was printed"""
         words = shlex.split(line.replace("~/solidus", str(SOURCES)), comments=True)
         words = words[:words.index("|")] if "|" in words else words
@@ -171,7 +171,7 @@ class Guide(ProgramTest):
         return self.done(*arguments, cwd=self.folder, timeout=600)
 
     def test_a_newcomer_gets_from_the_first_page_to_results(self):
-        """The commands of docs/guide/getting_started.md one after the other, as they stand there and to their end, in an
+        """The commands of docs/guide/getting_started.md one after the other, as they are there and to their end, in an
         empty folder; then the Python of docs/guide/results.md reads what they left. `./dev nightly` runs all of them. Else
         the pictures and the coupled run of the part are left out, a minute of one core, and the second run of the cylinder and
         the case by hand, which has to be the one that its notebook runs, end after a second."""
@@ -200,7 +200,7 @@ class Guide(ProgramTest):
             self.assertRegex(said, r"casting 'casting' +solid; its last melt froze")
             self.assertRegex(said, r"largest von Mises stress +[\d.]+ MPa")
         self.assertTrue(plot.startswith("solidus plot results/part/default") and "--coupled part" in coupled)
-        self.write("case.toml", case)  # "a text file beside the mesh"
+        self.write("case.toml", case)  # "a text file next to the mesh"
         self.assertEqual(tomllib.loads(case), tomllib.loads((SOURCES / "cases/bracket/case.toml").read_text()))
         copy, look, run = shell
         self.follow(copy)
@@ -218,8 +218,8 @@ class Guide(ProgramTest):
                     self.assertTrue(done.stdout.strip())
 
     def test_the_tutorials_can_be_followed(self):
-        """Their commands one after the other, in a folder each, as they stand there; runs end after two seconds of the
-        casting, the first one of shots after two shots and those beside it after one, coupled runs in space are left out, and so
+        """Their commands one after the other, in a folder each, as they are there; runs end after two seconds of the
+        casting, the first one of shots after two shots and those next to it after one, coupled runs in space are left out, and so
         are pictures. Then their Python, as one program; every picture of theirs is there."""
         for page in sorted((SOURCES / "docs/tutorials").glob("*.md")):
             folder = self.folder / page.stem

@@ -190,7 +190,7 @@ class Loads(ProgramTest):
             rows = self.history(element, BLOCK.format(element=element) + MELT)
             for row in rows[1:]:
                 time = row["time[s]"]
-                # Once the level stands at an edge of the mesh the rule is exact.
+                # Once the level is at an edge of the mesh the rule is exact.
                 if time < 2:
                     continue
                 squeeze = 1e5 * (time - 2)

@@ -109,7 +109,7 @@ class NewCase(ProgramTest):
         self.assertLess(nodes, 30000)
         checked = solidus("check", "case", "--heat-only", cwd=self.folder)
         self.assertEqual(checked.returncode, 0, checked.stderr)
-        # The interface of all bodies has nothing left beside that of casting and die: no reason to warn.
+        # The interface of all bodies has nothing left besides that of casting and die: no reason to warn.
         self.assertNotIn("no two bodies face each other", checked.stderr)
 
     def test_of_shots_the_castings_freeze_in_their_die_and_the_die_stays_as_warm_as_it_was(self):

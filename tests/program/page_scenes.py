@@ -9,7 +9,7 @@ class Scene:
     files: dict = field(default_factory=dict)  # name in the folder -> source in the repository
     texts: dict = field(default_factory=dict)  # name in the folder -> first words of the block of the page that it is
     lines: list = field(default_factory=list)  # typed before the page's own
-    words: dict = field(default_factory=dict)  # what stands for CASE, FOLDER, FILE, NAME
+    words: dict = field(default_factory=dict)  # what is typed for CASE, FOLDER, FILE, NAME
     end: str = "2 s"  # of runs, where they are shortened
 
 
@@ -85,5 +85,5 @@ ELSEWHERE = {
     "cmake --install build/release --component program --prefix ~/.local": "tests/program/install_test.py",
     "solidus design part.step --alloy medium_carbon_steel --process sand": "tests/program/design_test.py, with fewer runs",
     "solidus fill case.toml": "tests/program/fill_test.py, where OpenFOAM is installed",
-    "solidus design bracket": "the same; that a case stands for its part: tests/python/design_test.py",
+    "solidus design bracket": "the same; that a case does as well as its part: tests/python/design_test.py",
 }

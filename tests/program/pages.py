@@ -1,4 +1,4 @@
-"""What the pages of the guide hold: fenced blocks, and commands that stand in the text."""
+"""What the pages of the guide hold: fenced blocks, and commands in the text."""
 
 from dataclasses import dataclass
 import re

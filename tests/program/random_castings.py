@@ -287,7 +287,7 @@ def between(times, values, time):
 
 
 def kept(path, wanted, make):
-    """What was computed before for the same `wanted`, or anew."""
+    """What was computed before for the same `wanted`, or computed now."""
     if path.exists():
         found = json.loads(path.read_text())
         if all(found[key] == value for key, value in wanted.items() if key != "shorter than"):

@@ -5,7 +5,7 @@ import unittest
 
 from program import ProgramTest, solidus
 
-# A plate with a riser on it, a chill of the same metal beside it; the plate cools at its lower edge. The bodies share
+# A plate with a riser on it, a chill of the same metal next to it; the plate cools at its lower edge. The bodies share
 # their nodes.
 GEOMETRY = """
 Point(1) = {0, 0, 0, 5}; Point(2) = {40, 0, 0, 5}; Point(3) = {40, 20, 0, 5}; Point(4) = {0, 20, 0, 5};

@@ -1,5 +1,5 @@
 """docs/guide/troubleshooting.md: every mistake is seeded into the page's case as the page shows it, and the program says what
-stands there: `check` where it sees the mistake, else `run`, which ends with exit code 2."""
+is there: `check` where it sees the mistake, else `run`, which ends with exit code 2."""
 
 import re
 import subprocess
@@ -19,12 +19,12 @@ def seeded(case, change):
     old = "".join(line[1:] + "\n" for line in lines if line[:1] != "+")
     new = "".join(line[1:] + "\n" for line in lines if line[:1] != "-")
     if case.count(old) != 1:
-        raise AssertionError(f"these lines stand {case.count(old)} times in the page's case:\n{old}")
+        raise AssertionError(f"these lines are {case.count(old)} times in the page's case:\n{old}")
     return case.replace(old, new)
 
 
 def says(shown, said):
-    """Whether a line is what stands on the page, which leaves out by '…' what differs from machine to machine, or is long."""
+    """Whether a line is what is on the page, which leaves out by '…' what differs from machine to machine, or is long."""
     return re.fullmatch(".*".join(re.escape(part.strip(" ")) for part in shown.split("…")), said.strip(" ")) is not None
 
 

@@ -1,4 +1,4 @@
-"""README and the guide, page by page: the command lines that stand there are typed one after the other, as they stand, in a folder
+"""README and the guide, page by page: the command lines on them are typed one after the other, as they are, in a folder
 that has what the page speaks of (page_scenes.py). `./dev nightly` types all of them and lets runs end; else runs end after a moment of
 the casting, and what takes long (pictures, coupled parts) is left out: LONG. Pages whose commands are typed by tests of their own:
 python.md, and the numbered part of getting_started.md."""
@@ -114,7 +114,7 @@ class TypedPages(ProgramTest):
         self.assertLess(long, 36)
 
     def test_whole_cases_and_point_files_on_every_page_run(self):
-        """As they stand; the cases end after a moment unless all is whole."""
+        """As they are; the cases end after a moment unless all is whole."""
         for page in PAGES:
             for number, block in enumerate(blocks(page.read_text())):
                 is_case = all(word in block.text for word in ("[analysis]", "[mesh]", "[[body]]", "[time]"))

@@ -1,4 +1,4 @@
-"""The wall of experiments: its page is that of what is kept, quick rows come out again, and mistakes in its files are said."""
+"""The wall of experiments: its page is that of what is kept, quick rows come out again, and mistakes in its files are reported."""
 
 import json
 import subprocess

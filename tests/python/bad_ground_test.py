@@ -1,4 +1,4 @@
-"""What a machine lacks is said in one sentence: by ./dev and by the verbs in Python."""
+"""What a machine lacks is reported in one sentence: by ./dev and by the verbs in Python."""
 
 import errno
 import itertools

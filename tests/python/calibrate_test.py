@@ -1,4 +1,4 @@
-"""What `solidus calibrate` computes beside its runs: tables of loggers, the search, intervals, what readings cannot see."""
+"""What `solidus calibrate` computes besides its runs: tables of loggers, the search, intervals, what readings cannot see."""
 
 import math
 from pathlib import Path

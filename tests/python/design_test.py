@@ -46,7 +46,7 @@ class DeepPipe:
 
 @dataclass
 class LowSpot:
-    """Below a thin wall: only a riser beside it that is wide enough feeds it, whatever stands above."""
+    """Below a thin wall: only a riser next to it that is wide enough feeds it, whatever is above."""
 
     x: float
     diameter: float

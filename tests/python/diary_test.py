@@ -1,4 +1,4 @@
-"""Pages say what holds: when something was measured, from which seed and beside which load stands in docs/log."""
+"""Pages say what holds: when something was measured, from which seed and under which load is written in docs/log."""
 
 import unittest
 

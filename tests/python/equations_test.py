@@ -48,7 +48,7 @@ class Paragraphs(unittest.TestCase):
 
 class Page(unittest.TestCase):
     def test_says_what_the_sources_say(self):
-        """But for the numbers of lines, which move; ./dev docs makes the page anew."""
+        """But for the numbers of lines, which move; ./dev docs makes the page again."""
         without_lines = lambda text: re.sub(r":\d+\]|#L\d+", "", text)  # noqa: E731
         self.assertEqual(without_lines(equations.PAGE.read_text(encoding="utf-8")),
                          without_lines(equations.page(equations.places())), "run ./dev docs")

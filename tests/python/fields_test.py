@@ -11,7 +11,7 @@ from solidus_plots import fields, style
 
 ROOT = Path(__file__).resolve().parents[2]
 NAMES = [row["name"] for row in json.loads((ROOT / "python/solidus_plots/fields.json").read_text(encoding="utf-8"))["fields"]]
-# Where the same words stand for something else than a field.
+# Where the same words mean something else than a field.
 OTHERS = {
     "cases/": "keys of a case", "material/": "keys and columns of material cards", "input/": "arguments of tables",
     "point/": "columns of the tables of a material point", "python/": "members of Python's dictionaries",
@@ -29,7 +29,7 @@ BETWEEN = re.compile(r"^[\s,\[\](){}]*$")
 
 
 def lists_of_names(text):
-    """Pairs of names of fields that stand beside each other in a list."""
+    """Pairs of names of fields that are next to each other in a list."""
     found = [match for match in QUOTED.finditer(text) if match[1] in NAMES]
     return [(a[1], b[1]) for a, b in zip(found, found[1:]) if "," in text[a.end():b.start()] and BETWEEN.match(text[a.end():b.start()])]
 

@@ -23,7 +23,7 @@ class HandedOutBuild(unittest.TestCase):
         self.folder = Path(folder.name)
 
     def library(self, name, knows_sources):
-        """A library, built in a folder of this name, whose function returns the file that it stands in."""
+        """A library, built in a folder of this name, whose function returns the file that it is in."""
         tree = self.folder / name
         tree.mkdir()
         (tree / "CMakeLists.txt").write_text(PROJECT.format(options=OPTIONS))

@@ -9,7 +9,7 @@ SOURCES = pathlib.Path(__file__).resolve().parents[2] / "src"
 PACKAGES = SOURCES.parent / "python"
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 DECLARED_IN_ADVANCE = re.compile(r"^(template <[^>]*>\s*)?(class|struct|enum class) \w+( : \w+)?;", re.MULTILINE)
-# What all rooms stand on has no namespace of its own but `solidus` (decision 0076).
+# What all rooms are built on has no namespace of its own but `solidus` (decision 0076).
 BASE = ("numbers", "system", "input")
 # Wrappers of a library within a room, in a namespace that has the library's name.
 WRAPPERS = {"parallel": "petsc"}
@@ -117,8 +117,8 @@ class Imports(unittest.TestCase):
         self.assertEqual(circle(merged(imports(), lambda file: file.split("/")[0])), [])
 
     def test_inner_folders_import_one_way(self):
-        """Within a room too: a folder of it is one place, and so is what stands in the room itself. What is plugged in (laws, schemes)
-        is included by the registries beside it."""
+        """Within a room too: a folder of it is one place, and so is what is in the room itself. What is plugged in (laws, schemes)
+        is included by the registries next to it."""
         plugged_in = ("laws", "schemes")
         for room in sorted({file.split("/")[0] for file in imports()}):
             within = {file: [other for other in included if other.startswith(room + "/") and other.split("/")[1] not in plugged_in]
@@ -164,7 +164,7 @@ class Imports(unittest.TestCase):
             self.assertEqual([line for line in code if quoted.search(line)], [], file)
 
     def test_a_law_of_a_material_is_compiled_with_few_sources(self):
-        """A law that changes compiles its registry anew, one that is called directly the return mapping too, and never a kernel."""
+        """A law that changes compiles its registry again, one that is called directly the return mapping too, and never a kernel."""
         graph = imports()
         reached = {}
         for file in graph:

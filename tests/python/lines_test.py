@@ -18,7 +18,7 @@ def sources(folder):
 
 
 def documents(line):
-    """A line that is a comment, or says beside a member what it means."""
+    """A line that is a comment, or says next to a member what it means."""
     return line.lstrip().startswith("//") or "///<" in line
 
 

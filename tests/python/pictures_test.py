@@ -136,7 +136,7 @@ class Drawn(unittest.TestCase):
                 file, = work({"file": "a", "field": "von_mises", "range": [-1, 1], "colours": "Reds", "columns": 2,
                               "bodies": ["sand"], "times": times, **spec}, run, Path(self._folder.name))
                 picture = image.imread(file)[..., :3]
-                panels = picture[:, :int(0.85 * picture.shape[1])]  # the colour bar stands at the right
+                panels = picture[:, :int(0.85 * picture.shape[1])]  # the colour bar is at the right
                 shares.append((np.ptp(panels, axis=2) > 0.2).mean())
             self.assertAlmostEqual(shares[1] / shares[0], 0.5, delta=0.05)
 

@@ -96,7 +96,7 @@ export class Page {
   settle() {
     return this.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 30))))");
   }
-  /** The value of an expression; asked again where the page, which follows a run, loads itself anew meanwhile. */
+  /** The value of an expression; asked again where the page, which follows a run, reloads itself meanwhile. */
   async run(expression) {
     for (let attempt = 1; ; ++attempt) {
       let answer;

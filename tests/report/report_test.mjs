@@ -300,7 +300,7 @@ try {
   check("a click on a criterion flies to its place", where.every((x, i) => Math.abs(x - target[i]) < 1e-6), [where, target]);
   for (const id of ["curves", "criteria", "pools", "energy", "steps", "understood", "materials", "case", "cost"])
     check(`the page has its section '${id}'`, (await page.run(`!!document.querySelector('#${id}')`)) === true);
-  check("the case stands there as it was read", (await page.run("document.querySelector('pre.case').textContent")).includes('coefficient = "1500 W/m2/K"'));
+  check("the case is there as it was read", (await page.run("document.querySelector('pre.case').textContent")).includes('coefficient = "1500 W/m2/K"'));
   check("the sources of the materials too", (await page.run("document.querySelector('#materials').textContent")).includes("a test"));
   await page.key("t");
   check("T makes it dark", (await page.run("document.documentElement.dataset.theme")) === "dark");
@@ -315,7 +315,7 @@ try {
   const reach = await ring.run(`(() => { const d = ${view}.shapes[0].skin, a = d.shape.angle; return [Math.max(...a), d.shape.triangles.length]; })()`);
   check("and turns about its axis at a click", Math.abs(reach[0] - 2 * Math.PI) < 1e-5 && reach[1] > 1000, reach);
   const repeated = readFileSync(join(folder, "ring/steps.csv"), "utf8").includes("shortened: temperature error");
-  check("steps that heat shortened stand in their table", repeated && /\d shortened: temperature error/.test(await ring.run("document.querySelector('#steps').textContent")));
+  check("steps that heat shortened are in their table", repeated && /\d shortened: temperature error/.test(await ring.run("document.querySelector('#steps').textContent")));
   await ring.run(`(() => { ${bench}.setField('displacement'); })()`);
   await ring.settle();
   check("without a word on the console", ring.messages.length === 0, ring.messages);
@@ -393,7 +393,7 @@ try {
     socket.on("error", () => done(socket));
   })));
   const asked = Date.now(), beside = await ask(address), waited = Date.now() - asked;
-  check("twenty visitors that say nothing keep nobody waiting", beside.status === 200 && waited < 15000, [beside.status, waited]);
+  check("twenty visitors that say nothing keep no other waiting", beside.status === 200 && waited < 15000, [beside.status, waited]);
   silent.forEach((socket) => socket.destroy());
   const live = await until(async () => (await ask(address)).body.includes('id="stamp"'));
   check("the page is there while the run goes on", live && run.exitCode === null, run.exitCode);
@@ -402,7 +402,7 @@ try {
   await watcher.go(address);
   const shownRows = () => watcher.run("typeof solidus === 'undefined' ? 0 : solidus.page.runs[0].table('history').rows").catch(() => 0);
   const rows = await until(shownRows);
-  // The page loads itself anew every few seconds and has no badge in between.
+  // The page reloads itself every few seconds and has no badge in between.
   const badge = await until(() => watcher.run("document.querySelector('#head .badge')?.textContent").catch(() => undefined));
   check("it shows a run that has not ended", badge === "running", [badge, rows]);
   check("and follows it", (await until(async () => (await shownRows()) > rows)) === true, rows);

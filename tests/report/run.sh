@@ -7,7 +7,7 @@ program=$1 folder=$2
 # The viewer in the program is that of the sources. (`./dev viewer` builds it; `./dev viewer --check` compares byte by byte.)
 sources=$(web/report/fingerprint.sh)
 grep -q "sources $sources" web/report/built/viewer.html ||
-  { echo "web/report/built/viewer.html was not built from the sources beside it: run ./dev viewer"; exit 1; }
+  { echo "web/report/built/viewer.html was not built from the sources next to it: run ./dev viewer"; exit 1; }
 
 # It is in every page: packed it takes 0.29 MB, as it is 0.7.
 (($(stat -c %s web/report/built/viewer.html) < 350000)) ||

@@ -1,5 +1,5 @@
 // How soon a report shows its picture and how fast a drag turns it: node tests/report/speed.mjs REPORT.html
-// Beside the clock it says processor seconds, by process: on a busy machine these alone mean something. The renderer runs the page; the
+// Besides the clock it says processor seconds, by process: on a busy machine these alone mean something. The renderer runs the page; the
 // process named GPU draws, here by software (SwiftShader), which a graphics card would do instead.
 import { resolve } from "node:path";
 import { Browser } from "./browser.mjs";

@@ -29,7 +29,7 @@ class Cancelled(Exception):
 
 
 class ProtocolError(Exception):
-    """A request that is none, or that nobody here serves."""
+    """A request that is none, or that this server does not serve."""
 
     def __init__(self, code: int, message: str) -> None:
         super().__init__(message)

@@ -13,7 +13,7 @@ from .. import verbs
 from ..errors import InputError
 from . import landlock
 
-# What a program needs of the system beside its libraries: those of loader, resolver, MPI, fonts and time, none of a user.
+# What a program needs of the system besides its libraries: those of loader, resolver, MPI, fonts and time, none of a user.
 _SETTINGS = ("ld.so.cache", "ld.so.conf", "ld.so.conf.d", "openmpi", "openmpi-mca-params.conf", "pmix-mca-params.conf", "passwd", "group",
              "nsswitch.conf", "hosts", "host.conf", "localtime", "fonts", "matplotlibrc")
 _SYSTEM = ("/usr", "/lib", "/lib32", "/lib64", "/bin", "/sbin", "/opt", "/proc", "/sys", "/dev/urandom", "/dev/random", "/dev/zero")

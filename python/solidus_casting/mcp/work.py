@@ -217,7 +217,7 @@ def _loaded(case: str, changes: Mapping[str, Any]) -> Case:
 
 
 class _Turn:
-    """Waits until nobody else computes, or the request is given up."""
+    """Waits until no other request computes, or the request is given up."""
 
     def __init__(self, busy: threading.Lock, job: Job) -> None:
         self._busy, self._job = busy, job

@@ -15,7 +15,7 @@ Strip. The whole stroke with its ends: points of a rigid sheet under a rigid sol
 so p = eps_N <penetration>, and friction returned to mu p from springs eps_T. The springs take up mu p / eps_T
 of a point's way before it slips, which the closed form does not know. Steps are those of the case, or finer ones.
 
-Units N, mm; zeta as above. Writes sheet_sliding_closed_form.csv and sheet_sliding_strip.csv beside this file.
+Units N, mm; zeta as above. Writes sheet_sliding_closed_form.csv and sheet_sliding_strip.csv next to this file.
 """
 import csv
 from pathlib import Path

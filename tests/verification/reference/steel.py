@@ -141,7 +141,7 @@ class Steel:
             slope = slope + np.where(gamma.real > 0.0, 2.0 * self.shear_slope**2 * dot(e, e) / self.shear(t), 0.0)
             step = -residual / slope
             t = t + step
-            # two more once the real part stands: the imaginary parts follow exactly
+            # two more once the real part has converged: the imaginary parts follow exactly
             settled += bool(np.all(np.abs(step.real) < 1e-10 * np.abs(t.real)))
             if settled == 3:
                 new, gamma = self.flow(strain, plastic, t)

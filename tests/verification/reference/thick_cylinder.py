@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs every scheme of cylinder.py on the wall of section 7.1 and writes the CSV files beside this file.
+"""Runs every scheme of cylinder.py on the wall of section 7.1 and writes the CSV files next to this file.
 
 usage: thick_cylinder.py [TABLE ...]     default: all of histories limits audit blow_up order spectral_radius
                                          threshold dynamic_radius dynamic_histories
