@@ -31,6 +31,7 @@ SCENES = {
     "compare.md": Scene(BRACKET, lines=[
         "solidus run bracket --heat-only -o results/bracket/default",
         "solidus run bracket --heat-only -o results/bracket/chilled --set body.mould.initial_temperature='10 degC'"]),
+    "customer.md": Scene({**BRACKET, "customer.toml": "examples/customer/customer.toml", "logo.svg": "examples/customer/logo.svg"}),
     "export.md": Scene(BRACKET, lines=[*CRANKSHAFT, "cp -r results/crankshaft results/bracket"]),
     "external_laws.md": Scene(
         {"point.toml": "examples/external_laws/point.toml", "case.toml": "examples/external_laws/bar.toml",

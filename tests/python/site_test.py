@@ -47,6 +47,7 @@ TASKS = {
     "compare": ["compare two runs", "difference between two results", "compare a run with another run"],
     "contact": ["contact with friction between two bodies", "friction coefficient", "friction of the casting in the die"],
     "criteria": ["find hot spots and porosity", "shrinkage porosity Niyama", "where will there be porosity"],
+    "customer": ["report for a customer as PDF", "PDF with our logo", "print the results for a customer"],
     "design": ["find the smallest riser", "design risers automatically", "optimise feeders and chills"],
     "export": ["residual stress for a structural analysis", "export to Abaqus or CalculiX", "take residual stress to Ansys"],
     "external_laws": ["use my own constitutive law", "MFront law", "my UMAT subroutine"],

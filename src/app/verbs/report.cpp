@@ -1,16 +1,23 @@
-/// The verb `report`: the results of runs as one page for the browser.
+/// The verb `report`: the results of runs as one page for the browser, or as four printed ones.
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <span>
 #include <utility>
 
 #include "app/case_arguments.hpp"
+#include "app/python_tools.hpp"
 #include "app/report_page.hpp"
 #include "app/verb.hpp"
 #include "cases/case_materials.hpp"
 #include "material/cards/library.hpp"
+#include "results/output/output_error.hpp"
 #include "results/report/report_page.hpp"
 #include "system/errors.hpp"
 
@@ -91,21 +98,69 @@ void write_report(const std::vector<std::string>& folders, const std::string& ou
 
 namespace {
 
+/// A file with the cards of a run's bodies for Python, which goes with this object.
+class CardsFile {
+ public:
+  explicit CardsFile(const fs::path& folder) {
+    int handle = mkstemp(path_.data());
+    if (handle < 0) throw results::OutputError(path_, std::strerror(errno));
+    ::close(handle);
+    Json out;
+    out.add("bodies", cards(folder));
+    std::ofstream(path_) << out.text();
+  }
+  CardsFile(const CardsFile&) = delete;
+  CardsFile& operator=(const CardsFile&) = delete;
+  ~CardsFile() {
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+  }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_ = (fs::temp_directory_path() / "solidus-cards-XXXXXX").string();
+};
+
 class Report final : public Verb {
  public:
   explicit Report(CLI::App& program)
       : Verb(program, "report", "Write what runs left as one page that opens in any browser") {
     command().add_option("RUN", folders_, "Folders of results; two are shown side by side")->required();
-    command().add_option("-o,--output", output_, "The page; default report.html in the first folder");
+    command().add_option("-o,--output", output_,
+                         "The page; default report.html, or report.pdf, in the first folder");
+    command().add_flag("--pdf", pdf_, "Four printed pages of one run for a customer, by a headless Chromium");
+    command()
+        .add_option("--template", template_, "Logo and words of --pdf; default customer.toml beside the case")
+        ->type_name("FILE");
   }
   ExitCode run() override {
+    if (!template_.empty() && !pdf_)
+      throw InputError({}, "--template is the template of --pdf, which is not asked for", "--pdf");
+    if (pdf_) return write_pdf();
     write_report(folders_, output_);
     return k_done;
   }
 
  private:
+  /// Python draws the pictures and puts the pages together.
+  ExitCode write_pdf() const {
+    if (folders_.size() != 1)
+      throw InputError({}, "--pdf tells of one run, not of several", "one folder of results");
+    const fs::path folder = folders_.front();
+    if (!fs::exists(folder / "case.toml"))
+      throw InputError({folder.string(), 0, 0}, "the folder has no case.toml: it is none of results",
+                       "the folder that `solidus run` names at its end, for example results/CASE/default");
+    const CardsFile cards_file(folder);
+    PythonArguments arguments = {folder.string()};
+    arguments.add("--cards", cards_file.path());
+    arguments.add("--template", template_);
+    arguments.add("--output", output_);
+    return run_python("customer", arguments.words());
+  }
+
   std::vector<std::string> folders_;
-  std::string output_;
+  std::string output_, template_;
+  bool pdf_ = false;
 };
 
 }  // namespace
