@@ -59,7 +59,7 @@ def text():
         lines.append(f"| {title} | " + " | ".join(cell(answers, code, test) for code in heads) + " |")
     sums = [sum(score.points(answers[code, t]) for t in TITLES if (code, t) in answers) for code in heads]
     lines.append("| points of 100 | " + " | ".join(f"{s:.1f}" for s in sums) + " |")
-    lines += ["", "The least error of a test, and what is within 2 % of it, stands in bold letters. All codes have the same meshes and steps of at most the same size; Solidus "
+    lines += ["", "The least error of a test, and what is within 2 % of it, is in bold letters. All codes have the same meshes and steps of at most the same size; Solidus "
               "and CalculiX have quadrilaterals and hexahedra where FreeFEM has the triangles of the same nodes. Decks: `solidus.toml`, "
               "`calculix.inp`, `freefem.edp` in the folders of the tests.", "", "![Points of each code](images/ten_tests.png)", "",
               "## Where Solidus is not the best", ""]
@@ -94,7 +94,7 @@ NOTES = """And where its error is largest though no other code here has a smalle
 """
 MISSING = """- OpenFOAM 1912: `laplacianFoam` has neither latent heat nor mechanics; none of the ten is one that it could answer.
 - DOLFINx, as FreeFEM, is a language for equations; there are no scripts yet.
-- Codes that are sold: nobody has handed in answers."""
+- Codes that are sold: no one has handed in answers."""
 
 
 def draw():

@@ -13,7 +13,7 @@ def row(name, field, place, time, value, unit, scale):
 
 
 def write(script, rows):
-    """Writes right.csv beside the script, or with --print to the terminal."""
+    """Writes right.csv next to the script, or with --print to the terminal."""
     if "--print" in sys.argv:
         csv.writer(sys.stdout, lineterminator="\n").writerows([HEADER, *rows])
         return

@@ -87,7 +87,7 @@ def stability(options):
 
 
 def against_simultaneous(options, problem, scheme):
-    """A run with inertia beside the simultaneous one at its end, and how much L rose in the worst step."""
+    """A run with inertia compared with the simultaneous one at its end, and how much L rose in the worst step."""
     rows, whole = (columns(options.folder / f"dyn_{problem}_{name}" / "history.csv") for name in (scheme, "simultaneous"))
     rise = max(row["lyapunov_mechanical[J]"] + row["lyapunov_thermal[J]"] for row in rows[1:])
     end = f"stops in step {len(rows)}"
