@@ -59,15 +59,16 @@ def text():
         lines.append(f"| {title} | " + " | ".join(cell(answers, code, test) for code in heads) + " |")
     sums = [sum(score.points(answers[code, t]) for t in TITLES if (code, t) in answers) for code in heads]
     lines.append("| points of 100 | " + " | ".join(f"{s:.1f}" for s in sums) + " |")
-    lines += ["", "The least error of a test, and what is within 2 % of it, is in bold letters. All codes have the same meshes and steps of at most the same size; Solidus "
-              "and CalculiX have quadrilaterals and hexahedra where FreeFEM has the triangles of the same nodes. Decks: `solidus.toml`, "
-              "`calculix.inp`, `freefem.edp` in the folders of the tests.", "", "![Points of each code](images/ten_tests.png)", "",
+    lines += ["", "The least error of a test, and what is within 2 % of it, is in bold letters. All codes have the same meshes and steps of at most the same size; Solidus, "
+              "CalculiX and DOLFINx have quadrilaterals and hexahedra where FreeFEM has the triangles of the same nodes. Decks: "
+              "`solidus.toml`, `calculix.inp`, `freefem.edp`, `fenicsx.py` in the folders of the tests.", "", "![Points of each code](images/ten_tests.png)", "",
               "## Where Solidus is not the best", ""]
     for test, title in TITLES.items():
         own = answers["solidus", test]
         better = {code: answers[code, test] for code in heads if code != "solidus" and answers.get((code, test), 1) < own / AS_GOOD and own > 1e-6}
         if better:
-            others = " and ".join(f"{heads[code]} ({100 * e:.2g} %)" for code, e in sorted(better.items(), key=lambda i: i[1]))
+            others = " and ".join(f"{heads[code]} ({f'{100 * e:.2g} %' if e >= 1e-6 else 'rounding'})"
+                                  for code, e in sorted(better.items(), key=lambda item: item[1]))
             lines.append(f"- **{title}**: {100 * own:.2g} %; {others} {'is' if len(better) == 1 else 'are'} better.")
     lines += ["", NOTES, "## What is missing", ""]
     for code in heads:
@@ -84,16 +85,24 @@ def text():
     return "\n".join(lines)
 
 
-NOTES = """And where its error is largest though no other code here has a smaller one:
+NOTES = """Why, as far as it is known:
+
+- **a range with a eutectic**: the scripts have the heat content as their unknown and backward Euler; which part of the difference
+  comes of the unknown and which of the steps is not known.
+- **heat of plastic work**: T is 1 % too high. Stresses of the ends of steps do the work of whole steps: of the elastic part, which is
+  passed in less than two of fifty steps, a part becomes heat. The run says so, and how much; with half the step it is 0.6 %. The
+  script for DOLFINx takes the mean flow stress of a step times its plastic strain, which is exact for linear hardening.
+
+And where its error is largest though no other code here has a smaller one:
 
 - **Weiner and Boley's shell**: nearly all of the error is in one number of thirteen, 6.5 % of the yield stress at 2.2 mm after 5 s,
   where the stress rises by 3 MPa within an element of 0.4 mm, and which froze in the first second, of ten steps. After 21 s no
   stress is off by more than 0.3 %.
-- **Heat of plastic work**: T is 1 % too high. Stresses of the ends of steps do the work of whole steps: of the elastic part, which is
-  passed in less than two of fifty steps, a part becomes heat. The run says so, and how much; with half the step it is 0.6 %.
+
+FreeFEM and DOLFINx solve equations that their user writes: freezing, plasticity and the closed gap are in the scripts, not in the
+codes. In `ring_on_core` their scripts know beforehand that the gap is closed.
 """
 MISSING = """- OpenFOAM 1912: `laplacianFoam` has neither latent heat nor mechanics; none of the ten is one that it could answer.
-- DOLFINx, as FreeFEM, is a language for equations; there are no scripts yet.
 - Codes that are sold: no one has handed in answers."""
 
 
@@ -105,14 +114,14 @@ def draw():
     codes = [code for code in run.CODES if code in versions]
     figure, axes = plt.subplots(figsize=(7.0, 3.6))
     for index, code in enumerate(codes):
-        places = [i + (index - (len(codes) - 1) / 2) * 0.27 for i, t in enumerate(TITLES) if (code, t) in answers]
-        axes.bar(places, [score.points(answers[code, t]) for t in TITLES if (code, t) in answers], width=0.25,
+        places = [i + (index - (len(codes) - 1) / 2) * 0.21 for i, t in enumerate(TITLES) if (code, t) in answers]
+        axes.bar(places, [score.points(answers[code, t]) for t in TITLES if (code, t) in answers], width=0.2,
                  label=", ".join(sorted(versions[code])))
     axes.set_xticks(range(len(TITLES)), [t.replace("_", "\n") for t in TITLES], fontsize=7)
     axes.set_ylabel("points")
     axes.set_title("Ten tests: points of each code", loc="left")
     axes.set_ylim(0, 12.2)
-    axes.legend(fontsize=7, loc="upper right", ncol=3)
+    axes.legend(fontsize=7, loc="upper right", ncol=4)
     figure.tight_layout()
     figure.savefig(PICTURE, dpi=110, metadata={"Software": None})
 

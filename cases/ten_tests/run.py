@@ -3,7 +3,7 @@
 
 usage: run.py [--code CODE ...] [-o FOLDER] [--keep FOLDER] [TEST ...]
 
-Codes are the modules of codes/. Decks are in the folders of the tests: solidus.toml, calculix.py, freefem.edp. `./dev validate`
+Codes are the modules of codes/. Decks are in the folders of the tests: solidus.toml, calculix.inp, freefem.edp, fenicsx.py. `./dev validate`
 makes the page docs/validation/ten_tests.md of all answers that lie there, of whichever machine they are.
 """
 import argparse
@@ -16,7 +16,7 @@ import time
 
 import score
 
-CODES = ["solidus", "calculix", "freefem"]
+CODES = ["solidus", "calculix", "freefem", "dolfinx"]
 
 
 def write(path, version, seconds, answer):

@@ -18,6 +18,18 @@ def version():
                               if word[:1].isdigit()), "of unknown version")
 
 
+def values(test, printed):
+    """The numbers that a test asks for out of lines VALUE field x y z time value."""
+    lines = [line.split()[1:] for line in printed.splitlines() if line.startswith("VALUE")]
+    found = {}
+    for row in score.right(test):
+        numbers = [float(row[c]) for c in ("x", "y", "z", "time")]
+        chosen = [v for v in lines if v[0] == row["field"] and all(abs(float(a) - b) < 1e-7 + 1e-4 * abs(b)
+                                                                  for a, b in zip(v[1:5], numbers))]
+        found[row["name"]] = float(chosen[0][5])
+    return found
+
+
 def answer(test, folder):
     libraries = "/usr/lib/freefem++;;"
     done = subprocess.run(["FreeFem++", "-nw", "freefem.edp"], cwd=score.HERE / test, capture_output=True, text=True,
@@ -27,11 +39,4 @@ def answer(test, folder):
         raise RuntimeError(done.stdout[-300:])
     if "\nSTUCK" in done.stdout:
         raise RuntimeError("Newton's method got stuck")
-    values = [line.split()[1:] for line in done.stdout.splitlines() if line.startswith("VALUE")]
-    found = {}
-    for row in score.right(test):
-        numbers = [float(row[c]) for c in ("x", "y", "z", "time")]
-        chosen = [v for v in values if v[0] == row["field"] and all(abs(float(a) - b) < 1e-7 + 1e-4 * abs(b)
-                                                                   for a, b in zip(v[1:5], numbers))]
-        found[row["name"]] = float(chosen[0][5])
-    return found
+    return values(test, done.stdout)
