@@ -49,7 +49,7 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
     sure:
         Run it twice more, with longer steps and with larger elements, for the errors of the answers.
     stop:
-        An event that another thread sets to stop the run behind a whole step, as Ctrl-C does.
+        An event that another thread sets to stop the run after a whole step, as Ctrl-C does.
     options:
         Options of PETSc.
     in_process:
@@ -65,7 +65,7 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
     ProgramMissing
         There is no program, or no ``mpirun`` for several processes.
     RunInterrupted
-        A ``KeyboardInterrupt``: Ctrl-C, or `stop`, behind a whole step. A second Ctrl-C ends the run at once.
+        A ``KeyboardInterrupt``: Ctrl-C, or `stop`, after a whole step. A second Ctrl-C ends the run at once.
     """
     if not isinstance(case, Case):
         case = Case.load(case)

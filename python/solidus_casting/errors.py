@@ -60,7 +60,7 @@ class InputError(SolidusError, ValueError):
 
 
 def _behind_assignment(line: str) -> str | None:
-    """The sentence behind ``--set key=value: ``; values may hold colons and quotes themselves."""
+    """The sentence after ``--set key=value: ``; values may hold colons and quotes themselves."""
     value = re.match(r"--set [^=]+=\s*(\"(?:[^\"\\]|\\.)*\"|\[.*?\](?=: )|\{.*?\}(?=: )|.*?): (?P<found>.*)", line)
     return value["found"] if value else None
 
@@ -77,7 +77,7 @@ class RunStopped(SolidusError, RuntimeError):
 
 
 class RunInterrupted(KeyboardInterrupt):
-    """A run was stopped by Ctrl-C behind a whole step; ``results`` holds what was computed. Go on with ``restart=True``."""
+    """A run was stopped by Ctrl-C after a whole step; ``results`` holds what was computed. Go on with ``restart=True``."""
 
     def __init__(self, reason: str = "", results: object = None) -> None:
         super().__init__(reason)

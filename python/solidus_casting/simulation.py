@@ -130,7 +130,7 @@ class Simulation:
     # Going on
 
     def advance(self, step: float | None = None) -> Step | None:
-        """Takes the next step; the one before counts now. Returns it, or ``None`` behind the end.
+        """Takes the next step; the one before counts now. Returns it, or ``None`` after the end.
 
         ``step`` is the size wanted [s], cut where a time must be met; without it the case's step control decides. Steps that do
         not go through are cut and tried again. Raises :class:`RunStopped` where no step goes through.
@@ -156,9 +156,9 @@ class Simulation:
             self._session.change(f"{path}={value_text(content)}")
 
     def run(self, until: float | None = None, progress: Callable[[Progress], Any] | None = None) -> Results | None:
-        """Goes on to the end, or to the first step that ends at `until` [s] or behind it. Returns :attr:`results`.
+        """Goes on to the end, or to the first step that ends at `until` [s] or after it. Returns :attr:`results`.
 
-        Ctrl-C stops it behind a whole step with :class:`RunInterrupted`.
+        Ctrl-C stops it after a whole step with :class:`RunInterrupted`.
         """
         if until is None and progress is None:
             self._forget()
