@@ -99,8 +99,9 @@ And where its error is largest though no other code here has a smaller one:
   where the stress rises by 3 MPa within an element of 0.4 mm, and which froze in the first second, of ten steps. After 21 s no
   stress is off by more than 0.3 %.
 
-FreeFEM and DOLFINx solve equations that their user writes: freezing, plasticity and the closed gap are in the scripts, not in the
-codes. In `ring_on_core` their scripts know beforehand that the gap is closed.
+FreeFEM and DOLFINx solve equations that their user writes: freezing, plasticity and what passes between two bodies are in the scripts,
+not in the codes. The scripts know of the answer what a general program does not: in `ring_on_core` that the gap is closed, in
+`closing_gap` and `rubbing` that flow, gap and pressure are the same along the interface, in `rubbing` the pressure and the speed too.
 """
 MISSING = """- OpenFOAM 1912: `laplacianFoam` has neither latent heat nor mechanics; none of the ten is one that it could answer.
 - Codes that are sold: no one has handed in answers."""
