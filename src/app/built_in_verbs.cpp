@@ -14,6 +14,7 @@ std::unique_ptr<Verb> mesh_info_verb(CLI::App& program);
 std::unique_ptr<Verb> materials_verb(CLI::App& program);
 std::unique_ptr<Verb> export_verb(CLI::App& program);
 std::unique_ptr<Verb> new_case_verb(CLI::App& program);
+std::unique_ptr<Verb> open_verb(CLI::App& program);
 std::unique_ptr<Verb> report_verb(CLI::App& program);
 std::unique_ptr<Verb> version_verb(CLI::App& program);
 std::unique_ptr<Verb> doctor_verb(CLI::App& program);
@@ -32,11 +33,11 @@ std::unique_ptr<Verb> help_verb(CLI::App& program);
 
 std::vector<MakeVerb>& verbs() {
   static std::vector<MakeVerb> all = {
-      &run_verb,       &check_verb,     &resolve_verb,   &variants_verb, &explain_verb,     &schema_verb,
-      &point_verb,     &mesh_info_verb, &materials_verb, &export_verb,   &new_case_verb,    &report_verb,
-      &version_verb,   &doctor_verb,    &plot_verb,      &compare_verb,  &study_verb,       &uncertain_verb,
-      &calibrate_verb, &design_verb,    &fill_verb,      &mcp_verb,      &init_editor_verb, &completion_verb,
-      &man_verb,       &help_verb};
+      &run_verb,        &check_verb,     &resolve_verb,   &variants_verb, &explain_verb,  &schema_verb,
+      &point_verb,      &mesh_info_verb, &materials_verb, &export_verb,   &new_case_verb, &open_verb,
+      &report_verb,     &version_verb,   &doctor_verb,    &plot_verb,     &compare_verb,  &study_verb,
+      &uncertain_verb,  &calibrate_verb, &design_verb,    &fill_verb,     &mcp_verb,      &init_editor_verb,
+      &completion_verb, &man_verb,       &help_verb};
   return all;
 }
 

@@ -77,6 +77,7 @@ ELSEWHERE = {
     "./dev build portable": "the same build",
     "./dev python": "tests/program/python_package_test.py imports what it builds",
     "./dev viewer --check": "needs the net (npm)",
+    "solidus open dumbbell.step": "serves until Ctrl-C; tests/workbench clicks through its page",
     "apt install ./solidus_*_amd64.deb": "changes the machine; the page says when it was walked",
     "podman build -t solidus -f Containerfile .": "fetches an image",
     'podman run --rm -v "$PWD":/work solidus run case.toml': "the same image",

@@ -65,6 +65,7 @@ TASKS = {
     "materials": ["write a material card", "alloy is not in the library", "add an alloy"],
     "melt": ["how the melt is described", "viscosity of the melt", "stress in liquid metal"],
     "new_case": ["from a STEP file to a case", "start with a STEP file", "case from CAD geometry"],
+    "open": ["graphical user interface", "set up a casting by clicking", "preprocessor with a mouse"],
     "parallel": ["run on several processes", "how many processors", "run with mpirun on a cluster"],
     "places": ["film coefficient that varies over place", "temperature given by a formula", "spray only on part of the surface"],
     "plots": ["draw pictures of a run", "plot a temperature curve", "picture of the temperature field"],

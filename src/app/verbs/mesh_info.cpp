@@ -74,23 +74,31 @@ std::vector<std::string> bodies_of(const NamedMesh& named, const std::string& pa
 
 constexpr const char* k_faces = "faces.vtk";
 
+/// What is written of the faces beside the table; empty paths: nothing.
+struct FaceFiles {
+  std::filesystem::path pictures;  ///< folder for pictures of the faces by number, and for their file
+  std::filesystem::path faces;     ///< the file alone
+};
+
 /// The faces as a file for ParaView, from which the pictures are drawn.
-void write_faces(const RawMesh& mesh, const std::vector<mesh::SkinPatch>& patches,
-                 const std::filesystem::path& folder) {
+void write_faces(const RawMesh& mesh, const std::vector<mesh::SkinPatch>& patches, const FaceFiles& files) {
+  const char* const option = files.faces.empty() ? "--pictures" : "--faces";
   if (mesh.dimension != 3)
-    throw InputError({"--pictures", 0, 0}, "the mesh is plane", "the table: it has places and neighbours");
+    throw InputError({option, 0, 0}, "the mesh is plane", "the table: it has places and neighbours");
+  // The folder of the pictures is made where it is missing; that of the single file has to be there.
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
+  if (!files.pictures.empty()) std::filesystem::create_directories(files.pictures, error);
   if (error)
-    throw results::OutputError(folder.string(), "cannot make this folder: " + error.message(),
+    throw results::OutputError(files.pictures.string(), "cannot make this folder: " + error.message(),
                                "--pictures names another one");
-  results::write_file(folder / k_faces, mesh::to_vtk(patches));
+  const std::string text = mesh::to_vtk(patches);
+  if (!files.pictures.empty()) results::write_file(files.pictures / k_faces, text);
+  if (!files.faces.empty()) results::write_file(files.faces, text);
 }
 
-/// @param unit      of the lengths of a mesh file; empty: what the file says, else m
-/// @param pictures  folder for pictures of the faces by number; empty: none
-ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit,
-                   const std::filesystem::path& pictures) {
+/// @param unit   of the lengths of a mesh file; empty: what the file says, else m
+/// @param files  what is written of the faces
+ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit, const FaceFiles& files) {
   std::string text;
   results::on_first_process([&] {
     const NamedMesh named = read(arguments, unit);
@@ -106,11 +114,11 @@ ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit,
       if (const auto name = named.bodies.find(patch.body); name != named.bodies.end())
         patch.body = name->second;
     text += mesh::to_text(patches);
-    if (!pictures.empty()) write_faces(mesh, patches, pictures);
+    if (!files.pictures.empty() || !files.faces.empty()) write_faces(mesh, patches, files);
   });
   print(text);
-  if (pictures.empty()) return k_done;
-  return run_python("faces", {(pictures / k_faces).string()});
+  if (files.pictures.empty()) return k_done;
+  return run_python("faces", {(files.pictures / k_faces).string()});
 }
 
 class MeshInfo final : public Verb {
@@ -128,16 +136,21 @@ class MeshInfo final : public Verb {
         ->type_name("UNIT");
     command()
         .add_option(
-            "--pictures", pictures_,
+            "--pictures", files_.pictures,
             "Folder for pictures of every body's faces by their numbers, and for faces.vtk (ParaView)")
         ->type_name("FOLDER");
+    command()
+        .add_option("--faces", files_.faces,
+                    "File for the faces by their numbers (ParaView), without pictures of them")
+        ->type_name("FILE");
     add_trust(command(), arguments_.trust_script);
   }
-  ExitCode run() override { return mesh_info(arguments_, unit_, pictures_); }
+  ExitCode run() override { return mesh_info(arguments_, unit_, files_); }
 
  private:
   CaseArguments arguments_;
-  std::string unit_, pictures_;
+  std::string unit_;
+  FaceFiles files_;
 };
 
 }  // namespace

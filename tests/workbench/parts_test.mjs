@@ -1,0 +1,69 @@
+// From a STEP file to a judged riser by clicks alone, for three parts: node parts_test.mjs PROGRAM FOLDER. Minutes: `./dev nightly` runs it.
+import { copyFileSync, existsSync, mkdirSync, rmSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { Browser, Desk, patience, Server } from "./driver.mjs";
+
+const program = resolve(process.argv[2]), folder = resolve(process.argv[3]);
+const parts = join(dirname(fileURLToPath(import.meta.url)), "../parts");
+let failed = 0;
+function check(sentence, holds, detail = "") {
+  if (!holds) ++failed;
+  console.log(`${holds ? "ok  " : "FAIL"} ${sentence}${holds ? "" : `: ${JSON.stringify(detail)}`}`);
+}
+
+/** The place of the highest level face that is seen, in the middle of what is seen of it. */
+const HIGHEST = `(() => {
+  const { picture } = solidus.stage, w = picture.canvas.clientWidth, t = picture.canvas.clientHeight;
+  let best = [], top = -Infinity;
+  for (let y = 0.1; y < 0.9; y += 0.02) for (let x = 0.1; x < 0.9; x += 0.02) {
+    const h = picture.pick(x * w, y * t);
+    if (!h || h.normal[2] < 0.9) continue;
+    if (h.place[2] > top + 1e-3) { top = h.place[2]; best = []; }
+    if (h.place[2] > top - 1e-3) best.push(h.place);
+  }
+  return best[best.length >> 1];
+})()`;
+
+/** Clicks through one part; the answers of its run. */
+async function judge(browser, part) {
+  copyFileSync(join(parts, `${part}.step`), join(folder, `${part}.step`));
+  const server = await Server.open(program, folder, `${part}.step`);
+  const began = Date.now();
+  try {
+    const desk = await Desk.open(browser, server.address);
+    await desk.until("solidus.stage.picture.bodies.length > 0", 120);
+    await desk.choose("#alloy", "aluminium_alsi7mg");
+    await desk.choose("#fineness", "0.7");
+    await desk.clickPlace(await desk.page.run(HIGHEST));
+    await desk.click("#place-riser");
+    await desk.until("solidus.state.choices.risers.length === 1");
+    await desk.click("#make");
+    await desk.until("solidus.state.check?.current && !solidus.state.job", 240);
+    check(`${part}: the case is in order, and its riser a body of it`, (await server.state()).check.error === null && await desk.page.run("solidus.stage.picture.bodies.some((b) => b.name === 'riser_1')"), (await server.state()).check);
+    await desk.click("#run");
+    await desk.until("!!document.querySelector('#report-run_1')", 300);
+    await desk.until("document.querySelector('#report-frame').contentDocument.querySelector('#head .badge')?.textContent === 'finished'");
+    const { runs } = await server.state(), seconds = (Date.now() - began) / 1000;
+    check(`${part}: the run is judged, with the yield and what freezes last`, runs[0].answers.some((a) => a.name === "yield") && runs[0].answers.some((a) => a.name === "casting: last melt froze"), runs);
+    check(`${part}: by fewer than thirty clicks in less than five minutes`, desk.clicks < 30 && seconds < 300 * patience, { clicks: desk.clicks, seconds });
+    check(`${part}: everything stands in files`, existsSync(join(folder, part, "case.toml")) && existsSync(join(folder, "results", part, "run_1/report.html")));
+    check(`${part}: the page does not complain`, desk.page.messages.every((m) => /ERR_CONNECTION_REFUSED/.test(m)), desk.page.messages);
+    console.log(`     ${desk.clicks} clicks, ${seconds.toFixed(0)} s`);
+    await desk.page.send("Page.navigate", { url: "about:blank" });
+  } finally {
+    await server.close();
+  }
+}
+
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(folder, { recursive: true });
+const browser = await Browser.open();
+try {
+  for (const part of ["stepped_plate", "dumbbell", "flange"]) await judge(browser, part);
+} catch (error) {
+  check("nothing stands in the way", false, error.stack ?? String(error));
+} finally {
+  await browser.close();
+}
+process.exit(failed ? 1 : 0);

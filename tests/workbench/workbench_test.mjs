@@ -1,0 +1,177 @@
+// The workbench in headless Chromium with the program: node workbench_test.mjs PROGRAM FOLDER. Each check is a sentence.
+import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { pixels } from "../report/picture.mjs";
+import { Browser, Desk, Server } from "./driver.mjs";
+
+const program = resolve(process.argv[2]), folder = resolve(process.argv[3]);
+const parts = join(dirname(fileURLToPath(import.meta.url)), "../parts");
+let passed = 0, failed = 0;
+function check(sentence, holds, detail = "") {
+  holds ? ++passed : ++failed;
+  console.log(`${holds ? "ok  " : "FAIL"} ${sentence}${holds ? "" : `: ${JSON.stringify(detail)}`}`);
+}
+
+const METAL = `title = "A metal that melts"
+[density]
+value = "2700 kg/m3"
+[conductivity]
+value = "150 W/m/K"
+[specific_heat]
+value = "1000 J/kg/K"
+[[phase_change]]
+name = "solidification"
+latent_heat = "390 kJ/kg"
+solidification = true
+[phase_change.fraction]
+kind = "linear"
+solidus = "560 degC"
+liquidus = "610 degC"
+`;
+const BLOCK = `title = "A <b>block</b>"
+[analysis]
+kind = "solid"
+physics = "heat"
+[mesh]
+shape = "block"
+element = "hex8"
+[mesh.block]
+size = ["60 mm", "40 mm", "30 mm"]
+divisions = [4, 3, 3]
+[time]
+end = "100 s"   # a comment that stays
+step = "10 s"
+[[body]]
+name = "casting"
+group = "block"
+material = "metal.toml"
+initial_temperature = "650 degC"
+[[thermal_condition]]
+name = "wall"
+group = "x_min"
+kind = "film"
+coefficient = "1500 W/m2/K"
+ambient = "20 degC"
+`;
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(join(folder, "block"), { recursive: true });
+writeFileSync(join(folder, "block/case.toml"), BLOCK);
+writeFileSync(join(folder, "block/metal.toml"), METAL);
+copyFileSync(join(parts, "stepped_plate.step"), join(folder, "plate.step"));
+const file = () => readFileSync(join(folder, "block/case.toml"), "utf8");
+
+/** Clicking through a case: keys, check, run, report, comparison, undo. */
+async function ofACase(server, desk) {
+  await server.rest();
+  await desk.until("solidus.stage.picture.bodies.length === 1");
+  check("a case is opened with its bodies in the picture", await desk.page.run("solidus.stage.picture.bodies[0].name") === "casting");
+  await desk.page.settle();
+  const [x, y] = await desk.page.run("(() => { const { picture } = solidus.stage, b = picture.canvas.getBoundingClientRect(), p = picture.project([0.03, 0.02, 0.015]); return [b.left + p[0], b.top + p[1], b.left + 30]; })()");
+  const seen = pixels(await desk.page.screenshot()), far = (p, q) => Math.hypot(...p.map((v, i) => v - q[i]));
+  check("the body is drawn on the ground of the picture", far(seen.rgb(Math.round(x), Math.round(y)), seen.rgb(Math.round(x), 130)) > 40);
+  await desk.click("#to-keys");
+  await desk.click("#section-time");
+  await desk.type("#key-time-end", "60 s");
+  await desk.until("solidus.state.case.document.time.end === '60 s'");
+  check("a key is changed by the form, and the comment behind it stays", file().includes('end = "60 s"   # a comment that stays'), file());
+  await desk.click("#check");
+  await desk.until("document.querySelector('#verdict')?.textContent.startsWith('The case')");
+  await server.rest();
+  await desk.click("#run");
+  await desk.until("!!document.querySelector('#report-run_1')", 120);
+  await desk.until("document.querySelector('#report-frame').contentDocument.querySelector('#head .badge')?.textContent === 'finished'");
+  check("a run ends in its report, beside the steps", true);
+  check("titles go in as text", await desk.page.run("document.querySelector('#report-frame').contentDocument.querySelector('h1').textContent") === "A <b>block</b>");
+}
+
+/** A key that is wrong, what check says, and undo. */
+async function ofMistakes(server, desk) {
+  await desk.choose("#add-key", "until");
+  await desk.choose("#new-value", "solid");
+  await desk.until("solidus.state.case.document.time.until === 'solid'");
+  check("a key is added with what the schema allows", file().includes('until = "solid"'));
+  await desk.click("#to-text-tab");
+  await desk.page.run("document.querySelector('#file-text').focus()");
+  await desk.page.run("(() => { const t = document.querySelector('#file-text'); t.value = t.value.replace('1500 W', '1500 furlong'); t.dispatchEvent(new Event('input')); })()");
+  await desk.click("#save-text");
+  await desk.until("solidus.state.case.text.includes('furlong')");
+  await desk.click("#check");
+  await desk.until("document.querySelector('#finding-0.error')");
+  await desk.click("#finding-0");
+  const line = file().split("\n").findIndex((l) => l.includes("furlong"));
+  const at = await desk.page.run("(() => { const t = document.querySelector('#file-text'); return t.value.slice(0, t.selectionStart).split('\\n').length - 1; })()");
+  check("a finding leads to its line", at === line, { at, line });
+  check("a case that is refused is not run", await desk.page.run("document.querySelector('#run').disabled"));
+  await desk.click("#undo");
+  await desk.until("!solidus.state.case.text.includes('furlong')");
+  await desk.click("#undo");
+  await desk.until("solidus.state.case.document.time.until === undefined");
+  check("two steps are undone, and the file with them", !file().includes("until"));
+}
+
+/** Two pages at one case, and a page that is closed. */
+async function ofPages(server, browser, desk) {
+  const other = await Desk.open(browser, server.address, { dark: true });
+  await other.until("solidus.state.case !== null");
+  check("a second page shows the same, in the dark too", await other.page.run("document.documentElement.dataset.theme") === "dark");
+  await other.page.run("solidus.ask('set', { path: ['title'], value: 'changed elsewhere' })");
+  await desk.until("solidus.state.case.document.title === 'changed elsewhere'");
+  check("what one page changes the other shows", true);
+  await desk.page.run("solidus.ask('set', { seen: 0, path: ['title'], value: 'too late' })");
+  check("what has changed meanwhile is not overwritten, and the page says so", (await desk.page.run("document.querySelector('#told').textContent")).includes("another page"));
+  check("and the file holds the first", file().includes("changed elsewhere"));
+  await other.choose("#physics", "heat");
+  await other.click("#run");
+  await other.page.send("Page.navigate", { url: "about:blank" });
+  await server.rest();
+  await other.page.go(server.address);
+  await other.until("!!document.querySelector('#report-run_2')");
+  check("a page that is closed finds its run again", true);
+  await other.click("#compare");
+  await other.until("solidus.state.compared", 120);
+  await other.until("document.querySelectorAll('#compared-answers tr').length > 2");
+  check("two runs are compared: answers beside each other, and the report of both", (await server.state()).compared.answers.length > 1);
+  for (const d of [desk, other]) check("no page complains", d.page.messages.every((m) => /400|409/.test(m)), d.page.messages);
+}
+
+/** A part: picture, alloy, riser by clicking, and a file that is refused. */
+async function ofAPart(server, desk) {
+  await desk.front();
+  await desk.click("#choose-file");
+  await desk.click("#dialog li button");
+  await desk.until("solidus.state.part === 'plate.step' && solidus.stage.picture.bodies.length === 1");
+  const top = await desk.page.run("(() => { const b = solidus.stage.picture.bodies[0]; return [b.low, b.high]; })()");
+  check("a STEP file is seen", top[1][2] > top[0][2], top);
+  await desk.choose("#alloy", "aluminium_alsi7mg");
+  const at = await desk.page.run(`(() => {
+    const { picture } = solidus.stage, w = picture.canvas.clientWidth, t = picture.canvas.clientHeight;
+    for (let y = 0.1; y < 0.9; y += 0.02) for (let x = 0.1; x < 0.9; x += 0.02) { const h = picture.pick(x * w, y * t); if (h && h.normal[2] > 0.99) return h.place; }
+  })()`);
+  await desk.clickPlace(at);
+  await desk.click("#place-riser");
+  await desk.until("solidus.state.choices.risers.length === 1");
+  const { risers } = (await server.state()).choices;
+  check("a riser stands where one clicked, as wide as the metal is thick", Math.hypot(risers[0].foot[0] - at[0], risers[0].foot[1] - at[1]) < 1e-3 && risers[0].diameter > 0.005, { risers, at });
+  await desk.type("#riser-0-diameter", "31");
+  await desk.until("Math.abs(solidus.state.choices.risers[0].diameter - 0.031) < 1e-9");
+  check("its size can be typed", true);
+  check("fields have names for screen readers", await desk.page.run("[...document.querySelectorAll('input:not([hidden]), select, textarea, button, iframe')].every((e) => e.ariaLabel || e.title || e.labels?.length || e.textContent.trim())"));
+}
+
+const server = await Server.open(program, folder, "block");
+const browser = await Browser.open();
+try {
+  const desk = await Desk.open(browser, server.address);
+  await ofACase(server, desk);
+  await ofMistakes(server, desk);
+  await ofPages(server, browser, desk);
+  await ofAPart(server, desk);
+} catch (error) {
+  check("nothing stands in the way", false, error.stack ?? String(error));
+} finally {
+  await browser.close();
+  check("Ctrl-C ends the server", (await server.close()) === 0, server.text);
+}
+console.log(`${passed} of ${passed + failed} checks hold`);
+process.exit(failed ? 1 : 0);

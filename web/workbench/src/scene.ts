@@ -1,0 +1,253 @@
+/** The picture: bodies by their roles, what is placed on them, a face that is pointed to, and marks of findings. */
+import {
+  BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, DoubleSide, GLSL3, Group, LineSegments, Mesh, Scene, ShaderMaterial, SphereGeometry,
+  Vector3, WebGLRenderer, type Material,
+} from "three";
+import { Camera } from "../../report/src/camera";
+import { Painter } from "../../report/src/painter";
+import { cross, type Crossing, type SkinBody } from "./skin";
+import type { Choices, Place } from "./state";
+
+export interface Pick extends Crossing { body: number }
+export type Shown = "shown" | "ghost" | "hidden";
+
+/** Colours of roles, which read on light and on dark. */
+export const ROLE_COLOURS: Record<string, string> = {
+  casting: "#8f9db0", riser: "#e08a3c", gating: "#b07ac4", mould: "#c9b48a", core: "#b58f5a", chill: "#3f86c9", sleeve: "#5fae7d", die: "#76808c", insulation: "#d8c3d8",
+};
+const OTHER = "#9aa3ad";
+const ACCENT = "#ff6a1f";
+
+// Colours go to the screen as they are, so that pictures and drafts of them, which the painter makes in two ways, look alike.
+const VERTEX = `
+out vec3 vNormal;
+void main() { vNormal = normalMatrix * normal; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`;
+const FRAGMENT = `
+precision highp float;
+uniform vec3 colour; uniform float opacity; uniform bool lit;
+in vec3 vNormal; out vec4 result;
+void main() {
+  float light = lit ? 0.6 + 0.4 * abs(dot(normalize(vNormal), normalize(vec3(0.25, 0.35, 1.0)))) : 1.0;
+  result = vec4(colour * light, opacity);
+}`;
+
+/** A surface or line of one colour, "#rrggbb". */
+function paint(colour: string, opacity = 1, lit = true): ShaderMaterial {
+  const rgb = new Vector3(...([1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16) / 255) as [number, number, number]));
+  return new ShaderMaterial({
+    glslVersion: GLSL3, vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide, transparent: opacity < 1, depthWrite: opacity > 0.5,
+    uniforms: { colour: { value: rgb }, opacity: { value: opacity }, lit: { value: lit } },
+    ...(opacity === 1 && lit ? { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2 } : {}),
+  });
+}
+
+export class Picture {
+  readonly canvas: HTMLCanvasElement;
+  readonly camera = new Camera();
+  bodies: SkinBody[] = [];
+  private roles: string[] = [];
+  private shown: Shown[] = [];
+  private lit = new Set<string>();
+  private readonly renderer = new WebGLRenderer({ antialias: false, preserveDrawingBuffer: true, alpha: true });
+  private readonly painter = new Painter(this.renderer);
+  private readonly scene = new Scene();
+  private readonly things = new Group();
+  private readonly placed = new Group();
+  private readonly pointed = new Group();
+  private wanted = 0;
+  private moving = false;
+  /** Called behind each picture, for what lies over it. */
+  drawn: () => void = () => {};
+
+  constructor() {
+    this.canvas = this.renderer.domElement;
+    this.camera.up.set(0, 0, 1);
+    this.camera.look(this.camera.corner);
+    this.scene.add(this.things, this.placed, this.pointed);
+  }
+
+  /** Other bodies; the camera goes to them where `fit`. */
+  load(bodies: SkinBody[], fit: boolean): void {
+    this.bodies = bodies;
+    this.roles = bodies.map(() => "");
+    this.shown = bodies.map(() => "shown");
+    empty(this.pointed);
+    this.build();
+    if (fit) this.fit();
+  }
+
+  /** Roles of the bodies by name, how each is shown, and which are lit up. */
+  dress(roles: Record<string, string>, shown: Record<string, Shown>, lit: string[]): void {
+    const next = this.bodies.map((b) => roles[b.name] ?? ""), seen = this.bodies.map((b) => shown[b.name] ?? "shown");
+    const same = String(next) === String(this.roles) && String(seen) === String(this.shown) && String(lit) === String([...this.lit]);
+    if (same) return;
+    this.roles = next;
+    this.shown = seen;
+    this.lit = new Set(lit);
+    this.build();
+  }
+
+  private build(): void {
+    empty(this.things);
+    const dark = document.documentElement.dataset.theme === "dark";
+    this.bodies.forEach((body, b) => {
+      if (this.shown[b] === "hidden") return;
+      const ghost = this.shown[b] === "ghost", lit = this.lit.has(body.name);
+      const colour = lit ? ACCENT : (ROLE_COLOURS[this.roles[b]] ?? OTHER);
+      const geometry = new BufferGeometry();
+      geometry.setAttribute("position", new BufferAttribute(body.position, 3));
+      geometry.setAttribute("normal", new BufferAttribute(body.shape.normal, 3));
+      geometry.setIndex(new BufferAttribute(body.shape.triangles, 1));
+      this.things.add(plain(new Mesh(geometry, paint(colour, ghost ? (lit ? 0.4 : 0.13) : 1))));
+      const lines = new BufferGeometry();
+      lines.setAttribute("position", geometry.getAttribute("position"));
+      lines.setIndex(new BufferAttribute(body.lines, 1));
+      this.things.add(plain(new LineSegments(lines, paint(dark ? "#0c0f13" : "#2a3038", ghost ? 0.25 : 0.6, false))));
+    });
+    this.request();
+  }
+
+  /** Drawn anew in the colours of the theme. */
+  recolour(): void {
+    this.build();
+  }
+
+  /** What is placed and not yet in the mesh: risers, chills, probes and the gate. */
+  place(choices: Choices | null): void {
+    empty(this.placed);
+    const size = this.size();
+    const add = (mesh: Mesh, at: Place) => {
+      mesh.position.set(...at);
+      this.placed.add(plain(mesh));
+    };
+    const look = (colour: string) => paint(colour, 0.75);
+    for (const r of choices?.riser === "placed" ? choices.risers : []) {
+      const mesh = new Mesh(new CylinderGeometry(r.diameter / 2, r.diameter / 2, r.height, 48), look(ROLE_COLOURS.riser));
+      mesh.rotateX(Math.PI / 2);
+      add(mesh, [r.foot[0], r.foot[1], r.foot[2] + r.height / 2]);
+    }
+    for (const c of choices?.riser === "placed" ? choices.chills : []) {
+      const d = [0, 1, 2].map((i) => c.highest[i] - c.lowest[i]);
+      add(new Mesh(new BoxGeometry(d[0], d[1], d[2]), look(ROLE_COLOURS.chill)), [0, 1, 2].map((i) => (c.highest[i] + c.lowest[i]) / 2) as Place);
+    }
+    for (const p of choices?.probes ?? []) add(new Mesh(new SphereGeometry(size / 90, 20, 14), look("#d03a8c")), p.point);
+    if (choices?.gate) add(new Mesh(new SphereGeometry(size / 60, 20, 14), look("#7b3fb5")), choices.gate);
+    this.request();
+  }
+
+  /** Lights up a face of a body, or the triangle where faces have no numbers; nothing: none. */
+  point(at?: Pick): void {
+    empty(this.pointed);
+    if (at) {
+      const body = this.bodies[at.body], face = body.faces[at.triangle], { triangles } = body.shape;
+      const own: number[] = [];
+      for (let t = 0; t < body.faces.length; ++t)
+        if (face > 0 ? body.faces[t] === face : t === at.triangle) own.push(triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]);
+      const geometry = new BufferGeometry();
+      geometry.setAttribute("position", new BufferAttribute(body.position, 3));
+      geometry.setAttribute("normal", new BufferAttribute(body.shape.normal, 3));
+      geometry.setIndex(own);
+      this.pointed.add(plain(new Mesh(geometry, paint(ACCENT, 0.65))));
+    }
+    this.request();
+  }
+
+  private visible(): number[] {
+    const some = this.bodies.flatMap((_, b) => (this.shown[b] === "shown" ? [b] : []));
+    return some.length ? some : this.bodies.map((_, b) => b);
+  }
+  box(): { low: Place; high: Place } {
+    const low: Place = [Infinity, Infinity, Infinity], high: Place = [-Infinity, -Infinity, -Infinity];
+    for (const b of this.visible())
+      for (let i = 0; i < 3; ++i) {
+        low[i] = Math.min(low[i], this.bodies[b].low[i]);
+        high[i] = Math.max(high[i], this.bodies[b].high[i]);
+      }
+    return low[0] <= high[0] ? { low, high } : { low: [-0.05, -0.05, -0.05], high: [0.05, 0.05, 0.05] };
+  }
+  size(): number {
+    const { low, high } = this.box();
+    return Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  }
+
+  fit(): void {
+    const { low, high } = this.box(), c = this.camera;
+    const size = new Vector3(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+    c.target.set((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2);
+    c.reach = size.length() / 2 || 1;
+    const inverse = c.turn.clone().invert();
+    let wide = 0, tall = 0;
+    for (const i of [-1, 1]) for (const j of [-1, 1]) for (const k of [-1, 1]) {
+      const corner = new Vector3((i * size.x) / 2, (j * size.y) / 2, (k * size.z) / 2).applyQuaternion(inverse);
+      wide = Math.max(wide, Math.abs(corner.x));
+      tall = Math.max(tall, Math.abs(corner.y));
+    }
+    const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight) || 1.5;
+    c.half = Math.max(tall, wide / aspect) * 1.25 || 1;
+    this.request();
+  }
+  look(direction: Place): void {
+    this.camera.look(direction);
+    this.fit();
+  }
+  /** Turns the eye to a place. */
+  fly(at: Place): void {
+    this.camera.target.set(...at);
+    this.request();
+  }
+
+  resize(): void {
+    const box = this.canvas.parentElement!.getBoundingClientRect();
+    if (box.width < 2 || box.height < 2) return;
+    this.renderer.setSize(box.width, box.height, false);
+    this.request();
+  }
+  request(moving = false): void {
+    this.moving = moving;
+    this.wanted ||= requestAnimationFrame(() => this.render());
+  }
+  private render(): void {
+    this.wanted = 0;
+    this.camera.apply(this.canvas.clientWidth, this.canvas.clientHeight);
+    this.painter.paint(this.scene, this.camera.three, this.moving, () => this.request());
+    this.drawn();
+  }
+
+  /** Pixels from the upper left corner of a place. */
+  project(at: Place): [number, number] {
+    const v = new Vector3(...at).project(this.camera.three);
+    return [((v.x + 1) / 2) * this.canvas.clientWidth, ((1 - v.y) / 2) * this.canvas.clientHeight];
+  }
+  /** What lies under a pixel. */
+  pick(px: number, py: number): Pick | undefined {
+    const w = this.canvas.clientWidth, t = this.canvas.clientHeight, c = this.camera;
+    c.apply(w, t);
+    const aspect = w / Math.max(1, t);
+    const far = 10 * c.reach + 2 * c.half;
+    const from = new Vector3(((px / w) * 2 - 1) * c.half * aspect, (1 - (py / t) * 2) * c.half, far).applyQuaternion(c.turn).add(c.target);
+    const along = new Vector3(0, 0, -1).applyQuaternion(c.turn);
+    let best: Pick | undefined;
+    for (const body of this.visible()) {
+      const hit = cross(this.bodies[body], from.toArray() as Place, along.toArray() as Place, 0);
+      if (hit && (!best || hit.far < best.far)) best = { ...hit, body };
+    }
+    return best;
+  }
+  get triangles(): number {
+    return this.painter.triangles;
+  }
+}
+
+function plain<T extends Mesh | LineSegments>(thing: T): T {
+  thing.frustumCulled = false;
+  return thing;
+}
+
+function empty(group: Group): void {
+  for (const child of [...group.children]) {
+    const mesh = child as Mesh;
+    mesh.geometry.dispose();
+    (mesh.material as Material).dispose();
+    group.remove(child);
+  }
+}

@@ -1,0 +1,108 @@
+/** Skins of parts and bodies: unpacked, and asked where a line meets them. */
+import { skinShape, type Shape } from "../../report/src/geometry";
+import type { Place } from "./state";
+
+/** A body of a skin: triangles of its own with smooth normals, and the face of each. */
+export interface SkinBody {
+  name: string;
+  shape: Shape;
+  /** Places of the vertices of the shape [m]. */
+  position: Float32Array;
+  /** Number of the face of each triangle, from one; 0: not known. */
+  faces: Int32Array;
+  /** Borders of faces, or sharp edges where faces have no numbers: pairs of vertices. */
+  lines: Uint32Array;
+  low: Place;
+  high: Place;
+}
+
+/** Reads the block of bytes that the server packs. */
+export function unpack(block: ArrayBuffer): SkinBody[] {
+  const all = new Uint8Array(block);
+  const end = all.indexOf(10) + 1;
+  const head = JSON.parse(new TextDecoder().decode(all.subarray(0, end))) as { nodes: number; triangles: number; names: string[] };
+  let at = end;
+  const take = <T>(make: (buffer: ArrayBuffer, offset: number, length: number) => T, length: number): T => {
+    const part = make(block, at, length);
+    at += 4 * length;
+    return part;
+  };
+  const x = take((b, o, n) => new Float32Array(b, o, n), 3 * head.nodes);
+  const triangles = take((b, o, n) => new Uint32Array(b, o, n), 3 * head.triangles);
+  const faces = take((b, o, n) => new Int32Array(b, o, n), head.triangles);
+  const bodies = take((b, o, n) => new Int32Array(b, o, n), head.triangles);
+  return head.names.map((name, body) => one(name, x, triangles, faces, bodies, body));
+}
+
+function one(name: string, x: Float32Array, all: Uint32Array, allFaces: Int32Array, bodies: Int32Array, body: number): SkinBody {
+  let n = 0;
+  for (const b of bodies) if (b === body) ++n;
+  const corners = new Uint32Array(3 * n), faces = new Int32Array(n);
+  for (let t = 0, k = 0; t < bodies.length; ++t) {
+    if (bodies[t] !== body) continue;
+    corners.set(all.subarray(3 * t, 3 * t + 3), 3 * k);
+    faces[k++] = allFaces[t];
+  }
+  const shape = skinShape(x, corners);
+  const position = new Float32Array(3 * shape.a.length);
+  const low: Place = [Infinity, Infinity, Infinity], high: Place = [-Infinity, -Infinity, -Infinity];
+  shape.a.forEach((node, v) => {
+    for (let c = 0; c < 3; ++c) {
+      const value = (position[3 * v + c] = x[3 * node + c]);
+      low[c] = Math.min(low[c], value);
+      high[c] = Math.max(high[c], value);
+    }
+  });
+  return { name, shape, position, faces, lines: bordersOf(corners, faces, shape), low, high };
+}
+
+/** Edges between triangles of different faces; sharp edges where faces have no numbers. */
+function bordersOf(corners: Uint32Array, faces: Int32Array, shape: Shape): Uint32Array {
+  if (!faces.some((f) => f > 0)) return shape.features;
+  const open = new Map<number, number>(), out: number[] = [];
+  for (let i = 0; i < corners.length; ++i) {
+    const j = i % 3 === 2 ? i - 2 : i + 1, u = corners[i], v = corners[j];
+    const key = Math.min(u, v) * 0x4000000 + Math.max(u, v), other = open.get(key);
+    if (other === undefined) open.set(key, i);
+    else if (faces[(other / 3) | 0] !== faces[(i / 3) | 0]) out.push(shape.triangles[i], shape.triangles[j]);
+  }
+  return Uint32Array.from(out);
+}
+
+export interface Crossing { triangle: number; far: number; place: Place; normal: Place }
+
+/** Where a line from `from` along the unit vector `along` meets a body first, further than `least` [m]. */
+export function cross(body: SkinBody, from: Place, along: Place, least: number): Crossing | undefined {
+  const { position: x, shape: { triangles } } = body;
+  let far = Infinity, triangle = -1;
+  for (let t = 0; t < triangles.length; t += 3) {
+    const p = 3 * triangles[t], q = 3 * triangles[t + 1], r = 3 * triangles[t + 2];
+    const ux = x[q] - x[p], uy = x[q + 1] - x[p + 1], uz = x[q + 2] - x[p + 2];
+    const vx = x[r] - x[p], vy = x[r + 1] - x[p + 1], vz = x[r + 2] - x[p + 2];
+    const hx = along[1] * vz - along[2] * vy, hy = along[2] * vx - along[0] * vz, hz = along[0] * vy - along[1] * vx;
+    const det = ux * hx + uy * hy + uz * hz;
+    if (det === 0) continue;
+    const sx = from[0] - x[p], sy = from[1] - x[p + 1], sz = from[2] - x[p + 2];
+    const a = (sx * hx + sy * hy + sz * hz) / det;
+    if (a < 0 || a > 1) continue;
+    const gx = sy * uz - sz * uy, gy = sz * ux - sx * uz, gz = sx * uy - sy * ux;
+    const b = (along[0] * gx + along[1] * gy + along[2] * gz) / det;
+    if (b < 0 || a + b > 1) continue;
+    const here = (vx * gx + vy * gy + vz * gz) / det;
+    if (here > least && here < far) {
+      far = here;
+      triangle = t / 3;
+    }
+  }
+  if (triangle < 0) return undefined;
+  return { triangle, far, place: [0, 1, 2].map((c) => from[c] + far * along[c]) as Place, normal: normalOf(body, triangle) };
+}
+
+/** The unit normal of a triangle, outward. */
+export function normalOf({ position: x, shape: { triangles } }: SkinBody, triangle: number): Place {
+  const [p, q, r] = [0, 1, 2].map((k) => 3 * triangles[3 * triangle + k]);
+  const u = [0, 1, 2].map((c) => x[q + c] - x[p + c]), v = [0, 1, 2].map((c) => x[r + c] - x[p + c]);
+  const n: Place = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+  const size = Math.hypot(...n) || 1;
+  return [n[0] / size, n[1] / size, n[2] / size];
+}
