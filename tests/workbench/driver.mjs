@@ -8,7 +8,7 @@ export const patience = Number(process.env.SOLIDUS_TEST_PATIENCE ?? 1);  // limi
 export class Server {
   static async open(program, folder, part) {
     const server = new Server();
-    server.process = spawn(program, ["open", part, "--no-browser"], { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
+    server.process = spawn(program, ["open", part, "--no-browser"], { cwd: folder, stdio: ["ignore", "pipe", "pipe"], detached: true });
     server.text = "";
     server.gone = new Promise((resolve) => server.process.once("exit", (code) => resolve(code)));
     await new Promise((resolve, reject) => {
@@ -33,8 +33,9 @@ export class Server {
     }
     throw new Error(`the job does not end: ${JSON.stringify((await this.state()).job)}`);
   }
+  /** Ctrl-C, which a terminal sends to the program and what it has started. */
   close() {
-    this.process.kill("SIGINT");
+    process.kill(-this.process.pid, "SIGINT");
     return this.gone;
   }
 }

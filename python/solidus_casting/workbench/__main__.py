@@ -6,6 +6,8 @@ import argparse
 import os
 import signal
 import sys
+import threading
+import time
 import webbrowser
 from pathlib import Path
 
@@ -38,6 +40,7 @@ def main() -> int:
     print(f"Open this address in a browser on this machine; Ctrl-C ends it:\n  {server.address}", flush=True)
     if not options.no_browser and (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         webbrowser.open(server.address)
+    threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
     signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
     try:
         server.serve()
@@ -47,6 +50,13 @@ def main() -> int:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         server.close()
     return 0
+
+
+def _end_with(parent: int) -> None:
+    """Ends as Ctrl-C does when the program that has started this one is gone, which a signal to it alone may bring about."""
+    while os.getppid() == parent:
+        time.sleep(0.5)
+    signal.raise_signal(signal.SIGINT)
 
 
 def _refuse(message: str) -> int:

@@ -158,11 +158,15 @@ class Bench:
         with self._edit(seen) as case:
             case.change(text=toml_edit.with_value(self._text_of(case), toml_edit.path_of(path), value))
 
-    def add_section(self, seen: int, path: Any, values: Any) -> None:
-        if not isinstance(values, dict):
-            raise InputError("the values of a section are no table")
+    def add_sections(self, seen: int, sections: Any) -> None:
+        """Adds entries to lists of sections, as one step: each has a `path` and `values`."""
+        if not isinstance(sections, list) or not all(isinstance(s, dict) and isinstance(s.get("values"), dict) for s in sections):
+            raise InputError("these are no sections with values")
         with self._edit(seen) as case:
-            case.change(text=toml_edit.with_section(self._text_of(case), toml_edit.path_of(path), values))
+            text = self._text_of(case)
+            for section in sections:
+                text = toml_edit.with_section(text, toml_edit.path_of(section.get("path")), section["values"])
+            case.change(text=text)
 
     def remove(self, seen: int, path: Any) -> None:
         with self._edit(seen) as case:

@@ -187,7 +187,7 @@ class _Request(BaseHTTPRequestHandler):
             "choose": lambda: bench.choose(seen, given.get("choices")),
             "text": lambda: bench.set_text(seen, given.get("text")),
             "set": lambda: bench.set_key(seen, given.get("path"), given.get("value")),
-            "add": lambda: bench.add_section(seen, given.get("path"), given.get("values")),
+            "add": lambda: bench.add_sections(seen, given.get("sections")),
             "remove": lambda: bench.remove(seen, given.get("path")),
             "undo": lambda: bench.go(seen, -1),
             "redo": lambda: bench.go(seen, 1),

@@ -120,7 +120,7 @@ export class Keys {
       const value = typed(p.schema, input.value, false);
       if (!p.entry) return void this.desk.ask("set", { path: p.path, value });
       const key = String(p.path[p.path.length - 1]);
-      void this.desk.ask("add", { path: p.path.slice(0, -1), values: { [key]: value } });
+      void this.desk.ask("add", { sections: [{ path: p.path.slice(0, -1), values: { [key]: value } }] });
     });
     return h("div", { class: "key new" }, h("label", { for: "new-value" }, p.name), input,
       h("button", { class: "quiet", id: "new-gone", title: "Add nothing", "aria-label": "Add nothing", click: () => { this.pending = undefined; this.again(); } }, "✕"),

@@ -24,7 +24,7 @@ class Bench implements Desk {
   constructor(readonly about: About, state: State) {
     this.state = state;
     this.stage = new Stage(this);
-    this.setup = new Setup(this, () => (this.stage.which === "part" ? this.stage.picture.bodies : []));
+    this.setup = new Setup(this, () => (this.stage.which === "part" ? this.stage.picture.bodies : []), () => this.stage.riserOnTop());
     this.judge = new Judge(this, (run) => this.openReport(run));
     this.keys = new Keys(this);
     this.keys.again = () => this.panel("keys-form", "", this.keys.render(this.state), true);
@@ -64,6 +64,10 @@ class Bench implements Desk {
     else if (finding.line) this.openTab("text");
     if (finding.line) this.toLine(finding.line);
   }
+  openKeys(section: string): void {
+    this.keys.turnTo(section);
+    this.openTab("keys");
+  }
   openTab(name: string): void {
     this.tab = name as Tab;
     this.tabs();
@@ -90,7 +94,7 @@ class Bench implements Desk {
     const busy = state.job !== null, s = state;
     this.stage.update(s);
     this.panel("part-panel", JSON.stringify([s.name, s.part, s.choices?.roles, s.choices?.unit, busy, this.stage.which, this.stage.picture.bodies.map((b) => b.name)]), this.setup.part(s));
-    this.panel("casting-panel", JSON.stringify([s.part, s.choices, s.made, busy, s.case?.file]), this.setup.casting(s));
+    this.panel("casting-panel", JSON.stringify([s.part, s.choices, s.made, busy, s.case?.file, (s.case?.document?.mesh as { riser?: unknown } | undefined)?.riser]), this.setup.casting(s));
     this.panel("check-panel", JSON.stringify([s.case?.digest, s.check, busy]), this.setup.check(s));
     this.panel("run-panel", JSON.stringify([!!s.case, busy, s.check?.current, s.check?.error]), this.judge.run(s));
     this.panel("runs-panel", JSON.stringify([s.runs, busy, s.job?.run]), this.judge.runs(s));

@@ -23,8 +23,23 @@ function number(id: string, label: string, value: number, change: (value: number
   return element;
 }
 
+const LENGTH = /^\s*([-+\d.e]+)\s*(mm|cm|m)\s*$/i;
+/** A length of a case file [m]; NaN where its unit is another one. */
+function metres(text: unknown): number {
+  const match = LENGTH.exec(String(text));
+  return match ? +match[1] * { mm: 1e-3, cm: 1e-2, m: 1 }[match[2].toLowerCase() as "mm" | "cm" | "m"] : NaN;
+}
+/** The risers that stand in the case file, as far as their lengths can be read. */
+function risersOf(state: State): Riser[] {
+  const found = ((state.case?.document?.mesh as { riser?: Record<string, unknown>[] } | undefined)?.riser ?? []).map((r) => ({
+    name: String(r.name), foot: ((r.foot ?? []) as unknown[]).map(metres) as Place, diameter: metres(r.diameter), height: metres(r.height),
+    ...Object.fromEntries(["neck_diameter", "neck_height", "sleeve"].filter((key) => key in r).map((key) => [key, metres(r[key])])),
+  }));
+  return found.filter((r) => [...r.foot, ...Object.values(r).filter((v) => typeof v === "number")].every((v) => Number.isFinite(v)));
+}
+
 export class Setup {
-  constructor(private readonly desk: Desk, private readonly partBodies: () => SkinBody[]) {}
+  constructor(private readonly desk: Desk, private readonly partBodies: () => SkinBody[], private readonly riserOnTop: () => void) {}
 
   /** 1: which part, and what its bodies are. */
   part(state: State): Children {
@@ -66,6 +81,9 @@ export class Setup {
       field("Process", select("process", Object.entries(about.processes), c.process, (process) => void this.desk.choose({ process }), busy)),
       field("Risers", select("risers", Object.entries(about.risers), c.riser, (riser) => void this.desk.choose({ riser: riser as Choices["riser"] }), busy),
         c.riser === "placed" && !c.risers.length ? "Click the part where one shall stand." : ""),
+      c.riser === "placed" ? h("button", { class: "link", id: "riser-on-top", disabled: busy, click: this.riserOnTop }, "One more riser, on the highest place") : null,
+      c.riser === "auto" && state.made && risersOf(state).length ? h("button", { class: "link", id: "take-risers", disabled: busy, click: () => void this.desk.choose({ riser: "placed", risers: risersOf(state) }) },
+        "Change the risers that the rule has chosen") : null,
       h("div", { class: "two" },
         field("Symmetry", select("symmetry", [["", "none"], ["x", "half, below the middle in x"], ["y", "half, below the middle in y"], ["z", "half, below the middle in z"]], c.symmetry, (symmetry) => void this.desk.choose({ symmetry }), busy)),
         field("Elements", select("fineness", fine, String(c.fineness), (v) => void this.desk.choose({ fineness: +v }), busy))),

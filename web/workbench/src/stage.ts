@@ -217,7 +217,7 @@ export class Stage {
           void this.desk.choose({ riser: "placed", risers: [...now().risers, riserAt(body, hit, freeName("riser", now().risers))] })),
         button("chill", "Chill here", onPart, () => void this.desk.choose({ riser: "placed", chills: [...now().chills, chillAt(body, hit, freeName("chill", now().chills))] })),
         button("probe", "Probe inside", this.which === "part" ? onPart : busy, () => this.probe(body, hit)),
-        button("gate", "Gate here", onPart, () => void this.desk.choose({ gate: hit.place })),
+        this.which === "part" ? button("gate", "Gate here", onPart, () => void this.desk.choose({ gate: hit.place })) : button("film", "Film here", busy, () => void this.film(body.name, hit)),
         h("button", { class: "quiet", id: "place-close", click: () => this.clear() }, "Close")),
     );
     this.card.hidden = false;
@@ -234,7 +234,27 @@ export class Stage {
     }
     const own = (state.case?.document?.probe ?? []) as { name: string }[], at = probeAt(body, hit, freeName("T", own));
     const point = at.point.map((v) => `${Math.round(v * 1e7) / 1e4} mm`);
-    void this.desk.ask("add", { path: ["probe"], values: { name: at.name, kind: "point", field: "temperature", unit: "degC", point } });
+    void this.desk.ask("add", { sections: [{ path: ["probe"], values: { name: at.name, kind: "point", field: "temperature", unit: "degC", point } }] });
+  }
+  /** A film on the smooth face that is nearest to a place of the case's bodies: a group by rule, and a condition on it, whose keys are then shown. */
+  private async film(body: string, hit: Pick): Promise<void> {
+    const { document } = this.desk.state.case ?? {}, taken = ((document?.mesh as { group?: { name: string }[] } | undefined)?.group ?? []).concat((document?.thermal_condition ?? []) as { name: string }[]);
+    const name = freeName("film", taken), nearest = hit.place.map((v) => `${Math.round(v * 1e7) / 1e4} mm`);
+    const conditions = (document?.thermal_condition ?? []) as object[];
+    const made = await this.desk.ask("add", { sections: [
+      { path: ["mesh", "group"], values: { name, owner: body, nearest } },
+      { path: ["thermal_condition"], values: { name, group: name, kind: "film", coefficient: "100 W/m2/K", ambient: "20 degC" } }] });
+    if (made) this.desk.openKeys(`thermal_condition.${conditions.length + 1}`);
+  }
+  /** A riser on the highest place of the part, for hands on a keyboard. */
+  riserOnTop(): void {
+    const c = this.desk.state.choices, body = this.picture.bodies.find((b) => (c?.roles[b.name] || roleByName(b.name)) === "casting") ?? this.picture.bodies[0];
+    if (!c || !body || this.which !== "part") return this.desk.tell("Turn to the picture of the part first.", true);
+    let top = 0;
+    for (let v = 2; v < body.position.length; v += 3) if (body.position[v] > body.position[3 * top + 2]) top = (v - 2) / 3;
+    const place = [0, 1, 2].map((i) => body.position[3 * top + i]) as Place;
+    const hit = { place, normal: [0, 0, 1] as Place, triangle: 0, far: 0, body: this.picture.bodies.indexOf(body) };
+    void this.desk.choose({ riser: "placed", risers: [...c.risers, riserAt(body, hit, freeName("riser", c.risers))] });
   }
   close(): void {
     this.card.hidden = true;

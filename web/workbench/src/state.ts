@@ -71,6 +71,8 @@ export interface Desk {
   choose(change: Partial<Choices>): Promise<boolean>;
   /** Lights up what a finding is about. */
   show(finding: Finding): void;
+  /** Shows the form of a section, by its dotted path with entries counted from one. */
+  openKeys(section: string): void;
   tell(message: string, bad?: boolean): void;
   openTab(name: string): void;
 }
