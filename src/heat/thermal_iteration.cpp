@@ -131,8 +131,7 @@ bool ThermalIteration::revise_limits() {
     beyond = std::max({beyond, range.lowest - now_.temperature[i], now_.temperature[i] - range.highest});
   const double width = range.highest - range.lowest;
   if (!(parallel::global_max(beyond) > k_by_deformation + k_by_deformation_of_range * width)) return false;
-  if (phase_.system_->limits().hold(now_.temperature, range) != ConductionLimiter::Held::further)
-    return false;
+  if (phase_.system_->limits().hold(now_.temperature, range) != HeldNodes::Found::further) return false;
   phase_.system_->limits().find(now_.temperature);
   return true;
 }

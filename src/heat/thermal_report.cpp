@@ -28,7 +28,7 @@ HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& n
   // Stored is the difference of the nodal enthalpies, or that at points, and what consistent heat adds.
   if (nodal()) {
     for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i) stored += next.enthalpy[i] - old.enthalpy[i];
-    if (consistent_) stored += consistent_->stored(next.temperature);
+    if (consistent_) stored += consistent_->surplus().stored(next.temperature);
   } else {
     for (const auto& block : points_) stored += block->stored(next.temperature);
   }
@@ -44,7 +44,7 @@ void ThermalPhase::set_latent(HeatBalance& balance, const ThermalState& old, con
   if (!nodal()) {
     for (const auto& block : points_) latent += block->latent(old.temperature, next.temperature);
   } else {
-    if (consistent_) latent += consistent_->latent(old.temperature, next.temperature);
+    if (consistent_) latent += consistent_->surplus().latent(old.temperature, next.temperature);
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
       latent += storage_->latent(i, next.enthalpy[at(i)], next.temperature[at(i)]) -
                 storage_->latent(i, old.enthalpy[at(i)], old.temperature[at(i)]);
@@ -134,7 +134,7 @@ EntropyChange ThermalPhase::entropy_change(const ThermalState& from, const Therm
   if (!nodal()) {
     for (const auto& block : points_) add(block->entropy_change(from.temperature, to.temperature));
   } else {
-    if (consistent_) add(consistent_->entropy_change(from.temperature, to.temperature));
+    if (consistent_) add(consistent_->surplus().entropy_change(from.temperature, to.temperature));
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
       const double heat = from.enthalpy[at(i)], temperature = from.temperature[at(i)];
       const double before = storage_->entropy(i, heat, temperature);
@@ -155,7 +155,7 @@ double ThermalPhase::enthalpy(const ThermalState& state) const {
     for (const auto& block : points_) sum += block->enthalpy(state.temperature);
   } else {
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i) sum += state.enthalpy[at(i)];
-    if (consistent_) sum += consistent_->enthalpy(state.temperature);
+    if (consistent_) sum += consistent_->surplus().enthalpy(state.temperature);
   }
   return parallel::global_sum(sum);
 }

@@ -65,8 +65,8 @@ ThermalReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState
   // their share.
   for (int i = 0; i < k_steady_revisions && system_->limits().find(temperature, k_limit_change * moved); ++i)
     add_iterations(report.newton, solve_temperature(temperature, residual));
-  for (int i = 0; i < k_steady_revisions &&
-                  system_->limits().hold(temperature, range) == ConductionLimiter::Held::further;
+  for (int i = 0;
+       i < k_steady_revisions && system_->limits().hold(temperature, range) == HeldNodes::Found::further;
        ++i) {
     system_->limits().find(temperature);
     add_iterations(report.newton, solve_temperature(temperature, residual));

@@ -131,45 +131,6 @@ double Tetrahedra::quality(const std::array<Index, 4>& n) const {
   return mean_ratio(x(n[0]), x(n[1]), x(n[2]), x(n[3]));
 }
 
-double Tetrahedra::quality_around(Index node) const {
-  double least = 1;
-  for (const std::size_t t : around(node)) least = std::min(least, quality(t));
-  return least;
-}
-
-std::vector<std::size_t> Tetrahedra::around_edge(Index a, Index b) const {
-  std::vector<std::size_t> found;
-  for (const std::size_t t : around(a))
-    if (tets_[t].has(b)) found.push_back(t);
-  return found;
-}
-
-std::set<Index> Tetrahedra::neighbours(Index node) const {
-  std::set<Index> all;
-  for (const std::size_t t : around(node)) all.insert(tets_[t].nodes.begin(), tets_[t].nodes.end());
-  all.erase(node);
-  return all;
-}
-
-std::vector<SurfaceFace> Tetrahedra::surface(Index node) const {
-  // Of the faces at the node those that one tetrahedron alone has, or two of different bodies.
-  std::map<Triangle, std::vector<std::pair<int, Triangle>>> sides;
-  for (const std::size_t t : around(node))
-    for (const Index other : tets_[t].nodes)
-      if (other != node) {
-        const Triangle face = tets_[t].across(other);
-        sides[sorted(face)].emplace_back(tets_[t].body, face);
-      }
-  std::vector<SurfaceFace> faces;
-  for (const auto& [key, of] : sides) {
-    if (of.size() == 1)
-      faces.push_back({of[0].second, of[0].first, -1});
-    else if (of[0].first != of[1].first)
-      faces.push_back({of[0].second, of[0].first, of[1].first});
-  }
-  return faces;
-}
-
 void Tetrahedra::replace(const std::vector<std::size_t>& old, const std::vector<Tetrahedron>& made) {
   for (const std::size_t t : old) {
     alive_[t] = 0;
@@ -181,6 +142,49 @@ void Tetrahedra::replace(const std::vector<std::size_t>& old, const std::vector<
     number_.push_back(next_number_++);
     alive_.push_back(1);
   }
+}
+
+double quality(const Tetrahedra& tets, std::size_t t) {
+  return tets.quality(tets[t].nodes);
+}
+
+double quality_around(const Tetrahedra& tets, Index node) {
+  double least = 1;
+  for (const std::size_t t : tets.around(node)) least = std::min(least, quality(tets, t));
+  return least;
+}
+
+std::vector<std::size_t> around_edge(const Tetrahedra& tets, Index a, Index b) {
+  std::vector<std::size_t> found;
+  for (const std::size_t t : tets.around(a))
+    if (tets[t].has(b)) found.push_back(t);
+  return found;
+}
+
+std::set<Index> neighbours(const Tetrahedra& tets, Index node) {
+  std::set<Index> all;
+  for (const std::size_t t : tets.around(node)) all.insert(tets[t].nodes.begin(), tets[t].nodes.end());
+  all.erase(node);
+  return all;
+}
+
+std::vector<SurfaceFace> surface_at(const Tetrahedra& tets, Index node) {
+  // Of the faces at the node those that one tetrahedron alone has, or two of different bodies.
+  std::map<Triangle, std::vector<std::pair<int, Triangle>>> sides;
+  for (const std::size_t t : tets.around(node))
+    for (const Index other : tets[t].nodes)
+      if (other != node) {
+        const Triangle face = tets[t].across(other);
+        sides[sorted(face)].emplace_back(tets[t].body, face);
+      }
+  std::vector<SurfaceFace> faces;
+  for (const auto& [key, of] : sides) {
+    if (of.size() == 1)
+      faces.push_back({of[0].second, of[0].first, -1});
+    else if (of[0].first != of[1].first)
+      faces.push_back({of[0].second, of[0].first, of[1].first});
+  }
+  return faces;
 }
 
 }  // namespace solidus::mesh

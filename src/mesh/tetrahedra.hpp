@@ -58,14 +58,6 @@ class Tetrahedra {
   const Point& x(Index node) const { return mesh_.x[static_cast<std::size_t>(node)]; }
   void move(Index node, const Point& place) { mesh_.x[static_cast<std::size_t>(node)] = place; }
   double quality(const std::array<Index, 4>& nodes) const;
-  double quality(std::size_t t) const { return quality(tets_[t].nodes); }
-  /// Least quality around a node.
-  double quality_around(Index node) const;
-
-  std::vector<std::size_t> around_edge(Index a, Index b) const;
-  std::set<Index> neighbours(Index node) const;
-  /// Faces of bodies at a node, each once.
-  std::vector<SurfaceFace> surface(Index node) const;
 
   /// Replaces tetrahedra by others.
   void replace(const std::vector<std::size_t>& old, const std::vector<Tetrahedron>& made);
@@ -79,5 +71,13 @@ class Tetrahedra {
   std::vector<std::string> bodies_;
   GlobalIndex next_number_ = 0;
 };
+
+double quality(const Tetrahedra& tets, std::size_t t);
+/// Least quality around a node.
+double quality_around(const Tetrahedra& tets, Index node);
+std::vector<std::size_t> around_edge(const Tetrahedra& tets, Index a, Index b);
+std::set<Index> neighbours(const Tetrahedra& tets, Index node);
+/// Faces of bodies at a node, each once.
+std::vector<SurfaceFace> surface_at(const Tetrahedra& tets, Index node);
 
 }  // namespace solidus::mesh

@@ -86,10 +86,10 @@ class Refinement {
     const OverlapListener listener(estimate_.overlap);
     // The log is quiet from here on, or each try would print the warnings of a draft that nobody gets to see.
     const QuietLog quiet;
-    kept.leave_to_direct_ways(time_of_direct_ways_);
+    kept.search().time_of_direct_ways = time_of_direct_ways_;
     try {
       // The best way of meshing is looked for when the sizes are found, not for each that is tried.
-      kept.be_content_with(mesh::k_usable_quality);
+      kept.search().most_wanted = mesh::k_usable_quality;
       bool of_sizes = true;
       constexpr int k_most_tries = 6;
       for (int attempt = 0; attempt < k_most_tries; ++attempt) {
@@ -99,24 +99,25 @@ class Refinement {
         const setup::Case c = setup::load_case(draft_.folder / "case.toml", {}, cases::Physics::heat);
         const bool good = adapt(run::check_run(c));
         write_draft(draft_);
-        const bool sound = !kept.way() || kept.way()->quality >= mesh::k_sound_quality;
+        const bool sound = !kept.search().way || kept.search().way->quality >= mesh::k_sound_quality;
         if (good && (sound || !of_sizes)) break;
         // Once the sizes are right, or the tries are used up, the best way of meshing is looked
         // for.
         if (good || attempt + 2 == k_most_tries) {
           of_sizes = false;
-          kept.be_content_with(mesh::k_sound_quality);
+          kept.search().most_wanted = mesh::k_sound_quality;
         }
       }
       if (!draft_.meshed) estimate_.skin_notes = kept.notes();
       // Every run would try the same ways again.
-      if (const auto way = kept.way(); way && (way->number > 0 || way->quality < mesh::k_sound_quality)) {
+      if (const auto way = kept.search().way;
+          way && (way->number > 0 || way->quality < mesh::k_sound_quality)) {
         draft_.way = way->number + 1;
         // The way that was found is written down, so that a run of the case begins with it.
         write_draft(draft_);
       }
       // A mesh that stayed poor is told in the report.
-      if (const auto way = kept.way(); way && way->quality < mesh::k_sound_quality) {
+      if (const auto way = kept.search().way; way && way->quality < mesh::k_sound_quality) {
         estimate_.least_quality = way->quality;
         estimate_.worst_element = way->worst;
       }

@@ -46,7 +46,7 @@ PartMeasures measure_part(const NewCaseOptions& options) {
   refuse_cuts(options, solids);
   mesh::KeptMesh kept;
   m.mesh = meshed ? mesh::read_mesh(source) : mesh::mesh_casting(source, {}, 0);
-  m.time_of_direct_ways = kept.time_of_direct_ways();
+  m.time_of_direct_ways = kept.search().time_of_direct_ways;
   if (m.mesh.dimension != 3)
     throw InputError({source.path}, "the mesh is plane", "a solid: STEP, BREP, IGES, STL, or a mesh of one");
   m.bodies = setup::bodies_of(m.mesh, options.as, source.path);

@@ -218,35 +218,36 @@ TEST(NewCase, MeshesNearlyTheSameInTheWayThatWasBestBefore) {
   const mesh::MeshSource source{hollow_box().string(), 1e-3};
   mesh::KeptMesh kept;
   mesh::mesh_casting(source, {}, 0.15);
-  ASSERT_TRUE(kept.way());
-  EXPECT_EQ(kept.way()->number, 0);
-  EXPECT_GT(kept.way()->quality, 0.15);
+  ASSERT_TRUE(kept.search().way);
+  EXPECT_EQ(kept.search().way->number, 0);
+  EXPECT_GT(kept.search().way->quality, 0.15);
   mesh::CastingGeometry finer;
   finer.sizes = {{"body_1", 8e-3, 4e-3}};
-  kept.keep_way({2, 0.3, false, {}});
+  kept.search().way = KeptMesh::Way{2, 0.3, false, {}};
   mesh::mesh_casting(source, finer, 0.14);
-  EXPECT_EQ(kept.way()->number, 2);
+  EXPECT_EQ(kept.search().way->number, 2);
   // A quality that no way gave before is not looked for in all of them again.
-  kept.keep_way({1, 0.1, true, {}});
+  kept.search().way = KeptMesh::Way{1, 0.1, true, {}};
   mesh::mesh_casting(source, {}, 1);
-  EXPECT_EQ(kept.way()->number, 1);
+  EXPECT_EQ(kept.search().way->number, 1);
 }
 
 TEST(NewCase, LooksForTheBestWayWhenWhatWasEnoughIsNotEnoughAnyMore) {
   namespace mesh = solidus::mesh;
   const mesh::MeshSource source{hollow_box().string(), 1e-3};
   mesh::KeptMesh kept;
-  kept.be_content_with(0.01);
+  kept.search().most_wanted = 0.01;
   const std::size_t nodes = mesh::mesh_casting(source, {}, 1).x.size();
-  EXPECT_EQ(kept.way()->number, 0);
-  EXPECT_FALSE(kept.way()->best_of_all);
-  const double first = kept.way()->quality;
-  kept.be_content_with(1);
+  EXPECT_EQ(kept.search().way->number, 0);
+  EXPECT_FALSE(kept.search().way->best_of_all);
+  const double first = kept.search().way->quality;
+  kept.search().most_wanted = 1;
   mesh::mesh_casting(source, {}, 1);
-  EXPECT_TRUE(kept.way()->best_of_all);
-  EXPECT_TRUE(kept.way()->number == 0 ? kept.way()->quality == first : kept.way()->quality > 1.1 * first);
-  kept.be_content_with(0.01);
-  if (kept.way()->number == 0) {
+  EXPECT_TRUE(kept.search().way->best_of_all);
+  EXPECT_TRUE(kept.search().way->number == 0 ? kept.search().way->quality == first
+                                             : kept.search().way->quality > 1.1 * first);
+  kept.search().most_wanted = 0.01;
+  if (kept.search().way->number == 0) {
     EXPECT_EQ(mesh::mesh_casting(source, {}, 1).x.size(), nodes);
   }
 }
@@ -259,7 +260,7 @@ TEST(NewCase, TheWayOfMeshingThatACaseNamesIsTheOnlyOne) {
   {
     mesh::KeptMesh kept;
     mesh::mesh_casting(source, geometry, 1);  // no mesh has this quality
-    EXPECT_EQ(kept.way()->number, 1);
+    EXPECT_EQ(kept.search().way->number, 1);
   }
   geometry.only_way = static_cast<int>(mesh::solid_ways().size());
   EXPECT_THROW(mesh::mesh_casting(source, geometry), solidus::InputError);

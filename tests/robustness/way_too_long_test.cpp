@@ -80,17 +80,17 @@ class WayTooLong : public tests::ForeignFiles {
 TEST_F(WayTooLong, IsEndedAndAnotherOneGivesTheMesh) {
   write("part.stl", box_of_triangles());
   mesh::KeptMesh kept;
-  kept.leave_to_direct_ways(1);
+  kept.search().time_of_direct_ways = 1;
   mesh::CastingGeometry geometry;
   geometry.sizes = {{.body = "part", .size = 5 * k_mm, .smallest = 5 * k_mm, .across = 0}};
   const mesh::RawMesh mesh =
       mesh::mesh_casting({.path = (folder_ / "part.stl").string(), .unit_in_metres = k_mm}, geometry);
   EXPECT_THAT(progress_, Contains(HasSubstr("took longer than 1 s and was ended; another way is tried")));
-  ASSERT_TRUE(kept.way());
-  EXPECT_NE(kept.way()->number, 0);  // the first of all is the direct one
-  EXPECT_GE(kept.way()->quality, mesh::k_sound_quality);
+  ASSERT_TRUE(kept.search().way);
+  EXPECT_NE(kept.search().way->number, 0);  // the first of all is the direct one
+  EXPECT_GE(kept.search().way->quality, mesh::k_sound_quality);
   EXPECT_TRUE(mesh.groups.contains("part"));
-  EXPECT_LE(kept.time_of_direct_ways(), 0);
+  EXPECT_LE(kept.search().time_of_direct_ways, 0);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ std::size_t at(Index i) {
 }  // namespace
 
 ConductionLimiter::ConductionLimiter(const mesh::Mesh& mesh, std::span<const KirchhoffPotential> potentials)
-    : mesh_(mesh), potentials_(potentials), ghosts_(mesh) {}
+    : mesh_(mesh), potentials_(potentials), ghosts_(mesh), held_(mesh, nodes_) {}
 
 void ConductionLimiter::clear() {
   bodies_.clear();
@@ -93,7 +93,7 @@ void ConductionLimiter::finish(const linear::BlockMatrix& matrix) {
   sums_.resize(2 * n);
   shares_.assign(2 * mesh_.x.size(), 1.0);
   left_.assign(n_pairs, 0.0);
-  held_nodes_.clear();
+  held_.release();
   matrix_ = &matrix;
   find_factors();
 }
@@ -265,7 +265,7 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
     for (std::size_t k = 2 * i; k < 2 * i + 2; ++k) {
       shares_[k] = sums_[k] > 0 ? std::min(1.0, shares_[k] / sums_[k]) : 0.0;
       if (quadratic_) shares_[k] = 1;
-      if (!held_nodes_.empty() && held_nodes_[k] != 0) shares_[k] = 0;
+      if (held_.holds(k)) shares_[k] = 0;
       if (fixed[i] != 0) shares_[k] = 1;
     }
   }
@@ -297,21 +297,19 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
   return true;
 }
 
-ConductionLimiter::Held ConductionLimiter::hold(std::span<const double> temperature, double lowest,
-                                                double highest) {
-  if (!needed_) return Held::none;
-  if (held_nodes_.empty()) held_nodes_.assign(sums_.size(), 0);
-  auto held = Held::none;
+HeldNodes::Found HeldNodes::hold(std::span<const double> temperature, double lowest, double highest) {
+  if (held_.empty()) held_.assign(2 * at(mesh_.n_owned_nodes), 0);
+  auto found = Found::none;
   // A node that is out of bounds once is held on that side from then on.
   for (const Index node : nodes_) {
     const std::size_t i = at(node);
     if (temperature[i] >= lowest && temperature[i] <= highest) continue;
-    char& now = held_nodes_[2 * i + (temperature[i] > highest ? 0 : 1)];
-    held = std::max(held, now == 0 ? Held::further : Held::as_before);
+    char& now = held_[2 * i + (temperature[i] > highest ? 0 : 1)];
+    found = std::max(found, now == 0 ? Found::further : Found::as_before);
     now = 1;
   }
   // A process may have held none: the answer is the strongest of all.
-  return static_cast<Held>(static_cast<int>(parallel::global_max(static_cast<int>(held))));
+  return static_cast<Found>(static_cast<int>(parallel::global_max(static_cast<int>(found))));
 }
 
 void ConductionLimiter::add_heat(std::span<const double> temperature, std::span<double> r) const {
@@ -365,7 +363,7 @@ std::size_t ConductionLimiter::bytes() const {
     total += body.pairs.capacity() * sizeof(Pair) + body.diagonal.capacity() * sizeof(Diagonal);
   for (const auto* v : {&gamma_, &highest_, &lowest_, &sums_, &shares_, &left_})
     total += v->capacity() * sizeof(double);
-  return total + nodes_.capacity() * sizeof nodes_[0] + held_nodes_.capacity();
+  return total + nodes_.capacity() * sizeof nodes_[0] + held_.bytes();
 }
 
 }  // namespace solidus::heat

@@ -40,6 +40,28 @@
 
 namespace solidus::heat {
 
+/// Nodes that have left the range of temperatures around them, which take nothing more on that side.
+class HeldNodes {
+ public:
+  /// @param nodes  owned nodes that may be held; kept by reference
+  HeldNodes(const mesh::Mesh& mesh, const std::vector<Index>& nodes) : mesh_(mesh), nodes_(nodes) {}
+
+  /// No node is there, the same ones as before, others too.
+  enum class Found { none, as_before, further };
+  /// Sets α = 0 from here on for flows into owned nodes above `highest` and out of those below `lowest`,
+  /// until release(). Collective.
+  Found hold(std::span<const double> temperature, double lowest, double highest);
+  void release() { held_.clear(); }
+  /// Whether nothing may flow into (even) or out of (odd) the owned node of this entry, [owned node][2].
+  bool holds(std::size_t entry) const { return !held_.empty() && held_[entry] != 0; }
+  std::size_t bytes() const { return held_.capacity(); }
+
+ private:
+  const mesh::Mesh& mesh_;
+  const std::vector<Index>& nodes_;
+  std::vector<char> held_;  ///< [owned node][2]; empty: none
+};
+
 class ConductionLimiter {
  public:
   /// @param potentials  one per body; must outlive this object, as the mesh must
@@ -68,11 +90,8 @@ class ConductionLimiter {
                    std::span<LimitedFlow* const> flows);
   /// All α = 1.
   void clear_shares() { std::fill(left_.begin(), left_.end(), 0.0); }
-  /// Sets α = 0 from here on for flows into owned nodes above `highest` and out of those below `lowest`,
-  /// until release(); find_shares() makes it so. Collective.
-  enum class Held { none, as_before, further };  ///< no node is there, the same ones as before, others too
-  Held hold(std::span<const double> temperature, double lowest, double highest);
-  void release() { held_nodes_.clear(); }
+  /// Nodes that take nothing more on a side (HeldNodes), where needed(); find_shares() makes it so.
+  HeldNodes& held() { return held_; }
   /// r += the part of the flows that is not let through.
   void add_heat(std::span<const double> temperature, std::span<double> r) const;
   /// matrix += ∂/∂v of that, in the unknown of nodal_potential.hpp: symmetric, no less than zero.
@@ -119,7 +138,7 @@ class ConductionLimiter {
   std::vector<double> sums_;              ///< P⁺, P⁻, [owned node][2]
   std::vector<double> shares_;            ///< Q, then R, [local node][2]
   std::vector<double> left_;              ///< 1 − α, [pair] of the bodies in order
-  std::vector<char> held_nodes_;          ///< by hold(), [owned node][2]; empty: none
+  HeldNodes held_;
 };
 
 }  // namespace solidus::heat

@@ -46,13 +46,13 @@ void HeatLimits::clear() {
     for (LimitedFlow& flow : surface.flows()) flow.left = 0;
 }
 
-ConductionLimiter::Held HeatLimits::hold(std::span<const double> temperature, const TemperatureRange& range) {
+HeldNodes::Found HeatLimits::hold(std::span<const double> temperature, const TemperatureRange& range) {
   ConductionLimiter* const limiter = parts_.conduction.limiter();
-  if (limiter == nullptr || !parts_.exchanges) return ConductionLimiter::Held::none;
+  if (limiter == nullptr || !parts_.exchanges || !limiter->needed()) return HeldNodes::Found::none;
   const double lowest = range.lowest - k_rounding, highest = range.highest + k_rounding;
-  const ConductionLimiter::Held held = limiter->hold(temperature, lowest, highest);
+  const HeldNodes::Found held = limiter->held().hold(temperature, lowest, highest);
   // Contributions limit what they exchange at the same nodes.
-  if (held == ConductionLimiter::Held::none || parts_.contributions.empty()) return held;
+  if (held == HeldNodes::Found::none || parts_.contributions.empty()) return held;
   std::vector<char> beyond(temperature.size());
   for (std::size_t i = 0; i < beyond.size(); ++i)
     beyond[i] = temperature[i] < lowest || temperature[i] > highest ? 1 : 0;
@@ -63,7 +63,7 @@ ConductionLimiter::Held HeatLimits::hold(std::span<const double> temperature, co
 void HeatLimits::release() {
   ConductionLimiter* const limiter = parts_.conduction.limiter();
   if (limiter == nullptr) return;
-  limiter->release();
+  limiter->held().release();
   parts_.contributions.limit_exchange({});
 }
 

@@ -22,7 +22,7 @@ class HeatLimits {
   void clear();
   /// Limits conduction at nodes outside this range as far as possible, until release(); find() makes it so.
   /// Returns whether there are such nodes, and others than before, on any process. Collective.
-  ConductionLimiter::Held hold(std::span<const double> temperature, const TemperatureRange& range);
+  HeldNodes::Found hold(std::span<const double> temperature, const TemperatureRange& range);
   void release();
   /// The range of the temperatures that are prescribed, or that surfaces exchange heat with, at the time set
   /// [K]; +∞ and −∞ where there is none. Collective.

@@ -109,7 +109,7 @@ bool TruncatedNewton::revise_limits(const ConductionBounds& bounds) {
     return true;
   }
   if (progress_.revisions >= k_revisions + k_holds) return false;
-  using Held = ConductionLimiter::Held;
+  using Held = HeldNodes::Found;
   const Held held = system_.limits().hold(
       of_step_.temperature, system_.limits().closed(bounds.range, bounds.start, of_step_.temperature));
   if (held == Held::none || (held == Held::as_before && ++progress_.idle > k_idle)) return false;

@@ -48,7 +48,7 @@ void ConsistentHeat::add_tangent(std::span<const double> temperature, linear::Bl
     *matrix.diagonal_block(i) -= nodes_.capacity(i, temperature[static_cast<std::size_t>(i)]) / dt_;
 }
 
-double ConsistentHeat::stored(std::span<const double> temperature) const {
+double HeatAtPoints::stored(std::span<const double> temperature) const {
   double sum = 0;
   for (const auto& block : points_) sum += block->stored(temperature);
   for (std::size_t i = 0; i < from_.size(); ++i)
@@ -56,14 +56,14 @@ double ConsistentHeat::stored(std::span<const double> temperature) const {
   return sum;
 }
 
-double ConsistentHeat::enthalpy(std::span<const double> temperature) const {
+double HeatAtPoints::enthalpy(std::span<const double> temperature) const {
   double sum = 0;
   for (const auto& block : points_) sum += block->enthalpy(temperature);
   for (std::size_t i = 0; i < from_.size(); ++i) sum -= nodes_.upper(static_cast<Index>(i), temperature[i]);
   return sum;
 }
 
-double ConsistentHeat::latent(std::span<const double> from, std::span<const double> to) const {
+double HeatAtPoints::latent(std::span<const double> from, std::span<const double> to) const {
   double sum = 0;
   for (const auto& block : points_) sum += block->latent(from, to);
   for (std::size_t i = 0; i < from_.size(); ++i) {
@@ -74,7 +74,7 @@ double ConsistentHeat::latent(std::span<const double> from, std::span<const doub
   return sum;
 }
 
-EntropyChange ConsistentHeat::entropy_change(std::span<const double> from, std::span<const double> to) const {
+EntropyChange HeatAtPoints::entropy_change(std::span<const double> from, std::span<const double> to) const {
   EntropyChange sum;
   // The entropy at points less that at nodes, since only the difference is stored here.
   for (const auto& block : points_) {

@@ -20,6 +20,29 @@
 
 namespace solidus::heat {
 
+/// By how much more points have taken up than nodes, on this process.
+class HeatAtPoints {
+ public:
+  /// Keeps references.
+  /// @param from  what the nodes have held at the start of the stage, [owned node] [J]
+  HeatAtPoints(const std::vector<std::unique_ptr<PointStorage>>& points, const NodalEnthalpy& nodes,
+               std::span<const double> from)
+      : points_(points), nodes_(nodes), from_(from) {}
+
+  /// Since the start of the stage, at a temperature [local node] [J].
+  double stored(std::span<const double> temperature) const;
+  /// Latent heat between two temperatures [J].
+  double latent(std::span<const double> from, std::span<const double> to) const;
+  EntropyChange entropy_change(std::span<const double> from, std::span<const double> to) const;  ///< [J/K]
+  /// The whole content [J].
+  double enthalpy(std::span<const double> temperature) const;
+
+ private:
+  const std::vector<std::unique_ptr<PointStorage>>& points_;
+  const NodalEnthalpy& nodes_;
+  std::span<const double> from_;
+};
+
 class ConsistentHeat final : public linear::Contribution {
  public:
   /// @param points  storage of the blocks of these bodies; must outlive this object, as the mesh must
@@ -40,12 +63,7 @@ class ConsistentHeat final : public linear::Contribution {
   /// @param before  Θ_n in the first stage, that of the first one in the second [K], [local node]
   void begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> before) override;
 
-  // By how much more the points have taken up than the nodes, on this process: since the start of the stage,
-  // latent heat and entropy between two temperatures [local node].
-  double stored(std::span<const double> temperature) const;                                      ///< [J]
-  double latent(std::span<const double> from, std::span<const double> to) const;                 ///< [J]
-  EntropyChange entropy_change(std::span<const double> from, std::span<const double> to) const;  ///< [J/K]
-  double enthalpy(std::span<const double> temperature) const;  ///< the whole content [J]
+  HeatAtPoints surplus() const { return {points_, nodes_, from_}; }
   std::size_t bytes() const { return nodes_.bytes(); }
 
  private:

@@ -56,13 +56,13 @@ class Variation {
   /// dσ/dΘ.
   [[gnu::always_inline]] Sym<T> stress() const {
     const J pressure = p_.elastic.bulk * (J(trace_) - p_.elastic.thermal_strain);
-    Sym<T> slope = shear_.twice_shear.d * elastic_ + shear_.twice_shear.v * elastic_theta_;
+    Sym<T> slope = shear_.twice_shear.d * elastic_ + shear_.twice_shear.v * f_.elastic_theta;
     for (int i = 0; i < 3; ++i) slope[i] += pressure.d;
     return slope;
   }
 
   Derivatives<T> flow_increment() const {
-    return {gamma_, gamma_theta_, T(inverse_ * shear_.twice_shear.v) * normal_};
+    return {f_.gamma, f_.gamma_theta, T(f_.inverse * shear_.twice_shear.v) * f_.normal};
   }
 
   /// @param in_strain  false: without the covector
@@ -77,7 +77,7 @@ class Variation {
     Derivatives<T> s;
     s.value = T(0.0) - volumetric_part.d - q.v * squared;
     s.temperature =
-        T(0.0) - volumetric_part.dd - q.d * squared - T(2.0) * q.v * dot(elastic_, elastic_theta_);
+        T(0.0) - volumetric_part.dd - q.d * squared - T(2.0) * q.v * dot(elastic_, f_.elastic_theta);
     if (!law_.material().flow) {
       if (in_strain) s.strain = T(-2.0 * q.v) * elastic_;
     } else {
@@ -86,11 +86,11 @@ class Variation {
       const J& kinematic = p_.flow.kinematic_modulus;
       const T third(1.0 / 3.0), zeta2 = dot(zeta_, zeta_);
       s.value -= stored.d + third * kinematic.d * zeta2;
-      s.temperature -= stored.dd + stress_theta_ * xi_theta_ + third * kinematic.dd * zeta2 +
-                       T(2.0) * third * kinematic.d * dot(zeta_, zeta_theta_);
+      s.temperature -= stored.dd + f_.stress_theta * f_.xi_theta + third * kinematic.dd * zeta2 +
+                       T(2.0) * third * kinematic.d * dot(zeta_, f_.zeta_theta);
       if (in_strain)
         s.strain = along_strain(T(-2.0 * q.v) * elastic_, T(T(-2.0) * third * kinematic.d) * zeta_,
-                                T(0.0) - stress_theta_ * radius().v);
+                                T(0.0) - f_.stress_theta * radius().v);
     }
     if (in_strain)
       for (int i = 0; i < 3; ++i) s.strain[i] -= volumetric;
@@ -103,12 +103,12 @@ class Variation {
     const Sym<T> by_elastic = T(two * f.elastic_squared) * elastic_;
     Derivatives<T> r;
     r.value = f.value;
-    r.temperature = f.temperature + dot(by_elastic, elastic_theta_);
+    r.temperature = f.temperature + dot(by_elastic, f_.elastic_theta);
     if (!law_.material().flow) {
       r.strain = by_elastic;
     } else {
       const Sym<T> by_zeta = T(two * f.back_squared) * zeta_;
-      r.temperature += f.hardening * xi_theta_ + dot(by_zeta, zeta_theta_);
+      r.temperature += f.hardening * f_.xi_theta + dot(by_zeta, f_.zeta_theta);
       r.strain = along_strain(by_elastic, by_zeta, f.hardening * radius().v);
     }
     for (int i = 0; i < 3; ++i) r.strain[i] += f.strain_trace;
@@ -120,7 +120,7 @@ class Variation {
     const T squared = dot(elastic_, elastic_);
     Derivatives<T> d;
     d.value = viscous.v * squared;
-    d.temperature = viscous.d * squared + T(2.0) * viscous.v * dot(elastic_, elastic_theta_);
+    d.temperature = viscous.d * squared + T(2.0) * viscous.v * dot(elastic_, f_.elastic_theta);
     const Sym<T> by_elastic = T(2.0 * viscous.v) * elastic_;
     if (!law_.material().flow) {
       d.strain = by_elastic;
@@ -156,13 +156,13 @@ class Variation {
       recalled = modulus * recall_;
       gained = modulus.v * recall_gamma_ * zeta2;
     }
-    const T force = overstress_ + fixed.v + recalled.v * zeta2;
-    const T force_theta = overstress_theta_ + overstress_gamma_ * gamma_theta_ + fixed.d +
-                          recalled.d * zeta2 + T(2.0) * recalled.v * dot(zeta_, zeta_theta_) +
-                          gained * gamma_theta_;
-    return {gamma_ * force, gamma_theta_ * force + gamma_ * force_theta,
-            along_strain(zeros(), T(T(2.0) * gamma_ * recalled.v) * zeta_,
-                         force + gamma_ * (overstress_gamma_ + gained))};
+    const T force = f_.overstress + fixed.v + recalled.v * zeta2;
+    const T force_theta = f_.overstress_theta + f_.overstress_gamma * f_.gamma_theta + fixed.d +
+                          recalled.d * zeta2 + T(2.0) * recalled.v * dot(zeta_, f_.zeta_theta) +
+                          gained * f_.gamma_theta;
+    return {f_.gamma * force, f_.gamma_theta * force + f_.gamma * force_theta,
+            along_strain(zeros(), T(T(2.0) * f_.gamma * recalled.v) * zeta_,
+                         force + f_.gamma * (f_.overstress_gamma + gained))};
   }
 
   /// β ⟨P⟩ of the plastic work P of the step.
@@ -183,8 +183,8 @@ class Variation {
     const J begin = hardening_potential<J>(flow, p_.flow, J(start_.hardening),
                                            J(dot(start_.back_strain, start_.back_strain)));
     const Sym<T> by_zeta = T(T(return_mapping::k_two_thirds) * p_.flow.kinematic_modulus.v) * zeta_;
-    return {end.v - begin.v, end.d - begin.d + stress_ * xi_theta_ + dot(by_zeta, zeta_theta_),
-            along_strain(zeros(), by_zeta, stress_ * radius().v)};
+    return {end.v - begin.v, end.d - begin.d + f_.stress * f_.xi_theta + dot(by_zeta, f_.zeta_theta),
+            along_strain(zeros(), by_zeta, f_.stress * radius().v)};
   }
 
   /// The plastic work P of the step: what is not stored and what hardening gains; from an extrapolated start
@@ -194,70 +194,70 @@ class Variation {
       const Derivatives<T> gain = hardening_gain();
       return {free.value + gain.value, free.temperature + gain.temperature, free.strain + gain.strain};
     }
-    const T left = dot(normal_, trial_) - gamma_;
+    const T left = dot(f_.normal, trial_) - f_.gamma;
     const J& s = shear_.twice_shear;
-    const T by_gamma = s.v * (left - gamma_);
-    const Sym<T> by_normal = T(s.v * gamma_) * across(trial_);
-    const T work_theta = s.d * gamma_ * left + by_gamma * gamma_theta_ + dot(by_normal, normal_theta_);
-    const T through_gamma = by_gamma + per_norm_ * dot(by_normal, drift_);
-    const Sym<T> by_strain = T(s.v * gamma_) * normal_ + T(s.v * per_norm_) * by_normal +
-                             T(through_gamma * inverse_ * s.v) * normal_;
-    return {s.v * gamma_ * left, work_theta, by_strain};
+    const T by_gamma = s.v * (left - f_.gamma);
+    const Sym<T> by_normal = T(s.v * f_.gamma) * across(trial_);
+    const T work_theta = s.d * f_.gamma * left + by_gamma * f_.gamma_theta + dot(by_normal, f_.normal_theta);
+    const T through_gamma = by_gamma + f_.per_norm * dot(by_normal, f_.drift);
+    const Sym<T> by_strain = T(s.v * f_.gamma) * f_.normal + T(s.v * f_.per_norm) * by_normal +
+                             T(through_gamma * f_.inverse * s.v) * f_.normal;
+    return {s.v * f_.gamma * left, work_theta, by_strain};
   }
 
   /// a − n (n : a).
-  Sym<T> across(const Sym<T>& a) const { return a - dot(normal_, a) * normal_; }
+  Sym<T> across(const Sym<T>& a) const { return a - dot(f_.normal, a) * f_.normal; }
 
   [[gnu::always_inline]] void add_flow(const Viscoplastic::Response<T>& r) {
     const T zero(0.0), one(1.0);
     const auto flows = r.flow_increment > zero;
-    gamma_ = select(flows, r.flow_increment, zero);
-    inverse_ = select(flows, r.inverse_stiffness, zero);
-    overstress_ = select(flows, r.overstress, zero);
+    f_.gamma = select(flows, r.flow_increment, zero);
+    f_.inverse = select(flows, r.inverse_stiffness, zero);
+    f_.overstress = select(flows, r.overstress, zero);
     const T inverse_norm = one / select(flows, r.relative_norm, one);
-    for (int i = 0; i < 6; ++i) normal_[i] = select(flows, r.direction[i], zero);
-    elastic_ = trial_ - gamma_ * normal_;
+    for (int i = 0; i < 6; ++i) f_.normal[i] = select(flows, r.direction[i], zero);
+    elastic_ = trial_ - f_.gamma * f_.normal;
 
     const Flow& flow = *law_.material().flow;
     const J& stiff = shear_.twice_shear;
     const J& w = shear_.strength;
     const J modulus = J(T(return_mapping::k_two_thirds)) * w * p_.flow.kinematic_modulus;
-    const J xi = J(start_.hardening) + radius() * J(gamma_);
+    const J xi = J(start_.hardening) + radius() * J(f_.gamma);
     J fading(one);
     T fading_gamma = zero;
     if (!law_.symmetric()) {
-      const auto b = return_mapping::fading(flow.kinematic, p_.flow, w, xi, J(gamma_));
+      const auto b = return_mapping::fading(flow.kinematic, p_.flow, w, xi, J(f_.gamma));
       fading = b.value;
       fading_gamma = T(0.0) - b.fall.v * fading.v * fading.v;
       recall_ = b.recall;
-      recall_gamma_ = select(flows, T((b.fall.v - b.recall.v) / select(flows, gamma_, one)), zero);
+      recall_gamma_ = select(flows, T((b.fall.v - b.recall.v) / select(flows, f_.gamma, one)), zero);
     }
     const HardeningStress<J> k = hardening_stress<J>(flow.isotropic, flow.curves, p_.flow, xi);
-    stress_ = k.stress.v;
-    stress_theta_ = k.stress.d - k.slope.v * xi.d;
+    f_.stress = k.stress.v;
+    f_.stress_theta = k.stress.d - k.slope.v * xi.d;
 
     // Φ at the solution as a function of temperature, n held: Φ_n is zero.
     const J pull = modulus * fading;
-    const J phi = stiff * J(dot(normal_, trial_)) + pull * J(dot(normal_, start_.back_strain)) -
-                  (stiff + w * pull) * J(gamma_) - radius() * (p_.flow.flow_stress + k.stress);
+    const J phi = stiff * J(dot(f_.normal, trial_)) + pull * J(dot(f_.normal, start_.back_strain)) -
+                  (stiff + w * pull) * J(f_.gamma) - radius() * (p_.flow.flow_stress + k.stress);
     rate_derivatives(flow);
-    gamma_theta_ = inverse_ * (phi.d - overstress_theta_);
+    f_.gamma_theta = f_.inverse * (phi.d - f_.overstress_theta);
 
     // β̂ turns with temperature and, where back strain is recalled, with γ
-    per_norm_ = inverse_norm;
-    drift_ = across(T(modulus.v * fading_gamma) * start_.back_strain);
-    const Sym<T> turn = across(stiff.d * trial_ + pull.d * start_.back_strain) + gamma_theta_ * drift_;
+    f_.per_norm = inverse_norm;
+    f_.drift = across(T(modulus.v * fading_gamma) * start_.back_strain);
+    const Sym<T> turn = across(stiff.d * trial_ + pull.d * start_.back_strain) + f_.gamma_theta * f_.drift;
     const Sym<T> normal_theta = inverse_norm * turn;
-    normal_theta_ = normal_theta;
-    elastic_theta_ = T(zero - gamma_theta_) * normal_ - gamma_ * normal_theta;
+    f_.normal_theta = normal_theta;
+    f_.elastic_theta = T(zero - f_.gamma_theta) * f_.normal - f_.gamma * normal_theta;
 
     // ζ = B (ζ* − w γ n)
     const T by_fading = one / fading.v;
-    zeta_gamma_ = T(fading_gamma * by_fading) * zeta_ - T(fading.v * w.v) * normal_;
-    zeta_turn_ = fading.v * w.v * gamma_;
-    zeta_theta_ = T(fading.d * by_fading) * zeta_ - T(fading.v * w.d * gamma_) * normal_ +
-                  gamma_theta_ * zeta_gamma_ - zeta_turn_ * normal_theta;
-    xi_theta_ = xi.d + radius().v * gamma_theta_;
+    f_.zeta_gamma = T(fading_gamma * by_fading) * zeta_ - T(fading.v * w.v) * f_.normal;
+    f_.zeta_turn = fading.v * w.v * f_.gamma;
+    f_.zeta_theta = T(fading.d * by_fading) * zeta_ - T(fading.v * w.d * f_.gamma) * f_.normal +
+                    f_.gamma_theta * f_.zeta_gamma - f_.zeta_turn * normal_theta;
+    f_.xi_theta = xi.d + radius().v * f_.gamma_theta;
   }
 
   /// x_γ and x_Θ of x(γ/(m Δt), Θ), each at fixed other; Perzyna: γ = m Δt/η x (x/D)^(n−1).
@@ -265,41 +265,44 @@ class Variation {
     const T zero(0.0), one(1.0);
     const J& m = shear_.flow_share;
     if (flow.added_rate()) {
-      const auto flows = overstress_ > zero;
+      const auto flows = f_.overstress > zero;
       const J time =
           J(T(dt_)) * J(select(flows, m.v, one), select(flows, m.d, zero), select(flows, m.dd, zero));
       const Overstress<J> x =
-          material::overstress<J>(flow.rate_dependence, p_.flow, J(select(flows, gamma_, one)) / time);
-      overstress_gamma_ = select(flows, T(x.slope.v / time.v), zero);
-      overstress_theta_ = select(flows, x.stress.d, zero);
+          material::overstress<J>(flow.rate_dependence, p_.flow, J(select(flows, f_.gamma, one)) / time);
+      f_.overstress_gamma = select(flows, T(x.slope.v / time.v), zero);
+      f_.overstress_theta = select(flows, x.stress.d, zero);
       return;
     }
     const J &eta = p_.flow.rate[Perzyna::viscosity], &n = p_.flow.rate[Perzyna::exponent],
             &d = p_.flow.rate[Perzyna::drag_stress];
     const auto liquid = !(m.v > zero);
-    const auto viscous = overstress_ > zero;
-    const T x = overstress_, m_safe = select(liquid, one, m.v);
+    const auto viscous = f_.overstress > zero;
+    const T x = f_.overstress, m_safe = select(liquid, one, m.v);
     const T per_n = one / n.v;
-    overstress_gamma_ = select(viscous, T(x * per_n / select(viscous, gamma_, one)), zero);
+    f_.overstress_gamma = select(viscous, T(x * per_n / select(viscous, f_.gamma, one)), zero);
     if (flow.linear_rate()) {
-      overstress_theta_ = select(liquid, zero, T((eta.d * gamma_ / T(dt_) - x * m.d) / m_safe));
+      f_.overstress_theta = select(liquid, zero, T((eta.d * f_.gamma / T(dt_) - x * m.d) / m_safe));
       return;
     }
     using std::log;
     const T eta_safe = select(viscous, eta.v, one);
     const T size = log(T(select(viscous, x, d.v) / d.v));
-    overstress_theta_ =
+    f_.overstress_theta =
         x * (d.d / d.v * (one - per_n) + per_n * (eta.d / eta_safe - m.d / m_safe - n.d * size));
   }
 
   /// The covector of a function of a, ζ and γ from its partial derivatives.
   Sym<T> along_strain(const Sym<T>& by_elastic, const Sym<T>& by_zeta, const T& by_gamma) const {
-    const Sym<T> by_normal = across(gamma_ * by_elastic + zeta_turn_ * by_zeta);
-    const T through_gamma =
-        by_gamma - dot(by_elastic, normal_) + dot(by_zeta, zeta_gamma_) - per_norm_ * dot(by_normal, drift_);
+    const Sym<T> by_normal = across(f_.gamma * by_elastic + f_.zeta_turn * by_zeta);
+    const T through_gamma = by_gamma - dot(by_elastic, f_.normal) + dot(by_zeta, f_.zeta_gamma) -
+                            f_.per_norm * dot(by_normal, f_.drift);
     const T stiff = shear_.twice_shear.v;
-    return by_elastic - T(stiff * per_norm_) * by_normal + T(through_gamma * inverse_ * stiff) * normal_;
+    return by_elastic - T(stiff * f_.per_norm) * by_normal +
+           T(through_gamma * f_.inverse * stiff) * f_.normal;
   }
+
+  static Sym<T> zeros() { return {{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)}}; }
 
   const Viscoplastic& law_;
   const Viscoplastic::Properties<J>& p_;
@@ -313,16 +316,17 @@ class Variation {
   T xi_;
   J recall_{T(0.0)};     ///< b at fixed γ, of a law that recalls
   T recall_gamma_{0.0};  ///< b_γ
-  // Zero without flow:
-  T gamma_{0.0}, inverse_{0.0}, per_norm_{0.0}, overstress_{0.0};
-  T overstress_gamma_{0.0}, overstress_theta_{0.0};  ///< x_γ, x_Θ
-  T stress_{0.0}, stress_theta_{0.0};                ///< K_ξ, K_ξΘ
-  T gamma_theta_{0.0}, xi_theta_{0.0};
-  T zeta_turn_{0.0};  ///< ζ turns with n by −zeta_turn_ dn
-  Sym<T> normal_ = zeros(), drift_ = zeros(), elastic_theta_ = zeros(), zeta_theta_ = zeros(),
-         zeta_gamma_ = zeros(), normal_theta_ = zeros();
-
-  static Sym<T> zeros() { return {{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)}}; }
+  /// What follows from plastic flow; zero without it.
+  struct OfFlow {
+    T gamma{0.0}, inverse{0.0}, per_norm{0.0}, overstress{0.0};
+    T overstress_gamma{0.0}, overstress_theta{0.0};  ///< x_γ, x_Θ
+    T stress{0.0}, stress_theta{0.0};                ///< K_ξ, K_ξΘ
+    T gamma_theta{0.0}, xi_theta{0.0};
+    T zeta_turn{0.0};  ///< ζ turns with n by −zeta_turn dn
+    Sym<T> normal = zeros(), drift = zeros(), elastic_theta = zeros(), zeta_theta = zeros(),
+           zeta_gamma = zeros(), normal_theta = zeros();
+  };
+  OfFlow f_;
 };
 
 template <class T>

@@ -60,7 +60,7 @@ class MeshingInTurn {
         enough_(enough),
         kept_(kept),
         solids_(file_format(source.path).holds == FileHolds::shapes) {
-    if (kept != nullptr) direct_time_ = kept->time_of_direct_ways();
+    if (kept != nullptr) direct_time_ = kept->search().time_of_direct_ways;
     for (std::size_t way = 0; solids_ && way < solid_ways().size(); ++way)
       order_.push_back(static_cast<int>(way));
     if (!solids_) order_.assign(faceted_order().begin(), faceted_order().end());
@@ -75,7 +75,7 @@ class MeshingInTurn {
   RawMesh mesh(const RawMesh* same) {
     double sufficient = enough_;
     std::optional<int> first = geometry_.only_way;
-    if (const std::optional<KeptMesh::Way> before = kept_ != nullptr ? kept_->way() : std::nullopt;
+    if (const std::optional<KeptMesh::Way> before = kept_ != nullptr ? kept_->search().way : std::nullopt;
         before && !first) {
       // Where no way was good enough none will be now: then about as good as the best is all that one can
       // have.
@@ -85,8 +85,8 @@ class MeshingInTurn {
     }
     if (same != nullptr) {
       best_ = *same;
-      quality_ = kept_->way()->quality;
-      way_ = kept_->way()->number;
+      quality_ = kept_->search().way->quality;
+      way_ = kept_->search().way->number;
       tried_ = 1;
     } else if (first) {
       attempt(*first);
@@ -145,7 +145,7 @@ class MeshingInTurn {
     }
     // What was spent counts also where the way has failed.
     if (is_direct(way) && time.processor > 0) direct_time_ = std::max(0.0, direct_time_ - spent);
-    if (kept_ != nullptr) kept_->leave_to_direct_ways(direct_time_);
+    if (kept_ != nullptr) kept_->search().time_of_direct_ways = direct_time_;
   }
 
   /// Keeps a mesh where it is better than the best before.
@@ -173,7 +173,7 @@ class MeshingInTurn {
     // The way that was best is remembered, so that the same geometry is not tried in all ways
     // again.
     const std::string worst = best_ && quality_ < k_sound_quality ? worst_tetrahedron_text(*best_) : "";
-    if (best_ && kept_ != nullptr) kept_->keep_way({way_, quality_, quality_ < enough_, worst});
+    if (best_ && kept_ != nullptr) kept_->search().way = {way_, quality_, quality_ < enough_, worst};
     // Without a mesh all complaints are told; a mesh of poor quality gets a warning with its worst element.
     if (!best_) {
       std::string all;
@@ -243,10 +243,11 @@ RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double 
   check_readable(source.path);
   KeptMesh* kept = KeptMesh::living();
   if (kept == nullptr) return MeshingInTurn(source, std::move(geometry), enough, nullptr).mesh(nullptr);
-  enough = std::min(enough, kept->most_wanted());
+  enough = std::min(enough, kept->search().most_wanted);
   std::string request = meshing_request(source, geometry);
   const RawMesh* same = kept->find(request);
-  if (same != nullptr && (kept->way()->best_of_all || kept->way()->quality >= enough)) return *same;
+  if (same != nullptr && (kept->search().way->best_of_all || kept->search().way->quality >= enough))
+    return *same;
   RawMesh mesh = MeshingInTurn(source, std::move(geometry), enough, kept).mesh(same);
   kept->keep(std::move(request), mesh);
   return mesh;

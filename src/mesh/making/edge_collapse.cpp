@@ -61,7 +61,7 @@ bool keeps_topology(const Tetrahedra& mesh, Index from, Index to, const std::vec
     ring.insert({p, q});
     ring_edges.insert(edge_of(p, q));
   }
-  if (common(mesh.neighbours(from), mesh.neighbours(to)) != ring) return false;
+  if (common(neighbours(mesh, from), neighbours(mesh, to)) != ring) return false;
   if (common(link_edges(mesh, from, to), link_edges(mesh, to, from)) != ring_edges) return false;
   if (faces.empty()) return true;
   // On the surface the other end must be a neighbour there too, and the less important node goes.
@@ -108,7 +108,7 @@ Change with_node_on(const Tetrahedra& mesh, Index from, Index to) {
   // The change takes the edge away by moving `from` onto `to`. It is empty where the node is held, or where
   // nothing would be won.
   if (mesh.is_locked(from)) return {};
-  const std::vector<std::size_t> between = mesh.around_edge(from, to);
+  const std::vector<std::size_t> between = around_edge(mesh, from, to);
   if (between.empty()) return {};
   Change change;
   change.quality = 1;
@@ -119,7 +119,7 @@ Change with_node_on(const Tetrahedra& mesh, Index from, Index to) {
     return std::sqrt(dot(d, d));
   };
   double longest_before = 0, longest_after = 0, sum = 0;
-  for (const Index other : mesh.neighbours(from)) {
+  for (const Index other : neighbours(mesh, from)) {
     longest_before = std::max(longest_before, length(from, other));
     if (other != to) longest_after = std::max(longest_after, length(to, other));
     sum += length(from, other);
@@ -142,7 +142,7 @@ Change with_node_on(const Tetrahedra& mesh, Index from, Index to) {
   const SurfaceNode here(mesh, from);
   if (!keeps_topology(mesh, from, to, between, here)) return {};
   constexpr double k_short = 0.25;  // of the mean of the edges around
-  const bool is_short = length(from, to) < k_short * sum / static_cast<double>(mesh.neighbours(from).size());
+  const bool is_short = length(from, to) < k_short * sum / static_cast<double>(neighbours(mesh, from).size());
   if (!is_short && !keeps_shape(mesh, from, to, here.faces())) return {};
   return change;
 }

@@ -139,7 +139,7 @@ bool may_turn(const Tetrahedra& mesh, Index a, Index b, Index c, Index d) {
 
 Change without_edge(const Tetrahedra& mesh, Index a, Index b) {
   Change change;
-  change.old = mesh.around_edge(a, b);
+  change.old = around_edge(mesh, a, b);
   constexpr std::size_t k_most = 12;
   // Large rings have too many triangulations to be worth it; locked ends stay.
   if (change.old.empty() || change.old.size() > k_most || (mesh.is_locked(a) && mesh.is_locked(b))) return {};
@@ -150,7 +150,7 @@ Change without_edge(const Tetrahedra& mesh, Index a, Index b) {
   if (of_surface) {
     const Index c = parts.front().nodes.front(), d = parts.front().nodes.back();
     if (mesh.is_locked(c) || mesh.is_locked(d) || !may_turn(mesh, a, b, c, d)) return {};
-    for (const std::size_t t : mesh.around_edge(c, d))  // the new edge may be there only in what goes
+    for (const std::size_t t : around_edge(mesh, c, d))  // the new edge may be there only in what goes
       if (std::find(change.old.begin(), change.old.end(), t) == change.old.end() &&
           (parts.front().nodes.size() > 2 && parts.back().nodes.size() > 2))
         return {};

@@ -25,11 +25,6 @@ class KeptMesh {
   /// The object that lives; null where there is none.
   static KeptMesh* living();
 
-  /// Quality of elements that is enough from now on, where a case asks for a better one: while its sizes
-  /// are still sought, no way of meshing is tried for the quality alone.
-  void be_content_with(double quality) { most_wanted_ = quality; }
-  double most_wanted() const { return most_wanted_; }
-
   /// One of the ways to mesh, the least quality of elements that it gave, whether all ways have been tried
   /// for a better one, and where the worst element is (mesh/making/worst_tetrahedron.hpp; empty where it is
   /// sound).
@@ -39,18 +34,22 @@ class KeptMesh {
     bool best_of_all = false;
     std::string worst;
   };
-  /// The way of the last mesh, which had nearly the same sizes; none before the first.
-  std::optional<Way> way() const { return way_; }
-  void keep_way(Way way) { way_ = way; }
-
-  /// Processor time that is left for Gmsh to make new skins of facets [s] (k_time_of_direct_ways).
-  double time_of_direct_ways() const { return direct_time_; }
-  void leave_to_direct_ways(double time) { direct_time_ = time; }
+  /// How far the ways to mesh are tried.
+  struct Search {
+    /// Quality of elements that is enough, where a case asks for a better one: while its sizes are still
+    /// sought, no way of meshing is tried for the quality alone.
+    double most_wanted = 1;
+    /// Processor time that is left for Gmsh to make new skins of facets [s].
+    double time_of_direct_ways = k_time_of_direct_ways;
+    /// The way of the last mesh, which had nearly the same sizes; none before the first.
+    std::optional<Way> way;
+  };
+  Search& search() { return search_; }
 
   /// The notes on the last mesh (RawMesh::notes).
   const std::vector<std::string>& notes() const { return mesh_.notes; }
 
-  /// The mesh that way() gave for this request; null where it was another request.
+  /// The mesh that Search::way gave for this request; null where it was another request.
   const RawMesh* find(const std::string& request) const {
     return !request_.empty() && request == request_ ? &mesh_ : nullptr;
   }
@@ -60,8 +59,7 @@ class KeptMesh {
   }
 
  private:
-  double most_wanted_ = 1, direct_time_ = k_time_of_direct_ways;
-  std::optional<Way> way_;
+  Search search_;
   std::string request_;
   RawMesh mesh_;
 };

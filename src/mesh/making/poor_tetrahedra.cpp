@@ -32,7 +32,7 @@ class Repair {
   double least() const {
     double worst = 1;
     for (std::size_t t = 0; t < tets_.count(); ++t)
-      if (tets_.is_alive(t)) worst = std::min(worst, tets_.quality(t));
+      if (tets_.is_alive(t)) worst = std::min(worst, mesh::quality(tets_, t));
     return worst;
   }
 
@@ -41,11 +41,11 @@ class Repair {
     std::vector<std::pair<double, std::size_t>> poor;
     for (std::size_t t = 0; t < tets_.count(); ++t)
       if (tets_.is_alive(t))
-        if (const double quality = tets_.quality(t); quality < below_) poor.emplace_back(quality, t);
+        if (const double quality = mesh::quality(tets_, t); quality < below_) poor.emplace_back(quality, t);
     std::sort(poor.begin(), poor.end());
     bool changed = false;
     for (const auto& [quality, t] : poor)
-      if (tets_.is_alive(t) && tets_.quality(t) < below_) changed = improve(t) || changed;
+      if (tets_.is_alive(t) && mesh::quality(tets_, t) < below_) changed = improve(t) || changed;
     return changed;
   }
 
@@ -54,7 +54,7 @@ class Repair {
     // enough.
     const std::array<Index, 4> nodes = tets_[t].nodes;
     for (const Index node : nodes) move(node);
-    if (tets_.quality(t) >= below_) return true;
+    if (mesh::quality(tets_, t) >= below_) return true;
     constexpr double k_gain = 1.02;
     Change best;
     double gain = k_gain;
@@ -62,7 +62,7 @@ class Repair {
     const auto consider = [&](Change change) {
       if (!(change.quality > 0)) return;
       double before = 1;
-      for (const std::size_t old : change.old) before = std::min(before, tets_.quality(old));
+      for (const std::size_t old : change.old) before = std::min(before, mesh::quality(tets_, old));
       const double ratio = std::min(change.quality, below_) / before;
       if (ratio > gain) {
         gain = ratio;
@@ -90,12 +90,12 @@ class Repair {
       size += std::cbrt(volume_6(tets_.x(n[0]), tets_.x(n[1]), tets_.x(n[2]), tets_.x(n[3]))) /
               static_cast<double>(tets_.around(node).size());
     }
-    double worst = tets_.quality_around(node);
+    double worst = quality_around(tets_, node);
     for (double step = 0.3 * size; step > 0.01 * size; step /= 2)
       for (std::size_t k = 0; k < ways.places(step).size(); ++k) {
         const Point before = tets_.x(node);
         tets_.move(node, ways.places(step)[k]);
-        const double quality = tets_.quality_around(node);
+        const double quality = quality_around(tets_, node);
         if (quality > worst * (1 + 1e-9) && ways.keeps_surface())
           worst = quality;
         else

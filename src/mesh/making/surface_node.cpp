@@ -44,7 +44,7 @@ Point normal_of(const Tetrahedra& mesh, const SurfaceFace& face) {
 }
 
 SurfaceNode::SurfaceNode(const Tetrahedra& mesh, Index node)
-    : mesh_(mesh), node_(node), faces_(mesh.surface(node)) {
+    : mesh_(mesh), node_(node), faces_(surface_at(mesh, node)) {
   std::map<Index, std::vector<std::size_t>> at;
   // The mean normal by area, and which other nodes lie on the surface; edges where it bends or bodies change
   // are curves.

@@ -43,7 +43,7 @@ double angle_at(const Tetrahedra& mesh, std::size_t t, Index a, Index b) {
 double angle_of_body(const Tetrahedra& mesh, std::size_t t, Index a, Index b) {
   double sum = 0;
   for (const bool forward : {true, false}) {
-    const std::vector<std::size_t> around = mesh.around_edge(a, b);
+    const std::vector<std::size_t> around = around_edge(mesh, a, b);
     std::size_t here = t;
     for (std::size_t step = 0; step < around.size(); ++step) {
       if (here != t || forward) sum += angle_at(mesh, here, a, b);
@@ -69,7 +69,7 @@ std::string worst_tetrahedron_text(RawMesh mesh) {
   if (tets.count() == 0) return "";
   std::size_t worst = 0;
   for (std::size_t t = 0; t < tets.count(); ++t)
-    if (tets.quality(t) < tets.quality(worst)) worst = t;
+    if (quality(tets, t) < quality(tets, worst)) worst = t;
   const auto& nodes = tets[worst].nodes;
   Point centre{};
   for (const Index node : nodes)
@@ -83,7 +83,7 @@ std::string worst_tetrahedron_text(RawMesh mesh) {
       sharpest = std::min(sharpest, angle_of_body(tets, worst, nodes[i], nodes[j]));
       shortest = std::min(shortest, length(minus(tets.x(nodes[i]), tets.x(nodes[j]))));
     }
-    for (const Index other : tets.neighbours(nodes[i]))
+    for (const Index other : neighbours(tets, nodes[i]))
       sum += length(minus(tets.x(nodes[i]), tets.x(other))), ++n;
   }
   std::string text = fmt::format("in '{}' around ({:.4g}, {:.4g}, {:.4g}) mm", tets.body_name(worst),

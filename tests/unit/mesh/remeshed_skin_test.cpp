@@ -232,10 +232,10 @@ TEST(FacetsOfACasting, AreRemeshedWhereNoTimeIsLeftForGmsh) {
   geometry.sizes = {{"needles", 8e-3, 5e-3}, {"mould", 20e-3, 20e-3, 0}};
   geometry.mould = MouldBlock{"mould", "core", {0.03, 0.03, 0.03, 0.03, 0.03, 0.03}};
   KeptMesh kept;
-  kept.leave_to_direct_ways(0);
+  kept.search().time_of_direct_ways = 0;
   const RawMesh mesh = mesh_casting({file.string(), 1e-3}, geometry);
-  EXPECT_EQ(kept.way()->number, 5);
-  EXPECT_GE(kept.way()->quality, k_sound_quality);
+  EXPECT_EQ(kept.search().way->number, 5);
+  EXPECT_GE(kept.search().way->quality, k_sound_quality);
   EXPECT_THAT(mesh.notes, ElementsAre(HasSubstr("stands for the facets: it encloses 7")));
   EXPECT_EQ(kept.notes(), mesh.notes);
 }
