@@ -223,11 +223,11 @@ TEST(NewCase, MeshesNearlyTheSameInTheWayThatWasBestBefore) {
   EXPECT_GT(kept.search().way->quality, 0.15);
   mesh::CastingGeometry finer;
   finer.sizes = {{"body_1", 8e-3, 4e-3}};
-  kept.search().way = KeptMesh::Way{2, 0.3, false, {}};
+  kept.search().way = mesh::KeptMesh::Way{2, 0.3, false, {}};
   mesh::mesh_casting(source, finer, 0.14);
   EXPECT_EQ(kept.search().way->number, 2);
   // A quality that no way gave before is not looked for in all of them again.
-  kept.search().way = KeptMesh::Way{1, 0.1, true, {}};
+  kept.search().way = mesh::KeptMesh::Way{1, 0.1, true, {}};
   mesh::mesh_casting(source, {}, 1);
   EXPECT_EQ(kept.search().way->number, 1);
 }
