@@ -19,10 +19,10 @@ import numpy as np
 from solidus_plots import filling_dictionaries as dictionaries, filling_results
 from solidus_plots.filling_cavity import cavity_of, edge_for
 from solidus_plots.filling_flow import FlowError, FoamRun, version
-from solidus_plots.filling_gates import FEW, GOOD_SPEED, gate_of, vents_of, walls_of
+from solidus_plots.filling_gates import FEW, GOOD_SPEED, by_body, gate_of, vents_of, walls_of
 from solidus_plots.filling_history import History
 from solidus_plots.filling_mesh import write_mesh
-from solidus_plots.filling_walls import walls_for
+from solidus_plots.filling_walls import walls_for, wetted
 from solidus_plots.many_runs import INTERRUPTED
 from solidus_plots.verb import sentence
 from solidus_plots.vtu import ResultError, read_fields
@@ -32,7 +32,7 @@ PR_SET_PDEATHSIG = 1  # of Linux, <sys/prctl.h>
 CANNOT_CONTINUE = 22  # the program's 2
 FRAMES = 100  # moments that are looked at while the mould fills
 STRETCH = 2  # of them between two changes of what walls take
-FULL = 0.99  # of the cavity at which filling ends
+FULL = 0.985  # of the cavity at which filling ends
 LATEST = 1.0  # times of the time of filling after which it ends anyway: what comes then leaves by the vents
 CRAWLS = 15  # times as many steps as stretches took before, after which one is given up: air leaves by the last vents at a speed for which no step is short enough
 FEWEST_STEPS = 1500  # of such a stretch
@@ -62,7 +62,8 @@ class Mould:
         self.gate = gate_of(self.cavity, self.filling, gating, self.up, self.flow)
         self.speed = self.flow / (len(self.gate.faces) * self.cavity.cubes.edge ** 2)
         self.vents, self.vents_chosen = vents_of(self.cavity, self.filling, self.up, self.gate)
-        self.walls = walls_for(self.cavity, walls_of(self.cavity, self.gate, self.vents), self.file)
+        self.walls = (walls_for(self.cavity, walls_of(self.cavity, self.gate, self.vents), self.file)
+                      + walls_for(self.cavity, by_body(self.cavity, self.vents), self.file, "vent"))
         self.air = min((wall.mould for wall in self.walls if not wall.insulating()), default=293.15)
 
     def _set_rate(self):
@@ -97,7 +98,7 @@ class Mould:
         lines = [f"{len(cubes.cells)} cubes of {edge:.3g} mm, {1e3 * self.wall / edge:.1f} across the mean wall of "
                  f"{1e3 * self.wall:.3g} mm; their edge was changed by {100 * (self.cavity.scale - 1):+.1f} % for the volume of the drawing",
                  f"gate {self.gate.chosen}: {len(self.gate.faces)} faces of cubes, {1e3 * self.gate.width:.3g} mm wide, at "
-                 f"{self.speed:.2f} m/s; {len(self.vents)} vent{'s' * (len(self.vents) > 1)} {self.vents_chosen}",
+                 f"{self.speed:.2f} m/s; air leaves through {self.vents_chosen}: {len(self.vents)} faces",
                  f"{1e6 * cubes.volume():.4g} cm3, {self.material['density'] * cubes.volume():.4g} kg of "
                  f"{self.pouring - 273.15:.0f} degC in {self.time:.3g} s"]
         if self.wall < 3 * self.cavity.cubes.edge:
@@ -126,11 +127,9 @@ def write_case(folder, mould, melt, flow, processes):
     shutil.rmtree(folder, ignore_errors=True)
     cavity = mould.cavity
     patches = [("gate", "patch", mould.gate.faces)]
-    patches += [(f"vent_{i}", "patch", faces) for i, faces in enumerate(mould.vents)]
-    patches += [(wall.name, "wall", wall.faces) for wall in mould.walls]
+    patches += [(wall.name, wall.kind(), wall.faces) for wall in mould.walls]
     write_mesh(folder, cavity.cubes, [(name, kind, cavity.faces[faces], cavity.directions[faces]) for name, kind, faces in patches])
-    dictionaries.write_fields(folder, flow, {wall.name: dictionaries.wall_entry(wall.begin(mould.time / FRAMES), wall.mould, flow.air)
-                                             for wall in mould.walls})
+    dictionaries.write_fields(folder, flow, {wall.name: dictionaries.wall_entry(0.0, wall.mould, flow.air) for wall in mould.walls}, cavity.cubes.edge)
     dictionaries.write_materials(folder, melt, flow)
     dictionaries.write_numerics(folder, processes)
     dictionaries.write_control(folder, flow, mould.time / FRAMES, mould.time / FRAMES)
@@ -194,13 +193,12 @@ def fill(mould, run, flow, history, watch):
             return "late"
         until = stretch_end(at)
         duration = (until - at) * frame
+        wet = wetted(mould.cavity.cubes, history.metal)
         for wall in mould.walls:
-            conductance = wall.begin(duration)
+            conductance = wall.begin(duration, wet)
             if at > 0:
                 run.change_patch(history.name, "T", wall.name, lambda faces, w=wall, h=conductance: dictionaries.wall_entry(
                     h[faces], w.mould, flow.air))
-        if at > 0:
-            history.set_vents(run)
         dictionaries.write_control(run.folder, flow, until * frame, frame)
         watch.next_stretch()
         try:

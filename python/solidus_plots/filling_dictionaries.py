@@ -14,8 +14,11 @@ MOLAR_WEIGHT = 50  # of no consequence for what does not react
 AIR_PRESSURE = 1e5  # [Pa] at vents
 DRAG = 1e6  # C of Voller and Prakash's drag [kg/(m3 s)]: metal that is half frozen comes to rest within a millisecond
 COMPRESSION = 1.0  # of interfaces
+TIGHT = 0.97  # share of metal in a cube at which its vent is shut
+LEAK = 1e-5  # part of a vent that stays open for the pressure to have one value
+GAS_GRADIENT = "gasGradient"  # the field from which vents know the metal behind them
 PHASES = ("gas", "melt", "solid")
-DIMENSIONS = {"T": "[0 0 0 1 0 0 0]", "U": "[0 1 -1 0 0 0 0]", "p_rgh": "[1 -1 -2 0 0 0 0]"}
+DIMENSIONS = {"T": "[0 0 0 1 0 0 0]", "U": "[0 1 -1 0 0 0 0]", "p_rgh": "[1 -1 -2 0 0 0 0]", "gasGradient": "[0 -1 0 0 0 0 0]"}
 
 
 @dataclass
@@ -40,7 +43,7 @@ class Flow:
     air: float  # temperature of the air, at the start and through vents [K]
     rate: float  # of the change of phase, coefficient of the Lee model [1/s]
     step: float  # the longest [s]
-    courant: float = 0.7
+    courant: float = 0.35
 
 
 def dictionary(folder, name, text, kind="dictionary"):
@@ -64,17 +67,20 @@ def field(folder, name, internal, patches, kind="volScalarField"):
 
 
 INSULATING = "type zeroGradient;"
-SHUT = {"U": "type noSlip;", "p_rgh": f"type fixedFluxPressure; value uniform {AIR_PRESSURE:g};", "T": INSULATING,
-        "phi": "type calculated; value uniform 0;", **{f"alpha.{phase}": INSULATING for phase in PHASES}}  # of a vent that is wet
 
 
-def open_vent(air):
-    """The entries of a vent through which gas alone leaves, as through sand or a slit, or comes in as air of a temperature [K]: what
-    passes a face is gas, whatever share of the cube behind it is."""
+def vent_entries(edge):
+    """The entries of vents, through which gas alone passes, as through sand or a slit: what passes a face is gas, whatever share of the
+    cube behind it is. A face is open by the part f = (1 - m/TIGHT)^2 of the metal's share m in its cube: velocity and pressure are f times
+    those of an opening and 1 - f times those of a wall, in every step. With gas alone on the face the gradient of its share across it
+    tells m. edge: of the cubes [m]."""
+    metal = f"{0.5 / edge:.9g}*({GAS_GRADIENT} & face())"
+    opening = f"max({LEAK:g}, pow(max(0, 1 - {metal}/{TIGHT:g}), 2))"
     phases = {f"alpha.{phase}": "type fixedValue; value uniform {0};".format(int(phase == "gas")) for phase in PHASES}
-    return {"U": "type pressureInletOutletVelocity; value uniform (0 0 0);",
-            "p_rgh": f"type totalPressure; p0 uniform {AIR_PRESSURE:g}; value uniform {AIR_PRESSURE:g};",
-            "T": f"type inletOutlet; inletValue uniform {air:.9g}; value uniform {air:.9g};", **phases}
+    return {"U": 'type exprMixed; valueExpr "vector(0, 0, 0)"; gradientExpr "vector(0, 0, 0)"; '
+                 f'fractionExpr "1 - {opening}"; value uniform (0 0 0);',
+            "p_rgh": f'type exprMixed; valueExpr "{AIR_PRESSURE:g}"; gradientExpr "0"; fractionExpr "{opening}"; '
+                     f"value uniform {AIR_PRESSURE:g};", **phases}
 
 
 def wall_entry(conductance, mould, value):
@@ -85,10 +91,11 @@ def wall_entry(conductance, mould, value):
             f"h {of_values(conductance)}; Ta constant {mould:.9g}; value uniform {value:.9g};")
 
 
-def write_fields(folder, flow, walls):
-    """The fields at the start: a cavity full of air. walls: {name of a patch of walls: the entry of T}; \"free\" lets metal slip."""
+def write_fields(folder, flow, walls, edge):
+    """The fields at the start: a cavity full of air. walls: {name of a patch of walls or vents: the entry of T}; \"free\" lets metal
+    slip; edge: of the cubes [m]."""
     velocity = "({:.9g} {:.9g} {:.9g})".format(*flow.velocity)
-    sticky, vent = "wall_.*", open_vent(flow.air)
+    sticky, vent = "wall_.*", vent_entries(edge)
     field(folder, "0/U", "uniform (0 0 0)", {
         "gate": f"type fixedValue; value uniform {velocity};",
         "vent_.*": vent["U"], sticky: "type noSlip;", "free": "type slip;"},
@@ -103,8 +110,8 @@ def write_fields(folder, flow, walls):
             "vent_.*": vent[f"alpha.{phase}"],
             "(free|wall_.*)": INSULATING})
     field(folder, "0/T", f"uniform {flow.air:.9g}", {
-        "gate": f"type fixedValue; value uniform {flow.pouring:.9g};",
-        "vent_.*": vent["T"], **walls})
+        "gate": f"type fixedValue; value uniform {flow.pouring:.9g};", **walls})
+    field(folder, f"0/{GAS_GRADIENT}", "uniform (0 0 0)", {".*": "type calculated; value uniform (0 0 0);"}, "volVectorField")
 
 
 def thermophysical(folder, phase, state, transport, density, heat, formation):
@@ -198,6 +205,24 @@ functions
         writeControl writeTime;
         fields ( T {{ mean on; prime2Mean off; base time; }} );
     }}
+    gasGradientAtStart
+    {{
+        type readFields;
+        libs (fieldFunctionObjects);
+        fields ( {GAS_GRADIENT} );
+        readOnStart true;
+        executeControl none;
+        writeControl none;
+    }}
+    gasGradient
+    {{
+        type grad;
+        libs (fieldFunctionObjects);
+        field alpha.gas;
+        result {GAS_GRADIENT};
+        executeControl timeStep;
+        writeControl writeTime;
+    }}
 }}
 """)
 
@@ -211,7 +236,7 @@ divSchemes
 {
     default none;
     div(rhoPhi,U) Gauss upwind;
-    "div\\(phi,alpha.*\\)" Gauss vanLeer;
+    "div\\(phi,alpha.*\\)" Gauss downwind phi;
     "div\\(phir,alpha.*\\)" Gauss linear;
     div(((rho*nuEff)*dev2(T(grad(U))))) Gauss linear;
     "div\\(.*,T\\)" Gauss upwind;

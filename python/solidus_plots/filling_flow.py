@@ -202,6 +202,15 @@ class FoamRun:
                 faces = part.patches.get(patch, np.zeros(0, int))
                 file.write_text(f"{text[:place[0]]}        {entries(faces)}{text[place[1]:]}")
 
+    def change_cells(self, name, field, values):
+        """Replaces the values of a field in all cells [cell]."""
+        for part in self.parts:
+            file = part.folder / name / field
+            text = file.read_text()
+            begin, end = text.index("internalField"), text.index("boundaryField")
+            numbers = "\n".join(f"{value:.10g}" for value in values[part.cells])
+            file.write_text(f"{text[:begin]}internalField nonuniform List<scalar>\n{len(part.cells)}\n(\n{numbers}\n);\n\n{text[end:]}")
+
     def forget(self, name):
         """Removes the fields of a time."""
         for part in self.parts:

@@ -4,12 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solidus_plots.filling_cavity import NO_BODY
 from solidus_plots.vtu import ResultError
 
 GOOD_SPEED = 0.5  # in the gate [m/s]: above it the front of aluminium folds its oxide in (J. Campbell, Castings, 2nd ed. 2003)
 FEW = 4  # cubes across a gate, below which its jet is coarse
-MOST_VENTS = 40  # that are opened and shut each by itself
 
 
 @dataclass
@@ -115,80 +113,36 @@ def gate_of(cavity, filling, gating, up, flow):
     return Gate(faces, direction, chosen, cavity.cubes.edge * len(faces) ** 0.5)
 
 
-def tops(cavity, up):
-    """Faces over the highest places of the cavity, where rising metal would shut air in: [(faces)] for each place.
-
-    Cubes are taken from the top down. One that has no cube of the sets found so far as a neighbour begins a set of its own:
-    its layer is a highest place.
-    """
-    cubes = cavity.cubes
-    axis = int(np.abs(up).argmax())
-    height = cubes.cells[:, axis] * int(np.sign(up[axis]))
-    sides = [d for d in np.vstack([np.eye(3, dtype=int), -np.eye(3, dtype=int)]) if abs(d[axis]) == 0]
-    above = np.zeros(3, dtype=int)
-    above[axis] = int(np.sign(up[axis]))
-    over = cubes.number(cubes.cells + above)
-    beside = np.stack([cubes.number(cubes.cells + d) for d in sides], axis=1)
-    # Within a layer cubes that hang together are one pocket; it is a highest place where none of them has a cube above.
-    label = np.arange(len(cubes.cells))
-    while True:
-        others = np.where(beside >= 0, label[beside], label[:, None]).min(axis=1)
-        new = np.minimum(label, others)
-        new = new[new]
-        if (new == label).all():
-            break
-        label = new
-    covered = np.zeros(len(label), bool)
-    np.logical_or.at(covered, label[over >= 0], True)
-    up_faces = np.flatnonzero((cavity.directions @ up) > 0.5)
-    places = {}
-    for face in up_faces:
-        pocket = label[cavity.faces[face]]
-        if not covered[pocket]:
-            places.setdefault(int(pocket), []).append(int(face))
-    return [np.array(faces) for _, faces in sorted(places.items(), key=lambda item: -height[item[0]])]
-
-
-def openings(cavity, faces, size):
-    """Parts of the faces over a highest place that let air out, each a vent of its own that shuts when metal comes to it: all that
-    touch no mould; of others every second block of `size` cubes, so that the rest gives off heat."""
-    free = cavity.touches[faces] == NO_BODY
-    cells = cavity.cubes.cells[cavity.faces[faces]] // size
-    even = cells.sum(axis=1) % 2 == cells.sum(axis=1).min() % 2
-    chosen = free if free.any() else even
-    _, block = np.unique(cells[chosen], axis=0, return_inverse=True)
-    return [faces[chosen][block.ravel() == b] for b in range(block.max() + 1)]
+def ceilings(cavity, up):
+    """Faces under which rising metal would shut air in: all that look up."""
+    return np.flatnonzero(cavity.directions @ up > 0.5)
 
 
 def vents_of(cavity, filling, up, gate):
-    """Faces of each vent, none of them of the gate; and how they came about."""
+    """The faces of all vents, none of them of the gate; and how they came about, in words."""
     if filling.get("vents"):
-        found, words = [np.flatnonzero(near(cavity, group)) for group in filling["vents"]], "as given"
-        if not all(len(faces) for faces in found):
+        marked = [near(cavity, group) for group in filling["vents"]]
+        if not all(group.any() for group in marked):
             raise ResultError("the faces of a vent do not lie on the skin of what is cast: vents in [filling]")
+        found, words = np.flatnonzero(np.any(marked, axis=0)), "the vents that are given"
     else:
-        places, words, size = tops(cavity, up), "over the highest places, chosen by the program", 2
-        while True:
-            found = [part for faces in places for part in openings(cavity, faces, size)]
-            if len(found) <= max(MOST_VENTS, len(places)):
-                break
-            size *= 2
-    found = [np.setdiff1d(faces, gate.faces) for faces in found]
-    found = [faces for faces in found if len(faces)]
-    if not found:
+        found, words = ceilings(cavity, up), "all ceilings, chosen by the program"
+    found = np.setdiff1d(found, gate.faces)
+    if not len(found):
         # A gate that is all of the top leaves the way out to the faces around it.
         heights = cavity.face_centres() @ up
-        ring = np.setdiff1d(np.flatnonzero(heights > heights.max() - 1.1 * cavity.cubes.edge), gate.faces)
-        if not len(ring):
+        found = np.setdiff1d(np.flatnonzero(heights > heights.max() - 1.1 * cavity.cubes.edge), gate.faces)
+        if not len(found):
             raise ResultError("the air finds no way out of the cavity: the gate is all of its top; a smaller gate_width, or vents")
-        found, words = [ring], "around the gate"
+        words = "the faces around the gate"
     return found, words
 
 
+def by_body(cavity, faces):
+    """Faces by the body that they touch: {body: faces}; NO_BODY: free ones."""
+    return {int(body): faces[cavity.touches[faces] == body] for body in np.unique(cavity.touches[faces])}
+
+
 def walls_of(cavity, gate, vents):
-    """The faces that are left, by the body that they touch: {body: faces}; NO_BODY: free ones."""
-    left = np.ones(len(cavity.faces), bool)
-    for faces in (gate.faces, *vents):
-        left[faces] = False
-    return {int(body): np.flatnonzero(left & (cavity.touches == body)) for body in np.unique(cavity.touches[left])
-            if body >= NO_BODY}
+    """The faces that are left, by the body that they touch."""
+    return by_body(cavity, np.setdiff1d(np.arange(len(cavity.faces)), np.concatenate([gate.faces, vents])))

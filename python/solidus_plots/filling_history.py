@@ -5,11 +5,23 @@ import shutil
 
 import numpy as np
 
-from solidus_plots import filling_dictionaries as dictionaries
-
-WET, DRY = 0.9, 0.7  # shares of metal at which a vent shuts and opens again
-AIR_SPEED = 3.0  # [m/s] of air through vents that hold some of it: more than that would need very short steps
+FRONT_ROUNDS = 50  # of handing volume to cubes that hold air, until each is full at most
 STATE = "state.npz"  # of a filling that has not come to its end
+
+
+def full_volume(metal, wanted):
+    """Shares of metal between 0 and 1 whose sum is the wanted one: what is missing, or too much, goes to the cubes of the front by
+    m (1 - m), which leaves full cubes and air alone. Where no front is left the sum stays what it is."""
+    share = np.clip(metal, 0, 1)
+    for _ in range(FRONT_ROUNDS):
+        missing = wanted - share.sum()
+        weight = share * (1 - share)
+        if abs(missing) < 1e-12 * len(share) or weight.sum() < 1e-9 * len(share):
+            break
+        # At most half of what a cube holds of the other in each round.
+        part = np.clip(missing / weight.sum() * weight, -0.5 * share, 0.5 * (1 - share))
+        share = share + part
+    return share
 
 
 class History:
@@ -17,10 +29,11 @@ class History:
         n = len(mould.cavity.cubes.cells)
         self._folder, self._mould, self._melt, self.made_of = folder, mould, melt, made_of
         self.frame, self.name, self.time, self.full = 0, "0", 0.0, 0.0
+        self.corrected = 0.0  # volume that was handed to other cubes, of the cavity's
         self.fill_time, self.arrival = np.full(n, np.nan), np.full(n, np.nan)
         self.front_velocity = np.full((n, 3), np.nan)
         self.temperature, self.metal, self.solid = np.zeros(n), np.zeros(n), np.zeros(n)
-        self.rows, self.closed, self.levels = [], [], []
+        self.rows, self.levels = [], []
 
     # --- what the flow has computed --------------------------------------------------------------------------
 
@@ -34,6 +47,7 @@ class History:
         for wall in self._mould.walls:
             if not wall.insulating() and len(wall.faces):
                 wall.end(self.time - start, run.read_patch(last, "TMean", wall.name, len(wall.faces)), self.metal[wall.cells])
+        self._correct_volume(run)
         self.frame = until
         self._save()
         for time, name in run.times():
@@ -43,7 +57,8 @@ class History:
     def _see(self, run, time, name):
         """One frame: fronts are where the share of metal passes a half since the frame before."""
         temperature, melt, solid = (run.read(name, field) for field in ("T", "alpha.melt", "alpha.solid"))
-        metal = np.clip(melt + solid, 0, 1)
+        self._raw = melt + solid
+        metal = np.clip(self._raw, 0, 1)
         new = np.flatnonzero(np.isnan(self.fill_time) & (metal >= 0.5))
         if len(new):
             velocity = run.read(name, "U")
@@ -55,6 +70,19 @@ class History:
         self.levels.append(np.round(255 * metal).astype(np.uint8))
         self.rows.append([time, 100 * self.full, self._flowed(time), self.heat_of_walls(),
                           float(temperature[metal > 0.5].min()) if (metal > 0.5).any() else np.nan])
+
+    def _correct_volume(self, run):
+        """The solver scales its three shares to a sum of one in every step, by which metal comes and goes at the front, and a cube from
+        which air leaves faster than it comes ends up with more metal than it can hold. Both are set right after each stretch."""
+        n = len(self.metal)
+        self.metal = full_volume(self._raw, self._flowed(self.time) / self._mould.cavity.cubes.edge ** 3)
+        self.solid = np.clip(self.solid, 0, self.metal)
+        self.corrected += float(np.abs(self.metal - self._raw).sum()) / n
+        for field, values in (("gas", 1 - self.metal), ("melt", self.metal - self.solid), ("solid", self.solid)):
+            run.change_cells(self.name, f"alpha.{field}", values)
+        self.full = float(self.metal.mean())
+        self.levels[-1] = np.round(255 * self.metal).astype(np.uint8)
+        self.rows[-1][1] = 100 * self.full
 
     def _flowed(self, time):
         """The volume that has come through the gate [m3]."""
@@ -68,30 +96,11 @@ class History:
         share = np.divide(self.solid, self.metal, out=np.zeros_like(self.solid), where=self.metal > 1e-6)
         return self._melt.heat * (self._mould.pouring - self.temperature) + self._melt.latent * np.clip(share, 0, 1)
 
-    # --- vents -----------------------------------------------------------------------------------------------
-
-    def set_vents(self, run):
-        """Shuts vents whose cubes are full of metal, and opens them again when it has left; those with most air stay open, as many as
-        the metal that comes needs, so that air leaves no faster than AIR_SPEED through what they hold of it."""
-        cavity = self._mould.cavity
-        metal = np.array([float(self.metal[cavity.faces[faces]].mean()) for faces in self._mould.vents])
-        area = np.array([len(faces) for faces in self._mould.vents]) * cavity.cubes.edge ** 2
-        wet = [i for i, share in enumerate(metal) if share > (DRY if i in self.closed else WET)]
-        order = np.argsort(metal, kind="stable")
-        leaves = np.cumsum((1 - metal[order]) * area[order]) * AIR_SPEED
-        needed = set(order[:1 + int(np.searchsorted(leaves, self._mould.flow))].tolist())
-        shut = [i for i in wet if i not in needed]
-        for i in set(shut) ^ set(self.closed):
-            entries = dictionaries.SHUT if i in shut else dictionaries.open_vent(self._mould.air)
-            for field, entry in entries.items():
-                run.change_patch(self.name, field, f"vent_{i}", lambda faces, text=entry: text)
-        self.closed = shut
-
     # --- stopping and going on -------------------------------------------------------------------------------
 
     def _save(self):
         walls = {f"{wall.name}.{what}": getattr(wall, what) for wall in self._mould.walls for what in ("contact", "heat")}
-        numbers = {"frame": self.frame, "name": self.name, "time": self.time, "full": self.full, "closed": self.closed,
+        numbers = {"frame": self.frame, "name": self.name, "time": self.time, "full": self.full, "corrected": self.corrected,
                    "made_of": self.made_of, "rows": self.rows}
         target = self._folder / STATE
         with target.with_suffix(".part").open("wb") as out:
@@ -109,7 +118,7 @@ class History:
             if numbers["made_of"] != self.made_of:
                 return False
             self.frame, self.name, self.time, self.full = (numbers[key] for key in ("frame", "name", "time", "full"))
-            self.closed, self.rows, self.levels = numbers["closed"], numbers["rows"], list(kept["levels"])
+            self.corrected, self.rows, self.levels = numbers["corrected"], numbers["rows"], list(kept["levels"])
             for what in ("fill_time", "arrival", "front_velocity", "temperature", "metal", "solid"):
                 setattr(self, what, kept[what])
             for wall in self._mould.walls:

@@ -142,7 +142,7 @@ def air_closed_in(mould, history):
         if (new == label).all():
             break
         label = new
-    vented = {int(label[cell]) for faces in mould.vents for cell in mould.cavity.faces[faces]}
+    vented = {int(label[cell]) for cell in mould.cavity.faces[mould.vents]}
     found = []
     for name in np.unique(label[air]):
         if int(name) not in vented:
@@ -161,7 +161,8 @@ def balances(mould, melt, history):
     came, there = mould.flow * history.time, float(history.metal.sum() * edge3)
     lost = float((history.heat_lost() * history.metal).sum() * edge3 * melt.density)
     brought = came * melt.density * (melt.heat * (mould.pouring - melt.freezing) + melt.latent)
-    return {"came": came, "there": there, "lost": lost, "walls": history.heat_of_walls(), "brought": brought}
+    return {"came": came, "there": there, "lost": lost, "walls": history.heat_of_walls(), "brought": brought,
+            "corrected": history.corrected}
 
 
 def answers(mould, melt, history, ended, balance):
@@ -174,7 +175,7 @@ def answers(mould, melt, history, ended, balance):
                      "goes by the last vents, too fast for its steps; freezing starts from the temperatures there")
     elif ended == "full" or history.full >= NEARLY:
         lines.append(f"filled after {history.time:.3g} s: {100 * history.full:.1f} % of the cavity"
-                     + ("" if ended == "full" else ", the rest is air near vents that these cubes do not part from metal"))
+                     + ("" if ended == "full" else ", the rest is air that found no way out"))
     else:
         lines.append(f"NOT filled: {100 * history.full:.1f} % after {history.time:.3g} s, {history.time / mould.time:.2f} times the time of "
                      "filling; air has no way out, or the cubes are too coarse")
@@ -195,7 +196,8 @@ def answers(mould, melt, history, ended, balance):
     lines.append(f"the metal enters at {mould.speed:.2f} m/s"
                  + (f", above {GOOD_SPEED} m/s: folded oxide films in aluminium (Campbell)" if mould.speed > GOOD_SPEED else ""))
     came, there = balance["came"], balance["there"]
-    lines.append(f"through the gate {1e6 * came:.5g} cm3, in the mould {1e6 * there:.5g} cm3: {100 * (there / came - 1):+.2f} %")
+    lines.append(f"through the gate {1e6 * came:.5g} cm3, in the mould {1e6 * there:.5g} cm3: {100 * (there / came - 1):+.2f} %; "
+                 f"{100 * balance['corrected']:.2g} % of the cavity were set right at fronts, where the solver loses or gains metal")
     lines.append(f"heat that the metal has lost {balance['lost']:.5g} J, that walls have taken {balance['walls']:.5g} J: a difference of "
                  f"{100 * (balance['lost'] - balance['walls']) / balance['brought']:+.2f} % of the heat that came above solid metal")
     return lines

@@ -12,6 +12,9 @@ from math import erf, exp, sqrt, pi
 
 import numpy as np
 
+from solidus_plots.filling_mesh import SIDES
+
+DRY = 1e-6  # part of a dry face that gives off heat: the solver divides by the conductance
 PERFECT = 2e4  # conductance of bodies that share their faces [W/(m2 K)]
 
 
@@ -61,13 +64,18 @@ class Wall:
         self.heat = np.zeros(len(faces))  # [J]
         self.present = np.zeros(len(faces))  # conductance of the present stretch [W/(m2 K)] of the faces of cubes
 
+    def kind(self):
+        """Of the patch, in OpenFOAM's words: what passes metal or gas is no wall."""
+        return "patch" if self.name.startswith("vent") else "wall"
+
     def insulating(self):
         return self.conductance == 0
 
-    def begin(self, duration):
-        """Sets the conductance of a stretch of time."""
+    def begin(self, duration, wet):
+        """Sets the conductance of a stretch of time. wet: the part of it and of its face that metal touches, in each cube."""
         if not self.insulating():
-            self.present = self.share * mean_conductance(self.conductance, self.effusivity, self.contact, self.contact + duration)
+            mean = mean_conductance(self.conductance, self.effusivity, self.contact, self.contact + duration)
+            self.present = np.maximum(wet[self.cells], DRY) * self.share * mean
         return self.present
 
     def end(self, duration, temperature, metal):
@@ -76,8 +84,16 @@ class Wall:
         self.contact = np.where(metal >= 0.5, self.contact + duration, self.contact)
 
 
-def walls_for(cavity, faces_of, cavity_file):
-    """The walls of a cavity. faces_of: {body: faces}; cavity_file: what the program wrote of the case."""
+def wetted(cubes, metal):
+    """The part of a stretch of time, and of its faces, for which metal touches a cube, from the shares at its start: the mean of the share
+    there and of the largest beside it, from where the front comes."""
+    beside = np.stack([cubes.number(cubes.cells + np.array(side)) for side in SIDES], axis=1)
+    return 0.5 * (metal + np.where(beside >= 0, metal[beside], 0).max(axis=1))
+
+
+def walls_for(cavity, faces_of, cavity_file, kind="wall"):
+    """The walls of a cavity. faces_of: {body: faces}; cavity_file: what the program wrote of the case; kind: "wall", or "vent" of faces
+    that let gas pass and take heat as others do."""
     bodies, conductances = cavity_file["bodies"], {}
     for entry in cavity_file["interfaces"]:
         for a, b in (entry["bodies"], entry["bodies"][::-1]):
@@ -85,7 +101,7 @@ def walls_for(cavity, faces_of, cavity_file):
     walls = []
     for body, faces in faces_of.items():
         if body < 0:
-            walls.append(Wall("free", body, faces, 0.0, 1.0, 293.15, cavity))
+            walls.append(Wall("free" if kind == "wall" else f"{kind}_free", body, faces, 0.0, 1.0, 293.15, cavity))
             continue
         # The law between this body and the one that is cast and has most of the faces.
         cast, counts = np.unique(cavity.body[cavity.faces[faces]], return_counts=True)
@@ -94,5 +110,5 @@ def walls_for(cavity, faces_of, cavity_file):
         temperature, enthalpy = np.array(material["temperatures"]), np.array(material["enthalpy"])
         capacity = (np.interp(start + 1, temperature, enthalpy) - np.interp(start - 1, temperature, enthalpy)) / 2
         effusivity = (np.interp(start, temperature, material["conductivity"]) * capacity) ** 0.5
-        walls.append(Wall(f"wall_{body}", body, faces, conductance, effusivity, start, cavity))
+        walls.append(Wall(f"{kind}_{body}", body, faces, conductance, effusivity, start, cavity))
     return walls

@@ -71,9 +71,44 @@ std::vector<FilledWall> read_filled_walls(const cases::FillingSpec& filling, std
   return walls;
 }
 
+namespace {
+
+/// Heat of one face goes to the nodes around it.
+/// @param squares of the distances of the nodes [m²]
+/// @param depth   δ² [m²] to start with
+void add_heat_of_wall(double heat, std::span<const double> squares, double depth,
+                      std::span<const double> weights, double limit, std::span<double> enthalpies) {
+  constexpr double k_far = 40;  // exp(-40) of the heat is none
+  constexpr int k_rounds = 60;  // of doubling, after which a body takes what is left as it comes
+  double left = heat;
+  for (int round = 0; round <= k_rounds && std::abs(left) > 1e-13 * std::abs(heat);
+       ++round, depth = depth > 0 ? 2 * depth : 1e-12) {
+    // The weights of the nodes with the volumes that they stand for make the share of the heat of each; a
+    // depth of zero is a node on the face without time to heat up, which takes all.
+    const auto share = [&](std::size_t k) {
+      const double power = depth > 0 ? squares[k] / (4 * depth) : squares[k] > 0 ? 2 * k_far : 0.0;
+      return power < k_far ? std::exp(-power) : 0.0;
+    };
+    double total = 0;
+    for (std::size_t k = 0; k < squares.size(); ++k) total += weights[k] * share(k);
+    total = parallel::global_sum(total);
+    // Each node takes its share, as far as it has room below the limit; ghosts do as their owners.
+    double placed = 0;
+    for (std::size_t k = 0; k < squares.size(); ++k) {
+      double added = left * share(k) / total;
+      if (added > 0 && round < k_rounds) added = std::min(added, std::max(limit - enthalpies[k], 0.0));
+      enthalpies[k] += added;
+      placed += weights[k] * added;
+    }
+    left -= parallel::global_sum(placed);
+  }
+}
+
+}  // namespace
+
 void add_heat_of_walls(std::span<const FilledWall> walls, const mesh::Mesh& mesh,
                        std::span<const Index> nodes, std::span<const double> weights, double diffusivity,
-                       std::span<double> enthalpies) {
+                       double limit, std::span<double> enthalpies) {
   for (const FilledWall& wall : walls) {
     // The squares of the distances of all nodes, and the smallest of them over all processes.
     std::vector<double> squares(nodes.size());
@@ -85,17 +120,7 @@ void add_heat_of_walls(std::span<const FilledWall> walls, const mesh::Mesh& mesh
       if (weights[k] > 0) nearest = std::min(nearest, squares[k]);
     }
     const double depth = std::max(parallel::global_min(nearest), diffusivity * wall.seconds);
-    // The weights of the nodes with the volumes that they stand for make the share of the heat of each; a
-    // depth of zero is a node on the face without time to heat up, which takes all.
-    constexpr double k_far = 40;  // exp(-40) of the heat is none
-    const auto share = [&](std::size_t k) {
-      const double power = depth > 0 ? squares[k] / (4 * depth) : squares[k] > 0 ? 2 * k_far : 0.0;
-      return power < k_far ? std::exp(-power) : 0.0;
-    };
-    double total = 0;
-    for (std::size_t k = 0; k < nodes.size(); ++k) total += weights[k] * share(k);
-    total = parallel::global_sum(total);
-    for (std::size_t k = 0; k < nodes.size(); ++k) enthalpies[k] += wall.heat * share(k) / total;
+    add_heat_of_wall(wall.heat, squares, depth, weights, limit, enthalpies);
   }
 }
 

@@ -32,14 +32,16 @@ std::vector<FilledWall> read_filled_walls(const cases::FillingSpec& filling, std
 
 /// Adds the heat of walls to the enthalpies of the nodes of a body: that of a face goes to the nodes around
 /// it by w exp(-d²/(4 δ²)), w the volume of a node, d its distance and δ² = a t, the depth into which heat of
-/// the diffusivity a goes in the time of contact t, but at least the distance of the nearest node. The sum is
-/// that of the walls. Collective.
+/// the diffusivity a goes in the time of contact t, but at least the distance of the nearest node. What would
+/// make a node hotter than a limit goes deeper: δ² is doubled for the rest until all has found room. The sum
+/// is that of the walls. Collective.
 /// @param nodes       local nodes of the body, ghosts too
 /// @param weights     [m³], zero for ghosts
 /// @param diffusivity of the body [m²/s]
+/// @param limit       enthalpy that nodes get by walls at most [J/m³]: that of the metal's temperature
 /// @param enthalpies  [J/m³], is changed
 void add_heat_of_walls(std::span<const FilledWall> walls, const mesh::Mesh& mesh,
                        std::span<const Index> nodes, std::span<const double> weights, double diffusivity,
-                       std::span<double> enthalpies);
+                       double limit, std::span<double> enthalpies);
 
 }  // namespace solidus::setup

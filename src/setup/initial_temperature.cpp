@@ -86,6 +86,11 @@ void InitialTemperatures::heat_moulds(const cases::CaseSpec& spec,
                                       const mesh::Mesh& mesh) {
   std::vector<FilledWall> all;
   run_collectively([&] { all = read_filled_walls(*spec.filling, spec.bodies.size()); });
+  // No mould gets hotter than the metal that heats it.
+  double hottest = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    if (cases::is_poured(cases::role_of(spec.bodies[b], materials[b])))
+      hottest = std::max(hottest, bodies_[b].range.high);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     std::vector<FilledWall> walls;
     std::ranges::copy_if(all, std::back_inserter(walls),
@@ -102,7 +107,8 @@ void InitialTemperatures::heat_moulds(const cases::CaseSpec& spec,
       const double start = temperature(nodes.front(), static_cast<int>(b));
       diffusivity = materials[b].conductivity.value(start) / curve.capacity(start);
     }
-    add_heat_of_walls(walls, mesh, nodes, weights, parallel::global_max(diffusivity), enthalpies);
+    add_heat_of_walls(walls, mesh, nodes, weights, parallel::global_max(diffusivity), curve.upper(hottest),
+                      enthalpies);
     bodies_[b] = at_nodes(mesh, nodes, enthalpies, curve);
     double heat = 0;
     for (const FilledWall& wall : walls) heat += wall.heat;
