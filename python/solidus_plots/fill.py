@@ -129,7 +129,7 @@ def write_case(folder, mould, melt, flow, processes):
     patches = [("gate", "patch", mould.gate.faces)]
     patches += [(wall.name, wall.kind(), wall.faces) for wall in mould.walls]
     write_mesh(folder, cavity.cubes, [(name, kind, cavity.faces[faces], cavity.directions[faces]) for name, kind, faces in patches])
-    dictionaries.write_fields(folder, flow, {wall.name: dictionaries.wall_entry(0.0, wall.mould, flow.air) for wall in mould.walls}, cavity.cubes.edge)
+    dictionaries.write_fields(folder, flow, {wall.name: dictionaries.wall_entry(0.0, wall.mould, flow.air) for wall in mould.walls})
     dictionaries.write_materials(folder, melt, flow)
     dictionaries.write_numerics(folder, processes)
     dictionaries.write_control(folder, flow, mould.time / FRAMES, mould.time / FRAMES)
@@ -199,6 +199,9 @@ def fill(mould, run, flow, history, watch):
             if at > 0:
                 run.change_patch(history.name, "T", wall.name, lambda faces, w=wall, h=conductance: dictionaries.wall_entry(
                     h[faces], w.mould, flow.air))
+                if wall.passes_gas():
+                    opening = dictionaries.openings(history.metal[wall.cells])
+                    run.change_patch(history.name, "p_rgh", wall.name, lambda faces, f=opening: dictionaries.vent_pressure(f[faces]))
         dictionaries.write_control(run.folder, flow, until * frame, frame)
         watch.next_stretch()
         try:

@@ -5,6 +5,8 @@ import shutil
 
 import numpy as np
 
+from solidus_plots import filling_dictionaries as dictionaries
+
 FRONT_ROUNDS = 50  # of handing volume to cubes that hold air, until each is full at most
 STATE = "state.npz"  # of a filling that has not come to its end
 
@@ -32,7 +34,7 @@ class History:
         self.corrected = 0.0  # volume that was handed to other cubes, of the cavity's
         self.fill_time, self.arrival = np.full(n, np.nan), np.full(n, np.nan)
         self.front_velocity = np.full((n, 3), np.nan)
-        self.temperature, self.metal, self.solid = np.zeros(n), np.zeros(n), np.zeros(n)
+        self.temperature, self.metal, self.solid = np.full(n, mould.air), np.zeros(n), np.zeros(n)
         self.rows, self.levels = [], []
 
     # --- what the flow has computed --------------------------------------------------------------------------
@@ -40,19 +42,26 @@ class History:
     def take(self, run, begin, until):
         """Reads the frames of a stretch, which the walls have seen as one."""
         frames = [(time, name) for time, name in run.times() if time > self.time * (1 + 1e-9) + 1e-15]
-        start = self.time
+        moments = [self._moment()]
         for time, name in frames:
             self._see(run, time, name)
-        last = frames[-1][1]
+            moments.append(self._moment())
         for wall in self._mould.walls:
-            if not wall.insulating() and len(wall.faces):
-                wall.end(self.time - start, run.read_patch(last, "TMean", wall.name, len(wall.faces)), self.metal[wall.cells])
+            if not wall.insulating():
+                wall.end(moments, self.metal)
         self._correct_volume(run)
         self.frame = until
         self._save()
         for time, name in run.times():
             if 0 < time < self.time * (1 - 1e-9):
                 run.forget(name)
+
+    def _moment(self):
+        """The time, and temperature and conductivity in each cube."""
+        melt = self.metal - self.solid
+        conductivity = (self._melt.conductivity * melt + self._melt.solid_conductivity * self.solid
+                        + dictionaries.gas_conductivity() * (1 - self.metal))
+        return self.time, self.temperature, conductivity
 
     def _see(self, run, time, name):
         """One frame: fronts are where the share of metal passes a half since the frame before."""
@@ -65,7 +74,7 @@ class History:
             part = (0.5 - self.metal[new]) / np.maximum(metal[new] - self.metal[new], 1e-9)
             self.fill_time[new] = self.time + np.clip(part, 0, 1) * (time - self.time)
             self.arrival[new], self.front_velocity[new] = temperature[new], velocity[new]
-        self.temperature, self.metal, self.solid = temperature, metal, np.clip(solid, 0, 1)
+        self.temperature, self.metal, self.solid = temperature, metal, np.clip(solid, 0, metal)
         self.time, self.name, self.full = time, name, float(metal.mean())
         self.levels.append(np.round(255 * metal).astype(np.uint8))
         self.rows.append([time, 100 * self.full, self._flowed(time), self.heat_of_walls(),

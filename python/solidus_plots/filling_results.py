@@ -88,9 +88,12 @@ def write_start(folder, mould, temperature, solid):
         foam_field(target / "start" / "solid_fraction", solid[order], "[0 0 0 0 0 0 0]")
 
 
-def write_mould_heat(folder, mould):
-    """The heat of faces, joined where there are many: places and times of contact are then means by the heat."""
+def write_mould_heat(folder, mould, lost):
+    """The heat of faces, joined where there are many: places and times of contact are then means by the heat. All of it together is what
+    the metal has lost [J]."""
     rows, centres = [], mould.cavity.face_centres()
+    whole = sum(wall.heat.sum() for wall in mould.walls)
+    factor = lost / whole if whole != 0 else 1.0
     for wall in mould.walls:
         if wall.insulating() or not len(wall.faces):
             continue
@@ -104,7 +107,7 @@ def write_mould_heat(folder, mould):
         total = np.bincount(group, weight)
         place = [np.bincount(group, weight * centres[wall.faces[took]][:, d]) / total for d in range(3)]
         contact = np.bincount(group, weight * wall.contact[took]) / total
-        heat = np.bincount(group, wall.heat[took])
+        heat = np.bincount(group, factor * wall.heat[took])
         rows += [[wall.body, *(f"{p[i]:.9g}" for p in place), f"{heat[i]:.17g}", f"{contact[i]:.9g}"] for i in range(len(heat))]
     write_csv(folder / "mould_heat.csv", ["body", "x[m]", "y[m]", "z[m]", "heat[J]", "contact[s]"], rows)
 
@@ -207,7 +210,8 @@ def write(folder, mould, melt, history, ended, seconds):
     """Writes everything; the answers as text."""
     h, temperature, solid = start_of(mould, history)
     write_start(folder, mould, temperature, solid)
-    write_mould_heat(folder, mould)
+    balance = balances(mould, melt, history)
+    write_mould_heat(folder, mould, balance["lost"])
     grid = grid_of(mould.cavity.cubes)
     last_air = 1 - history.metal
     grid.cell_data = {"fill_time": np.nan_to_num(history.fill_time, nan=history.time),
@@ -218,7 +222,6 @@ def write(folder, mould, melt, history, ended, seconds):
     grid.time = history.time
     write_grid(folder / "filling.vtu", grid)
     write_csv(folder / "filling.csv", ["t[s]", "full[%]", "through the gate[m3]", "heat of the walls[J]", "coldest metal[K]"], history.rows)
-    balance = balances(mould, melt, history)
     lines = answers(mould, melt, history, ended, balance)
     summary = {"made_of": history.made_of, "ended": ended, "time": history.time, "full": history.full, "gate_speed": mould.speed,
                "cells": len(mould.cavity.body), "edge": mould.cavity.cubes.edge, "seconds": round(seconds, 2), "balance": balance,

@@ -64,9 +64,12 @@ class Wall:
         self.heat = np.zeros(len(faces))  # [J]
         self.present = np.zeros(len(faces))  # conductance of the present stretch [W/(m2 K)] of the faces of cubes
 
+    def passes_gas(self):
+        return self.name.startswith("vent")
+
     def kind(self):
         """Of the patch, in OpenFOAM's words: what passes metal or gas is no wall."""
-        return "patch" if self.name.startswith("vent") else "wall"
+        return "patch" if self.passes_gas() else "wall"
 
     def insulating(self):
         return self.conductance == 0
@@ -78,10 +81,17 @@ class Wall:
             self.present = np.maximum(wet[self.cells], DRY) * self.share * mean
         return self.present
 
-    def end(self, duration, temperature, metal):
-        """Adds the heat of a stretch. temperature: the mean of the wall's [face]; metal: share of metal in the cubes [face]."""
-        self.heat += self.present * self.area * (temperature - self.mould) * duration
-        self.contact = np.where(metal >= 0.5, self.contact + duration, self.contact)
+    def end(self, moments, metal):
+        """Adds the heat of a stretch, by the trapezoidal rule between moments of it. moments: [(time, temperatures, conductivities)] in all
+        cubes, from which half a cube of metal or gas leads to the face; metal: shares in all cubes at the end."""
+        depth, flux = 0.5 * self.area ** 0.5, []
+        for _, temperature, conductivity in moments:
+            led = conductivity[self.cells] / depth
+            flux.append(self.present * led / (self.present + led) * (temperature[self.cells] - self.mould))
+        for (start, *_), (end, *_), before, after in zip(moments, moments[1:], flux, flux[1:]):
+            self.heat += 0.5 * (before + after) * self.area * (end - start)
+        duration = moments[-1][0] - moments[0][0]
+        self.contact = np.where(metal[self.cells] >= 0.5, self.contact + duration, self.contact)
 
 
 def wetted(cubes, metal):

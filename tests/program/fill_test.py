@@ -48,7 +48,7 @@ class FillTest(ProgramTest):
         run = solidus("run", "case.toml", "--set", "filling.result='filled'", "-o", "run", "--processes", "1", cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         taken = sum(float(row.split(",")[4]) for row in (filled / "mould_heat.csv").read_text().splitlines()[1:])
-        self.assertAlmostEqual(taken, balance["walls"], delta=1e-9 * abs(taken))
+        self.assertAlmostEqual(taken, balance["lost"], delta=1e-9 * abs(taken))
         self.assertIn("from the metal while the mould filled", run.stderr)
         hottest = float(re.search(r"while the mould filled; it is \S+ to (\S+) degC hot", run.stderr).group(1))
         self.assertLess(hottest, 700)
