@@ -61,8 +61,9 @@ class Mould:
         gating = [b for b in self.poured if bodies[b]["role"] == "gating"]
         self.gate = gate_of(self.cavity, self.filling, gating, self.up, self.flow)
         self.speed = self.flow / (len(self.gate.faces) * self.cavity.cubes.edge ** 2)
-        self.vents, self.vents_chosen = vents_of(self.cavity, self.filling, self.up, self.gate)
-        self.walls = (walls_for(self.cavity, walls_of(self.cavity, self.gate, self.vents), self.file)
+        found, self.vents_chosen = vents_of(self.cavity, self.filling, self.up, self.gate)
+        self.vents, self.leak = np.sort(found[:-1]), found[-1:]
+        self.walls = (walls_for(self.cavity, walls_of(self.cavity, self.gate, found), self.file)
                       + walls_for(self.cavity, by_body(self.cavity, self.vents), self.file, "vent"))
         self.air = min((wall.mould for wall in self.walls if not wall.insulating()), default=293.15)
 
@@ -98,7 +99,7 @@ class Mould:
         lines = [f"{len(cubes.cells)} cubes of {edge:.3g} mm, {1e3 * self.wall / edge:.1f} across the mean wall of "
                  f"{1e3 * self.wall:.3g} mm; their edge was changed by {100 * (self.cavity.scale - 1):+.1f} % for the volume of the drawing",
                  f"gate {self.gate.chosen}: {len(self.gate.faces)} faces of cubes, {1e3 * self.gate.width:.3g} mm wide, at "
-                 f"{self.speed:.2f} m/s; air leaves through {self.vents_chosen}: {len(self.vents)} faces",
+                 f"{self.speed:.2f} m/s; air leaves through {self.vents_chosen}: {len(self.vents) + 1} faces",
                  f"{1e6 * cubes.volume():.4g} cm3, {self.material['density'] * cubes.volume():.4g} kg of "
                  f"{self.pouring - 273.15:.0f} degC in {self.time:.3g} s"]
         if self.wall < 3 * self.cavity.cubes.edge:
@@ -126,7 +127,7 @@ def write_case(folder, mould, melt, flow, processes):
     """Everything that OpenFOAM reads."""
     shutil.rmtree(folder, ignore_errors=True)
     cavity = mould.cavity
-    patches = [("gate", "patch", mould.gate.faces)]
+    patches = [("gate", "patch", mould.gate.faces), ("leak", "patch", mould.leak)]
     patches += [(wall.name, wall.kind(), wall.faces) for wall in mould.walls]
     write_mesh(folder, cavity.cubes, [(name, kind, cavity.faces[faces], cavity.directions[faces]) for name, kind, faces in patches])
     dictionaries.write_fields(folder, flow, {wall.name: dictionaries.wall_entry(0.0, wall.mould, flow.air) for wall in mould.walls})
@@ -182,6 +183,16 @@ def stretch_end(at):
     return at + (STRETCH if 1 <= at < FRAMES - 6 else 1)
 
 
+def set_vents(mould, run, history):
+    """Sets the speed of the gas through each face of vents for the next stretch."""
+    cavity, area = mould.cavity, mould.cavity.cubes.edge ** 2
+    speeds = dictionaries.vent_speeds(history.metal[cavity.faces[mould.vents]], mould.flow, area) if len(mould.vents) else []
+    for wall in mould.walls:
+        if wall.passes_gas():
+            velocities = speeds[np.searchsorted(mould.vents, wall.faces)][:, None] * cavity.directions[wall.faces]
+            run.change_patch(history.name, "U", wall.name, lambda faces, v=velocities: dictionaries.vent_velocity(v[faces]))
+
+
 def fill(mould, run, flow, history, watch):
     """Computes until the mould is full; the reason why it ended."""
     frame = mould.time / FRAMES
@@ -199,9 +210,7 @@ def fill(mould, run, flow, history, watch):
             if at > 0:
                 run.change_patch(history.name, "T", wall.name, lambda faces, w=wall, h=conductance: dictionaries.wall_entry(
                     h[faces], w.mould, flow.air))
-                if wall.passes_gas():
-                    opening = dictionaries.openings(history.metal[wall.cells])
-                    run.change_patch(history.name, "p_rgh", wall.name, lambda faces, f=opening: dictionaries.vent_pressure(f[faces]))
+        set_vents(mould, run, history)
         dictionaries.write_control(run.folder, flow, until * frame, frame)
         watch.next_stretch()
         try:

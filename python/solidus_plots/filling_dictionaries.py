@@ -14,9 +14,7 @@ MOLAR_WEIGHT = 50  # of no consequence for what does not react
 AIR_PRESSURE = 1e5  # [Pa] at vents
 DRAG = 1e6  # C of Voller and Prakash's drag [kg/(m3 s)]: metal that is half frozen comes to rest within a millisecond
 COMPRESSION = 1.0  # of interfaces
-OPEN = 0.01  # of a vent with air behind it
-TIGHT = 0.97  # share of metal in a cube at which its vent is shut
-LEAK = 1e-5  # part of it that stays open for the pressure to have one value
+DRY_SHARE = 1e-6  # of gas that each cube at a vent counts as having at least
 PHASES = ("gas", "melt", "solid")
 DIMENSIONS = {"T": "[0 0 0 1 0 0 0]", "U": "[0 1 -1 0 0 0 0]", "p_rgh": "[1 -1 -2 0 0 0 0]"}
 
@@ -65,7 +63,8 @@ def of_values(values):
 
 def field(folder, name, internal, patches, kind="volScalarField"):
     """Writes a field. internal: as text; patches: {name: entries as text}."""
-    entries = "".join(f'    "{patch}"\n    {{\n        {text}\n    }}\n' for patch, text in patches.items())
+    names = {patch: patch if patch.isidentifier() else f'"{patch}"' for patch in patches}  # those in quotes are patterns
+    entries = "".join(f"    {names[patch]}\n    {{\n        {text}\n    }}\n" for patch, text in patches.items())
     dictionary(folder, name, f"dimensions {DIMENSIONS.get(name.split('/')[-1], '[0 0 0 0 0 0 0]')};\n"
                f"internalField {internal};\nboundaryField\n{{\n{entries}}}\n", kind)
 
@@ -73,23 +72,17 @@ def field(folder, name, internal, patches, kind="volScalarField"):
 INSULATING = "type zeroGradient;"
 
 
-def openings(metal):
-    """The part by which faces of vents are open, from the share m of metal in their cubes: (1 - m/TIGHT)^2 of OPEN."""
-    return OPEN * np.maximum(np.maximum(1 - np.asarray(metal, float) / TIGHT, 0) ** 2, LEAK)
+def vent_speeds(metal, flow, area):
+    """Outward speeds of the gas through faces of vents, which together let out what comes in [m/s]. metal: its share in the cube of each
+    face, by whose gas the flow [m3/s] is divided; area: of a face [m2]."""
+    gas = np.maximum(1 - np.asarray(metal, float), DRY_SHARE)
+    return flow / area * gas / gas.sum()
 
 
-def vent_pressure(opening):
-    """The entry of p_rgh for faces of vents: with an opening f the pressure is f times that of the air and 1 - f times that inside, which
-    is a resistance to what flows through."""
-    return (f"type mixed; refValue uniform {AIR_PRESSURE:g}; refGradient uniform 0; valueFraction {of_values(opening)}; "
-            f"value uniform {AIR_PRESSURE:g};")
-
-
-def vent_entries():
-    """The entries of vents, through which gas alone passes, as through sand or a slit: what passes a face is gas, whatever share of the
-    cube behind it is. The pressure alone drives it."""
-    phases = {f"alpha.{phase}": "type fixedValue; value uniform {0};".format(int(phase == "gas")) for phase in PHASES}
-    return {"U": "type fixedValue; value uniform (0 0 0);", "p_rgh": vent_pressure(OPEN), **phases}
+def vent_velocity(velocities):
+    """The entry of U for faces of vents [face][axis]."""
+    rows = "\n".join(f"({u:.12g} {v:.12g} {w:.12g})" for u, v, w in velocities)
+    return f"type fixedValue; value nonuniform List<vector>\n{len(velocities)}\n(\n{rows}\n);"
 
 
 def wall_entry(conductance, mould, value):
@@ -101,25 +94,27 @@ def wall_entry(conductance, mould, value):
 
 
 def write_fields(folder, flow, walls):
-    """The fields at the start: a cavity full of air. walls: {name of a patch of walls or vents: the entry of T}; \"free\" lets metal
+    """The fields at the start: a cavity full of air. What passes a face of a vent is gas, whatever share of the cube behind it is, as
+    through sand or a slit; its speed is set for each stretch. Through the leak, a single face, nothing is left to pass; it gives the
+    pressure its level. walls: {name of a patch of walls or vents: the entry of T}; \"free\" lets metal
     slip."""
     velocity = "({:.9g} {:.9g} {:.9g})".format(*flow.velocity)
-    sticky, vent = "wall_.*", vent_entries()
+    sticky, still = "wall_.*", "type fixedValue; value uniform (0 0 0);"
     field(folder, "0/U", "uniform (0 0 0)", {
         "gate": f"type fixedValue; value uniform {velocity};",
-        "vent_.*": vent["U"], sticky: "type noSlip;", "free": "type slip;"},
+        "leak": still, **{name: still for name in walls if name.startswith("vent")}, sticky: "type noSlip;", "free": "type slip;"},
         "volVectorField")
     field(folder, "0/p_rgh", f"uniform {AIR_PRESSURE:g}", {
-        "(gate|free|wall_.*)": f"type fixedFluxPressure; value uniform {AIR_PRESSURE:g};",
-        "vent_.*": vent["p_rgh"]})
+        "(gate|free|wall_.*|vent_.*)": f"type fixedFluxPressure; value uniform {AIR_PRESSURE:g};",
+        "leak": f"type fixedValue; value uniform {AIR_PRESSURE:g};"})
     for phase in PHASES:
         start, gate = (1, 0) if phase == "gas" else (0, 1 if phase == "melt" else 0)
         field(folder, f"0/alpha.{phase}", f"uniform {start}", {
             "gate": f"type fixedValue; value uniform {gate};",
-            "vent_.*": vent[f"alpha.{phase}"],
+            "(leak|vent_.*)": f"type fixedValue; value uniform {start};",
             "(free|wall_.*)": INSULATING})
     field(folder, "0/T", f"uniform {flow.air:.9g}", {
-        "gate": f"type fixedValue; value uniform {flow.pouring:.9g};", **walls})
+        "gate": f"type fixedValue; value uniform {flow.pouring:.9g};", "leak": INSULATING, **walls})
 
 
 def thermophysical(folder, phase, state, transport, density, heat, formation):

@@ -119,7 +119,7 @@ def ceilings(cavity, up):
 
 
 def vents_of(cavity, filling, up, gate):
-    """The faces of all vents, none of them of the gate; and how they came about, in words."""
+    """The faces of all vents, none of them of the gate, the highest one last; and how they came about, in words."""
     if filling.get("vents"):
         marked = [near(cavity, group) for group in filling["vents"]]
         if not all(group.any() for group in marked):
@@ -135,7 +135,7 @@ def vents_of(cavity, filling, up, gate):
         if not len(found):
             raise ResultError("the air finds no way out of the cavity: the gate is all of its top; a smaller gate_width, or vents")
         words = "the faces around the gate"
-    return found, words
+    return found[np.argsort(cavity.face_centres()[found] @ up, kind="stable")], words
 
 
 def by_body(cavity, faces):

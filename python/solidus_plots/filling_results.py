@@ -145,7 +145,7 @@ def air_closed_in(mould, history):
         if (new == label).all():
             break
         label = new
-    vented = {int(label[cell]) for cell in mould.cavity.faces[mould.vents]}
+    vented = {int(label[cell]) for cell in mould.cavity.faces[np.append(mould.vents, mould.leak)]}
     found = []
     for name in np.unique(label[air]):
         if int(name) not in vented:

@@ -166,14 +166,16 @@ class Files(unittest.TestCase):
 
 
 class Vents(unittest.TestCase):
-    def test_gas_alone_leaves_and_a_vent_shuts_as_metal_comes(self):
-        entries = dictionaries.vent_entries()
-        self.assertIn("uniform 1", entries["alpha.gas"])
-        self.assertIn("uniform 0", entries["alpha.melt"])
-        opening = dictionaries.openings(np.array([0.0, 0.485, 0.97, 1.0])) / dictionaries.OPEN
-        for found, expected in zip(opening, (1.0, 0.25, 1e-5, 1e-5)):
-            self.assertAlmostEqual(found, expected, delta=1e-12)
-        self.assertIn("valueFraction nonuniform List<scalar>\n2\n(\n0.01\n0.0025\n)", dictionaries.vent_pressure(np.array([0.01, 0.0025])))
+    def test_as_much_gas_leaves_as_metal_comes_from_where_gas_is(self):
+        speeds = dictionaries.vent_speeds(np.array([0.0, 0.5, 1.0]), 3e-5, 1e-5)
+        self.assertAlmostEqual(speeds.sum() * 1e-5, 3e-5, delta=1e-18)
+        self.assertAlmostEqual(speeds[0] / speeds[1], 2, delta=1e-9)
+        self.assertLess(speeds[2], 1e-5)
+        self.assertAlmostEqual(dictionaries.vent_speeds(np.ones(4), 4.0, 1.0)[0], 1, delta=1e-12)  # no gas: all alike
+
+    def test_velocities_of_a_vent_are_read_back(self):
+        text = dictionaries.vent_velocity(np.array([[0, 0, 0.5], [0, -0.25, 0]]))
+        self.assertEqual(filling_flow.values_in(text[text.index("value ") + 6:], 2).tolist(), [[0, 0, 0.5], [0, -0.25, 0]])
 
     def test_no_function_object_and_no_expression(self):
         """Debian 13's build of OpenFOAM 1912 ends at the first of them."""
@@ -181,7 +183,8 @@ class Vents(unittest.TestCase):
             folder = Path(name)
             flow = dictionaries.Flow((0, 0, -9.81), (0, 0, 0.1), 970.0, 300.0, 100.0, 1e-3)
             dictionaries.write_control(folder, flow, 1, 0.01)
-            dictionaries.write_fields(folder, flow, {})
+            dictionaries.write_fields(folder, flow, {"vent_1": dictionaries.INSULATING})
+            self.assertIn("\n    vent_1\n    {", (folder / "0/U").read_text())
             for file in (*folder.glob("system/*"), *folder.glob("0/*")):
                 self.assertNotRegex(file.read_text(), "functions|expr|coded")
 
