@@ -189,8 +189,13 @@ def set_vents(mould, run, history):
     speeds = dictionaries.vent_speeds(history.metal[cavity.faces[mould.vents]], mould.flow, area) if len(mould.vents) else []
     for wall in mould.walls:
         if wall.passes_gas():
-            velocities = speeds[np.searchsorted(mould.vents, wall.faces)][:, None] * cavity.directions[wall.faces]
+            of_wall = speeds[np.searchsorted(mould.vents, wall.faces)]
+            velocities = of_wall[:, None] * cavity.directions[wall.faces]
             run.change_patch(history.name, "U", wall.name, lambda faces, v=velocities: dictionaries.vent_velocity(v[faces]))
+            wall.shut = of_wall == 0
+            for phase, shares in (("gas", ~wall.shut), ("melt", wall.shut)):
+                run.change_patch(history.name, f"alpha.{phase}", wall.name,
+                                 lambda faces, s=shares.astype(float): dictionaries.vent_share(s[faces]))
 
 
 def fill(mould, run, flow, history, watch):

@@ -14,7 +14,7 @@ MOLAR_WEIGHT = 50  # of no consequence for what does not react
 AIR_PRESSURE = 1e5  # [Pa] at vents
 DRAG = 1e6  # C of Voller and Prakash's drag [kg/(m3 s)]: metal that is half frozen comes to rest within a millisecond
 COMPRESSION = 1.0  # of interfaces
-DRY_SHARE = 1e-6  # of gas that each cube at a vent counts as having at least
+SHUT_SHARE = 0.02  # of gas in a cube below which its vent is shut
 PHASES = ("gas", "melt", "solid")
 DIMENSIONS = {"T": "[0 0 0 1 0 0 0]", "U": "[0 1 -1 0 0 0 0]", "p_rgh": "[1 -1 -2 0 0 0 0]"}
 
@@ -73,10 +73,19 @@ INSULATING = "type zeroGradient;"
 
 
 def vent_speeds(metal, flow, area):
-    """Outward speeds of the gas through faces of vents, which together let out what comes in [m/s]. metal: its share in the cube of each
-    face, by whose gas the flow [m3/s] is divided; area: of a face [m2]."""
-    gas = np.maximum(1 - np.asarray(metal, float), DRY_SHARE)
+    """Outward speeds of the gas through faces of vents, which together let out what comes in [m/s]; faces that are shut have none. metal:
+    its share in the cube of each face, by whose gas the flow [m3/s] is divided; area: of a face [m2]."""
+    gas = 1 - np.asarray(metal, float)
+    gas = np.where(gas < SHUT_SHARE, 0, gas)
+    if not gas.any():
+        gas[:] = 1  # no air is left at a vent
     return flow / area * gas / gas.sum()
+
+
+def vent_share(shares):
+    """The entry of the share of a phase for faces of vents [face]: of gas alone on those through which it passes, of melt on those that
+    are shut, which give off its heat."""
+    return f"type fixedValue; value {of_values(shares)};"
 
 
 def vent_velocity(velocities):
@@ -107,11 +116,12 @@ def write_fields(folder, flow, walls):
     field(folder, "0/p_rgh", f"uniform {AIR_PRESSURE:g}", {
         "(gate|free|wall_.*|vent_.*)": f"type fixedFluxPressure; value uniform {AIR_PRESSURE:g};",
         "leak": f"type fixedValue; value uniform {AIR_PRESSURE:g};"})
+    vents = [name for name in walls if name.startswith("vent")]
     for phase in PHASES:
         start, gate = (1, 0) if phase == "gas" else (0, 1 if phase == "melt" else 0)
         field(folder, f"0/alpha.{phase}", f"uniform {start}", {
             "gate": f"type fixedValue; value uniform {gate};",
-            "(leak|vent_.*)": f"type fixedValue; value uniform {start};",
+            **{name: f"type fixedValue; value uniform {start};" for name in ("leak", *vents)},
             "(free|wall_.*)": INSULATING})
     field(folder, "0/T", f"uniform {flow.air:.9g}", {
         "gate": f"type fixedValue; value uniform {flow.pouring:.9g};", "leak": INSULATING, **walls})

@@ -48,7 +48,7 @@ class History:
             moments.append(self._moment())
         for wall in self._mould.walls:
             if not wall.insulating():
-                wall.end(moments, self.metal)
+                wall.end(moments, self.metal, self._melt.conductivity, dictionaries.gas_conductivity())
         self._correct_volume(run)
         self.frame = until
         self._save()

@@ -62,6 +62,7 @@ class Wall:
         self.area = cavity.cubes.edge ** 2
         self.contact = np.zeros(len(faces))  # since metal touched them [s]
         self.heat = np.zeros(len(faces))  # [J]
+        self.shut = np.zeros(len(faces), bool)  # vents through which no gas passes, and which metal touches
         self.present = np.zeros(len(faces))  # conductance of the present stretch [W/(m2 K)] of the faces of cubes
 
     def passes_gas(self):
@@ -81,12 +82,13 @@ class Wall:
             self.present = np.maximum(wet[self.cells], DRY) * self.share * mean
         return self.present
 
-    def end(self, moments, metal):
+    def end(self, moments, metal, melt, gas):
         """Adds the heat of a stretch, by the trapezoidal rule between moments of it. moments: [(time, temperatures, conductivities)] in all
-        cubes, from which half a cube of metal or gas leads to the face; metal: shares in all cubes at the end."""
+        cubes, from which half a cube of metal or gas leads to the face; metal: shares in all cubes at the end; melt, gas: conductivities
+        of what is on the faces of vents."""
         depth, flux = 0.5 * self.area ** 0.5, []
         for _, temperature, conductivity in moments:
-            led = conductivity[self.cells] / depth
+            led = (np.where(self.shut, melt, gas) if self.passes_gas() else conductivity[self.cells]) / depth
             flux.append(self.present * led / (self.present + led) * (temperature[self.cells] - self.mould))
         for (start, *_), (end, *_), before, after in zip(moments, moments[1:], flux, flux[1:]):
             self.heat += 0.5 * (before + after) * self.area * (end - start)

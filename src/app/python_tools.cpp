@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 
 #include "app/child_process.hpp"
 #include "app/places.hpp"
@@ -40,6 +41,63 @@ fs::path modules() {
     return sources / "python";
   throw InputError({}, "the Python modules of Solidus are not where the program was installed",
                    "`cmake --install`, which brings them, or the folder python/ of the sources");
+}
+
+volatile std::sig_atomic_t child_to_tell = 0;  ///< the child that is waited for
+
+extern "C" void hand_on(int signal) {
+  if (child_to_tell > 0) kill(child_to_tell, signal);
+}
+
+/// What signals do while a child is waited for. Ctrl-C reaches the child too, which may have runs to stop
+/// first: it is ignored here. The end of a batch job reaches this program alone, and is handed on to the
+/// child.
+class SignalsOfChild {
+ public:
+  SignalsOfChild() {
+    struct sigaction action {};
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGINT, &action, &interrupt_);
+    action.sa_handler = hand_on;
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGTERM, &action, &terminate_);
+  }
+  ~SignalsOfChild() {
+    child_to_tell = 0;
+    sigaction(SIGINT, &interrupt_, nullptr);
+    sigaction(SIGTERM, &terminate_, nullptr);
+  }
+  SignalsOfChild(const SignalsOfChild&) = delete;
+  SignalsOfChild& operator=(const SignalsOfChild&) = delete;
+
+ private:
+  struct sigaction interrupt_ {
+  }, terminate_{};
+};
+
+/// Starts a program, which has signals as they are by default, and waits for its end. Returns its status as
+/// waitpid() does, or nothing where waiting failed. Throws InputError where it cannot be started.
+std::optional<int> status_of(const std::string& program, char* const* argv, char* const* envp) {
+  // What signals did before they do again afterwards, since a run may follow.
+  const SignalsOfChild signals;
+  sigset_t by_default;
+  sigemptyset(&by_default);
+  for (const int signal : {SIGINT, SIGPIPE, SIGTERM}) sigaddset(&by_default, signal);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigdefault(&attributes, &by_default);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, program.c_str(), nullptr, &attributes, argv, envp);
+  posix_spawnattr_destroy(&attributes);
+  if (error != 0)
+    throw InputError({}, fmt::format("'{}' cannot be started: {}", program, std::strerror(error)),
+                     "a Python with numpy and matplotlib; SOLIDUS_PYTHON names another one");
+  child_to_tell = child;
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) return {};
+  return status;
 }
 
 }  // namespace
@@ -73,32 +131,12 @@ ExitCode run_python(const std::string& module, const std::vector<std::string>& a
   inherited.push_back("SOLIDUS_PROGRAM=" + program_path().string());
   inherited.push_back("SOLIDUS_CORES=" + std::to_string(usable_cores()));
   std::vector<char*> argv = pointers_to(command), envp = pointers_to(inherited);
-  // Ctrl-C is for the child, which may have runs to stop first: this program waits for it. What it did at
-  // Ctrl-C before it does again afterwards, since a run may follow.
-  using Action = struct sigaction;
-  Action ignored{}, before{};
-  ignored.sa_handler = SIG_IGN;
-  sigaction(SIGINT, &ignored, &before);
-  // Signals that are ignored here are not for the child.
-  sigset_t by_default;
-  sigemptyset(&by_default);
-  sigaddset(&by_default, SIGINT);
-  sigaddset(&by_default, SIGPIPE);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setsigdefault(&attributes, &by_default);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-  pid_t child = 0;
-  const int error = posix_spawnp(&child, python.c_str(), nullptr, &attributes, argv.data(), envp.data());
-  posix_spawnattr_destroy(&attributes);
-  if (error != 0)
-    throw InputError({}, fmt::format("'{}' cannot be started: {}", python, std::strerror(error)),
-                     "a Python with numpy and matplotlib; SOLIDUS_PYTHON names another one");
   // Its exit code becomes that of the program.
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return k_our_bug;
-  sigaction(SIGINT, &before, nullptr);
+  const std::optional<int> ended = status_of(python, argv.data(), envp.data());
+  if (!ended) return k_our_bug;
+  const int status = *ended;
+  // A child that has no answer of its own to the signal leaves it to this program.
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) raise(SIGTERM);
   if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGINT ? k_interrupted : k_cannot_continue;
   switch (WEXITSTATUS(status)) {
     case 0:

@@ -5,6 +5,7 @@ import os
 import re
 import shutil
 import subprocess
+import time
 import tomllib
 import unittest
 
@@ -52,6 +53,23 @@ class FillTest(ProgramTest):
         self.assertIn("from the metal while the mould filled", run.stderr)
         hottest = float(re.search(r"while the mould filled; it is \S+ to (\S+) degC hot", run.stderr).group(1))
         self.assertLess(hottest, 700)
+
+    @unittest.skipUnless(FOUND, MISSING)
+    def test_the_end_of_a_batch_job_stops_the_flow_which_goes_on_later(self):
+        command = [str(PROGRAM), "run", "case.toml", "-o", "run", "--processes", "1"]
+        run = subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
+        state = self.folder / "run/filling/state.npz"
+        while not state.exists() and run.poll() is None:
+            time.sleep(0.05)
+        run.terminate()
+        _, said = run.communicate(timeout=100)
+        self.assertEqual(run.returncode, 130, said)
+        self.assertIn("--restart goes on", said)
+        before = state.stat().st_mtime_ns
+        # The solver has ended too: nothing is written any more.
+        time.sleep(1)
+        self.assertEqual(state.stat().st_mtime_ns, before)
+        self.assertFalse((self.folder / "run/filling/filling.json").exists())
 
     def test_bad_input_is_refused_in_one_sentence(self):
         self.assertIn("the gate is given twice", self.refusal("--set", "filling.gate='upper_x_min'"))

@@ -131,7 +131,7 @@ class Walls(unittest.TestCase):
         wall = filling_walls.Wall("wall_1", 1, np.array([0, 1]), 1000.0, 1e9, 300.0, cavity)
         wall.begin(0.1, np.ones(2))
         moments = [(0.0, np.array([900.0, 900.0]), np.array([50.0, 0.03])), (0.1, np.array([700.0, 700.0]), np.array([50.0, 0.03]))]
-        wall.end(moments, np.array([1.0, 0.0]))
+        wall.end(moments, np.array([1.0, 0.0]), 90.0, 0.03)
         for heat, conductivity in zip(wall.heat, (50.0, 0.03)):
             self.assertAlmostEqual(heat / (500 * 1e-4 * 0.1 / (1 / 1000 + 0.005 / conductivity)), 1, delta=1e-6)
         self.assertEqual(wall.contact.tolist(), [0.1, 0])
@@ -170,7 +170,7 @@ class Vents(unittest.TestCase):
         speeds = dictionaries.vent_speeds(np.array([0.0, 0.5, 1.0]), 3e-5, 1e-5)
         self.assertAlmostEqual(speeds.sum() * 1e-5, 3e-5, delta=1e-18)
         self.assertAlmostEqual(speeds[0] / speeds[1], 2, delta=1e-9)
-        self.assertLess(speeds[2], 1e-5)
+        self.assertEqual(speeds[2], 0)
         self.assertAlmostEqual(dictionaries.vent_speeds(np.ones(4), 4.0, 1.0)[0], 1, delta=1e-12)  # no gas: all alike
 
     def test_velocities_of_a_vent_are_read_back(self):
