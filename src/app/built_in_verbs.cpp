@@ -25,6 +25,8 @@ std::unique_ptr<Verb> uncertain_verb(CLI::App& program);
 std::unique_ptr<Verb> calibrate_verb(CLI::App& program);
 std::unique_ptr<Verb> design_verb(CLI::App& program);
 std::unique_ptr<Verb> fill_verb(CLI::App& program);
+std::unique_ptr<Verb> pattern_verb(CLI::App& program);
+std::unique_ptr<Verb> compare_shape_verb(CLI::App& program);
 std::unique_ptr<Verb> mcp_verb(CLI::App& program);
 std::unique_ptr<Verb> init_editor_verb(CLI::App& program);
 std::unique_ptr<Verb> completion_verb(CLI::App& program);
@@ -33,11 +35,12 @@ std::unique_ptr<Verb> help_verb(CLI::App& program);
 
 std::vector<MakeVerb>& verbs() {
   static std::vector<MakeVerb> all = {
-      &run_verb,        &check_verb,     &resolve_verb,   &variants_verb, &explain_verb,  &schema_verb,
-      &point_verb,      &mesh_info_verb, &materials_verb, &export_verb,   &new_case_verb, &open_verb,
-      &report_verb,     &version_verb,   &doctor_verb,    &plot_verb,     &compare_verb,  &study_verb,
-      &uncertain_verb,  &calibrate_verb, &design_verb,    &fill_verb,     &mcp_verb,      &init_editor_verb,
-      &completion_verb, &man_verb,       &help_verb};
+      &run_verb,         &check_verb,      &resolve_verb,   &variants_verb,      &explain_verb,
+      &schema_verb,      &point_verb,      &mesh_info_verb, &materials_verb,     &export_verb,
+      &new_case_verb,    &open_verb,       &report_verb,    &version_verb,       &doctor_verb,
+      &plot_verb,        &compare_verb,    &study_verb,     &uncertain_verb,     &calibrate_verb,
+      &design_verb,      &fill_verb,       &pattern_verb,   &compare_shape_verb, &mcp_verb,
+      &init_editor_verb, &completion_verb, &man_verb,       &help_verb};
   return all;
 }
 

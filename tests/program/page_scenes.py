@@ -50,6 +50,7 @@ SCENES = {
     "materials.md": Scene(texts={"my_alloy.toml": 'title = "My alloy"'}, words={"FILE": "my_alloy.toml"}),
     "new_case.md": Scene({"bracket.step": "cases/bracket_from_step/bracket.step"}),
     "parallel.md": Scene({"case.toml": "cases/hot_spots/case.toml", "hot_spots.geo": "cases/hot_spots/hot_spots.geo"}, end="6 s"),
+    "pattern.md": Scene({**BRACKET, "scan.csv": "examples/scan/scan.csv"}, lines=["solidus run bracket -o results/bracket/default"]),
     "plots.md": Scene({"case.toml": "cases/hot_spots/case.toml", "hot_spots.geo": "cases/hot_spots/hot_spots.geo"},
                       lines=["solidus run case.toml -o results/case/default"], words={"CASE": "case.toml", "RESULTS_DIR": "results/case/default"}),
     "point.md": Scene(words={"FILE": "cases/point/tensile.toml", "RESULTS_DIR": "results/point/tensile"}),

@@ -19,7 +19,7 @@ PAGES = [SOURCES / "README.md", *sorted((SOURCES / "docs/guide").glob("*.md"))]
 # Left out but by `./dev nightly`.
 LONG = [r"(^|/)dev (run|plot|point|materials) ", r"^solidus (plot|compare) ", r"^solidus run cases/crankshaft", r"--coupled",
         r"--pictures", r"--watch", r"--shots", r"^solidus (study|uncertain|calibrate) (?!.*--dry-run)", r"^mpirun -n 8", r"--sure",
-        r"--pdf"]
+        r"--pdf", r"^solidus pattern "]
 # Programs that pages speak of and that a release may lack, as ./dev has them.
 OPTIONAL = {"ccx": "CalculiX is not installed (ccx; Debian 13 has no package of it)"}
 # The first page's walk, which is typed by guide_test.py.

@@ -67,6 +67,7 @@ TASKS = {
     "new_case": ["from a STEP file to a case", "start with a STEP file", "case from CAD geometry"],
     "open": ["graphical user interface", "set up a casting by clicking", "preprocessor with a mouse"],
     "parallel": ["run on several processes", "how many processors", "run with mpirun on a cluster"],
+    "pattern": ["pattern allowance for contraction", "compare a scanned part with the drawing", "shape of the pattern"],
     "places": ["film coefficient that varies over place", "temperature given by a formula", "spray only on part of the surface"],
     "plots": ["draw pictures of a run", "plot a temperature curve", "picture of the temperature field"],
     "point": ["test a material at a point", "tensile test of a material", "creep curve of a material"],
