@@ -140,7 +140,7 @@ void SegmentKinematics::place(std::span<const double> displacement, Points) {
   cells_.first_place.assign(1, 0);
   for (Index f = 0; f < slave_.n_faces(); ++f)
     cut(f, slave_.current_face(f, displacement, components), master);
-  places_.set_places(found_);
+  places_.points().set_places(found_);
   // All of them: a mean needs every place of its cell.
   places_.place(displacement, Points::all);
   // A cell that is covered in a sliver alone has no stable mean: it counts as one without a
@@ -148,7 +148,7 @@ void SegmentKinematics::place(std::span<const double> displacement, Points) {
   for (std::size_t c = 0; c < cells_.face.size(); ++c) {
     cells_.covered[c] = 0;
     for (Index s = cells_.first_place[c]; s < cells_.first_place[c + 1]; ++s)
-      if (places_.partner(s).face >= 0) cells_.covered[c] += places_.particle(s).weight;
+      if (places_.points().table().partner[at(s)].face >= 0) cells_.covered[c] += places_.particle(s).weight;
     if (cells_.covered[c] < k_least_covered * cells_.whole[c]) cells_.covered[c] = 0;
   }
 }
@@ -158,7 +158,7 @@ FacetGap SegmentKinematics::facets(Index point) const {
   if (cells_.covered[at(point)] == 0) return mean;
   // The mean over the pieces of the cell, by area.
   for (Index s = cells_.first_place[at(point)]; s < cells_.first_place[at(point) + 1]; ++s) {
-    if (places_.partner(s).face < 0) continue;
+    if (places_.points().table().partner[at(s)].face < 0) continue;
     const FacetGap here = places_.facets(s);
     const double alpha = places_.particle(s).weight / cells_.covered[at(point)];
     mean.height += alpha * here.height;
@@ -193,7 +193,7 @@ void SegmentKinematics::number_nodes(const PointMotion& place) const {
 template <class Visit>
 void SegmentKinematics::for_each_place(Index point, Asked asked, Visit visit) const {
   for (Index s = cells_.first_place[at(point)]; s < cells_.first_place[at(point) + 1]; ++s) {
-    if (places_.partner(s).face < 0) continue;
+    if (places_.points().table().partner[at(s)].face < 0) continue;
     const PointMotion place = places_.motion(s, {}, asked);
     number_nodes(place);
     visit(s, place);

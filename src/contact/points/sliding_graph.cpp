@@ -1,42 +1,29 @@
 /// Which nodes a point of sliding contact couples, and when that has changed.
 #include <algorithm>
-#include <cassert>
 
-#include "contact/points/frame_push.hpp"
-#include "contact/points/sliding_kinematics.hpp"
-#include "contact/surfaces/slave_rule.hpp"
+#include "contact/points/sliding_points.hpp"
 
 namespace solidus::contact {
 
-void SlidingKinematics::add_share_rates(Index, std::span<Point> rates) const {
-  assert(rates.size() == last_.n_nodes * last_.n_nodes);
-  for (std::size_t a = 0; a < static_cast<std::size_t>(last_.frame.n_face_nodes); ++a)
-    for (std::size_t b = 0; b < last_.n_nodes; ++b) {
-      Point& rate = rates[(last_.n_slave + a) * last_.n_nodes + b];
-      for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha)
-        rate = contact::add_scaled(rate, -last_.frame.slope[a][alpha], last_.xi_rate[b][alpha]);
-    }
-}
-
-std::span<const Index> SlidingKinematics::allowed(Index slave_face) const {
+std::span<const Index> SlidingPoints::allowed(Index slave_face) const {
   const auto f = static_cast<std::size_t>(slave_face);
   return std::span(allowed_.faces).subspan(allowed_.first[f], allowed_.first[f + 1] - allowed_.first[f]);
 }
 
-bool SlidingKinematics::graph_outdated() const {
+bool SlidingPoints::graph_outdated() const {
   if (master_->max_nodes() == 0) return allowed_.first.empty();
-  for (std::size_t p = 0; p < points_.face.size(); ++p) {
-    if (points_.concern[p] != reached || points_.partner[p].face < 0 ||
-        points_.partner[p].penetration < -options_.graph_distance)
+  for (std::size_t p = 0; p < table_.face.size(); ++p) {
+    if (table_.concern[p] != reached || table_.partner[p].face < 0 ||
+        table_.partner[p].penetration < -options_.graph_distance)
       continue;
     if (allowed_.first.empty()) return true;
-    const auto faces = allowed(points_.face[p]);
-    if (!std::binary_search(faces.begin(), faces.end(), points_.partner[p].face)) return true;
+    const auto faces = allowed(table_.face[p]);
+    if (!std::binary_search(faces.begin(), faces.end(), table_.partner[p].face)) return true;
   }
   return false;
 }
 
-void SlidingKinematics::add_to_graph(CliqueSink& sink) {
+void SlidingPoints::add_to_graph(ContactKinematics::CliqueSink& sink) {
   allowed_.faces.clear();
   allowed_.first.assign(1, 0);
   // The graph of the matrix has room for the partners that a point may get while the graph holds: the faces
@@ -45,10 +32,10 @@ void SlidingKinematics::add_to_graph(CliqueSink& sink) {
   std::size_t p = 0;
   for (Index slave = 0; slave < slave_.n_faces(); ++slave) {
     faces.clear();
-    for (; p < points_.face.size() && points_.face[p] == slave; ++p)
-      if (points_.concern[p] != none && points_.partner[p].face >= 0 &&
-          points_.partner[p].penetration >= -options_.graph_distance)
-        faces.push_back(points_.partner[p].face);
+    for (; p < table_.face.size() && table_.face[p] == slave; ++p)
+      if (table_.concern[p] != none && table_.partner[p].face >= 0 &&
+          table_.partner[p].penetration >= -options_.graph_distance)
+        faces.push_back(table_.partner[p].face);
     for (int ring = 0; ring < options_.graph_rings; ++ring) {
       wider.clear();
       for (Index f : faces) wider.insert(wider.end(), master_->around(f).begin(), master_->around(f).end());

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "contact/points/frame_push.hpp"
-#include "contact/surfaces/slave_rule.hpp"
 
 namespace solidus::contact {
 
@@ -26,17 +26,12 @@ const Point& plane_normal_xi(const Partner& partner, const MasterFrame& frame, s
 
 SlidingKinematics::SlidingKinematics(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,
                                      std::unique_ptr<Master> master, const SlidingOptions& options)
-    : mesh_(mesh),
+    : points_(mesh, kind, slave, std::move(master), options),
       components_(static_cast<std::size_t>(displacement_components(kind))),
-      slave_(slave),
-      master_(std::move(master)),
-      heights_(slave),
-      options_(options) {
-  // Points are laid on the slave's faces, and those that may concern this process are found.
-  add_points(kind, options);
-  find_faces_that_concern();
-  const std::size_t most = static_cast<std::size_t>(k_max_face_nodes) + master_->max_nodes();
-  last_.frame.nu_rate.resize(master_->max_nodes());
+      heights_(slave) {
+  const auto of_master = points_.master().max_nodes();
+  const std::size_t most = static_cast<std::size_t>(k_max_face_nodes) + of_master;
+  last_.frame.nu_rate.resize(of_master);
   last_.nodes.resize(most);
   last_.share.resize(most);
   last_.penetration_rate.resize(most);
@@ -45,153 +40,15 @@ SlidingKinematics::SlidingKinematics(const mesh::Mesh& mesh, AnalysisKind kind, 
   last_.normal_rate.resize(most);
   last_.slip_rate.resize(most);
   last_.carried_rate.resize(most);
-
-  // At the start each point finds its partner. One that lies behind the master there would be pushed through
-  // the body, and has no partner until it comes out.
-  place(std::vector<double>(mesh.x.size() * components_, 0.0));
-  for (std::size_t p = 0; p < points_.partner.size(); ++p) {
-    points_.behind[p] = points_.partner[p].face >= 0 && master_->behind(points_.partner[p]) ? 1 : 0;
-    if (points_.behind[p] != 0) points_.partner[p] = {};
-  }
-  double all = 0, paired = 0;
-  for (std::size_t p = 0; p < points_.weight.size(); ++p) {
-    all += points_.weight[p];
-    if (points_.partner[p].face >= 0) paired += weight_of(p);
-  }
-  coverage_ = paired / all;
-}
-
-void SlidingKinematics::add_points(AnalysisKind kind, const SlidingOptions& options) {
-  for (Index f = 0; f < slave_.n_faces(); ++f) {
-    const Face face = slave_.reference_face(f);
-    Index number = 0;
-    for (const SlaveRulePoint& q : slave_rule(face, kind, options.rule, options.gauss_degree))
-      add_point({.face = f, .xi = q.xi, .weight = q.weight}, number++, face);
-  }
-  start_points();
-}
-
-void SlidingKinematics::add_point(const SlavePlace& place, Index number, const Face& face) {
-  points_.face.push_back(place.face);
-  points_.number.push_back(number);
-  points_.xi.push_back(place.xi);
-  points_.position.push_back(face.at(place.xi));
-  points_.weight.push_back(place.weight);
-  mesh::basis_values(face.shape, place.xi, points_.shape.emplace_back());
-  points_.hint.push_back(place.hint);
-}
-
-void SlidingKinematics::start_points() {
-  points_.x = points_.position;
-  points_.partner.assign(points_.weight.size(), {});
-  points_.behind.assign(points_.weight.size(), 0);
-  points_.concern.assign(points_.weight.size(), reached);
-}
-
-void SlidingKinematics::set_places(std::span<const SlavePlace> places) {
-  for (auto* indices : {&points_.face, &points_.number, &points_.hint}) indices->clear();
-  for (auto* points : {&points_.xi, &points_.position}) points->clear();
-  points_.weight.clear();
-  points_.shape.clear();
-  Face face;
-  Index number = 0;
-  for (const SlavePlace& place : places) {
-    if (points_.face.empty() || points_.face.back() != place.face) {
-      face = slave_.reference_face(place.face);
-      number = 0;
-    }
-    add_point(place, number++, face);
-  }
-  start_points();
-}
-
-bool SlidingKinematics::own_slave(std::size_t point) const {
-  const auto nodes = slave_.nodes(points_.face[point]);
-  return std::any_of(nodes.begin(), nodes.end(), [&](Index n) { return n < mesh_.n_owned_nodes; });
-}
-
-void SlidingKinematics::find_faces_that_concern() {
-  const auto own = [&](Index node) { return node < mesh_.n_owned_nodes; };
-  all_own_ = std::all_of(slave_.all_nodes().begin(), slave_.all_nodes().end(), own);
-  if (all_own_) return;
-  const auto n_faces = static_cast<std::size_t>(master_->n_faces());
-  std::vector<char> found(n_faces, 0);
-  for (Index f = 0; f < master_->n_faces(); ++f) {
-    const auto nodes = master_->nodes(f);
-    found[static_cast<std::size_t>(f)] = std::any_of(nodes.begin(), nodes.end(), own) ? 1 : 0;
-  }
-  const auto widen = [&](int rings) {
-    for (int ring = 0; ring < rings; ++ring) {
-      const std::vector<char> inner = found;
-      for (Index f = 0; f < master_->n_faces(); ++f)
-        if (inner[static_cast<std::size_t>(f)] != 0)
-          for (const Index g : master_->around(f)) found[static_cast<std::size_t>(g)] = 1;
-    }
-  };
-  face_concern_.assign(n_faces, none);
-  const auto mark = [&](Concern concern) {
-    for (std::size_t f = 0; f < n_faces; ++f)
-      if (found[f] != 0 && face_concern_[f] == none) face_concern_[f] = concern;
-  };
-  widen(options_.graph_rings);
-  mark(reached);
-  widen(options_.graph_rings);
-  mark(near);
-  // A partner lies on the closest face or next to it.
-  widen(1);
-  master_->watch(std::move(found));
-}
-
-ContactKinematics::Particle SlidingKinematics::particle(Index point) const {
-  const auto p = static_cast<std::size_t>(point);
-  const auto nodes = slave_.nodes(points_.face[p]);
-  return {.number = points_.face[p] * k_points_of_a_face + points_.number[p],
-          .counted = nodes[0] < mesh_.n_owned_nodes,
-          .position = points_.position[p],
-          .area = points_.weight[p],
-          .weight = weight_of(p),
-          .nodes = nodes,
-          .share = std::span(points_.shape[p]).first(nodes.size())};
-}
-
-Point SlidingKinematics::place_of(std::size_t point, const Face& face) const {
-  Point x{};
-  for (std::size_t a = 0; a < static_cast<std::size_t>(face.n_nodes); ++a)
-    x = contact::add_scaled(x, points_.shape[point][a], face.x[a]);
-  return x;
-}
-
-void SlidingKinematics::place(std::span<const double> displacement, Points points) {
-  master_->place(displacement, time_);
-  Face face;
-  bool own = true;
-  for (std::size_t p = 0; p < points_.face.size(); ++p) {
-    if (p == 0 || points_.face[p] != points_.face[p - 1]) {
-      face = slave_.current_face(points_.face[p], displacement, static_cast<int>(components_));
-      own = all_own_ || own_slave(p);
-    }
-    points_.x[p] = place_of(p, face);
-    const Point normal = face.normal(points_.xi[p]);
-    points_.partner[p] = {};
-    const bool asked =
-        own || points == Points::all || master_->may_meet_watched(points_.x[p], normal, points_.hint[p]);
-    if (asked && points_.behind[p] == 0)
-      points_.partner[p] = master_->find(points_.x[p], normal, points_.hint[p]);
-    const Index met = points_.partner[p].face;
-    if (met >= 0) points_.hint[p] = met;
-    points_.concern[p] = own                                ? reached
-                         : met < 0 || face_concern_.empty() ? none
-                                                            : face_concern_[static_cast<std::size_t>(met)];
-  }
 }
 
 void SlidingKinematics::list_nodes(std::size_t point) const {
-  const auto slave = slave_.nodes(points_.face[point]);
+  const auto slave = points_.slave().nodes(points_.table().face[point]);
   last_.n_slave = slave.size();
   last_.n_nodes = last_.n_slave + last_.frame.nodes.size();
   for (std::size_t a = 0; a < last_.n_slave; ++a) {
     last_.nodes[a] = slave[a];
-    last_.share[a] = points_.shape[point][a];
+    last_.share[a] = points_.table().shape[point][a];
   }
   for (std::size_t a = 0; a < last_.frame.nodes.size(); ++a) {
     last_.nodes[last_.n_slave + a] = last_.frame.nodes[a];
@@ -202,12 +59,12 @@ void SlidingKinematics::list_nodes(std::size_t point) const {
 
 PointMotion SlidingKinematics::motion(Index point, const ContactPointState& old, Asked asked) const {
   const auto p = static_cast<std::size_t>(point);
-  const Partner& partner = points_.partner[p];
+  const Partner& partner = points_.table().partner[p];
   PointMotion m;
-  m.weight = weight_of(p);
+  m.weight = points_.weight_of(p);
   m.covered = partner.covered;
   if (partner.face < 0) return m;
-  master_->frame(partner, asked == Asked::rates, last_.frame);
+  points_.master().frame(partner, asked == Asked::rates, last_.frame);
   list_nodes(p);
   m.partnered = true;
   m.nodes = std::span(last_.nodes).first(last_.n_nodes);
@@ -242,7 +99,7 @@ void SlidingKinematics::find_slip(const Partner& partner, const ContactPointStat
   if (carries) m.carried = rotate(old.master_normal, nu, old.traction);
   if (asked == Asked::motion) return;
   const Tensor turn = carries ? rotation_rates(old.master_normal, nu, old.traction).by_to : Tensor{};
-  const bool turns = carries && master_->reference_turns();
+  const bool turns = carries && points_.master().reference_turns();
   std::array<Point, 2> slip_xi{}, carried_xi{};
   for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha) {
     const Point& nu_xi = plane_normal_xi(partner, last_.frame, alpha);
@@ -265,13 +122,13 @@ void SlidingKinematics::find_slip(const Partner& partner, const ContactPointStat
 }
 
 std::span<const Point> SlidingKinematics::find_weight_rates(std::size_t point) const {
-  const std::array<double, 2>& slope = points_.partner[point].covered_xi;
+  const std::array<double, 2>& slope = points_.table().partner[point].covered_xi;
   if (slope[0] == 0 && slope[1] == 0) return {};
   for (std::size_t c = 0; c < last_.n_nodes; ++c) {
     last_.weight_rate[c] = {};
     for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha)
-      last_.weight_rate[c] = contact::add_scaled(last_.weight_rate[c], points_.weight[point] * slope[alpha],
-                                                 last_.xi_rate[c][alpha]);
+      last_.weight_rate[c] = contact::add_scaled(
+          last_.weight_rate[c], points_.table().weight[point] * slope[alpha], last_.xi_rate[c][alpha]);
   }
   return std::span(last_.weight_rate).first(last_.n_nodes);
 }
@@ -343,14 +200,14 @@ void SlidingKinematics::find_wedge_rates(const Partner& partner) const {
 void SlidingKinematics::add_geometric_tangent(Index point, double pressure, const Point& traction,
                                               std::span<Tensor> k) const {
   const auto p = static_cast<std::size_t>(point);
-  const Partner& partner = points_.partner[p];
+  const Partner& partner = points_.table().partner[p];
   assert(k.size() == last_.n_nodes * last_.n_nodes);
   const PushRates push =
       push_rates(last_.frame, plane_normal(partner, last_.frame),
                  {plane_normal_xi(partner, last_.frame, 0), plane_normal_xi(partner, last_.frame, 1)},
                  partner.normal, traction);
   const Point force = contact::add_scaled(push.pushed, -pressure, partner.normal);
-  const double w = weight_of(p);
+  const double w = points_.weight_of(p);
   for (std::size_t c = 0; c < last_.n_nodes; ++c) {
     // ∂f/∂x_c
     Tensor turn{};
@@ -373,8 +230,18 @@ void SlidingKinematics::add_geometric_tangent(Index point, double pressure, cons
   }
 }
 
+void SlidingKinematics::add_share_rates(Index, std::span<Point> rates) const {
+  assert(rates.size() == last_.n_nodes * last_.n_nodes);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(last_.frame.n_face_nodes); ++a)
+    for (std::size_t b = 0; b < last_.n_nodes; ++b) {
+      Point& rate = rates[(last_.n_slave + a) * last_.n_nodes + b];
+      for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha)
+        rate = contact::add_scaled(rate, -last_.frame.slope[a][alpha], last_.xi_rate[b][alpha]);
+    }
+}
+
 SlidingKinematics::ReferenceRates SlidingKinematics::reference_rates(Index point) const {
-  const Partner& met = partner(point);
+  const Partner& met = points_.table().partner[static_cast<std::size_t>(point)];
   last_.place_rate.assign(last_.n_nodes, Tensor{});
   last_.turn_rate.assign(last_.n_nodes, Tensor{});
   for (std::size_t c = 0; c < last_.n_nodes; ++c)

@@ -148,10 +148,10 @@ TEST(SlidingMotion, OnAFlatMasterCrossesFacesWithoutAJump) {
         const auto k = static_cast<std::size_t>(p);
         if (i == 0) {
           before.push_back(force);
-          face.push_back(sliding->partner(p).face);
+          face.push_back(sliding->points().table().partner[static_cast<std::size_t>(p)].face);
         }
-        crossings += face[k] != sliding->partner(p).face;
-        face[k] = sliding->partner(p).face;
+        crossings += face[k] != sliding->points().table().partner[static_cast<std::size_t>(p)].face;
+        face[k] = sliding->points().table().partner[static_cast<std::size_t>(p)].face;
         EXPECT_LT(distance(force, before[k]), 1e-12);
       }
     }
@@ -212,7 +212,7 @@ TEST(SlidingMotion, WithAveragedNormalsTurnsTheForceGraduallyOverABend) {
       });
       sliding->place(u);
       for (Index p = 0; p < sliding->n_points(); ++p) {
-        if (sliding->partner(p).face < 0) continue;
+        if (sliding->points().table().partner[static_cast<std::size_t>(p)].face < 0) continue;
         const Point n = sliding->motion(p, {}, Asked::motion).normal;
         Point& last = before[static_cast<std::size_t>(p)];
         if (i > 0 && norm(last) > 0) largest = std::max(largest, distance(n, last));
@@ -240,7 +240,7 @@ TEST(SlidingMotion, BehindAGrooveTurnsTheNormalThroughTheWedgeWithoutAJump) {
       return std::vector{upper ? -1e-4 * i : 0.0, upper ? -0.05 : 0.0};
     }));
     for (Index p = 0; p < sliding->n_points(); ++p) {
-      const Partner partner = sliding->partner(p);
+      const Partner partner = sliding->points().table().partner[static_cast<std::size_t>(p)];
       Last& last = before[static_cast<std::size_t>(p)];
       if (partner.face >= 0 && last.partner.face >= 0) {
         in_wedge += partner.region == Partner::Region::vertex;
@@ -261,7 +261,7 @@ TEST(SlidingMotion, HasNoPartnerBeyondTheFreeEndOfTheMaster) {
   sliding->place(strip.pressed(0.99, 1e-4));
   for (Index p = 0; p < sliding->n_points(); ++p) {
     const bool beyond = dot(sliding->particle(p).position, strip.along) + 0.99 > 1.001;
-    EXPECT_EQ(sliding->partner(p).face >= 0, !beyond);
+    EXPECT_EQ(sliding->points().table().partner[static_cast<std::size_t>(p)].face >= 0, !beyond);
   }
 }
 
@@ -276,9 +276,10 @@ TEST(SlidingMotion, AroundAConvexCornerLosesNoPointOnItsWay) {
     for (Index p = 0; p < sliding->n_points(); ++p) {
       const Point& x = sliding->particle(p).position;
       if (x[0] > 0.02 && x[0] < 0.28) {
-        ASSERT_GE(sliding->partner(p).face, 0) << x[0] << " " << lift;
+        ASSERT_GE(sliding->points().table().partner[static_cast<std::size_t>(p)].face, 0)
+            << x[0] << " " << lift;
         // The facets of both sides are not one curve: up to the sagitta of the slave's.
-        EXPECT_LT(std::abs(sliding->partner(p).penetration), 0.05);
+        EXPECT_LT(std::abs(sliding->points().table().partner[static_cast<std::size_t>(p)].penetration), 0.05);
       }
     }
   }

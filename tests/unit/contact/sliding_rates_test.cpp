@@ -38,7 +38,13 @@ ContactPointState old_state(const PointMotion& here, std::size_t dim) {
 
 Seen look(const SlidingKinematics& k, Index p, const ContactPointState& old, const Point& traction) {
   const PointMotion m = k.motion(p, old, Asked::motion);
-  Seen s{k.partner(p).face, k.partner(p).region, m.penetration, m.slip, m.carried, m.normal, {}};
+  Seen s{k.points().table().partner[static_cast<std::size_t>(p)].face,
+         k.points().table().partner[static_cast<std::size_t>(p)].region,
+         m.penetration,
+         m.slip,
+         m.carried,
+         m.normal,
+         {}};
   const Point f = add_scaled(times(m.push, traction), k_pressure, m.normal);
   for (double b : m.share) s.force.push_back(scale(m.weight * b, f));
   return s;
@@ -55,8 +61,12 @@ Worst compare(SlidingKinematics& k, const std::vector<double>& u, std::size_t di
   Worst worst;
   k.place(u);
   for (Index p = 0; p < k.n_points(); p += stride) {
-    if (k.partner(p).face < 0 || k.partner(p).penetration < 1e-3 * length) continue;
-    if (wedges_only && k.partner(p).region == Partner::Region::face) continue;
+    if (k.points().table().partner[static_cast<std::size_t>(p)].face < 0 ||
+        k.points().table().partner[static_cast<std::size_t>(p)].penetration < 1e-3 * length)
+      continue;
+    if (wedges_only &&
+        k.points().table().partner[static_cast<std::size_t>(p)].region == Partner::Region::face)
+      continue;
     const ContactPointState old = old_state(k.motion(p, {}, Asked::motion), dim);
     const PointMotion m = k.motion(p, old, Asked::rates);
     Point traction{0.9, -1.3, dim == 2 ? 0 : 0.8};
@@ -73,7 +83,7 @@ Worst compare(SlidingKinematics& k, const std::vector<double>& u, std::size_t di
     else
       ++worst.turning;
     const double weight = m.weight;
-    const Partner partner = k.partner(p);
+    const Partner partner = k.points().table().partner[static_cast<std::size_t>(p)];
 
     // Third derivatives are of the order of the inverse square of the radius of curvature, 0.1 m.
     const double h = 2e-5 * length;

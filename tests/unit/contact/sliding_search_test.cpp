@@ -140,10 +140,14 @@ TEST(SlidingKinematics, FindsTheSameBitsWhateverWasPlacedBefore) {
     travelled->place(far);
     travelled->place(u);
     for (Index p = 0; p < fresh->n_points(); ++p) {
-      EXPECT_EQ(fresh->partner(p).face, travelled->partner(p).face);
-      EXPECT_EQ(fresh->partner(p).xi, travelled->partner(p).xi);
-      EXPECT_EQ(fresh->partner(p).penetration, travelled->partner(p).penetration);
-      EXPECT_EQ(fresh->partner(p).normal, travelled->partner(p).normal);
+      EXPECT_EQ(fresh->points().table().partner[static_cast<std::size_t>(p)].face,
+                travelled->points().table().partner[static_cast<std::size_t>(p)].face);
+      EXPECT_EQ(fresh->points().table().partner[static_cast<std::size_t>(p)].xi,
+                travelled->points().table().partner[static_cast<std::size_t>(p)].xi);
+      EXPECT_EQ(fresh->points().table().partner[static_cast<std::size_t>(p)].penetration,
+                travelled->points().table().partner[static_cast<std::size_t>(p)].penetration);
+      EXPECT_EQ(fresh->points().table().partner[static_cast<std::size_t>(p)].normal,
+                travelled->points().table().partner[static_cast<std::size_t>(p)].normal);
     }
   }
 }
@@ -161,9 +165,12 @@ TEST(SlidingKinematics, PlacesOwnPointsAsItPlacesAll) {
       for (Index p = 0; p < all->n_points(); ++p) {
         ASSERT_EQ(all->concerns(p), own->concerns(p));
         if (all->concerns(p)) {
-          EXPECT_EQ(all->partner(p).face, own->partner(p).face);
-          EXPECT_EQ(all->partner(p).xi, own->partner(p).xi);
-          EXPECT_EQ(all->partner(p).penetration, own->partner(p).penetration);
+          EXPECT_EQ(all->points().table().partner[static_cast<std::size_t>(p)].face,
+                    own->points().table().partner[static_cast<std::size_t>(p)].face);
+          EXPECT_EQ(all->points().table().partner[static_cast<std::size_t>(p)].xi,
+                    own->points().table().partner[static_cast<std::size_t>(p)].xi);
+          EXPECT_EQ(all->points().table().partner[static_cast<std::size_t>(p)].penetration,
+                    own->points().table().partner[static_cast<std::size_t>(p)].penetration);
           continue;
         }
         const PointMotion motion = all->motion(p, {}, ContactKinematics::Asked::motion);

@@ -129,8 +129,8 @@ TEST(CoupledTangentOfContact, KnowsThatPointsBeyondTheRimWeighLess) {
       const contact::ContactKinematics& kinematics = b.pair->geometry().kinematics();
       const auto* sliding = dynamic_cast<const contact::SlidingKinematics*>(&kinematics);
       ASSERT_NE(sliding, nullptr);
-      for (Index p = 0; p < sliding->n_points(); ++p)
-        if (sliding->partner(p).face >= 0) least = std::min(least, sliding->partner(p).covered);
+      for (const contact::Partner& met : sliding->points().table().partner)
+        if (met.face >= 0) least = std::min(least, met.covered);
       EXPECT_LT(parallel::global_min(least), 0.7);
       expect_exact(iterate, b.mesh, 5 * k_rounding);
       b.pair->follow_weights(false);
