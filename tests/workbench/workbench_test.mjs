@@ -4,6 +4,7 @@ import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { pixels } from "../report/picture.mjs";
 import { Browser, Desk, Server } from "./driver.mjs";
+import { checkInFirefox } from "./firefox_test.mjs";
 
 const program = resolve(process.argv[2]), folder = resolve(process.argv[3]);
 const parts = join(dirname(fileURLToPath(import.meta.url)), "../parts");
@@ -130,7 +131,7 @@ async function ofPages(server, browser, desk) {
   check("a page that is closed finds its run again", true);
   await other.click("#compare");
   await other.until("solidus.state.compared", 120);
-  await other.until("document.querySelectorAll('#compared-answers tr').length > 2");
+  await other.until("document.querySelectorAll('#compared-answers tr').length > 2 && !document.querySelector('#tab-compared').hidden");
   check("two runs are compared: answers beside each other, and the report of both", (await server.state()).compared.answers.length > 1);
   for (const d of [desk, other]) check("no page complains", d.page.messages.every((m) => /400|409/.test(m)), d.page.messages);
 }
@@ -167,6 +168,7 @@ try {
   await ofMistakes(server, desk);
   await ofPages(server, browser, desk);
   await ofAPart(server, desk);
+  await checkInFirefox(check, server);
 } catch (error) {
   check("nothing stands in the way", false, error.stack ?? String(error));
 } finally {

@@ -45,7 +45,7 @@ export class Judge {
       ...[...state.runs].reverse().map((r) => this.one(r, state.job?.run === r.name)),
       names.length > 1 ? h("div", { class: "compare" },
         field("Compare", select("first", options, this.first, (v) => (this.first = v), busy)), field("with", select("second", options, this.second, (v) => (this.second = v), busy)),
-        h("button", { id: "compare", disabled: busy, click: () => void this.desk.ask("compare", { first: this.first, second: this.second }).then((ok) => ok && this.desk.openTab("compared")) }, "Compare")) : null,
+        h("button", { id: "compare", disabled: busy, click: () => void this.desk.ask("compare", { first: this.first, second: this.second }) }, "Compare")) : null,
     ];
   }
 

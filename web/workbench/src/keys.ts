@@ -137,7 +137,7 @@ export class Keys {
     const known = this.schemaAt(this.at)?.properties ?? {}, here = valueAt(document, this.at) as Document;
     const free = Object.entries(known).filter(([name, s]) => entryOf(s) || (sectionOf(s) && !(name in here)));
     const add = h("select", { id: "add-section", disabled: busy || !free.length, "aria-label": "Add a section" },
-      h("option", { value: "" }, this.at.length ? `Add below ${this.at[this.at.length - 1]} …` : "Add a section …"), ...free.map(([name, s]) => h("option", { value: name, title: s.description ?? "" }, name)));
+      h("option", { value: "" }, this.at.length ? "Add a section below it …" : "Add a section …"), ...free.map(([name, s]) => h("option", { value: name, title: s.description ?? "" }, name)));
     add.addEventListener("change", () => {
       const name = add.value, schema = known[name], entry = schema && entryOf(schema), inner = sectionOf(entry ?? schema ?? {});
       if (!schema || !inner) return;

@@ -122,7 +122,10 @@ class Bench implements Desk {
       if (s.runs.find((r) => r.name === ended)?.report) this.openReport(ended);
       this.curvesOf = null;
     }
-    if (s.compared && s.compared.tag !== before.compared?.tag) byId<HTMLIFrameElement>("compared-frame").src = `compared/report?tag=${s.compared.tag}`;
+    if (s.compared && s.compared.tag !== before.compared?.tag) {
+      byId<HTMLIFrameElement>("compared-frame").src = `compared/report?tag=${s.compared.tag}`;
+      if (before.job?.what === "compare") this.tab = "compared";
+    }
     if (this.tab === "curves" && s.job?.run) {
       const of = `${s.job.run} ${s.job.progress.step}`;
       if (of !== this.curvesOf) {

@@ -5,7 +5,7 @@ import {
 } from "three";
 import { Camera } from "../../report/src/camera";
 import { Painter } from "../../report/src/painter";
-import { cross, type Crossing, type SkinBody } from "./skin";
+import { coarse, cross, type Crossing, type SkinBody } from "./skin";
 import type { Choices, Place } from "./state";
 
 export interface Pick extends Crossing { body: number }
@@ -16,6 +16,8 @@ export const ROLE_COLOURS: Record<string, string> = {
   casting: "#8f9db0", riser: "#e08a3c", gating: "#b07ac4", mould: "#c9b48a", core: "#b58f5a", chill: "#3f86c9", sleeve: "#5fae7d", die: "#76808c", insulation: "#d8c3d8",
 };
 const OTHER = "#9aa3ad";
+/** Skins of so many triangles have a coarse copy. */
+const LARGE = 200_000;
 const ACCENT = "#ff6a1f";
 
 // Colours go to the screen as they are, so that pictures and drafts of them, which the painter makes in two ways, look alike.
@@ -52,6 +54,9 @@ export class Picture {
   private readonly painter = new Painter(this.renderer);
   private readonly scene = new Scene();
   private readonly things = new Group();
+  /** What is drawn in place of large skins while the picture moves, where pictures are slow. */
+  private readonly rough = new Group();
+  private roughOf: (BufferGeometry | undefined)[] = [];
   private readonly placed = new Group();
   private readonly pointed = new Group();
   private wanted = 0;
@@ -63,7 +68,7 @@ export class Picture {
     this.canvas = this.renderer.domElement;
     this.camera.up.set(0, 0, 1);
     this.camera.look(this.camera.corner);
-    this.scene.add(this.things, this.placed, this.pointed);
+    this.scene.add(this.things, this.rough, this.placed, this.pointed);
   }
 
   /** Other bodies; the camera goes to them where `fit`. */
@@ -72,6 +77,15 @@ export class Picture {
     this.roles = bodies.map(() => "");
     this.shown = bodies.map(() => "shown");
     empty(this.pointed);
+    for (const geometry of this.roughOf) geometry?.dispose();
+    this.roughOf = bodies.map((body) => {
+      if (body.faces.length < LARGE) return undefined;
+      const { position, normal, triangles } = coarse(body, 72), geometry = new BufferGeometry();
+      geometry.setAttribute("position", new BufferAttribute(position, 3));
+      geometry.setAttribute("normal", new BufferAttribute(normal, 3));
+      geometry.setIndex(new BufferAttribute(triangles, 1));
+      return geometry;
+    });
     this.build();
     if (fit) this.fit();
   }
@@ -89,6 +103,7 @@ export class Picture {
 
   private build(): void {
     empty(this.things);
+    empty(this.rough);
     const dark = document.documentElement.dataset.theme === "dark";
     this.bodies.forEach((body, b) => {
       if (this.shown[b] === "hidden") return;
@@ -98,7 +113,9 @@ export class Picture {
       geometry.setAttribute("position", new BufferAttribute(body.position, 3));
       geometry.setAttribute("normal", new BufferAttribute(body.shape.normal, 3));
       geometry.setIndex(new BufferAttribute(body.shape.triangles, 1));
-      this.things.add(plain(new Mesh(geometry, paint(colour, ghost ? (lit ? 0.4 : 0.13) : 1))));
+      const look = paint(colour, ghost ? (lit ? 0.4 : 0.13) : 1);
+      this.things.add(plain(new Mesh(geometry, look)));
+      this.rough.add(plain(new Mesh(this.roughOf[b] ?? geometry, look)));
       const lines = new BufferGeometry();
       lines.setAttribute("position", geometry.getAttribute("position"));
       lines.setIndex(new BufferAttribute(body.lines, 1));
@@ -209,6 +226,10 @@ export class Picture {
   private render(): void {
     this.wanted = 0;
     this.camera.apply(this.canvas.clientWidth, this.canvas.clientHeight);
+    // A large skin that moves is drawn coarsely where the machine is slow, and whole as soon as it rests.
+    const draft = this.moving && this.painter.slow && this.roughOf.some((geometry) => geometry);
+    this.things.visible = !draft;
+    this.rough.visible = draft;
     this.painter.paint(this.scene, this.camera.three, this.moving, () => this.request());
     this.drawn();
   }

@@ -69,6 +69,29 @@ function bordersOf(corners: Uint32Array, faces: Int32Array, shape: Shape): Uint3
   return Uint32Array.from(out);
 }
 
+/** A coarse skin of a body for pictures that move: vertices within one cube of a grid become one, at the first of them. */
+export function coarse(body: SkinBody, cubes: number): { position: Float32Array; normal: Float32Array; triangles: Uint32Array } {
+  const { position: x, shape } = body, n = x.length / 3;
+  const edge = Math.max(...[0, 1, 2].map((i) => body.high[i] - body.low[i])) / cubes || 1;
+  const cell = (i: number, axis: number) => Math.floor((x[3 * i + axis] - body.low[axis]) / edge);
+  const first = new Map<number, number>(), of = new Uint32Array(n), kept: number[] = [];
+  for (let i = 0; i < n; ++i) {
+    const key = (cell(i, 0) * (cubes + 2) + cell(i, 1)) * (cubes + 2) + cell(i, 2), known = first.get(key);
+    if (known === undefined) {
+      first.set(key, kept.length);
+      of[i] = kept.length;
+      kept.push(i);
+    } else of[i] = known;
+  }
+  const triangles: number[] = [];
+  for (let t = 0; t < shape.triangles.length; t += 3) {
+    const [p, q, r] = [of[shape.triangles[t]], of[shape.triangles[t + 1]], of[shape.triangles[t + 2]]];
+    if (p !== q && q !== r && r !== p) triangles.push(p, q, r);
+  }
+  const take = (values: Float32Array) => Float32Array.from({ length: 3 * kept.length }, (_, k) => values[3 * kept[Math.floor(k / 3)] + (k % 3)]);
+  return { position: take(x), normal: take(shape.normal), triangles: Uint32Array.from(triangles) };
+}
+
 export interface Crossing { triangle: number; far: number; place: Place; normal: Place }
 
 /** Where a line from `from` along the unit vector `along` meets a body first, further than `least` [m]. */

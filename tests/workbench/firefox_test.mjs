@@ -1,0 +1,27 @@
+// The workbench of workbench_test.mjs in Firefox: picture, click, a change that the server takes.
+import { Firefox, FIREFOX, SCREEN } from "../report/firefox.mjs";
+
+export async function checkInFirefox(check, server) {
+  if (!FIREFOX || !SCREEN) {
+    console.log("skipped in Firefox: firefox-esr or xvfb is not installed (./dev test installs both)");
+    return;
+  }
+  const firefox = await Firefox.open();
+  const until = async (expression) => {
+    for (let i = 0; i < 300; ++i, await new Promise((r) => setTimeout(r, 100))) if (await firefox.run(`(() => { try { return ${expression}; } catch { return false; } })()`)) return true;
+    return false;
+  };
+  try {
+    await firefox.go(server.address);
+    check("Firefox shows the bodies", await until("page.solidus.stage.picture.bodies.length > 0 && page.solidus.stage.picture.triangles > 0"));
+    const [x, y] = await firefox.run("(() => { const b = document.querySelector('#stage').getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]; })()");
+    await firefox.click(Math.round(x), Math.round(y));
+    check("a click in Firefox says what lies there", await until("!document.querySelector('.place-card').hidden && /mm of it below/.test(document.querySelector('.place-card').textContent)"));
+    await firefox.run("document.querySelector('#place-probe').click()");
+    check("and places a probe", await until("page.solidus.state.choices.probes.length === 1 || (page.solidus.state.case?.document.probe ?? []).length === 1"), await server.state());
+    const said = await firefox.messages(server.address);
+    check("nothing was said on Firefox's console", said.length === 0, said);
+  } finally {
+    await firefox.close();
+  }
+}
