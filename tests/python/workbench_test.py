@@ -366,6 +366,21 @@ class Served(unittest.TestCase):
         self.assertEqual(state["case"]["document"]["title"], "by hand")
         self.assertEqual(self.post("undo", seen=state["edits"])[1]["case"]["document"]["title"], "first")
 
+    def test_a_case_that_was_looked_at_alone_is_left_as_it_was(self):
+        (self.folder / "own").mkdir()
+        (self.folder / "own" / "case.toml").write_text(CASE)
+        self.post("open", name="own")
+        self.at_rest()
+        self.assertTrue((self.folder / "own" / "open" / "address").exists())
+        (self.folder / "own" / "case.toml").write_text(CASE.replace("a plate", "by hand"))
+        state = self.get("state")[1]
+        self.assertEqual(self.post("undo", seen=state["edits"])[1]["case"]["text"], CASE)
+        self.assertEqual(self.post("open", name="own")[0], 200, "once more")
+        self.at_rest()
+        self.post("open", name="plate.step")
+        self.at_rest()
+        self.assertFalse((self.folder / "own" / "open" / "address").exists())
+
     def test_a_second_server_leaves_the_folder_to_the_first(self):
         self.made()
         other = Server(self.folder)

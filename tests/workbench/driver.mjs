@@ -47,6 +47,8 @@ export class Desk {
     const desk = new Desk();
     desk.page = await browser.page(1360, 900, options);
     await desk.page.send("Network.emulateNetworkConditions", { offline: false, latency: 0, downloadThroughput: -1, uploadThroughput: -1 });
+    if (options.noPictures) // as in a browser without WebGL
+      await desk.page.send("Page.addScriptToEvaluateOnNewDocument", { source: "{ const own = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return /webgl/.test(kind) ? null : own.call(this, kind, ...rest); }; }" });
     await desk.page.go(address);
     return desk;
   }

@@ -160,6 +160,19 @@ async function ofAPart(server, desk) {
   check("fields have names for screen readers", await desk.page.run("[...document.querySelectorAll('input:not([hidden]), select, textarea, button, iframe')].every((e) => e.ariaLabel || e.title || e.labels?.length || e.textContent.trim())"));
 }
 
+/** A browser without WebGL: no picture, and all else. */
+async function withoutPictures(server, browser) {
+  const desk = await Desk.open(browser, server.address, { noPictures: true });
+  await desk.until("solidus.state.part === 'plate.step' && !!document.querySelector('#no-picture')");
+  check("without WebGL the page says that there is no picture, and nothing fails", await desk.page.run("document.querySelector('#failure').hidden"));
+  const before = (await server.state()).choices.risers.length;
+  await desk.click("#riser-on-top");
+  await desk.until(`solidus.state.choices.risers.length === ${before + 1}`);
+  await desk.choose("#process", "gravity_die");
+  await desk.until("solidus.state.choices.process === 'gravity_die'");
+  check("there too the process is chosen, and a riser is put on the highest place", true);
+}
+
 const server = await Server.open(program, folder, "block");
 const browser = await Browser.open();
 try {
@@ -168,6 +181,7 @@ try {
   await ofMistakes(server, desk);
   await ofPages(server, browser, desk);
   await ofAPart(server, desk);
+  await withoutPictures(server, browser);
   await checkInFirefox(check, server);
 } catch (error) {
   check("nothing stands in the way", false, error.stack ?? String(error));

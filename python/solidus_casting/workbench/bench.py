@@ -130,12 +130,14 @@ class Bench:
         """Opens a part or a case of the folder by its name, and reads its picture. Raises :class:`InputError`."""
         case = self.place.case_of(given)
         with self._changed:
-            self._must_be_free()
+            self.must_be_free()
+            if self._case is not None:
+                self._case.leave()  # which may be the same one
             other = case.hold(self._address) if case.folder.is_dir() else None
             if other is not None:
+                if self._case is not None and self._case.folder.is_dir():
+                    self._case.hold(self._address)
                 raise Conflict(f"{self.place.name(case.folder)} is open already, at {other}")
-            if self._case is not None:
-                self._case.release()
             self._case, self._skins, self._last, self._compared = case, {}, None, None
             self._edits += 1
             self._tell()
@@ -175,6 +177,8 @@ class Bench:
     def go(self, seen: int, by: int) -> None:
         with self._edit(seen) as case:
             case.go(by)
+            if case.text is None:
+                self._skins.pop("case", None)  # there are no bodies without a case
 
     def _edit(self, seen: int) -> "_Edit":
         return _Edit(self, seen)
@@ -185,7 +189,7 @@ class Bench:
         try:
             case = self._open_case()
             self._look_at_files()
-            self._must_be_free()
+            self.must_be_free()
             if seen != self._edits:
                 raise Conflict("another page, or an editor, has changed this meanwhile: it is shown as it is now")
             if case.folder.is_dir() is False:
@@ -253,11 +257,11 @@ class Bench:
         if child is not None:
             child.end()
         if self._case is not None:
-            self._case.release()
+            self._case.leave()
 
     def _begin(self, what: str, label: str, work: Callable[[Job], None]) -> None:
         with self._changed:
-            self._must_be_free()
+            self.must_be_free()
             self._start(what, label, work)
 
     def _start(self, what: str, label: str, work: Callable[[Job], None]) -> None:
@@ -420,7 +424,8 @@ class Bench:
             raise InputError("nothing is open", "a part or a case")
         return self._case
 
-    def _must_be_free(self) -> None:
+    def must_be_free(self) -> None:
+        """Raises :class:`Conflict` while something is computed."""
         if self._job is not None:
             raise Conflict(f"Solidus {self._job.label}: wait for its end, or stop it")
 

@@ -92,6 +92,8 @@ class CaseFolder:
         text = self._read()
         if text == self._text:
             return False
+        if self._at < 0:
+            self._remember()  # what was there before
         self._text = text
         self._remember()
         return True
@@ -187,13 +189,24 @@ class CaseFolder:
             fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
             other = os.read(self._lock, 400).decode(errors="replace").strip()
-            self.release()
+            self._close()
             return other or "an address that it has not told yet"
         os.ftruncate(self._lock, 0)
         os.pwrite(self._lock, address.encode(), 0)
         return None
 
-    def release(self) -> None:
+    def leave(self) -> None:
+        """Gives the folder back, and takes away what only told the address; a case that was looked at alone is left as it was."""
+        if self._lock is None:
+            return
+        self._own("address").unlink(missing_ok=True)
+        self._close()
+        try:
+            self._own("").rmdir()
+        except OSError:
+            pass  # it holds choices or a history
+
+    def _close(self) -> None:
         if self._lock is not None:
             os.close(self._lock)
             self._lock = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import functools
 import json
 import re
 from pathlib import Path
@@ -29,6 +30,19 @@ def all_runs(folder: Path) -> list[dict[str, Any]]:
 
 def one_run(folder: Path) -> dict[str, Any]:
     """Outcome, answers with their errors and warnings of a run; of one that has not ended its name alone."""
+    stamps = []
+    for name in ("summary.json", "report.html"):
+        try:
+            stamps.append((folder / name).stat().st_mtime_ns)
+        except OSError:
+            stamps.append(0)
+    return _read(folder, tuple(stamps))
+
+
+@functools.lru_cache(maxsize=500)
+def _read(folder: Path, stamps: tuple[int, ...]) -> dict[str, Any]:
+    """As :func:`one_run`, read again only when the files have changed, which `stamps` tell."""
+    del stamps
     run: dict[str, Any] = {"name": folder.name, "outcome": "not ended", "answers": [], "warnings": [],
                            "report": (folder / "report.html").exists()}
     try:

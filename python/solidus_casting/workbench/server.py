@@ -209,6 +209,7 @@ class _Request(BaseHTTPRequestHandler):
         self.close_connection = True  # what is left of a refused file is not read
         if not length.isdigit() or not 0 < int(length) <= _MOST_UPLOAD:
             raise InputError("this file is empty or too large", f"up to {_MOST_UPLOAD // 1_000_000} MB")
+        bench.must_be_free()
         place = bench.place.place_of_upload(name)
         aside = place.with_name(f".{place.name}.new")
         try:

@@ -50,8 +50,9 @@ export class Picture {
   private roles: string[] = [];
   private shown: Shown[] = [];
   private lit = new Set<string>();
-  private readonly renderer = new WebGLRenderer({ antialias: false, preserveDrawingBuffer: true, alpha: true });
-  private readonly painter = new Painter(this.renderer);
+  /** Nothing where the browser has no WebGL: then there is no picture, and all else of the page goes on. */
+  private readonly renderer?: WebGLRenderer;
+  private readonly painter?: Painter;
   private readonly scene = new Scene();
   private readonly things = new Group();
   /** What is drawn in place of large skins while the picture moves, where pictures are slow. */
@@ -65,10 +66,20 @@ export class Picture {
   drawn: () => void = () => {};
 
   constructor() {
-    this.canvas = this.renderer.domElement;
+    try {
+      this.renderer = new WebGLRenderer({ antialias: false, preserveDrawingBuffer: true, alpha: true });
+      this.painter = new Painter(this.renderer);
+    } catch {
+      this.renderer = undefined;
+    }
+    this.canvas = this.renderer?.domElement ?? document.createElement("canvas");
     this.camera.up.set(0, 0, 1);
     this.camera.look(this.camera.corner);
     this.scene.add(this.things, this.rough, this.placed, this.pointed);
+  }
+
+  get canDraw(): boolean {
+    return this.painter !== undefined;
   }
 
   /** Other bodies; the camera goes to them where `fit`. */
@@ -216,7 +227,7 @@ export class Picture {
   resize(): void {
     const box = this.canvas.parentElement!.getBoundingClientRect();
     if (box.width < 2 || box.height < 2) return;
-    this.renderer.setSize(box.width, box.height, false);
+    this.renderer?.setSize(box.width, box.height, false);
     this.request();
   }
   request(moving = false): void {
@@ -225,6 +236,7 @@ export class Picture {
   }
   private render(): void {
     this.wanted = 0;
+    if (!this.painter) return;
     this.camera.apply(this.canvas.clientWidth, this.canvas.clientHeight);
     // A large skin that moves is drawn coarsely where the machine is slow, and whole as soon as it rests.
     const draft = this.moving && this.painter.slow && this.roughOf.some((geometry) => geometry);
@@ -255,7 +267,7 @@ export class Picture {
     return best;
   }
   get triangles(): number {
-    return this.painter.triangles;
+    return this.painter?.triangles ?? 0;
   }
 }
 

@@ -88,8 +88,8 @@ export class Setup {
         field("Symmetry", select("symmetry", [["", "none"], ["x", "half, below the middle in x"], ["y", "half, below the middle in y"], ["z", "half, below the middle in z"]], c.symmetry, (symmetry) => void this.desk.choose({ symmetry }), busy)),
         field("Elements", select("fineness", fine, String(c.fineness), (v) => void this.desk.choose({ fineness: +v }), busy))),
       ...this.placed(c, busy),
-      h("button", { class: `main${state.made === true ? "" : " on"}`, id: "make", disabled: busy || !c.alloy, click: () => void this.desk.ask("make") }, state.case ? "Make the case anew" : "Make the case"),
-      state.case && state.made === false ? h("p", { class: "hint" }, "Something was chosen since the case was made. Making it anew replaces the case file; Undo brings the old one back.") : null,
+      h("button", { class: `main${state.made === true ? "" : " on"}`, id: "make", disabled: busy || !c.alloy, click: () => void this.desk.ask("make") }, state.case ? "Make the case again" : "Make the case"),
+      state.case && state.made === false ? h("p", { class: "hint" }, "Something was chosen since the case was made. Making it again replaces the case file; Undo brings the old one back.") : null,
       state.case && state.made !== false ? h("p", { class: "hint" }, `Written to ${state.case.file}; what is changed there by hand is shown here.`) : null,
     ];
   }

@@ -29,6 +29,7 @@ export class Stage {
 
   constructor(private readonly desk: Desk) {
     this.root.prepend(this.picture.canvas, this.over, this.axes, this.tip, this.card);
+    if (!this.picture.canDraw) this.root.append(h("p", { class: "no-picture", id: "no-picture" }, "This browser has no WebGL, and so there is no picture. All else works: a riser is put on the highest place and moved by typing, and the forms have every key."));
     this.picture.drawn = () => this.overlay();
     this.pointers();
     new ResizeObserver(() => this.picture.resize()).observe(this.root);
