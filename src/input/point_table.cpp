@@ -29,21 +29,34 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-std::vector<std::string_view> cells(std::string_view line) {
+/// What stands between the columns, told by their heading. Where it is no comma, numbers may have a decimal
+/// one.
+char separator_of(std::string_view heading_line) {
+  for (const char separator : {';', ',', '\t'})
+    if (heading_line.find(separator) != std::string_view::npos) return separator;
+  return ',';
+}
+
+std::vector<std::string_view> cells(std::string_view line, char separator) {
   std::vector<std::string_view> result;
+  // A tab between columns is no blank at the end of a line.
+  while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
   while (true) {
-    const std::size_t comma = line.find(',');
-    result.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return result;
-    line.remove_prefix(comma + 1);
+    const std::size_t end = line.find(separator);
+    result.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) return result;
+    line.remove_prefix(end + 1);
   }
 }
 
-double number(std::string_view cell, const SourceLocation& where) {
+double number(std::string_view text, char separator, const SourceLocation& where) {
   double value = 0;
+  std::string cell(text);
+  if (separator != ',' && cell.find('.') == std::string::npos)
+    std::replace(cell.begin(), cell.end(), ',', '.');
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-    throw InputError(where, fmt::format("'{}' is no number", cell));
+    throw InputError(where, fmt::format("'{}' is no number", text));
   return value;
 }
 
@@ -124,12 +137,16 @@ PointTable::PointTable(const std::filesystem::path& file, const std::string& col
   if (!in) throw InputError(where, fmt::format("the table of points '{}' cannot be read", file.string()));
   Layout columns;
   std::size_t n_cells = 0;
+  char separator = ',';
   std::string line;
   // The first row that is neither empty nor a comment names the columns; each other one is a point.
   for (int n = 1; std::getline(in, line); ++n) {
     const SourceLocation here{file.string(), n, 0};
+    // Editors of Windows put a mark of UTF-8 before the first line.
+    if (n == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     if (trimmed(line).empty() || line.front() == '#') continue;
-    const std::vector<std::string_view> row = cells(line);
+    if (columns.columns.empty()) separator = separator_of(line);
+    const std::vector<std::string_view> row = cells(line, separator);
     if (columns.columns.empty()) {
       columns = layout(row, column, unit, here);
       n_cells = row.size();
@@ -140,7 +157,7 @@ PointTable::PointTable(const std::filesystem::path& file, const std::string& col
       throw InputError(here, fmt::format("there are {} cells for {} columns", row.size(), n_cells));
     std::vector<double>& point = points_.emplace_back();
     for (std::size_t i = 0; i < columns.columns.size(); ++i)
-      point.push_back(columns.to_si[i](number(row[columns.columns[i]], here)));
+      point.push_back(columns.to_si[i](number(row[columns.columns[i]], separator, here)));
   }
   if (points_.empty()) throw InputError({file.string(), 0, 0}, "the table of points has no rows");
   names_ = columns.names;

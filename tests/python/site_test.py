@@ -84,6 +84,7 @@ TASKS = {
     "travelling": ["heat source that moves along a weld", "weld bead that is deposited along a path", "Goldak double ellipsoid"],
     "troubleshooting": ["understand an error message", "step does not converge", "Newton fails"],
     "uncertain": ["how uncertain is the answer", "uncertain material data", "sensitivity to material data"],
+    "windows": ["use Solidus under Windows", "WSL", "files of Windows with decimal commas"],
     "versions": ["what changes between versions", "compatible with an older version", "will my case run with the next version"],
 }
 

@@ -37,6 +37,16 @@ TEST_F(PointTableTest, OneCoordinateIsInterpolatedLinearlyWhateverTheOrderOfLine
   EXPECT_TRUE(h.outside(std::array{0.1001}));
 }
 
+TEST_F(PointTableTest, SemicolonsTabsDecimalCommasAndLineEndsOfWindowsAreRead) {
+  const double wanted = table("z[mm],h[kW/m2/K]\n0.5,1.25\n100,3\n").value(std::array{0.0303});
+  for (const std::string text :
+       {"\xEF\xBB\xBFz[mm];h[kW/m2/K]\r\n0,5;1,25\r\n100;3,0\r\n",
+        "z[mm]\th[kW/m2/K]\r\n0,5\t1,25\r\n100\t3\r\n", "z[mm],h[kW/m2/K]\r\n0.5,1.25\r\n100,3\r\n"})
+    EXPECT_DOUBLE_EQ(table(text).value(std::array{0.0303}), wanted) << text;
+  EXPECT_THAT([&] { table("z[mm];h[kW/m2/K]\n0;1,2,3\n"); },
+              ThrowsMessage<InputError>(HasSubstr("'1,2,3' is no number")));
+}
+
 TEST_F(PointTableTest, AGridOfPlaceAndTimeIsLinearAlongEach) {
   std::string text = "x[m],y[m],t[s],v[1]\n";
   for (const double x : {0.0, 1.0, 3.0})
