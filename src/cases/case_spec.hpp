@@ -226,6 +226,8 @@ struct ThermalConditionSpec {
   Function coefficient;             ///< film [W/(m² K)]; or of the surface's temperature
   Function emissivity;              ///< [1]; or of the surface's temperature
   Function ambient;                 ///< [K]
+  enum class Sees { ambient, enclosure };
+  Sees sees = Sees::ambient;        ///< of radiation: what the surface sees beside its surroundings
   Function power;                   ///< [W/m³]
   double heat = 0;                  ///< of what burns [J/m³]
   double ignition = 0;              ///< [K]

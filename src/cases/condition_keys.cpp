@@ -50,7 +50,16 @@ void surface_heat_keys(Section<ThermalConditionSpec>& s) {
       .anywhere()
       .positive()
       .when("kind", {"film", "radiation"})
-      .doc("Temperature of the surroundings.");
+      .doc("Temperature of the surroundings; of an enclosure, of what is seen through its opening.");
+  s.choice("radiation", &C::sees,
+           {{"ambient", C::Sees::ambient, "the surface sees surroundings of one temperature alone"},
+            {"enclosure", C::Sees::enclosure,
+             "it sees all surfaces whose condition says so, and the surroundings where none of them is in "
+             "the way: grey and diffuse, with view factors by rays. Emissivity, ambient and factor are no "
+             "functions of place then"}})
+      .initially("ambient")
+      .when("kind", {"radiation"})
+      .doc("What the surface exchanges radiation with.");
 }
 
 /// Declares the heat that a body releases in its volume, at all times or once.

@@ -141,7 +141,9 @@ results::SkinOverview condition_overview(const cases::CaseSpec& spec, const case
       skin.law = values(c.coefficient, "W/m2/K");
       break;
     case Kind::radiation:
-      skin.faces = "in " + celsius(c.ambient);
+      skin.faces = c.sees == cases::ThermalConditionSpec::Sees::enclosure
+                       ? "enclosure, in " + celsius(c.ambient)
+                       : "in " + celsius(c.ambient);
       skin.law = "emissivity " + values(c.emissivity, "");
       break;
     case Kind::flux:

@@ -79,7 +79,13 @@ std::vector<CooledSkin> conditions_on(std::size_t body, const Surroundings& in) 
     };
   };
   for (const heat::Film& c : conditions.films) add(c.surface, by_law(c));
-  for (const heat::Radiation& c : conditions.radiations) add(c.surface, by_law(c));
+  // Surfaces that see each other count as if they saw their surroundings alone: this is an estimate.
+  for (const heat::Radiation& c : conditions.radiations)
+    add(c.surface, [&c, end](const setup::SurfaceMeasures& s) {
+      heat::Radiation alone = c;
+      alone.enclosed = false;
+      return averaged(heat::SurfaceLaw(alone), s, end);
+    });
   for (const heat::Flux& c : conditions.fluxes) add(c.surface, by_law(c));
   // A prescribed temperature is a film without resistance.
   for (const heat::PrescribedTemperature& c : conditions.temperatures)

@@ -53,6 +53,9 @@ StepSensitivity::StepSensitivity(ThermalPhase& phase, bool exact) : phase_(phase
   if (!phase.nodal() || phase.consistent_ || phase.printed_)
     throw InputError({}, "derivatives are known where nodes hold the heat",
                      "heat.integration = \"closed\" and heat.sensible = \"enthalpy\"");
+  if (phase.system_->parts().enclosed.any())
+    throw InputError({}, "derivatives are not known where surfaces see each other",
+                     "radiation = \"ambient\" in all thermal conditions");
 }
 
 void StepSensitivity::advance(const ThermalState& old, const StageFlows& flows, const ThermalState& now,

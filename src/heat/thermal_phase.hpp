@@ -256,6 +256,13 @@ class ThermalPhase {
   ThermalReport solve_stage(const ThermalState& old, const ThermalState& before,
                             const linear::RungeKuttaStage& stage, const ThermalPass& pass,
                             ThermalState& next);
+  std::vector<double> solve_balance(const std::vector<double>& from, double dt, const ThermalState& before,
+                                    const ThermalState& old, const ThermalPass& pass, ThermalState& next,
+                                    ThermalReport& report);
+  linear::NewtonReport solve_steady_balance(std::span<double> temperature, std::span<double> residual);
+  [[noreturn]] static void reject_radiation(double tolerance);
+  void book_radiation(std::span<const double> radiated, double dt, std::span<double> heat,
+                      std::span<double> residual) const;
   ThermalReport solve_two_stages(const ThermalState& old, const ThermalPass& pass, ThermalState& next);
   void start_from(std::span<const double> heat, ThermalState& next) const;
   static ThermalState stage_start(const ThermalState& old, const ThermalState& before,

@@ -59,23 +59,48 @@ ThermalReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState
   std::vector<double> residual(at(mesh_.n_owned_nodes));
   const TemperatureRange range = limit_conduction({temperature, {}}, start).range;
   system_->limits().clear();  // a linear field, say, needs none
-  report.newton = solve_temperature(temperature, residual);
+  report.newton = solve_steady_balance(temperature, residual);
   const double moved = temperature_system_->moved();
   // Limits are then found and the system solved again until they stay, and nodes that leave the range lose
   // their share.
   for (int i = 0; i < k_steady_revisions && system_->limits().find(temperature, k_limit_change * moved); ++i)
-    add_iterations(report.newton, solve_temperature(temperature, residual));
+    add_iterations(report.newton, solve_steady_balance(temperature, residual));
   for (int i = 0;
        i < k_steady_revisions && system_->limits().hold(temperature, range) == HeldNodes::Found::further;
        ++i) {
     system_->limits().find(temperature);
-    add_iterations(report.newton, solve_temperature(temperature, residual));
+    add_iterations(report.newton, solve_steady_balance(temperature, residual));
   }
   // The balance is that of the last residual.
   report.balance = measure(temperature, residual, 1.0);
   report.balance.exchanged = temperature_system_->moved();
   trial = initial_state_at_nodes(temperature);
   return report;
+}
+
+/// The solution of the steady balance, with what surfaces that see each other radiate in turns.
+linear::NewtonReport ThermalPhase::solve_steady_balance(std::span<double> temperature, std::span<double> r) {
+  HeatParts& parts = system_->parts();
+  if (!parts.enclosed.any()) return solve_temperature(temperature, r);
+  parts.enclosed.begin(parts.surfaces, temperature);
+  linear::NewtonReport report;
+  std::vector<double> left(r.size());
+  for (int turn = 1; turn <= k_most_turns; ++turn) {
+    linear::NewtonReport last = solve_temperature(temperature, r);
+    if (turn > 1)
+      add_iterations(report, std::move(last));
+    else
+      report = std::move(last);
+    if (system_->follow_radiation(temperature, k_settled_steady_radiation, left)) return report;
+  }
+  reject_radiation(k_settled_steady_radiation);
+}
+
+void ThermalPhase::reject_radiation(double tolerance) {
+  throw StepRejected(fmt::format("heat: what surfaces radiate to each other has not settled to {:g} K in {} "
+                                 "turns",
+                                 tolerance, k_most_turns),
+                     {}, Failure::heat);
 }
 
 linear::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperature, std::span<double> r,

@@ -19,6 +19,7 @@
 #include "heat/thermal_phase.hpp"
 #include "material/time_integration.hpp"
 #include "parallel/parallel.hpp"
+#include "system/errors.hpp"
 #include "system/log.hpp"
 
 namespace solidus::heat {
@@ -179,19 +180,57 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
   // The sources of a stage: nodal heats H* from which it stores.
   std::vector<double> from = stage_start(old, before, stage).enthalpy;
   if (half_way) start_from(stage_start(old, before, {stage.dt, 0.5 * (1 + stage.carried)}).enthalpy, next);
-  const ConductionBounds bounds = limit_conduction(before, old, pass.keeps_limits);
-  report.newton =
-      truncated_newton_->solve(from, stage.dt, next.temperature, next.enthalpy, bounds, pass.newton_steps);
+  std::vector<double> radiated = solve_balance(from, stage.dt, before, old, pass, next, report);
   report.hardest = report.newton.effort;
-  const std::vector<double> residual = truncated_newton_->take_residual();
+  std::vector<double> residual = truncated_newton_->take_residual();
   require_positive(next.temperature);
   // After the iteration what is left of the residual is booked into the nodal heats, so that the
   // balance is exact whatever the tolerance.
   if (!may_end(report.newton, pass.newton_steps)) require(report.newton, residual, next.temperature);
   book(residual, stage.dt, next.enthalpy);
+  if (!radiated.empty()) book_radiation(radiated, stage.dt, next.enthalpy, residual);
   report.balance =
       balance({old.temperature, std::move(from)}, next, residual, truncated_newton_->moved(), stage.dt);
   return report;
+}
+
+/// Solves the balance of a stage from H* of `from`. Where surfaces see each other, what falls on them follows
+/// from the temperatures that it makes: both are found in turns.
+/// Returns what the last turn's exchange brings the nodes beyond the one that they were solved with, [owned
+/// node] [W]; empty where no surfaces see each other.
+std::vector<double> ThermalPhase::solve_balance(const std::vector<double>& from, double dt,
+                                                const ThermalState& before, const ThermalState& old,
+                                                const ThermalPass& pass, ThermalState& next,
+                                                ThermalReport& report) {
+  HeatParts& parts = system_->parts();
+  const bool enclosed = parts.enclosed.any() && !pass.adiabatic;
+  std::vector<double> radiated(enclosed ? at(mesh_.n_owned_nodes) : 0);
+  if (enclosed) parts.enclosed.begin(parts.surfaces, next.temperature);
+  for (int turn = 1; turn <= k_most_turns; ++turn) {
+    // Each turn starts from the temperatures of the one before; its iterations count together.
+    const ConductionBounds bounds = limit_conduction(before, old, pass.keeps_limits);
+    const linear::NewtonReport turns_before = std::move(report.newton);
+    report.newton =
+        truncated_newton_->solve(from, dt, next.temperature, next.enthalpy, bounds, pass.newton_steps);
+    if (turn > 1) report.newton.add_solves(turns_before);
+    if (!enclosed) return radiated;
+    require_positive(next.temperature);
+    if (system_->follow_radiation(next.temperature, k_settled_radiation, radiated)) return radiated;
+  }
+  reject_radiation(k_settled_radiation);
+}
+
+/// Adds the last turn's difference in what surfaces exchange to the heats, so that all of it adds up to zero
+/// with what left through the opening. Where the temperature is prescribed, what holds it takes the
+/// difference.
+void ThermalPhase::book_radiation(std::span<const double> radiated, double dt, std::span<double> heat,
+                                  std::span<double> residual) const {
+  for (std::size_t i = 0; i < radiated.size(); ++i)
+    if (system_->parts().prescribed.fixed()[i])
+      residual[i] -= radiated[i];
+    else
+      heat[i] += dt * radiated[i];
+  ghosts_.update(heat, 1);
 }
 
 /// H* of a stage: H_n + carried (H − H_n) with the H of `before`.

@@ -207,8 +207,8 @@ std::string channel_films_text(const Draft& d) {
   return t;
 }
 
-/// Radiation of a skin beside the film of the air, into a room that is all that it sees: of a hot shell, and
-/// of the open tops of risers and cups, where at 1500 °C it takes thirty times as much as the air. Melts of
+/// Radiation of a skin beside the film of the air: of a hot shell, which sees itself and a room, and of the
+/// open tops of risers and cups, where at 1500 °C it takes thirty times as much as the air. Melts of
 /// iron, copper and their alloys are covered with oxide or slag, those of light metals and zinc with a thin
 /// film of oxide.
 std::string radiation_text(const Draft& d, const std::string& body) {
@@ -216,11 +216,11 @@ std::string radiation_text(const Draft& d, const std::string& body) {
   const bool is_shell = d.shell && body == d.shell->name;
   return fmt::format(
       "[[thermal_condition]]   # {1}\nname = \"radiation_of_{0}\"\ngroup = \"{0}_free\"\n"
-      "kind = \"radiation\"\nemissivity = {2:g}\nambient = \"20 degC\"\n\n",
+      "kind = \"radiation\"\n{3}emissivity = {2:g}\nambient = \"20 degC\"\n\n",
       body,
-      is_shell ? "a fired shell in a room; beside others on one tree it sees less of it: an estimate"
+      is_shell ? "a fired shell, which sees itself and a room: an estimate"
                : "an open top radiates: an estimate. With a cover of powder: delete this",
-      is_shell || d.liquidus > k_hot ? 0.8 : 0.3);
+      is_shell || d.liquidus > k_hot ? 0.8 : 0.3, d.shell ? "radiation = \"enclosure\"\n" : "");
 }
 
 /// The film on the free skin of a body: that of the air, or for a die that casts shot after shot that of its

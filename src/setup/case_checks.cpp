@@ -78,6 +78,43 @@ void check_interfaces(const cases::CaseSpec& spec) {
   }
 }
 
+/// What cannot be had where surfaces see each other: values that vary from place to place, the open rule, and
+/// a scheme that solves for displacements and temperatures at once.
+void check_enclosure(const cases::CaseSpec& spec) {
+  using C = cases::ThermalConditionSpec;
+  std::vector<const C*> seen;
+  for (const C& c : spec.thermal_conditions) {
+    if (c.kind != C::Kind::radiation || c.sees != C::Sees::enclosure) continue;
+    for (const auto& [key, f] :
+         {std::pair{"emissivity", &c.emissivity}, {"ambient", &c.ambient}, {"factor", &c.factor}})
+      if (f->place != nullptr)
+        throw InputError(f->where,
+                         fmt::format("'{}' of '{}' is a function of place, but its surface is in an "
+                                     "enclosure",
+                                     key, c.name),
+                         "a number or a table; surfaces of their own where it differs");
+    if (spec.heat.integration == heat::HeatIntegration::open)
+      throw InputError(c.where, fmt::format("'{}' is in an enclosure, which the open rule has not", c.name),
+                       "heat.integration = \"closed\", which is the default");
+    if (spec.simultaneous())
+      throw InputError(c.where,
+                       fmt::format("'{}' is in an enclosure, which the simultaneous scheme has not", c.name),
+                       "another coupling.scheme, or radiation = \"ambient\"");
+    // In one stage a surface is there once.
+    for (const C* other : seen) {
+      const bool together =
+          c.stages.empty() || other->stages.empty() ||
+          std::ranges::any_of(c.stages, [&](const std::string& stage) {
+            return std::find(other->stages.begin(), other->stages.end(), stage) != other->stages.end();
+          });
+      if (c.group == other->group && together)
+        throw InputError(c.where, fmt::format("the surface '{}' is in the enclosure twice", c.group),
+                         "one condition with radiation = \"enclosure\" for each surface");
+    }
+    seen.push_back(&c);
+  }
+}
+
 void check_displacement(const cases::MechanicalConditionSpec& c, AnalysisKind kind) {
   if (!c.ux && !c.uy && !c.uz && !c.ur)
     throw InputError(c.where, fmt::format("the displacement '{}' prescribes no component", c.name),
@@ -108,6 +145,7 @@ void check_conditions(const cases::CaseSpec& spec) {
     if (!spec.has_mechanics() && body.initial_stress)
       throw InputError(body.initial_stress->where, "there is no mechanics in this analysis",
                        "physics = \"mechanics\" or \"thermomechanical\", or no initial_stress");
+  check_enclosure(spec);
   // What a mechanical condition gives, it gives for each direction of the mesh.
   for (const auto& c : spec.mechanical_conditions) {
     if (c.kind == cases::MechanicalConditionSpec::Kind::displacement)

@@ -42,7 +42,8 @@ heat::ThermalConditions thermal_conditions(const cases::CaseSpec& spec, const ca
         break;
       case Kind::radiation:
         conditions.radiations.push_back({c.name, c.group, coefficient(c.emissivity, c.clock, stage, kind),
-                                         placed(c.ambient), placed(c.factor)});
+                                         placed(c.ambient), placed(c.factor),
+                                         c.sees == cases::ThermalConditionSpec::Sees::enclosure});
         break;
       case Kind::source:
         conditions.sources.push_back({c.name, c.group, placed(c.power), placed(c.factor)});

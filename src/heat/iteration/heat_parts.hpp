@@ -12,6 +12,7 @@
 #include "heat/loads/body_sources.hpp"
 #include "heat/loads/prescribed_nodes.hpp"
 #include "heat/loads/surface_heats.hpp"
+#include "heat/radiation/enclosed_surfaces.hpp"
 
 namespace solidus::heat {
 
@@ -26,11 +27,14 @@ struct HeatParts {
         surfaces(mesh, kind, elements.active(), closed, conditions),
         sources(mesh, kind, elements.active(), at_nodes, conditions),
         prescribed(mesh, elements.active(), conditions.temperatures),
-        contributions(std::move(terms), mesh.n_owned_nodes) {}
+        contributions(std::move(terms), mesh.n_owned_nodes) {
+    enclosed.set(mesh, kind, elements.active(), closed, conditions);
+  }
 
   ConductionElements elements;  ///< with the bodies that are active in the present stage
   KeptConduction conduction;
   SurfaceHeats surfaces;
+  EnclosedSurfaces enclosed;  ///< those of `surfaces` that see each other
   BodySources sources;
   PrescribedNodes prescribed;
   HeatContributions contributions;

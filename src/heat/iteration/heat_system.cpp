@@ -71,6 +71,7 @@ bool HeatSystem::set_conditions(const ThermalConditions& conditions) {
   const bool others = active != parts_.elements.active();
   if (others) parts_.elements.set_active(active);
   parts_.surfaces = SurfaceHeats(mesh_, kind_, active, closed_, conditions);
+  parts_.enclosed.set(mesh_, kind_, active, closed_, conditions);
   parts_.sources = BodySources(mesh_, kind_, active, at_nodes_, conditions);
   parts_.prescribed = PrescribedNodes(mesh_, active, conditions.temperatures);
   if (others) matrix_->set_graph(graph());
@@ -115,6 +116,22 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
   }
   parts_.contributions.add_residual(temperature, parts_.exchanges, r, moved);
   return moved;
+}
+
+bool HeatSystem::follow_radiation(std::span<const double> temperature, double tolerance,
+                                  std::span<double> change) {
+  // Heat of the surfaces that see each other before and after, by the same sums as in a residual, which
+  // counts what leaves the nodes.
+  std::vector<double> before(mesh_.x.size(), 0.0), after(before);
+  const std::vector<std::size_t>& numbers = parts_.enclosed.numbers();
+  for (const std::size_t s : numbers)
+    parts_.surfaces.add_power(s, -parts_.surfaces.add_residual_of(s, temperature, before));
+  const bool settled = parts_.enclosed.follow(parts_.surfaces, temperature, tolerance);
+  for (const std::size_t s : numbers)
+    parts_.surfaces.add_power(s, parts_.surfaces.add_residual_of(s, temperature, after));
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] = before[i] - after[i];
+  for (std::size_t i = 0; i < supplied_.size(); ++i) supplied_[i] += after[i] - before[i];
+  return settled;
 }
 
 double HeatSystem::entropy_power(std::span<const double> temperature) const {
@@ -183,7 +200,7 @@ void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::sp
 
 std::size_t HeatSystem::bytes() const {
   return matrix_->bytes() + parts_.elements.bytes() + parts_.conduction.bytes() +
-         parts_.contributions.bytes();
+         parts_.contributions.bytes() + parts_.enclosed.bytes();
 }
 
 }  // namespace solidus::heat

@@ -36,7 +36,18 @@ class SurfaceLaw {
   explicit SurfaceLaw(const Film& film);
   explicit SurfaceLaw(const Radiation& radiation);
   /// Whether it differs from point to point.
-  bool placed() const { return !law_.uniform(); }
+  bool placed() const { return enclosed_ || !law_.uniform(); }
+  /// Whether what falls on the surface is told point by point (SurfaceHeat::irradiate).
+  bool enclosed() const { return enclosed_; }
+  /// ε at the time set and Θ_∞⁴ of the opening [K⁴], where it is enclosed.
+  double emissivity(double temperature) const {
+    return of_temperature_ ? enclosed_at_.coefficient * of_temperature_->value(temperature)
+                           : enclosed_at_.coefficient;
+  }
+  double environment() const { return enclosed_at_.driver; }
+  /// ε, or what a table of it is multiplied by, where it is enclosed.
+  double factor() const { return enclosed_at_.coefficient; }
+  bool has_values() const { return !now_.empty(); }
   /// The points that at() will be asked for; needed where it is placed.
   void set_points(std::vector<Position> points) { points_ = std::move(points); }
   /// Throws InputError where a function of position has no value that is allowed. Not collective.
@@ -63,6 +74,8 @@ class SurfaceLaw {
   LoadValues mean_over(const LoadWindow& window) const;
   Now now(const LoadValues& mean, double otherwise) const;
 
+  bool enclosed_ = false;
+  Now enclosed_at_;  ///< of an enclosed surface: ε or its factor, Θ_∞⁴
   LoadLaw law_;
   std::optional<Table> of_temperature_;  ///< the coefficient, where it is a table of the temperature
   std::vector<Position> points_;
@@ -96,6 +109,9 @@ class SurfaceHeat {
   void set_window(const LoadWindow& window);
   /// The longest time after which a load that moves still overlaps with itself; collective (PlacedLoad).
   double lasting(double from, double to) const { return load_ ? load_->lasting(from, to) : HUGE_VAL; }
+  /// What falls on an enclosed surface from here on.
+  /// @param fourth  G/σ, [local node] [K⁴]
+  void irradiate(std::span<const double> fourth);
   /// The least and the greatest flux into the body at the time set, at a temperature of zero [W/m²].
   std::pair<double, double> flux_range() const;
   /// The nodes of a face are nodes of one element: its graph holds them.
@@ -147,6 +163,7 @@ class SurfaceHeat {
   std::string name_;
   SurfaceLaw law_;
   std::unique_ptr<PlacedLoad> load_;  ///< where the law differs from point to point
+  std::vector<Index> point_nodes_;    ///< the node of each point of an enclosed surface
   std::vector<Patch> patches_;
   /// Numbers in the points of the law, [local node]; empty where the law is the same everywhere.
   std::vector<std::size_t> point_of_node_;

@@ -44,6 +44,12 @@ void SurfaceHeats::add_residual(std::span<const double> temperature, std::span<d
     powers_[s] = surfaces_[s].add_residual(temperature, out, moved);
 }
 
+double SurfaceHeats::add_residual_of(std::size_t surface, std::span<const double> temperature,
+                                     std::span<double> out) const {
+  double moved = 0;
+  return surfaces_[surface].add_residual(temperature, out, moved);
+}
+
 void SurfaceHeats::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const {
   for (const SurfaceHeat& surface : surfaces_) surface.add_tangent(temperature, matrix);
 }

@@ -34,6 +34,12 @@ class SurfaceHeats {
   /// ghost rows are scrap. powers() are those of this call.
   void add_residual(std::span<const double> temperature, std::span<double> out, double& moved);
   void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const;
+  /// Adds the heat that leaves the nodes of one surface as add_residual() does, without telling its power,
+  /// which is the result [W].
+  double add_residual_of(std::size_t surface, std::span<const double> temperature,
+                         std::span<double> out) const;
+  /// The power of a surface on this process has become larger by so much since add_residual() [W].
+  void add_power(std::size_t surface, double power) { powers_[surface] += power; }
   /// The powers are zero until the next add_residual().
   void clear_powers();
   /// Collective.

@@ -47,8 +47,11 @@ struct Radiation {
   std::string name;
   std::string surface;     ///< a key of Mesh::surfaces
   Coefficient emissivity;  ///< ε, 0 to 1
-  PlaceFunction ambient;   ///< Θ_a [K]
+  PlaceFunction ambient;   ///< Θ_a [K]; of an enclosure that of its opening, the same everywhere
   PlaceFunction factor = 1.0;
+  /// It sees the other surfaces that are enclosed (radiation/enclosure.hpp); emissivity and factor are the
+  /// same everywhere then.
+  bool enclosed = false;
 };
 
 /// Heat released in the volume of a body, power × factor.
