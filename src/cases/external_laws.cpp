@@ -26,12 +26,14 @@ std::string isothermal_schemes() {
 }
 
 void check_scheme(const CaseSpec& spec, const material::Material& material) {
-  const std::string of = "the law from outside of '" + material.name + "'";
-  // Only the isothermal split calls the law as it is: at a temperature, without derivatives by it.
+  const std::string of = name_of_law(material);
+  // The isothermal split calls the law as it is: at a temperature, without derivatives by it. A law of the
+  // program holds the temperature in the isentropic one too: what sand heats itself by is next to nothing.
   if (spec.coupled()) switch (spec.coupling.scheme->traits().mapping) {
       case mechanics::Mapping::isothermal:
         break;
       case mechanics::Mapping::isentropic:
+        if (external_law(material)->built_in()) break;
         throw InputError(
             spec.coupling.where,
             fmt::format(

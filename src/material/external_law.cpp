@@ -119,6 +119,8 @@ bool ExternalLaw::integrate(const Properties<T>& p, const T* old, T* now, const 
   call.old_strain = tensor_of(old, k_strain, lane);
   call.strain = tensor_of(strain.c.data(), 0, lane);
   call.old_stress = tensor_of(old, k_stress, lane);
+  call.bulk = at(p.elastic.bulk, lane);
+  call.shear = at(p.elastic.shear, lane);
   // A fresh point is one that has just become coherent: it starts from its present strain.
   call.fresh = !(at(old[k_solid], lane) > 0);
   call.wants_tangent = space.wants_tangent;

@@ -32,7 +32,9 @@
 
 namespace solidus::material {
 
-enum class ExternalInterface { mfront, umat };
+/// `built_in`: a law of the program that works on one point at a time (granular.hpp), which nobody has to
+/// trust.
+enum class ExternalInterface { mfront, umat, built_in };
 
 /// The share of inelastic work that becomes heat.
 enum class ExternalDissipation {
@@ -65,6 +67,7 @@ struct ExternalCall {
   double dt, time;  ///< [s], time: since the point is integrated, at the start
   double old_temperature, temperature;
   Sym<double> old_strain, strain, old_stress;
+  double bulk, shear;          ///< k, G of the material file at `temperature` [Pa]
   bool fresh;                  ///< the first one of this point: z and energies are initial ones
   bool wants_tangent;          ///< else `tangent` is not read
   const double* old_internal;  ///< z_n
@@ -130,6 +133,7 @@ class ExternalLaw {
 
   const ExternalData& data() const { return data_; }
   bool loaded() const { return library_ != nullptr; }
+  bool built_in() const { return data_.interface == ExternalInterface::built_in; }
   const ExternalLibrary& library() const { return *library_; }
   bool symmetric() const { return !data_.unsymmetric; }
   /// Numbers of a point.
@@ -190,6 +194,8 @@ class ExternalLaw {
 /// The law from outside of a material; null: the laws of the program.
 const ExternalLaw* external_law(const Material& material);
 void set_external_law(Material& material, std::shared_ptr<const ExternalLaw> law);
+/// "the law from outside of 'steel'", "the granular law of 'green_sand'", for messages.
+std::string name_of_law(const Material& material);
 /// At which a law is tried and compared with the moduli of its material file: where the table of Young's
 /// modulus has points in the solid, and room temperature [K], rising.
 std::vector<double> temperatures_of_law(const Material& material);

@@ -41,6 +41,10 @@ bool Material::chooses_viscosity() const {
 const ExternalLaw* external_law(const Material& material) {
   return material.external.get();
 }
+std::string name_of_law(const Material& material) {
+  const bool granular = material.external != nullptr && material.external->built_in();
+  return (granular ? "the granular law of '" : "the law from outside of '") + material.name + "'";
+}
 void set_external_law(Material& material, std::shared_ptr<const ExternalLaw> law) {
   material.external = std::move(law);
 }

@@ -119,8 +119,8 @@ void require_mechanics(const Material& m) {
   if (!m.mechanical())
     throw InputError({}, "the material '" + m.name + "' has no elastic properties", "one with young_modulus");
   if (external_law(m) != nullptr)
-    throw InputError({}, "the law of the material '" + m.name + "' is in a shared object",
-                     "solidus point, or a Simulation with trust_laws");
+    throw InputError({}, name_of_law(m) + " is not called from here",
+                     "solidus point, or a Simulation (with trust_laws where the law is in a shared object)");
 }
 
 /// The update of every point by itself. Shapes were checked by the package.

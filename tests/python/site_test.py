@@ -77,6 +77,7 @@ TASKS = {
     "reporting": ["report a problem", "I have found a bug", "where do I report a bug"],
     "restart": ["stop a run and restart it", "computer was switched off during a run", "continue an interrupted run"],
     "results": ["what the files of results hold", "open results in ParaView", "which files does a run write"],
+    "sand": ["sand that gives way as the casting contracts", "mould restraint of furan sand", "strength of a sand core"],
     "shots": ["many shots into a warm die", "die temperature after ten shots", "temperature of the die in the periodic state"],
     "simultaneous": ["solve both fields at once", "monolithic scheme", "fully coupled solution"],
     "stages": ["open the mould after a time", "shake out the casting", "eject the casting after 60 s"],

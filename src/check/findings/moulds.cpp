@@ -154,12 +154,13 @@ void elastic_sand(const cases::CaseSpec& spec, const setup::Assembly& a, const C
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const cases::BodySpec& body = spec.bodies[b];
     const material::Material& of = a.materials[b];
-    if (m.is_poured(b) || cases::only_conducts(body) || !is_sand(body) || of.flow) continue;
+    if (m.is_poured(b) || cases::only_conducts(body) || !is_sand(body) || of.flow || of.external != nullptr)
+      continue;
     findings.push_back(
         {false, body.where,
          fmt::format("the sand '{}' of '{}' deforms with a young_modulus of {:.3g} MPa and never yields",
                      body.name, body.material, 1e-6 * of.young_modulus.max_value()),
-         "sand crushes: physics = \"heat\" for the body, or [plasticity] in its material"});
+         "sand crushes: a card with [granular] (green_sand_yielding), or physics = \"heat\" for the body"});
   }
 }
 
@@ -197,7 +198,8 @@ FindingFamily findings_moulds() {
            "a body with the role of a mould and `sand` in its material's name, whose volume over the cooled "
            "skin is thinner than heat goes deep until the casting is solid"},
           {Topic::pour, "sand that never yields",
-           "a body that deforms, with `sand` in its material's name and no `[plasticity]`"}}};
+           "a body that deforms, with `sand` in its material's name, `young_modulus` and no law by which it "
+           "yields"}}};
 }
 
 }  // namespace solidus::check

@@ -5,13 +5,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "input/document.hpp"
 #include "material/cards/designations.hpp"
 #include "material/cards/external_keys.hpp"
+#include "material/cards/granular_keys.hpp"
 #include "material/elasticity.hpp"
 #include "material/laws/fraction_law.hpp"
 #include "material/laws/liquid_law.hpp"
@@ -65,14 +68,23 @@ bool belongs(const Key& key, const Value& table) {
   return std::find(key.when_values.begin(), key.when_values.end(), kind->text()) != key.when_values.end();
 }
 
+/// Sections of which one is the law of the solid.
+constexpr std::array<std::string_view, 3> k_laws{"plasticity", "external", "granular"};
+bool is_law(std::string_view key) {
+  return std::find(k_laws.begin(), k_laws.end(), key) != k_laws.end();
+}
+bool gives_another_law(const Value& given, std::string_view key) {
+  return std::any_of(k_laws.begin(), k_laws.end(), [&](std::string_view law) {
+    return law != key && given.find(std::string(law)) != nullptr;
+  });
+}
+
 /// The keys of `base` that `own` lacks, added to it; in sections too, unless they are written { inline }.
 void inherit(Value& own, const Value& base, const SectionInfo& keys) {
   const Value given = own;  // the kinds that the file itself has chosen
   for (const auto& entry : base.entries()) {
     const Key* key = keys.find(entry.key);
-    if ((entry.key == "plasticity" && given.find("external") != nullptr) ||
-        (entry.key == "external" && given.find("plasticity") != nullptr))
-      continue;                                 // one of them is the law of the solid
+    if (is_law(entry.key) && gives_another_law(given, entry.key)) continue;
     if (entry.key == "designations") continue;  // a material that is like another has not its name
     Value* mine = own.find(entry.key);
     if (mine == nullptr) {
@@ -285,6 +297,7 @@ Material make_material(std::string name, const MaterialData& data) {
   if (m.gas && !m.gas->source.empty()) m.notes.push_back({"gas", m.gas->source, 0, 0});
   if (m.graphite && !m.graphite->source.empty()) m.notes.push_back({"graphite", m.graphite->source, 0, 0});
   if (data.external) add_external(m, *data.external);
+  if (data.granular) add_granular(m, *data.granular);
   check_liquid_model(m, data);
   check_heat_of_expansion(m, data);
   return m;

@@ -13,6 +13,7 @@
 #include "input/keys.hpp"
 #include "material/cards/flow_keys.hpp"
 #include "material/external_law.hpp"
+#include "material/granular.hpp"
 #include "material/material.hpp"
 #include "material/varied.hpp"
 
@@ -58,6 +59,7 @@ struct MaterialData {
   std::map<std::string, Function> liquid_numbers;  ///< the parameters of the models of the liquid
   std::optional<FlowData> plasticity;
   std::optional<ExternalData> external;
+  std::optional<GranularData> granular;
   Casting casting;
   std::optional<Gas> gas;
   std::optional<Graphite> graphite;

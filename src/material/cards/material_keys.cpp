@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "material/cards/external_keys.hpp"
+#include "material/cards/granular_keys.hpp"
 #include "material/cards/library.hpp"
 #include "material/laws/fraction_law.hpp"
 #include "material/laws/liquid_law.hpp"
@@ -285,6 +286,7 @@ Section<MaterialData> material_keys() {
   s.sections("phase_change", &MaterialData::phase_changes, phase_change_keys());
   s.section("plasticity", &MaterialData::plasticity, flow_section());
   s.section("external", &MaterialData::external, external_section());
+  s.section("granular", &MaterialData::granular, granular_section());
   s.section("casting", &MaterialData::casting, casting_keys());
   s.section("gas", &MaterialData::gas, gas_keys());
   s.section("graphite", &MaterialData::graphite, graphite_keys());

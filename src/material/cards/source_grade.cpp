@@ -40,7 +40,7 @@ const std::array<Group, 8> k_groups{{{{"density"}},
                                      {{"young_modulus", "poisson_ratio"}},
                                      {{"expansion"}},
                                      {{}, true},
-                                     {{"plasticity."}},
+                                     {{"plasticity.", "granular", "granular."}},
                                      {{"casting"}}}};
 
 bool belongs(const PropertyNote& note, const Group& group, const Material& material) {

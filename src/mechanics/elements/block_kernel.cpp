@@ -31,7 +31,7 @@ std::unique_ptr<BlockKernel> make_block_of_law(const mesh::Mesh& mesh, const mes
 void refuse_external(const material::Material& material, const std::string& what,
                      const std::string& allowed) {
   if (external_law(material) != nullptr)
-    throw InputError({}, "the law from outside of '" + material.name + "' cannot serve " + what, allowed);
+    throw InputError({}, name_of_law(material) + " cannot serve " + what, allowed);
 }
 
 }  // namespace
@@ -39,8 +39,11 @@ void refuse_external(const material::Material& material, const std::string& what
 std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                                AnalysisKind kind, const material::Material& material,
                                                Mapping mapping, bool b_bar) {
-  // A law from outside does not say what it stores, which phases at fixed entropy need.
-  if (mapping != Mapping::isothermal)
+  // A law from outside does not say what it stores, which phases at fixed entropy need. One of the program
+  // holds the temperature in them: what deformation heats sand by is next to nothing.
+  const material::ExternalLaw* const law = external_law(material);
+  const bool isothermal_in_split = law != nullptr && law->built_in() && mapping == Mapping::isentropic;
+  if (mapping != Mapping::isothermal && !isothermal_in_split)
     refuse_external(material, "a phase that holds more than its temperature",
                     "a mechanical phase that holds the temperature (coupling.scheme)");
   if (mapping == Mapping::simultaneous) {
@@ -53,11 +56,10 @@ std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mes
         return make_coupled_block<AnalysisKind::solid>(mesh, block, material, b_bar);
     }
   }
-  // At fixed entropy; then laws from outside, which keep temperature.
+  // Laws from outside, which keep temperature; then those at fixed entropy.
+  if (law != nullptr) return make_block_of_law<ExternalBlockLaw>(mesh, block, kind, material, b_bar);
   if (mapping == Mapping::isentropic)
     return make_block_of_law<material::Isentropic>(mesh, block, kind, material, b_bar);
-  if (external_law(material) != nullptr)
-    return make_block_of_law<ExternalBlockLaw>(mesh, block, kind, material, b_bar);
   // The Maxwell element alone has a shorter history and an isotropic tangent.
   if (!material.flow && material.liquid_model == material::LiquidModel::maxwell)
     return make_block_of_law<material::Viscoelastic>(mesh, block, kind, material, b_bar);

@@ -62,6 +62,8 @@ double atomic_mass(const std::string& name) {
                                                           {"graphite", 12.01},
                                                           {"green_sand", 20},
                                                           {"furan", 20},
+                                                          {"phenolic_sand", 20},
+                                                          {"resin_core", 20},
                                                           {"dry_silica", 20},
                                                           {"chromite", 27},
                                                           {"zircon", 30.5},
@@ -238,8 +240,9 @@ TEST(LibraryConsistency, NoPropertyOfASolidHasAKink) {
                                      {"expansion", 0.006},
                                      {"plasticity.flow_stress", 0.06}}};
   for (const Material& m : library()) {
-    const bool peak = m.name.ends_with("carbon_steel") || m.name == "pure_iron" || m.name == "furan_sand" ||
-                      m.name == "dry_silica_sand";
+    const bool peak = m.name.ends_with("carbon_steel") || m.name == "pure_iron" ||
+                      m.name.starts_with("furan_sand") || m.name.starts_with("phenolic_sand") ||
+                      m.name.starts_with("resin_core") || m.name == "dry_silica_sand";
     const double hottest = hottest_solid(m);
     for (const Property& p : m.properties()) {
       for (const Limit& limit : limits) {

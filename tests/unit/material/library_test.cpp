@@ -38,11 +38,11 @@ TEST(MaterialLibrary, EveryPropertyOfEveryFileHasASourceAndEveryTableAValidityRa
       EXPECT_FALSE(note.source.empty()) << name << " " << note.property;
       const bool change = std::any_of(m.phase_changes.begin(), m.phase_changes.end(),
                                       [&](const PhaseChange& one) { return one.name == note.property; });
-      const bool always = change || note.property == "density" || note.property == "poisson_ratio" ||
-                          note.property == "twice_shear_viscosity" ||
-                          note.property == "plasticity.rate_exponent" ||
-                          note.property == "plasticity.drag_stress" || note.property == "casting" ||
-                          note.property == "gas" || note.property == "graphite";
+      const bool always =
+          change || note.property == "density" || note.property == "poisson_ratio" ||
+          note.property == "twice_shear_viscosity" || note.property == "plasticity.rate_exponent" ||
+          note.property == "plasticity.drag_stress" || note.property == "casting" || note.property == "gas" ||
+          note.property == "graphite" || note.property == "granular";
       EXPECT_TRUE(always || note.valid_to > note.valid_from) << name << " " << note.property;
     }
     const EnthalpyCurve h = m.enthalpy();
