@@ -19,8 +19,7 @@ Line(11) = {10, 11}; Line(12) = {11, 12}; Line(13) = {12, 1}; Line(14) = {4, 13}
 Curve Loop(1) = {2, 4, 5, 6, 7, 8, 9, 10}; Plane Surface(1) = {1};
 Curve Loop(2) = {1, -10, 11, 12, 13}; Plane Surface(2) = {2};
 Curve Loop(3) = {3, 14, 15, -11, -9, -8, -7, -6, -5, -4}; Plane Surface(3) = {3};
-Recombine Surface{1:3};
-Mesh.Algorithm = 8;
+Recombine Surface{2, 3};   // of the metal triangles, whose elements open pores; of the sand quadrilaterals, which slide without locking
 Physical Surface("casting") = {1};
 Physical Surface("core") = {2};
 Physical Surface("mould") = {3};

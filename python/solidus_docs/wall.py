@@ -99,9 +99,11 @@ def width(history, temperature):
 def answer(row, history, factor):
     if row["column"].startswith("width at "):
         return width(history, float(row["column"].split()[2])) * factor
-    if row["column"] not in history:
-        raise ValueError(f"there is no column '{row['column']}' in history.csv; there are {', '.join(history)}")
-    return history[row["column"]][-1] * factor
+    what, column = re.match(r"(largest of |fall of |)(.*)", row["column"]).groups()
+    if column not in history:
+        raise ValueError(f"there is no column '{column}' in history.csv; there are {', '.join(history)}")
+    values = history[column]
+    return {"": values[-1], "largest of ": max(values), "fall of ": max(values) - values[-1]}[what] * factor
 
 
 def compute_values(spec, program, scratch):

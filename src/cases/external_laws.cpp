@@ -98,7 +98,9 @@ void load_external_law(const CaseSpec& spec, material::Material& material) {
   if (law == nullptr) return;
   check_scheme(spec, material);
   std::shared_ptr<const material::ExternalLaw> loaded = material::load_external_law(material, *law);
-  if (spec.coupled() && spec.coupling.structural_heating != CouplingSpec::StructuralHeatForm::none)
+  // A law of the program takes the moduli of the material file.
+  if (!loaded->built_in() && spec.coupled() &&
+      spec.coupling.structural_heating != CouplingSpec::StructuralHeatForm::none)
     check_moduli(material, *loaded);
   set_external_law(material, std::move(loaded));
 }

@@ -34,26 +34,12 @@
 #include <string>
 #include <vector>
 
-#include "input/keys.hpp"
 #include "material/external_law.hpp"
+#include "material/granular_data.hpp"
 #include "material/laws/granular_return.hpp"
 #include "numbers/table.hpp"
 
 namespace solidus::material {
-
-/// [granular] as read.
-struct GranularData {
-  Function cohesion, tension_cutoff;
-  double friction_angle = 0, dilatancy_angle = 0;  ///< [rad]
-  double residual_cohesion = 0;                    ///< [Pa]
-  std::optional<double> softening_strain;
-  std::optional<Function> burnout_rate;  ///< [1/s]
-  double burnt_stiffness = 1, residual_stiffness = 0;
-  double relaxation_time = 0;                 ///< [s]
-  std::optional<Function> crushing_pressure;  ///< [Pa]
-  std::string source;
-  SourceLocation where;
-};
 
 /// The law at the points of a mesh.
 class Granular final : public ExternalLibrary {

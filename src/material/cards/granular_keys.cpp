@@ -2,6 +2,7 @@
 #include "material/cards/granular_keys.hpp"
 
 #include "material/cards/library.hpp"
+#include "material/granular.hpp"
 #include "material/material.hpp"
 
 namespace solidus::material {

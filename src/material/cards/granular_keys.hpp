@@ -2,7 +2,7 @@
 #pragma once
 
 #include "input/keys.hpp"
-#include "material/granular.hpp"
+#include "material/granular_data.hpp"
 
 namespace solidus::material {
 

@@ -13,7 +13,7 @@
 #include "input/keys.hpp"
 #include "material/cards/flow_keys.hpp"
 #include "material/external_law.hpp"
-#include "material/granular.hpp"
+#include "material/granular_data.hpp"
 #include "material/material.hpp"
 #include "material/varied.hpp"
 
